@@ -33,16 +33,14 @@ def inputs_section(subject: ReportSubject, listing: Equations) -> Section:
     blocks: list[Block] = [*prose, stroke_table(machine, listing, subject.run.held, notes)]
     if machine.dimensions:
         blocks.append(dimension_table(machine, listing, notes))
-    elements = machine.plan.of_kind(ForceElement)
+    elements, heads = machine.plan.of_kind(ForceElement), (said("name"), said("declared as"), said("source, note"))
     if elements:
         rows = tuple((name, with_units(elements[name], text), note) for name, text, note in member_rows(machine, tuple(elements), notes))
-        heads = (said("name"), said("declared as"), said("source, note"))
         blocks.append(TableBlock(said("Loads, force elements and hydraulics"), heads, rows, "lmm"))
     else:
         blocks.append(said("No load is declared: forces are not calculated."))
     cases = machine.plan.of_kind(LoadCase)
     if cases:
-        heads = (said("name"), said("declared as"), said("source, note"))
         blocks.append(TableBlock(said("Load cases"), heads, member_rows(machine, tuple(cases), notes), "lmm"))
     return Section(said("Inputs"), (*blocks, dimension_drawing(subject)))
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
@@ -33,6 +34,8 @@ HALF = 3.25
 """The width of a curve [inch]; two stand beside each other."""
 CURVE_ROOM = (0.72, 0.12, 0.46, 0.32)
 """The room beside a curve's axes [inch: left, right, bottom, top]."""
+NO_LETTER = re.compile("[^0-9A-Za-z]")
+"""What the name of a picture's file does not have."""
 LETTERS = 100
 """Letters of a table's row, so that it fits across a page."""
 
@@ -111,7 +114,7 @@ def results_blocks(
         caption += beyond_words(further, whole[name]) if further else ""
         paint = partial(draw_column, motion=subject.curve, column=whole[name], bound=bound, beyond=further)
         room = (*CURVE_ROOM[:3], CURVE_ROOM[3] if bound is None else 0.48)
-        yield Illustration(f"curve_{safe(name)}", caption, (WIDE, 2.6) if name == first else (HALF, 2.15), room, paint)
+        yield Illustration(f"curve_{NO_LETTER.sub('_', name)}", caption, (WIDE, 2.6) if name == first else (HALF, 2.15), room, paint)
 
 
 def one_curve(names: Sequence[str], columns: Mapping[str, Column], limits: Mapping[str, Sequence[object]]) -> dict[str, list[str]]:
@@ -221,11 +224,6 @@ def draw_column(ax: Axes, motion: Motion, column: Column, bound: Sequence[object
 
 HEADING_SHARE = 0.97
 """Of the width of a curve's axes: what its heading takes at the most, as letters on a screen are wider than printed ones."""
-
-
-def safe(name: str) -> str:
-    """Return a name as a part of a file's name."""
-    return "".join(each if each.isalnum() and each.isascii() else "_" for each in name)
 
 
 def column_grids(caption: str, columns: Sequence[Column]) -> Iterator[TableBlock]:

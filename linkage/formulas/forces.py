@@ -25,7 +25,7 @@ from ..statics import applied_loads, axle_load, standing_supports
 from ..statics.holding import Holders, PressureLine, holders_of, same
 from ..vectors import FloatArray, Numbers, Scalar
 from .listing import GivenNumber, Listing, ListingLine
-from .rates import LineDerivatives, lines_needed
+from .rates import LineDerivatives, lines_needed, symbols_behind
 from .symbolic import NUMBER, Term, Unit, term, unit_named
 from .words import Cross, Dot
 
@@ -355,11 +355,7 @@ class Chain:
         lengths = {member.ends: listing.value(Distance(*member.ends)).expr for member in [*held, *(each for each, _ in self._acting)]}
         points = {each.point: listing.at(each.point).expr for each in pulled}
         together = {names.vector(pin) for pin in listing.unknowns}
-        behind = {
-            each: each.free_symbols.union(*(line.rhs.free_symbols for line in lines_needed(listing.lines, [each])))
-            for each in (*points.values(), *lengths.values())
-        }
-        free = [each for each, symbols in behind.items() if not together & symbols]
+        free = [each for each in (*points.values(), *lengths.values()) if not together & symbols_behind(listing.lines, each)]
         rates = LineDerivatives(self.symbol, listing.units[stroke], names)
         self.lines = rates.lines(lines_needed(listing.lines, free))
         fixed = {line.lhs: line.rhs for line in self.lines if line.rhs.is_number}

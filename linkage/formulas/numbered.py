@@ -27,7 +27,7 @@ from .forces import WORDS, ForceLines
 from .listing import X_AXIS, GivenNumber, Listing, ListingLine
 from .names import escaped_latex
 from .printing import Latex, Text, number_latex, plain_number
-from .rates import lines_needed, ratio_lines
+from .rates import LineDerivatives, lines_needed, symbols_behind
 from .symbolic import LENGTH, Unit
 from .words import Cross, Direction, Dot, Tcos, TurnV, TurnVL, explicit
 
@@ -123,16 +123,19 @@ def check_pose(design: Mechanism, at: object) -> None:
 
 
 def differentiated(design: Mechanism, listing: Listing, target: str, wrt: str | None) -> list[ListingLine]:
-    """Return the lines that lead to a target's transfer ratio; DefinitionError for a name without one."""
-    plan = design.plan
-    known = members_with_lines(listing)
+    """Return the lines that lead to a target's transfer ratio, of a point I_G = dG_y/dS; DefinitionError for a name without one."""
+    plan, names, known = design.plan, listing.names, members_with_lines(listing)
     known_name("Point or output", target, known, where=plan.title)
-    stroke = stroke_of(plan, wrt)
-    together = {listing.names.vector(pin) for pin in listing.unknowns}
-    if together & {known[target], *(symbol for line in lines_needed(listing.lines, [known[target]]) for symbol in line.rhs.free_symbols)}:
+    name, symbol = stroke_of(plan, wrt), known[target]
+    if {names.vector(pin) for pin in listing.unknowns} & symbols_behind(listing.lines, symbol):
         pins = " ".join(listing.unknowns)
         raise DefinitionError(f"{plan.title}: {target} hangs on pins found together ({pins}): no chain of derivatives; take motion.ratio.")
-    return ratio_lines(listing.lines, known[target], listing.names.quantity(stroke), listing.units[stroke], listing.names)
+    stroke = names.quantity(name)
+    chain = LineDerivatives(stroke, listing.units[name], names).lines(lines_needed(listing.lines, [symbol]))
+    if not chain or chain[-1].lhs != names.derivative(symbol, stroke) or not symbol.is_Matrix:
+        return chain
+    last = chain[-1]
+    return [*chain, ListingLine(names.ratio(symbol.name), last.lhs[1, 0], last.unit)]
 
 
 def members_with_lines(listing: Listing) -> dict[str, sympy.Basic]:
@@ -178,8 +181,11 @@ class Equation:
     def latex(self, words: Mapping[str, str]) -> str:
         """Return the equation as LaTeX, without its number; `words` is the LaTeX of the symbols."""
         latex = Latex(words)
+        return f"{self._left(latex)} &= {latex.doprint(self.rhs)}"
+
+    def _left(self, latex: Latex) -> str:
         arguments = rf"\left({', '.join(map(latex.doprint, self.follows))}\right)" if self.follows else ""
-        return f"{latex.doprint(self.lhs)}{arguments} &= {latex.doprint(self.rhs)}"
+        return f"{latex.doprint(self.lhs)}{arguments}"
 
     def filled(self, values: Mapping[str, str], shown: Mapping[str, str] = MappingProxyType({})) -> str:
         """Return the equation with the numbers put in, and the result with its unit: SI, and as it is `shown` where that is another."""
@@ -193,14 +199,12 @@ class Equation:
     def sheet(self, words: Mapping[str, str], values: Mapping[str, str], shown: Mapping[str, str]) -> SheetLine:
         """Return the equation as a calculation sheet has it, in LaTeX: symbol, formula, numbers, result; see `filled`."""
         unit, latex = self.unit, Latex(words)
-        arguments = rf"\left({', '.join(map(latex.doprint, self.follows))}\right)" if self.follows else ""
         formula, numbers, result = latex.doprint(self.rhs), Latex(words, values).doprint(self.rhs), number_latex(values[self.name])
         own = shown.get(self.name, "") if unit.si_factor != unit.shown_factor else ""
         results = [f"{result}{'' if unit.text == 'deg' or not unit.si else f' {unit_latex(unit.si)}'}"]
         results += [shown_latex(own)] if own else []
-        return SheetLine(
-            self.number, latex.doprint(self.lhs) + arguments, formula, "" if numbers in (formula, result) else numbers, tuple(results)
-        )
+        numbers = "" if numbers in (formula, result) else numbers
+        return SheetLine(self.number, self._left(latex), formula, numbers, tuple(results))
 
     def __repr__(self) -> str:
         return f"({self.number}) {self}"

@@ -137,12 +137,6 @@ def lines_needed(lines: Sequence[ListingLine], targets: Iterable[sympy.Basic]) -
     return found[::-1]
 
 
-def ratio_lines(
-    lines: Sequence[ListingLine], target: sympy.Basic, stroke: sympy.Symbol, unit: Unit, names: SymbolNames
-) -> list[ListingLine]:
-    """Return the chain of derivatives that ends in a target's transfer ratio; for a point, I_G = dG_y/dS comes last."""
-    chain = LineDerivatives(stroke, unit, names).lines(lines_needed(lines, [target]))
-    if not chain or chain[-1].lhs != names.derivative(target, stroke) or not target.is_Matrix:
-        return chain
-    last = chain[-1]
-    return [*chain, ListingLine(names.ratio(target.name), last.lhs[1, 0], last.unit)]
+def symbols_behind(lines: Sequence[ListingLine], expr: sympy.Basic) -> set[sympy.Basic]:
+    """Return the symbols that an expression is built from, those of the lines behind it too."""
+    return set(expr.free_symbols).union(*(line.rhs.free_symbols for line in lines_needed(lines, [expr])))

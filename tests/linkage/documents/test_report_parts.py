@@ -381,7 +381,7 @@ def words_of(document):
     with speaking(document.language, None):
         content = pdf(document)
     found = subprocess.run(["pdftotext", "-bbox", "-", "-"], input=content, check=True, capture_output=True)
-    pages = ElementTree.fromstring(found.stdout.decode().replace("\u200b", "")).iter("{http://www.w3.org/1999/xhtml}page")
+    pages = ElementTree.fromstring(found.stdout).iter("{http://www.w3.org/1999/xhtml}page")
     return [[(each.text, *(float(each.get(edge)) for edge in ("xMin", "yMin", "xMax", "yMax"))) for each in page] for page in pages]
 
 
@@ -465,3 +465,10 @@ def test_no_text_of_a_title_block_is_lost():
     put = [text for text, *_ in page]
     assert all(put.count(word) >= len(long) * 3 for word in ("Forestry", "Machines", "North"))
     assert not beyond_the_margins(page) and not covering_texts(page)
+
+
+@needs_poppler
+def test_a_long_word_breaks_inside_the_margins():
+    word = "Hydraulikzylinderkolbenstangenfuehrungsbuchse" * 4
+    page = words_of(replace(shown(), title=word, block=TitleBlock(number=word, client=word, prepared=word)))[0]
+    assert "".join(text for text, *_ in page).count("Kolbenstange".lower()) >= 12 and not beyond_the_margins(page)

@@ -170,6 +170,12 @@ def one_word(what: str, word: object, words: Sequence[str]) -> str:
     return word
 
 
+def ensure(holds: object, message: str) -> None:
+    """Raise DefinitionError, in words that say what, where and the remedy, unless something holds."""
+    if not holds:
+        raise DefinitionError(message)
+
+
 def is_yes(name: str, given: object) -> bool:
     """Return an option that is True or False; DefinitionError for anything else."""
     if not isinstance(given, bool):

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, TypeAlias, final
 from urllib.parse import parse_qsl
 
 from ..disk import check_place
-from ..errors import DefinitionError
+from ..errors import ensure
 from ..language import said
 
 if TYPE_CHECKING:
@@ -135,8 +135,7 @@ def picture(options: Namespace, machine: Mechanism, suffixes: Sequence[str] = PI
     Raises DefinitionError for a suffix that is not among them, FileError for a place that cannot be written.
     """
     path = Path(default_name(options, machine, name) + suffixes[0] if options.output is None else options.output)
-    if path.suffix.lower() not in suffixes:
-        raise DefinitionError(f"-o {path}: the file's name ends in one of {', '.join(suffixes)}, which chooses the format.")
+    ensure(path.suffix.lower() in suffixes, f"-o {path}: the file's name ends in one of {', '.join(suffixes)}, which chooses the format.")
     check_place(path)
     return path
 

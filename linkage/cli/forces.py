@@ -8,7 +8,7 @@ from typing import final
 
 import numpy as np
 
-from ..errors import DefinitionError
+from ..errors import DefinitionError, ensure
 from ..motion import Column, Over, columns_of, geometry_verdicts, limits_over
 from ..reports import force_columns, is_loaded
 from ..statics import PinForces
@@ -84,8 +84,7 @@ class LimitsCommand(Command):
 
     def run(self, options: Namespace) -> int:
         machine = settings.machine_of(options)
-        if not machine.strokes:
-            raise DefinitionError(f"{machine.plan.title} has no stroke, so there is nothing that goes; declare one, S = Stroke(0, 0.25).")
+        ensure(machine.strokes, f"{machine.plan.title} has no stroke, so there is nothing that goes; declare one, S = Stroke(0, 0.25).")
         motion = machine.at(unreachable="nan", **settings.poses_at(machine, options, settings.POSES))
         over = settings.judged_over(machine, options)
         print(limits_over(motion, settings.overs_of(machine, options.over) or [Over()]))

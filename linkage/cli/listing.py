@@ -19,7 +19,7 @@ from textwrap import wrap
 from typing import final
 
 from .. import plugins
-from ..errors import DefinitionError
+from ..errors import DefinitionError, ensure
 from ..plugins import guarded
 from .command import Command
 from .entry import BUILT_IN, PROGRAM
@@ -57,8 +57,7 @@ class ListCommand(Command):
             else:
                 title = titles[package] = titles.get(package) or group_title(entry, package)
                 groups.setdefault(title, []).append(row)
-        if not groups:
-            raise DefinitionError(f"No machine is installed; install the package (pip install -e .). {OWN}")
+        ensure(groups, f"No machine is installed; install the package (pip install -e .). {OWN}")
         commands = {**BUILT_IN, **plugins.entry_points(plugins.COMMANDS)}
         says = {name: attribute(entry.module, entry.attr, "help") or "" for name, entry in commands.items()}  # none of them is loaded
         for title, rows in (groups | {"Commands": [*says.items()]}).items():

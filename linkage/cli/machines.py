@@ -10,7 +10,7 @@ from types import ModuleType
 from typing import Any, TypeVar
 
 from ..disk import read
-from ..errors import DefinitionError, unknown
+from ..errors import DefinitionError, ensure, unknown
 from ..loads import ForceElement
 from ..mechanism import Mechanism, declared
 from ..plugins import guarded
@@ -115,6 +115,5 @@ def machine(found: Any, what: str) -> type[Mechanism]:
     """Return it as a class of mechanism; DefinitionError where it is none."""
     if not is_machine(found):
         raise DefinitionError(f"{what} is not a class of Mechanism. {OWN}")
-    if not found.plan.points:
-        raise DefinitionError(f"{what}: {found.__name__} declares no points; begin with A = Ground(0, 0) and a step such as Crank or Dyad.")
+    ensure(found.plan.points, f"{what}: {found.__name__} declares no points; begin with A = Ground(0, 0) and a step such as Crank or Dyad.")
     return found  # type: ignore[no-any-return]

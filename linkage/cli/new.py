@@ -9,7 +9,7 @@ from string import Template
 from typing import final
 
 from ..disk import check_place, replacing_text
-from ..errors import DefinitionError, FileError
+from ..errors import DefinitionError, FileError, ensure
 from .command import Command
 
 PYTHON = '''\
@@ -111,8 +111,7 @@ class NewCommand(Command):
         is_file = given.suffix.lower() in TEMPLATES
         words = re.findall(r"[^\W_]+", given.stem if is_file else options.name)
         name = "".join(word[:1].upper() + word[1:] for word in words)
-        if not name.isidentifier():
-            raise DefinitionError(f"{options.name!r} gives no name of a class; take letters and digits, no digit first, such as loader.")
+        ensure(name.isidentifier(), f"{options.name!r} gives no name of a class; take letters and digits, no digit first, such as loader.")
         own = given if is_file else Path(f"{'_'.join(words).lower()}.py")
         path = own if options.output is None else Path(options.output)
         if given.suffix and not is_file:

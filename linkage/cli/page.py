@@ -5,7 +5,7 @@ from __future__ import annotations
 from argparse import ArgumentParser, Namespace
 from typing import final
 
-from ..errors import DefinitionError
+from ..errors import ensure
 from ..plan import Plan, plan_measure
 from .command import Command, machine_arguments, picture, repeatable, run_arguments
 from .settings import machine_of, motion_along, over_argument, overs_of, si_value, strokes_given, with_overs
@@ -50,6 +50,5 @@ def slider_range(plan: Plan, text: str) -> tuple[str, tuple[float, float] | None
         return name, None
     owner = plan.table.spellings.get(name, ("", 1))[0]
     values = [si_value(each, plan_measure(plan, owner) if owner else "", f"--vary {name}") for each in ends.split(",")]
-    if len(values) != 2:
-        raise DefinitionError(f"--vary {text}: the least and the greatest value are expected, --vary {name or 'OB'}=280mm,340mm.")
+    ensure(len(values) == 2, f"--vary {text}: the least and the greatest value are expected, --vary {name or 'OB'}=280mm,340mm.")
     return name, (values[0], values[1])

@@ -6,7 +6,7 @@ from argparse import ArgumentParser, Namespace
 from collections.abc import Sequence
 from typing import Any, final
 
-from ..errors import DefinitionError
+from ..errors import DefinitionError, ensure
 from ..mechanism import Mechanism
 from ..reports import results, stroke_middles
 from . import command, settings
@@ -129,8 +129,7 @@ class AnimateCommand(Command):
         columns = results(machine, settings.motion_along(machine, options.count, at))
         column: str | None = options.column
         limit: Sequence[Any] | None = None
-        if len(options.limits) > 1:
-            raise DefinitionError("one curve runs along an animation, with one limit; give one --limit.")
+        ensure(len(options.limits) <= 1, "one curve runs along an animation, with one limit; give one --limit.")
         for text in options.limits:
             column, limit = settings.parse_limit(text, columns)
             if options.column not in (None, column):

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import final
 
 from ..disk import check_place
-from ..errors import DefinitionError
+from ..errors import ensure
 from .command import Command, machine_arguments, motion_arguments, path_argument, repeatable, whole_number
 from .settings import machine_of, over_argument, overs_of, pair, strokes_given
 
@@ -44,8 +44,7 @@ class ReportCommand(Command):
 
         machine = machine_of(options)
         path = Path(options.output or f"{type(machine).__name__}.html")
-        if path.suffix.lower() not in KINDS:
-            raise DefinitionError(f"-o {path}: a report's name ends in one of {', '.join(KINDS)}, which chooses the format.")
+        ensure(path.suffix.lower() in KINDS, f"-o {path}: a report's name ends in one of {', '.join(KINDS)}, which chooses the format.")
         check_place(path)
         at = strokes_given(machine, options)
         rows = dict(pair(text, "--row", '"Order=4711"') for text in options.rows)

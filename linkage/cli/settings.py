@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import AssemblyError, DefinitionError, SingularError, known_name, unknown
+from ..errors import AssemblyError, DefinitionError, SingularError, ensure, known_name, unknown
 from ..language import said, said_of
 from ..loads import DIRECTIONS, PLAIN, PLAIN_CASE, Acting, LoadCase
 from ..mechanism import Mechanism
@@ -75,8 +75,7 @@ def parsed_over(machine: Mechanism, text: str) -> Over:
     for part in text.split(","):
         name, given = pair(part, "--over", "phi=15deg:80deg,t=0")
         known_name("Stroke", name, machine.strokes, where=f"--over {text}")
-        if name in strokes:
-            raise DefinitionError(f"--over {text}: {name} stands twice; give it two ends, {name}=LOW:HIGH.")
+        ensure(name not in strokes, f"--over {text}: {name} stands twice; give it two ends, {name}=LOW:HIGH.")
         kind, ends = stroke_measure(machine.plan, name), [end.strip() for end in given.split(":")]
         if len(ends) == 1:
             strokes[name] = si_value(given, kind, f"--over {name}")
@@ -155,8 +154,7 @@ def parsed_setting(plan: Plan, text: str) -> tuple[str, Any]:
             example = f"{name}=0.22,950mm; decimals are written with a point"
             raise DefinitionError(f"--set {name}={value}: a point takes two coordinates, such as {example}.")
         return name, tuple(si_value(part, "length", f"--set {name}") for part in parts)
-    if name in plan.strokes:
-        raise DefinitionError(f"--set {text}: {name} is a stroke of {plan.title}, not a dimension; `table` takes --at {text}.")
+    ensure(name not in plan.strokes, f"--set {text}: {name} is a stroke of {plan.title}, not a dimension; `table` takes --at {text}.")
     plan.table.settings({name: 0.0})
     raise unknown("Dimension", name, plan.table.names(), where=plan.title)
 
@@ -164,8 +162,7 @@ def parsed_setting(plan: Plan, text: str) -> tuple[str, Any]:
 def pair(text: str, option: str, example: str) -> tuple[str, str]:
     """Return both sides of `name=value`."""
     name, equals, value = (part.strip() for part in text.partition("="))
-    if not (equals and name and value):
-        raise DefinitionError(f"{option} {text}: write a name and a value, such as {option} {example}.")
+    ensure(equals and name and value, f"{option} {text}: write a name and a value, such as {option} {example}.")
     return name, value
 
 
@@ -189,13 +186,11 @@ def motion_at(machine: Mechanism, options: Namespace) -> Motion:
     paths = [over for over in (machine.overs if overs is None else overs) if isinstance(over, Over) and over.shape == "path"]
     places = machine.judge(paths).places if len(paths) == 1 and not given else []
     if places and places[0].running:  # the only path among what is looked at, through all its places
-        if every is not None:
-            raise DefinitionError(f"--every {every}: steps are of one stroke, and the rows run along a path; give --count.")
+        ensure(every is None, f"--every {every}: steps are of one stroke, and the rows run along a path; give --count.")
         return with_gaps(machine, run_along(places[0].motion)[0].divided(options.count))
     runs = next((name for name in machine.strokes if name not in given), None)
     if runs is None or any(len(values) > 1 for values in given.values()):
-        if every is not None:
-            raise DefinitionError(f"--every {every}: no stroke runs from end to end here; leave it out, or hold the others, --at S=0.6.")
+        ensure(every is None, f"--every {every}: no stroke runs from end to end here; leave it out, or hold the others, --at S=0.6.")
     else:
         given[runs] = stroke_steps(machine, runs, options.count, every)
     held = {name: np.array([value]) for name, value in stroke_middles(machine).items() if name not in given}
@@ -304,8 +299,7 @@ def columns_picked(
     plan, is_plain = machine.plan, acting == PLAIN
     columns = results(machine, motion) if is_plain else [*columns_of(motion), *force_columns(motion, acting.case, acting.direction)]
     known = {column.name: column for column in columns}
-    if not known:
-        raise DefinitionError(f"{plan.title} has no results: it declares no stroke, no point that moves and no output.")
+    ensure(known, f"{plan.title} has no results: it declares no stroke, no point that moves and no output.")
     if not names:
         return columns
     if is_plain and not known.keys() >= {*names}:
@@ -368,8 +362,7 @@ def limit_argument(parser: ArgumentParser) -> None:
 def parse_limit(text: str, columns: Sequence[Column]) -> tuple[str, tuple[float, str, str]]:
     """Return a column's name and its limit as `plot` takes it: the value [SI], words, and the side that fails."""
     name, sign, value = (part.strip() for part in re.fullmatch(r"(.*?)(<=|>=|$)(.*)", text, re.DOTALL).groups())  # type: ignore[union-attr]
-    if not (name and sign and value):
-        raise DefinitionError(f'--limit {text}: write a column, <= or >=, and a value, such as --limit "pressure<=180bar".')
+    ensure(name and sign and value, f'--limit {text}: write a column, <= or >=, and a value, such as --limit "pressure<=180bar".')
     units = {column.name: column.unit for column in columns}
     unit = units[known_name("Column", name, units, "--limit")]
     side, words = LIMITS[sign]

@@ -8,7 +8,7 @@ from inspect import cleandoc
 from pathlib import Path
 from typing import TYPE_CHECKING, final
 
-from ..errors import DefinitionError
+from ..errors import DefinitionError, ensure
 from ..mechanism import Mechanism
 from ..plan import strokes_text, written_out
 from ..quantities import Dimension
@@ -49,8 +49,7 @@ class ShowCommand(Command):
         machine = machine_of(options)
         over, given = overs_of(machine, options.over), strokes_given(machine, options)
         for text in options.strokes:
-            if "," in text:
-                raise DefinitionError(f"--at {text}: numbers are filled in at one pose; give one value.")
+            ensure("," not in text, f"--at {text}: numbers are filled in at one pose; give one value.")
         at = {name: float(values[0]) for name, values in given.items()}
         if options.modes:
             return show_modes(machine, at, None if options.output is None else picture(options, machine))

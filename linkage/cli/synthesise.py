@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import final
 
 from ..disk import check_place, in_words
-from ..errors import DefinitionError
+from ..errors import ensure
 from ..files import save
 from ..files.synthesis_file import read_synthesis
 from ..units import deg, mm
@@ -68,8 +68,7 @@ def outputs_asked(options: Namespace) -> dict[str, Path]:
         found["table"] = Path(options.csv)
     if options.page is not None:
         found["page"] = Path(options.page)
-        if found["page"].suffix.lower() != ".html":
-            raise DefinitionError(f"--page {options.page}: the file's name ends in .html.")
+        ensure(found["page"].suffix.lower() == ".html", f"--page {options.page}: the file's name ends in .html.")
     if options.pictures is not None:
         folder = Path(options.pictures)
         with in_words(folder):

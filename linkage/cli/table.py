@@ -17,7 +17,7 @@ from typing import final
 import numpy as np
 
 from ..disk import replacing_text
-from ..errors import DefinitionError, cited
+from ..errors import DefinitionError, cited, ensure
 from ..loads import Acting
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, Over
@@ -60,8 +60,7 @@ class TableCommand(Command):
         over, strokes, names = settings.judged_over(machine, options), list(poses.strokes), list(options.columns)
         for text in options.listed:  # a comma between parentheses belongs to its name, `reserve(lift, share=0.9)`
             listed = [name.strip() for name in re.split(r",(?![^()]*\))", text) if name.strip()]
-            if not listed:
-                raise DefinitionError(f"--columns {cited(text)}: name at least one column, such as --columns thrust,pressure.")
+            ensure(listed, f"--columns {cited(text)}: name at least one column, such as --columns thrust,pressure.")
             names += listed
         if options.ratio and not names:
             names = strokes  # ratios alone stand beside their strokes

@@ -17,7 +17,7 @@ from typing import Any, ClassVar, final
 
 import numpy as np
 
-from ..errors import DefinitionError, unknown
+from ..errors import DefinitionError, ensure, unknown
 from ..mechanism import Mechanism
 from ..motion import Request
 from ..motion.kinds import KINDS, MeasureKind, common_kind, kind_of_quantity
@@ -149,8 +149,7 @@ class CriterionParser(Grammar):
         if sign is None:
             wrong = next(token.text for token in self.tokens if token.text in ("<", ">", "!="))
             raise DefinitionError(f"a search meets its conditions exactly; write >=, <= or == for {wrong}.")
-        if len(node.ops) > 1:
-            raise DefinitionError("one comparison makes a condition; write two conditions for a value between two limits.")
+        ensure(len(node.ops) <= 1, "one comparison makes a condition; write two conditions for a value between two limits.")
         left, right = self.meaning(node.left), self.meaning(node.comparators[0])
         if is_number(left) and is_number(right):
             raise DefinitionError("two numbers are compared; one side is a measure such as least(...).")
@@ -229,8 +228,7 @@ class CriterionParser(Grammar):
         named: Keywords = {}
         for each in node.keywords:
             key = self.word(each).text
-            if key in named:
-                raise DefinitionError(f"{key}= stands twice.")
+            ensure(key not in named, f"{key}= stands twice.")
             named[key] = self.argument(each.value, False, depth)
         parameters = signature(make).parameters
         try:
@@ -260,8 +258,7 @@ class CriterionParser(Grammar):
             if wrong:
                 what = f"{NUMERIC[name]}({wrong[0]}) cannot be calculated"
                 raise DefinitionError(f"{what}; it takes quantities over poses, as least(abs(q)).")
-            if len(parts) != function.nin:
-                raise DefinitionError(f"{NUMERIC[name]}(...) takes {function.nin} arguments, not {len(parts)}.")
+            ensure(len(parts) == function.nin, f"{NUMERIC[name]}(...) takes {function.nin} arguments, not {len(parts)}.")
             with np.errstate(all="ignore"):
                 found = function(*parts)
             return finite(float(found), f"{NUMERIC[name]}({', '.join(map(repr, parts))})") if all(map(is_number, parts)) else found

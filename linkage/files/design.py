@@ -10,7 +10,7 @@ from typing import Any, final
 
 import numpy as np
 
-from ..errors import DefinitionError
+from ..errors import DefinitionError, ensure
 from ..mechanism import Mechanism, declared
 from ..plan import Part
 from ..quantities import InnerQuantity, Member, Number, Quantity, Ref, is_number, joined_names, label, name_of, quantity, spelled
@@ -149,8 +149,7 @@ def measured_labels(design: Design, members: Mapping[str, Member]) -> dict[str, 
     found: dict[str, dict[str, float]] = {}
     for each, entry in design.plan.table.entries.items():
         if each not in design.written and entry.kind in ("length", "angle"):
-            if each not in owners:
-                raise DefinitionError(f"{each} was measured from the drawing and belongs to no link; give it in the class.")
+            ensure(each in owners, f"{each} was measured from the drawing and belongs to no link; give it in the class.")
             found.setdefault(owners[each], {})[each] = float(design.set.get(each, entry.default))
     return found
 

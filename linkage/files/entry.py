@@ -12,7 +12,7 @@ from dataclasses import MISSING, dataclass, fields, is_dataclass, replace
 from inspect import Parameter, ismethod, signature
 from typing import Any, final
 
-from ..errors import DefinitionError, told
+from ..errors import DefinitionError, ensure, told
 from ..loads import ForceElement
 from ..quantities import Member
 from ..quantities.member import KEPT_AS, annotated_kind, kinds_said
@@ -68,8 +68,7 @@ class Argument:
 def argument_kept(member: object, argument: str) -> Any:
     """Return what a member was given for an argument; DefinitionError where it does not keep it."""
     values = [getattr(member, name) for name in (argument, *KEPT_AS.get(argument, ())) if hasattr(member, name)]
-    if not values:
-        raise DefinitionError(f"it has no attribute {argument}; let its class keep each argument in the attribute of that name.")
+    ensure(values, f"it has no attribute {argument}; let its class keep each argument in the attribute of that name.")
     return next((each for each in values if each is not None and not ismethod(each)), None)
 
 
@@ -302,8 +301,7 @@ class FileEntry:
     def _labels(self, given: Iterable[object]) -> Keywords:
         """Return the keys that are lengths and angles of points; DefinitionError for one that cannot be."""
         labels = [key for key in given if key not in self.keys] if self.has_labels else []
-        if len(labels) > LABELS:
-            raise DefinitionError(f"{len(labels)} labels are too many; up to {LABELS} are read.")
+        ensure(len(labels) <= LABELS, f"{len(labels)} labels are too many; up to {LABELS} are read.")
         taken = {"self", *(each.name for each in parameters_of(self.describes))}
         for key in labels:
             if not (isinstance(key, str) and key.isidentifier() and len(key) <= 3 * NAME_LENGTH) or key in taken:
@@ -330,7 +328,6 @@ class FileEntry:
             found = ({PATH: self.path} if self.path else {}) | dict(zip((each.key for each in self.built_from), parents, strict=True))
         labels = member.labels if self.has_labels else {}
         for label in labels:
-            if label in self.keys:
-                raise DefinitionError(f"the label {label} is a word of the file; give one of its points another name.")
+            ensure(label not in self.keys, f"the label {label} is a word of the file; give one of its points another name.")
         found |= {label: design.label(label, value) for label, value in labels.items()}
         return found | written_table(member, design, self.arguments, member.name)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar, cast, final
 from unicodedata import normalize
 
-from ..errors import DefinitionError, unknown
+from ..errors import DefinitionError, ensure, unknown
 from ..quantities import Member, Quantity, Ref, is_name
 
 if TYPE_CHECKING:
@@ -59,8 +59,7 @@ class Names:
             return name  # what a load holds by a name of its own, such as the length of a cylinder or its barrel
         if name not in self.kinds:
             raise unknown(kind.capitalize(), shortened(name, quote=False), self.of_kind(kind))
-        if self.kinds[name] != kind:
-            raise DefinitionError(f"{name} of [{self.sections.get(name, 'parts')}] is not a {kind}.")
+        ensure(self.kinds[name] == kind, f"{name} of [{self.sections.get(name, 'parts')}] is not a {kind}.")
         return name
 
     def of_kind(self, kind: str) -> list[str]:

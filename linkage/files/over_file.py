@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 
-from ..errors import DefinitionError, unknown
+from ..errors import DefinitionError, ensure, unknown
 from ..motion import OPTIONS, Over, stroke_unit
 from ..quantities import Number, PoseCondition, Quantity, is_number, quantity
 from .design import Design, degrees_text
@@ -28,8 +28,7 @@ def over_read(given: object, names: Names) -> Over:
             what = f"{key} is true or false; leave it out for a box." if key in SHAPES else str(unknown("Stroke", key, known))
             raise DefinitionError(f"{what} Beside strokes there are {', '.join((*SHAPES, *OPTIONS))}.")
     chosen = [word for word in shapes if given[word]]
-    if len(chosen) > 1:
-        raise DefinitionError("it is a path and poses at once; a path goes on between its places, poses have nothing between them.")
+    ensure(len(chosen) <= 1, "it is a path and poses at once; a path goes on between its places, poses have nothing between them.")
     make = {"path": Over.path, "poses": Over.poses}.get(chosen[0] if chosen else "", Over)
     options: Keywords = {key: given[key] for key in ("cases", "lost") if key in given}
     if "only" in given:

@@ -18,7 +18,7 @@ from typing import final
 
 import numpy as np
 
-from ..errors import DefinitionError, known_name, unknown
+from ..errors import DefinitionError, ensure, known_name, unknown
 from ..program import FloatArray
 from ..quantities import is_number
 from ..units import UNITS, factor, units_of
@@ -76,8 +76,7 @@ def points_said(given: object, columns: Sequence[PointColumn], units: Mapping[st
 def points_of_file(path: Path, columns: Sequence[PointColumn], units: Mapping[str, float]) -> dict[str, FloatArray]:
     """Return the columns of a CSV file [SI]; DefinitionError with the file and the line of what is wrong."""
     rows = [*csv_rows(path)]
-    if not rows:
-        raise DefinitionError(f"{path.name} holds no row; write a heading such as x [mm], y [mm], and a row for each point.")
+    ensure(rows, f"{path.name} holds no row; write a heading such as x [mm], y [mm], and a row for each point.")
     line, first = rows[0]
     if all(is_numeral(cell) for cell in first):
         needed = [each for each in columns if not each.optional]
@@ -96,8 +95,7 @@ def points_of_file(path: Path, columns: Sequence[PointColumn], units: Mapping[st
             if not is_numeral(row[place]):
                 raise DefinitionError(f"{path.name}, line {line}, {name}: {shortened(row[place])} is no finite number.")
             found[name].append(float(row[place]) * by)
-    if not rows:
-        raise DefinitionError(f"{path.name} has headings and no row; write a row for each point.")
+    ensure(rows, f"{path.name} has headings and no row; write a row for each point.")
     return {name: np.array(values) for name, values in found.items()}
 
 

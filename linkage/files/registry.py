@@ -16,7 +16,7 @@ from types import ModuleType
 from typing import Any, TypeAlias, final
 
 from .. import loads, plugins, steps, surroundings
-from ..errors import DefinitionError, unknown
+from ..errors import DefinitionError, ensure, unknown
 from ..motion import Over, Planes, stroke_unit
 from ..plan import Part
 from ..quantities import Dimension, Member, Quantity, Stroke, ref
@@ -126,10 +126,8 @@ def group_written(member: steps.Group, design: Design) -> str:
 
 def link_of(*points: str, **labels: Any) -> steps.Link:
     """Return a link; DefinitionError for one of one point, or of more than any has."""
-    if len(points) > LINK_POINTS:
-        raise DefinitionError(f"a link of {len(points)} points; up to {LINK_POINTS} are read.")
-    if len(points) < 2:
-        raise DefinitionError(f"a link joins at least two points, not {' '.join(points)} alone.")
+    ensure(len(points) <= LINK_POINTS, f"a link of {len(points)} points; up to {LINK_POINTS} are read.")
+    ensure(len(points) >= 2, f"a link joins at least two points, not {' '.join(points)} alone.")
     return steps.Link(*points, **labels)
 
 
@@ -217,8 +215,7 @@ class Registry:
         found = [word for word in words if isinstance(given, Mapping) and word in given]
         if isinstance(given, Mapping) and PATH in given and (not found or ":" in str(given[PATH])):  # beside a word it may be a label
             found.append(PATH)
-        if len(found) > 1:
-            raise DefinitionError(f"it is {' and '.join(found)} at once; say one of them.")
+        ensure(len(found) <= 1, f"it is {' and '.join(found)} at once; say one of them.")
         if found == [PATH]:
             return FileEntry(class_of(given[PATH], section, trust), section, path=given[PATH])
         if found:

@@ -19,7 +19,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any, final
 
-from ..errors import DefinitionError
+from ..errors import DefinitionError, ensure
 from ..motion.measures import Condition, Measure
 from ..motion.regions import outside
 from ..quantities import is_number
@@ -167,8 +167,7 @@ def rounding_said(head: StudyHead, given: object) -> dict[str, float] | None:
         return None
     found: dict[str, float] = {}
     for step, value in (given if isinstance(given, Mapping) else {"to": given}).items():
-        if step not in ROUND_KEYS:
-            raise DefinitionError(f'{step} is no step; write round = {{ to = "1 mm", angle = "0.1 deg" }}.')
+        ensure(step in ROUND_KEYS, f'{step} is no step; write round = {{ to = "1 mm", angle = "0.1 deg" }}.')
         found[step] = amount_said(value, ROUND_KEYS[step])
         require_entry(found[step] > 0.0, value, "a step above zero is expected")
         if step == "to" and found[step] > COARSEST * size_of_machine(head.machine):

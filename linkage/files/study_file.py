@@ -21,7 +21,7 @@ from pathlib import Path
 from typing import Any, TypeAlias, final, get_type_hints
 
 from ..disk import check_place
-from ..errors import DefinitionError, FileError, known_name, one_word, unknown
+from ..errors import DefinitionError, FileError, ensure, known_name, one_word, unknown
 from ..loads import PLAIN_CASE, LoadCase
 from ..mechanism import Mechanism
 from ..motion import Over, stroke_measure
@@ -161,12 +161,11 @@ def measure_of_name(plan: Plan, name: str) -> str:
     return plan_measure(plan, plan.table.spellings[name][0]) if known else "length" if f"{name}.x" in plan.table.spellings else ""
 
 
-def amount_said(given: object, measures: str) -> float:
+def amount_said(given: Any, measures: str) -> float:
     """Return a number as it is [SI], or that of a text whose unit measures what it should; DefinitionError for anything else."""
     if isinstance(given, str):
         return parse(given, measures)
-    if not is_number(given):
-        raise DefinitionError(f'{shortened(given)} is no number and no text with a unit, such as "60 mm".')
+    ensure(is_number(given), f'{shortened(given)} is no number and no text with a unit, such as "60 mm".')
     return float(given)
 
 
@@ -261,8 +260,7 @@ def tolerances_said(key: str) -> Read:
             return tolerance_said(value, measure_of_name(head.plan, name))
 
         found = by_dimensions(given, key, one, TOLERANCE_KEYS)
-        if not found:
-            raise DefinitionError(f'no tolerance is given; write {key} = {{ OB = "0.1 mm", CD = ["-0.1 mm", "0.2 mm"] }}.')
+        ensure(found, f'no tolerance is given; write {key} = {{ OB = "0.1 mm", CD = ["-0.1 mm", "0.2 mm"] }}.')
         return found
 
     return read
@@ -365,8 +363,7 @@ def outputs_said(head: StudyHead, kinds: Mapping[str, Sequence[str]]) -> dict[st
         suffixes = kinds[known_name("Output", name, kinds)]
         paths = tuple(file_path(head, each) for each in listed(value))
         for path in paths:
-            if path.suffix.lower() not in suffixes:
-                raise DefinitionError(f"{path.name}: the file's name ends in one of {', '.join(suffixes)}.")
+            ensure(path.suffix.lower() in suffixes, f"{path.name}: the file's name ends in one of {', '.join(suffixes)}.")
             try:
                 check_place(path)
             except FileError as error:

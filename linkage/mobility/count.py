@@ -12,7 +12,7 @@ from typing import final
 import numpy as np
 
 from ..assembly import places_at, places_drawn
-from ..errors import AssemblyError, DefinitionError, SingularError
+from ..errors import AssemblyError, DefinitionError, SingularError, ensure
 from ..plan import Part, Plan, Reading, Trace, carrying_pairs, member_sides, merged, strokes_text
 from ..program import FloatArray, Level, Node, Tangent, ancestors, interpret
 from ..quantities import quantity
@@ -224,8 +224,7 @@ def implied(plan: Plan) -> set[str]:
 
 def rank(matrix: FloatArray) -> int:
     """Return the numerical rank of unit rows; DefinitionError where they have no value."""
-    if not np.isfinite(matrix).all():
-        raise DefinitionError("The sketch holds directions without a value; look for extreme numbers and points that coincide.")
+    ensure(np.isfinite(matrix).all(), "The sketch holds directions without a value; look for extreme numbers and points that coincide.")
     return int(np.linalg.matrix_rank(matrix, tol=RANK * max(matrix.shape))) if matrix.size else 0
 
 

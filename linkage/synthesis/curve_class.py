@@ -8,7 +8,7 @@ from typing import Any, final
 
 import numpy as np
 
-from ..errors import DefinitionError, StudyError, cited, unwarned
+from ..errors import DefinitionError, StudyError, cited, ensure, unwarned
 from ..mechanism import Mechanism
 from ..motion import Grid
 from ..plan import Mask, Plan
@@ -102,8 +102,7 @@ class CurveClass:
             kind = entries[name].kind
             if name in used - {*fixed, *held} and kind in ranges and (kind != "coordinate" or name[:-2] in points):
                 variables.append(ShapeVariable(name, kind, *ranges[kind]))
-        if not variables:
-            raise DefinitionError(f"{title}: nothing that {of} hangs on can vary; give its links lengths as numbers.")
+        ensure(variables, f"{title}: nothing that {of} hangs on can vary; give its links lengths as numbers.")
         return cls(machine.replaced(**fixed), of, stroke, tuple(variables), fixed)
 
     @property

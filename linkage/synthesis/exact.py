@@ -16,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import plugins
-from ..errors import DefinitionError, StudyError
+from ..errors import StudyError, ensure
 from ..frozen import read_only
 from ..language import said, said_of
 from ..mechanism import Mechanism
@@ -85,8 +85,7 @@ def angles_of_reach(low: float, high: float, reference: float) -> list[DrivenPie
 
 def shipped(name: str) -> type[Mechanism]:
     """Return the class that is registered as a machine of a name."""
-    if name not in REGISTERED:
-        raise DefinitionError(f"The machine {name} is not registered; install the package mechanisms, which ships it.")
+    ensure(name in REGISTERED, f"The machine {name} is not registered; install the package mechanisms, which ships it.")
     return REGISTERED[name]
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..checks import require_whole
-from ..errors import DefinitionError
+from ..errors import DefinitionError, ensure
 from ..mechanism import Mechanism, require_mechanism
 from ..mobility import FourBar
 from ..motion import Motion
@@ -35,8 +35,7 @@ def cognates(machine: Mechanism, of: str = "P", *, count: int = 73) -> ShownList
     title = machine.plan.title
     check_point(machine, of)
     require_whole("cognates(count", count, "a whole number of poses is expected, at least 3", least=3)
-    if len(machine.strokes) != 1:
-        raise DefinitionError(f"{title}: cognates are those of a machine of one stroke; this one has {len(machine.strokes)}.")
+    ensure(len(machine.strokes) == 1, f"{title}: cognates are those of a machine of one stroke; this one has {len(machine.strokes)}.")
     motion = machine.sweep(count)
     bar, share = carrying(machine, motion, of)
     O, A, B, C = (complex_places(motion, name) for name in bar.pins)

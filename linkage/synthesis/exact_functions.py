@@ -10,7 +10,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..checks import require, require_number
-from ..errors import DefinitionError, StudyError
+from ..errors import DefinitionError, StudyError, ensure
 from ..language import said
 from ..numeric.descent import refined
 from ..program import FloatArray
@@ -37,8 +37,7 @@ def freudenstein(pairs: object, *, free: str = "follower", ground: float = 1.0) 
     of every parallelogram.
     """
     rows = table_of("freudenstein", "pairs", pairs, 2, "pairs (phi, psi)")
-    if not 3 <= len(rows) <= 5:
-        raise DefinitionError(f"freudenstein: {len(rows)} pairs; three to five of them decide a four-bar, more go with synthesise(...).")
+    ensure(3 <= len(rows) <= 5, f"freudenstein: {len(rows)} pairs; three to five of them decide a four-bar, more go with synthesise(...).")
     require(free in FREE, "freudenstein(free", free, '"crank" or "follower" is expected')
     require_number("freudenstein(ground", ground, "a length above zero is expected, in m", above=0.0)
     for name, column in zip(("phi", "psi"), rows.T, strict=True):

@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..checks import require
-from ..errors import DefinitionError, StudyError
+from ..errors import DefinitionError, StudyError, ensure
 from ..language import said
 from ..numeric.descent import refined
 from ..program import FloatArray
@@ -75,8 +75,7 @@ def complex_rows(name: str, given: object, count: int) -> ComplexArray:
     require(len(rows) == count, f"five_point: {name}", given, f"{count} places (x, y) are expected, there are {len(rows)}")
     found = rows @ np.array([1.0, 1.0j])
     apart = min(abs(one - other) for one, other in combinations(found, 2))
-    if not apart > 1e-9 * np.ptp(rows, axis=0).max():
-        raise DefinitionError(f"five_point: two of the {name} are at one place; give {count} that differ.")
+    ensure(apart > 1e-9 * np.ptp(rows, axis=0).max(), f"five_point: two of the {name} are at one place; give {count} that differ.")
     return np.asarray(found)
 
 

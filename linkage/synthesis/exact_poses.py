@@ -17,7 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..checks import require
-from ..errors import DefinitionError, StudyError
+from ..errors import DefinitionError, StudyError, ensure
 from ..frozen import read_only
 from ..language import said
 from ..mechanism import Mechanism
@@ -86,8 +86,7 @@ def checked_poses(poses: object) -> FloatArray:
     given = np.stack([poses.x, poses.y, poses.angle], axis=1) if isinstance(poses, PoseTask) else poses
     rows = table_of("burmester", "poses", given, 3, "rows (x, y, angle)")
     check_radians("burmester", "angle", rows[:, 2])
-    if not 3 <= len(rows) <= 5:
-        raise DefinitionError(f"burmester: {len(rows)} poses; three to five of them decide the links, more go with synthesise(...).")
+    ensure(3 <= len(rows) <= 5, f"burmester: {len(rows)} poses; three to five of them decide the links, more go with synthesise(...).")
     places, turned = rows[:, :2] @ np.array([1.0, 1.0j]), np.exp(1j * rows[:, 2])
     size = max(float(np.ptp(rows[:, :2], axis=0).max()), 1e-300)
     for one, other in combinations(range(len(rows)), 2):

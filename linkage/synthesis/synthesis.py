@@ -13,7 +13,7 @@ import numpy as np
 
 from ..checks import require_number
 from ..disk import Place, replacing_text
-from ..errors import DefinitionError, StudyError, cited
+from ..errors import DefinitionError, StudyError, cited, ensure
 from ..language import said, said_of
 from ..mechanism import Mechanism
 from ..motion import stroke_display_unit
@@ -408,8 +408,7 @@ def shipped_machines() -> list[Mechanism]:
             machine = kind()
             if machine.featured().coupler and not machine.plan.groups:
                 found[kind] = machine
-    if not found:
-        raise DefinitionError("synthesise: no machine with a point of a coupler is installed; give a list, synthesise([FourBar, ...]).")
+    ensure(found, "synthesise: no machine with a point of a coupler is installed; give a list, synthesise([FourBar, ...]).")
     return sorted(found.values(), key=lambda each: (links_of(each), each.plan.title))
 
 
@@ -504,8 +503,7 @@ def default_box(machine: Mechanism, task: Task) -> dict[str, tuple[float, float]
         else:
             aim = float(middle["xy".index(name[-1])])
             found[name] = (aim - ASIDE * large, aim + ASIDE * large)
-    if not found:
-        raise DefinitionError(f"{machine.plan.title}: no length, angle or fixed point of it moves what the task is of; say vary={{...}}.")
+    ensure(found, f"{machine.plan.title}: no length, angle or fixed point of it moves what the task is of; say vary={{...}}.")
     return found
 
 

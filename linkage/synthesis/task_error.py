@@ -10,7 +10,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..errors import DefinitionError
+from ..errors import DefinitionError, ensure
 from ..mechanism import Mechanism
 from ..motion import ratio
 from ..motion.measures import Measure, at, least
@@ -52,8 +52,7 @@ def point_errors(
     held = {name: float(one.low) for name, one in ranges.items() if name != stroke}
     if strokes is not None:
         given = table_of(f"{machine.plan.title}: the error of a task", "strokes", strokes, 0)
-        if len(given) != rows.count:
-            raise DefinitionError(f"{machine.plan.title}: {len(given)} strokes for {rows.count} points; give the stroke of each.")
+        ensure(len(given) == rows.count, f"{machine.plan.title}: {len(given)} strokes for {rows.count} points; give the stroke of each.")
         slides = task.at is None if timed is None else not timed
         return squares_near(machine, rows, stroke, held, given, slides=slides)
     if task.at is not None:

@@ -11,7 +11,7 @@ from typing import Any, TypeAlias, final
 import numpy as np
 
 from ..checks import require, require_number, require_type
-from ..errors import DefinitionError, cited, is_yes
+from ..errors import DefinitionError, cited, ensure, is_yes
 from ..frozen import frozen, read_only, refuses_changes
 from ..mechanism import Mechanism
 from ..motion.kinds import measure_of
@@ -267,8 +267,7 @@ def check_radians(what: str, name: str, angles: FloatArray) -> None:
 def rows_of_values(what: str, given: Any, count: int) -> list[FloatArray]:
     """Return a row of values (n,) for each of some quantities, the first without NaN; DefinitionError for anything else."""
     rows = list(given) if isinstance(given, (list, tuple, np.ndarray)) else []
-    if not count or len(rows) != count:
-        raise DefinitionError(f"{what}: {len(rows)} rows of values for {count} quantities; give a row for each.")
+    ensure(count and len(rows) == count, f"{what}: {len(rows)} rows of values for {count} quantities; give a row for each.")
     first, *others = rows
     found = [table_of(what, "values", first, 0)]
     for each in others:
@@ -285,8 +284,7 @@ def timed_strokes(what: str, given: Any, count: int) -> FloatArray | None:
     if given is None and what != "FunctionTask":
         return None
     found = table_of(what, "at" if what != "FunctionTask" else "strokes", given, 0)
-    if len(found) != count:
-        raise DefinitionError(f"{what}: {len(found)} strokes for {count} points; say the stroke of each.")
+    ensure(len(found) == count, f"{what}: {len(found)} strokes for {count} points; say the stroke of each.")
     return found
 
 
@@ -300,8 +298,7 @@ def check_point(machine: Mechanism, name: Any) -> None:
 def task_of(title: str, given: Sequence[tuple[str, Any, type]]) -> Task:
     """Return the one task that is given by its keyword; DefinitionError for none, several, or another kind."""
     said = [(name, value, kind) for name, value, kind in given if value is not None]
-    if len(said) != 1:
-        raise DefinitionError(f"{title}: say one task, path=PathTask(...), function=FunctionTask(...) or motion=PoseTask(...).")
+    ensure(len(said) == 1, f"{title}: say one task, path=PathTask(...), function=FunctionTask(...) or motion=PoseTask(...).")
     ((name, value, kind),) = said
     found: Task = require_type(f"{title}: {name}", value, kind, f"a {kind.__name__}(...) is expected")
     return found

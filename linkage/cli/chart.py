@@ -9,7 +9,6 @@ import numpy as np
 
 from ..errors import DefinitionError
 from ..files.criterion import quantity_said
-from ..mechanism import Mechanism
 from ..motion import Target
 from ..motion.kinds import measure_of
 from ..units import parse, parse_span
@@ -61,11 +60,15 @@ class ChartCommand(Command):
         for text in options.limits:
             name, value = pair(text, "--limit", '"rated load=20kN"')
             limits[name] = si_value(value, "force", f"--limit {name}")
+        keep = []
+        for text in options.keep:
+            name, value = pair(text, "--keep", "tilt=0deg")
+            asked = quantity_said(name, machine)
+            keep.append(Target(asked, parse(value, measure_of(machine.plan, asked))))
         field = working_field(
             machine, options.point, axis_said("--x", options.x), axis_said("--y", options.y), along=along,
             hold=strokes_said(machine, "--hold", options.hold), over=parsed_over(machine, options.over) if options.over else None,
-            keep=[kept_target(machine, text) for text in options.keep], lifts=options.lift or None, rule=options.rule, case=options.case,
-            without=options.without, limits=limits,
+            keep=keep, lifts=options.lift or None, rule=options.rule, case=options.case, without=options.without, limits=limits,
         )  # fmt: skip
         if path is None:
             print_chart(field)
@@ -103,13 +106,6 @@ def axis_said(option: str, text: str) -> Any:
     if count > 1e6:
         raise DefinitionError(f"{option} {text}: these are {count:.3g} places; give a longer step.")
     return first + step[0] * np.arange(int(count + 1e-9) + 1)
-
-
-def kept_target(machine: Mechanism, text: str) -> Target:
-    """Return a value that is kept, `tilt=0deg`."""
-    name, value = pair(text, "--keep", "tilt=0deg")
-    asked = quantity_said(name, machine)
-    return Target(asked, parse(value, measure_of(machine.plan, asked)))
 
 
 def print_chart(field: Any) -> None:

@@ -6,7 +6,7 @@ from argparse import ArgumentParser, Namespace
 from typing import final
 
 from ..errors import ensure
-from ..plan import Plan, plan_measure
+from ..plan import plan_measure
 from .command import Command, machine_arguments, picture, repeatable, run_arguments
 from .settings import machine_of, motion_along, over_argument, overs_of, si_value, strokes_given, with_overs
 
@@ -34,21 +34,20 @@ class PageCommand(Command):
         machine = with_overs(machine, overs_of(machine, options.over))
         at = strokes_given(machine, options)
         motion_along(machine, options.count, at)
-        vary = dict(slider_range(machine.plan, text) for text in options.vary) or None
+        vary: dict[str, tuple[float, float] | None] = {}
+        for text in options.vary:  # `OB`, or `OB=280mm,340mm`
+            name, equals, ends = (part.strip() for part in text.partition("="))
+            owner = machine.plan.table.spellings.get(name, ("", 1))[0]
+            measures = plan_measure(machine.plan, owner) if owner else ""
+            values = [si_value(each, measures, f"--vary {name}") for each in ends.split(",")] if equals else []
+            fits = not equals or len(values) == 2
+            ensure(fits, f"--vary {text}: the least and the greatest value are expected, --vary {name or 'OB'}=280mm,340mm.")
+            vary[name] = (values[0], values[1]) if equals else None
         from ..pictures import page
 
-        page(machine, path, vary=vary, column=options.column, trace=options.path, at=at, count=options.count, language=options.language)
+        page(
+            machine, path, vary=vary or None, column=options.column, trace=options.path, at=at, count=options.count,
+            language=options.language,
+        )  # fmt: skip
         print(path)
         return 0
-
-
-def slider_range(plan: Plan, text: str) -> tuple[str, tuple[float, float] | None]:
-    """Return a dimension and its range [SI], None where none is given, from `OB` or `OB=280mm,340mm`; DefinitionError for anything else."""
-    name, equals, ends = text.partition("=")
-    name = name.strip()
-    if not equals:
-        return name, None
-    owner = plan.table.spellings.get(name, ("", 1))[0]
-    values = [si_value(each, plan_measure(plan, owner) if owner else "", f"--vary {name}") for each in ends.split(",")]
-    ensure(len(values) == 2, f"--vary {text}: the least and the greatest value are expected, --vary {name or 'OB'}=280mm,340mm.")
-    return name, (values[0], values[1])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from argparse import ArgumentParser, Namespace
 from pathlib import Path
-from typing import final
+from typing import Any, final
 
 from ..files.study_tasks import TaskResult, read_study
 from ..mechanism import Mechanism
@@ -33,20 +33,22 @@ class StudyCommand(Command):
                 found = study.run(section, folder, progress)
             print(found.text)
             for path in study.outputs.get(section, ()):
-                write_task(study.machine, found, path)
+                if path.suffix.lower() in (".csv", ".jsonl"):
+                    write_columns(found.columns, path, found.labels)
+                else:
+                    bands_of(study.machine, found).savefig(path)
                 print(path)
             solved &= found.solved
         return 0 if solved else NOT_FEASIBLE
 
 
-def write_task(machine: Mechanism, found: TaskResult, path: Path) -> None:
-    """Write a study's result into a file: a table, JSON lines in SI, or a picture of its bands."""
-    if path.suffix.lower() in (".csv", ".jsonl"):
-        write_columns(found.columns, path, found.labels)
-    else:
-        from ..pictures import plot_bands, plot_tornado, plot_zone
+def bands_of(machine: Mechanism, found: TaskResult) -> Any:
+    """Return the picture of a study's result."""
+    from ..pictures import plot_bands, plot_tornado, plot_zone
 
-        if isinstance(found.found, Zone):
-            plot_zone(machine, found.found, found.unit).savefig(path)
-        else:
-            (plot_tornado if isinstance(found.found, Tornado) else plot_bands)(found.found).savefig(path)
+    match found.found:
+        case Zone():
+            return plot_zone(machine, found.found, found.unit)
+        case Tornado():
+            return plot_tornado(found.found)
+    return plot_bands(found.found)

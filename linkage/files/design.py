@@ -125,16 +125,16 @@ def members_to_write(machine: type[Mechanism] | Mechanism) -> dict[str, Member]:
 
 def without_sketch(name: str, member: Member, machine: Mechanism) -> Member:
     """Return a member that no longer needs the sketch of its class."""
-    if isinstance(member, Part):
-        return member.having({each: value for each, value in changed(machine).items() if each.startswith(f"{name}.")})
-    if isinstance(member, Step) and (member.near or member.drawn_at):
-        found = copy(machine.plan.members[name])
-        assert isinstance(found, Step)
-        found.near = found.drawn_at = None
-        return found
-    if isinstance(member, Pin):
-        x, y = machine.at(**machine.plan.sketch_strokes)[name]
-        return Pin(near=(float(x), float(y)))
+    match member:
+        case Part():
+            return member.having({each: value for each, value in changed(machine).items() if each.startswith(f"{name}.")})
+        case Step() if member.near or member.drawn_at:
+            found: Any = copy(machine.plan.members[name])
+            found.near = found.drawn_at = None
+            return found  # type: ignore[no-any-return]
+        case Pin():
+            x, y = machine.at(**machine.plan.sketch_strokes)[name]
+            return Pin(near=(float(x), float(y)))
     return member
 
 
@@ -159,17 +159,21 @@ def measured_labels(design: Design, members: Mapping[str, Member]) -> dict[str, 
 
 def own_form(member: object) -> Any:
     """Return what a member says, as nested tuples that compare; its own name does not count."""
-    if isinstance(member, Ref):
-        return member.target
-    if isinstance(member, InnerQuantity):
-        return member.called
-    if not isinstance(member, Member):
-        return member
-    return type(member), *(form(value) for name, value in vars(member).items() if name not in ("_name", "_class"))
+    match member:
+        case Ref():
+            return member.target
+        case InnerQuantity():
+            return member.called
+        case Member():
+            return type(member), *(form(value) for name, value in vars(member).items() if name not in ("_name", "_class"))
+    return member
 
 
 def form(part: object) -> Any:
     """Return what a part of a member says: its name where it has one."""
-    if isinstance(part, tuple):
-        return tuple(map(form, part))
-    return part.name if isinstance(part, Member) and part.name else own_form(part)
+    match part:
+        case tuple():
+            return tuple(map(form, part))
+        case Member() if part.name:
+            return part.name
+    return own_form(part)

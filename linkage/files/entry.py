@@ -103,12 +103,15 @@ def kind_of(cls: type[Any], parameter: Parameter, said: FileTable) -> Kind:
         kind = annotated_kind(annotation) or ("quantity" if issubclass(cls, Point) else "option")
     if kind == "quantity" and parameter.name.endswith("angle"):
         kind = "direction"
-    if isinstance(kind, type):
-        return Within.of(kind)
-    if isinstance(kind, tuple):
-        return list_of(*kind)
-    if isinstance(kind, str):
-        return KINDS[kind] if kind in KINDS or kind not in SI else fixed_number(kind)  # what a unit measures is a kind too, "mass"
+    match kind:
+        case type():
+            return Within.of(kind)
+        case (part,):
+            return list_of(part)
+        case str():
+            return KINDS[kind] if kind in KINDS or kind not in SI else fixed_number(kind)  # what a unit measures is a kind too, "mass"
+        case Kind():
+            return kind
     if hasattr(kind, "kind"):
         kind = kind.kind()
     return kind if isinstance(kind, Kind) else Kind(
@@ -189,9 +192,8 @@ def list_of(part: type[Any]) -> Kind:
             many = f"{len(given)} are too many; at most {VALUES} items are read." if isinstance(given, (list, tuple)) else ""
             raise DefinitionError(many or "is not a list [...].")
 
-        def read_one(place: int, each: object) -> Keywords:
-            if not isinstance(each, Mapping):
-                raise DefinitionError("is not a table { key = value }.")
+        def read_one(place: int, each: Any) -> Keywords:
+            ensure(isinstance(each, Mapping), "is not a table { key = value }.")
             mistakes = Mistakes()
             found = read_table(each, names, arguments, mistakes)
             check_keys(each, [argument.key for argument in arguments], mistakes)

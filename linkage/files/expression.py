@@ -239,17 +239,19 @@ class Grammar(ABC):
         """Return what a part says; of numbers alone it is a number."""
         if depth > NESTING:
             raise self.too_deep()
-        if isinstance(node, ast.BinOp):
-            left = self.meaning(node.left, depth)
-            return self.joined(SIGNS[type(node.op)], left, self.meaning(node.right, depth + 1))
-        if isinstance(node, ast.UnaryOp):
-            found = self.meaning(node.operand, depth + 1)
-            return self.negative(found) if isinstance(node.op, ast.USub) else found
-        if isinstance(node, ast.Call) and self.is_word(node.func, "name"):
-            return self.called(node, depth + 1)
-        if not isinstance(node, ast.Name):
-            raise self.fault("a number, a name or a bracket", node)
-        return self.atom(self.word(node))
+        match node:
+            case ast.BinOp(left, sign, right):
+                first = self.meaning(left, depth)
+                return self.joined(SIGNS[type(sign)], first, self.meaning(right, depth + 1))
+            case ast.UnaryOp(ast.USub(), operand):
+                return self.negative(self.meaning(operand, depth + 1))
+            case ast.UnaryOp(_, operand):
+                return self.meaning(operand, depth + 1)
+            case ast.Call(function) if self.is_word(function, "name"):
+                return self.called(node, depth + 1)
+            case ast.Name():
+                return self.atom(self.word(node))
+        raise self.fault("a number, a name or a bracket", node)
 
 
 @final

@@ -108,23 +108,23 @@ def headings_read(
     for column in columns:
         for place, head in enumerate(heads):
             if head["name"] in column.names and column.name not in found:
-                found[column.name] = place, unit_of_heading(path, head["name"], head["unit"], column, units)
+                by, unit = units.get(column.measures, 1.0), head["unit"]  # without one that which is said for what the column measures
+                if unit:
+                    by = factor(known_unit(f"{path.name}, line 1, {head['name']}", unit, column.measures))
+                found[column.name] = place, by
         if column.name not in found and not column.optional:
             named = " or ".join(column.names)
             raise DefinitionError(f"{path.name}, line 1: there is no column {named}; its headings are {', '.join(cells)}.")
     return found
 
 
-def unit_of_heading(path: Path, name: str, unit: str | None, column: PointColumn, units: Mapping[str, float]) -> float:
-    """Return the factor of the unit in a heading, without one that which is said for what the column measures; else of SI."""
-    if not unit:
-        return units.get(column.measures, 1.0)
+def known_unit(what: str, unit: str, measures: str) -> str:
+    """Return a unit of what should be measured; DefinitionError for another one."""
     if unit not in UNITS:
-        raise DefinitionError(f"{path.name}, line 1, {name}: {unknown('Unit', unit, UNITS)}")
-    if column.measures and UNITS[unit][1] != column.measures:
-        valid = ", ".join(units_of(column.measures))
-        raise DefinitionError(f"{path.name}, line 1, {name}: {unit} measures {UNITS[unit][1]}; use one of {valid}.")
-    return factor(unit)
+        raise DefinitionError(f"{what}: {unknown('Unit', unit, UNITS)}")
+    if measures and UNITS[unit][1] != measures:
+        raise DefinitionError(f"{what}: {unit} measures {UNITS[unit][1]}; use one of {', '.join(units_of(measures))}.")
+    return unit
 
 
 def csv_rows(path: Path) -> Iterator[tuple[int, list[str]]]:

@@ -71,10 +71,11 @@ def stroke_value(value: float, stroke: str, design: Design) -> float | str:
 
 def dimension_of(given: object, names: Names) -> Dimension:
     """Return a dimension with the unit it is shown in: a number [SI], `500 mm`, or { value = 0.5, unit = "mm" }."""
-    if isinstance(given, Mapping):
-        if not {"value"} <= set(given) <= {"value", "unit"} or not isinstance(given.get("unit", ""), str):
+    match given:
+        case {"value": value, **others} if not others.keys() - {"unit"} and isinstance(others.get("unit", ""), str):
+            return Dimension(number_of(value, names), others.get("unit", ""))
+        case Mapping():
             raise DefinitionError(f'{shortened(dict(given))}: a dimension is a number, "500 mm", or {{ value = 0.5, unit = "mm" }}.')
-        return Dimension(number_of(given["value"], names), given.get("unit", ""))
     return Dimension(number_of(given, names), one_unit(given) if isinstance(given, str) else "")
 
 
@@ -103,9 +104,8 @@ def output_written(member: Any, design: Design) -> float | str:
 
 def vector_of(given: object, names: Names) -> steps.Arrow:
     """Return the vector that a text says; DefinitionError for the name of one."""
-    found = arrow_of(given, names)
-    if isinstance(found, str):
-        raise DefinitionError(f"{found} is a vector already; use that name.")
+    found: Any = arrow_of(given, names)
+    ensure(not isinstance(found, str), f"{found} is a vector already; use that name.")
     return found
 
 

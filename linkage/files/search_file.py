@@ -141,19 +141,19 @@ def regions_said(head: StudyHead, given: object) -> Keywords:
 
 def shape_said(given: Any) -> Any:
     """Return a shape, or the shapes of a list: corners, an outline's name, a circle, `outside(...)` of an outline, or outside of any."""
-    if isinstance(given, str):
-        forbidden = _OUTSIDE.match(given)
-        return given if forbidden is None else outside(forbidden.group("outline"))
-    keys = set(given) if isinstance(given, Mapping) else set()
-    if keys == {"outside"}:
-        return outside(shape_said(given["outside"]))
-    if keys == {"at", "radius"} and is_corner(given["at"]):
-        x, y = (amount_said(each, "length") for each in given["at"])
-        return Outline.circle((x, y), amount_said(given["radius"], "length"))
-    require_entry(isinstance(given, list) and given, given, f"is no region; write {REGION_WORDS}")
-    if all(map(is_corner, given)):
-        return [tuple(amount_said(each, "length") for each in corner) for corner in given]
-    return [shape_said(each) for each in given]
+    match given:
+        case str():
+            forbidden = _OUTSIDE.match(given)
+            return given if forbidden is None else outside(forbidden.group("outline"))
+        case {"outside": shapes, **others} if not others:
+            return outside(shape_said(shapes))
+        case {"at": [x, y], "radius": radius, **others} if not others and is_corner([x, y]):
+            return Outline.circle((amount_said(x, "length"), amount_said(y, "length")), amount_said(radius, "length"))
+        case [_, *_] if all(map(is_corner, given)):
+            return [tuple(amount_said(each, "length") for each in corner) for corner in given]
+        case [_, *_]:
+            return [shape_said(each) for each in given]
+    raise DefinitionError(f"{shortened(given)} is no region; write {REGION_WORDS}.")
 
 
 def is_corner(given: object) -> bool:

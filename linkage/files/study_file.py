@@ -171,12 +171,12 @@ def amount_said(given: Any, measures: str) -> float:
 
 def value_said(plan: Plan, name: str, given: object) -> Any:
     """Return the value of a dimension [SI], of a point a pair."""
-    measures = measure_of_name(plan, name)
+    measures, spellings = measure_of_name(plan, name), plan.table.spellings
     if isinstance(given, (list, tuple)):
-        if name in plan.table.spellings or len(given) != 2:
-            raise DefinitionError(f"{shortened(given)}: {'one value' if name in plan.table.spellings else 'two coordinates'} expected.")
+        expected = "one value expected" if name in spellings else "two coordinates expected"
+        require_entry(name not in spellings and len(given) == 2, given, expected)
         return tuple(amount_said(each, measures) for each in given)
-    require_entry(f"{name}.x" not in plan.table.spellings, given, f'{name} is a point; write its two coordinates, ["220 mm", "950 mm"]')
+    require_entry(f"{name}.x" not in spellings, given, f'{name} is a point; write its two coordinates, ["220 mm", "950 mm"]')
     return amount_said(given, measures)
 
 
@@ -193,8 +193,12 @@ def vary_said(head: StudyHead, given: object) -> dict[Any, Any]:
         for part in names:
             if part not in head.plan.points and not is_side(part):
                 known_dimension(head.machine, part)
-        said = rows_said(value, head.plan, names) if len(names) > 1 else range_said(value, head.plan, names[0])
-        found = {names if len(names) > 1 else names[0]: said}
+        found: dict[Any, Any] = {}
+        if len(names) == 1:
+            found[names[0]] = range_said(value, head.plan, names[0])
+        else:
+            rows = entry_as(value, list, f"rows are expected, a list [...] with {len(names)} values each")
+            found[names] = [row_said(row, head.plan, names) for row in rows]
         Space.of(head.machine, found)
         return found
 
@@ -207,43 +211,35 @@ def vary_said(head: StudyHead, given: object) -> dict[Any, Any]:
 
 def range_said(given: object, plan: Plan, name: str) -> Any:
     """Return what a dimension ranges over as `optimise` takes it: a tuple, `around(...)`, or a list of choices."""
-    measures = measure_of_name(plan, name)
-    if isinstance(given, (list, tuple)):
-        return [each if is_side(name) else value_said(plan, name, each) for each in given]
-    if isinstance(given, Mapping):
-        return range_of_table(given, plan, name, measures)
-    text = given if isinstance(given, str) else ""
-    near = _AROUND.match(text)
-    if near is not None:
-        return around(*(parse(each, measures) for each in near.group("by", "step") if each is not None))
-    ends = parse_span(text, measures)
+    measures, ends = measure_of_name(plan, name), None
+    match given:
+        case list() | tuple():
+            return [each if is_side(name) else value_said(plan, name, each) for each in given]
+        case Mapping():
+            for key in given:
+                known_name("Key", key, RANGE_KEYS)
+            keys = given.keys() - {"step"}
+            sound = keys in ({"from", "to"}, {"around"}) or given.keys() == {"choices"}
+            require_entry(sound, dict(given), "write { from, to, step }, { around, step } or { choices = [...] }")
+            if keys == {"choices"}:
+                return range_said(given["choices"], plan, name)
+            values = [amount_said(given[key], measures) for key in ("around", "from", "to", "step") if key in given]
+            return around(*values) if "around" in given else tuple(values)
+        case str():
+            near = _AROUND.match(given)
+            if near is not None:
+                return around(*(parse(each, measures) for each in near.group("by", "step") if each is not None))
+            ends = parse_span(given, measures)
     require_entry(ends is not None, given, f"is no range; write {RANGE_WORDS}")
     return ends
 
 
-def range_of_table(given: Mapping[str, object], plan: Plan, name: str, measures: str) -> Any:
-    """Return a range of a table: { from, to, step }, { around, step } or { choices }."""
-    for key in given:
-        known_name("Key", key, RANGE_KEYS)
-    keys = given.keys() - {"step"}
-    sound = keys in ({"from", "to"}, {"around"}) or given.keys() == {"choices"}
-    require_entry(sound, dict(given), "write { from, to, step }, { around, step } or { choices = [...] }")
-    if keys == {"choices"}:
-        return range_said(given["choices"], plan, name)
-    values = [amount_said(given[key], measures) for key in ("around", "from", "to", "step") if key in given]
-    return around(*values) if "around" in given else tuple(values)
-
-
-def rows_said(given: object, plan: Plan, names: Sequence[str]) -> list[Any]:
-    """Return the rows of a catalogue, each with a value for each of some names."""
-    given = entry_as(given, list, f"rows are expected, a list [...] with {len(names)} values each")
-    rows = []
-    for row in given:
-        no_row = f"is no row of {', '.join(names)}; it has a value for each of them"
-        require_entry(len(entry_as(row, list, no_row)) == len(names), row, no_row)
-        pairs = zip(names, row, strict=True)
-        rows.append([value if is_side(name) else amount_said(value, measure_of_name(plan, name)) for name, value in pairs])
-    return rows
+def row_said(given: Any, plan: Plan, names: Sequence[str]) -> list[Any]:
+    """Return a row of a catalogue, a value for each of some names."""
+    fits = isinstance(given, list) and len(given) == len(names)
+    require_entry(fits, given, f"is no row of {', '.join(names)}; it has a value for each of them")
+    pairs = zip(names, given, strict=True)
+    return [value if is_side(name) else amount_said(value, measure_of_name(plan, name)) for name, value in pairs]
 
 
 # Tolerances.
@@ -268,16 +264,19 @@ def tolerances_said(key: str) -> Read:
 
 def tolerance_said(given: object, measures: str) -> Tolerance:
     """Return a tolerance: how far to either side, the two limits, or { limits, law }."""
-    if isinstance(given, Mapping):
-        for each in given:
-            known_name("Key", each, TOLERANCE_KEYS)
-        sound = "limits" in given and not isinstance(given["limits"], Mapping)
-        require_entry(sound, dict(given), 'write { limits = "0.1 mm", law = "uniform" }')
-        return replace(tolerance_said(given["limits"], measures), law=given.get("law", "normal"))
-    if isinstance(given, list):
-        require_entry(len(given) == 2, given, 'two limits are expected, such as ["-0.1 mm", "0.2 mm"]')
-        return Tolerance((amount_said(given[0], measures), amount_said(given[1], measures)))
-    return Tolerance(amount_said(given.strip().removeprefix("+-").removeprefix("±") if isinstance(given, str) else given, measures))
+    match given:
+        case Mapping():
+            for each in given:
+                known_name("Key", each, TOLERANCE_KEYS)
+            sound = "limits" in given and not isinstance(given["limits"], Mapping)
+            require_entry(sound, dict(given), 'write { limits = "0.1 mm", law = "uniform" }')
+            return replace(tolerance_said(given["limits"], measures), law=given.get("law", "normal"))
+        case list():
+            require_entry(len(given) == 2, given, 'two limits are expected, such as ["-0.1 mm", "0.2 mm"]')
+            return Tolerance((amount_said(given[0], measures), amount_said(given[1], measures)))
+        case str():
+            given = given.strip().removeprefix("+-").removeprefix("±")
+    return Tolerance(amount_said(given, measures))
 
 
 # Strokes, load cases, words and numbers.
@@ -309,17 +308,20 @@ def over_said(head: StudyHead, given: object) -> Keywords:
 def part_said(head: StudyHead, stroke: str, given: Any) -> Any:
     """Return a part of a stroke: one value, or two ends, which may be quantities that follow the design."""
     measures = stroke_measure(head.plan, stroke)
-    if isinstance(given, Mapping):
-        require_entry(set(given) == {"from", "to"}, dict(given), 'write { from = "0 mm", to = "200 mm" }')
-        given = [given["from"], given["to"]]
-    if isinstance(given, (list, tuple)):
-        require_entry(len(given) == 2, given, "two ends are expected")
-        named = [isinstance(each, str) and re.match(r"\s*[^\W\d]", each) is not None for each in given]
-        ends = zip(given, named, strict=True)
-        return tuple(criterion_of(each, head.machine) if is_named else amount_said(each, measures) for each, is_named in ends)
-    span = parse_span(given, measures) if isinstance(given, str) else None
-    require_entry(span is None or len(span) != 3, given, "a search looks at the whole of a stroke, not at steps of it")
-    return amount_said(given, measures) if span is None else span
+    match given:
+        case Mapping():
+            require_entry(set(given) == {"from", "to"}, dict(given), 'write { from = "0 mm", to = "200 mm" }')
+            return part_said(head, stroke, [given["from"], given["to"]])
+        case [*ends]:
+            require_entry(len(ends) == 2, given, "two ends are expected")
+            named = [isinstance(each, str) and re.match(r"\s*[^\W\d]", each) is not None for each in ends]
+            pairs = zip(ends, named, strict=True)
+            return tuple(criterion_of(each, head.machine) if is_named else amount_said(each, measures) for each, is_named in pairs)
+        case str():
+            span = parse_span(given, measures)
+            require_entry(span is None or len(span) != 3, given, "a search looks at the whole of a stroke, not at steps of it")
+            return amount_said(given, measures) if span is None else span
+    return amount_said(given, measures)
 
 
 def case_said(head: StudyHead, given: object) -> Any:

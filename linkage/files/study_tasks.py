@@ -23,7 +23,7 @@ from typing import Annotated, Any, final
 
 import numpy as np
 
-from ..errors import DefinitionError, known_name, unknown
+from ..errors import DefinitionError, ensure, known_name, unknown
 from ..loads import Acting
 from ..mechanism import Mechanism
 from ..motion import Column, Request, stroke_display_unit, stroke_measure
@@ -128,9 +128,8 @@ def swept_strokes(head: StudyHead, given: object) -> Keywords:
 def pose_said(head: StudyHead, given: object) -> Keywords:
     """Return the value of every stroke at a pose [SI]."""
     found = swept_strokes(head, given)
-    missing = [name for name in head.plan.strokes if name not in found]
-    if missing:
-        raise DefinitionError(f"say the pose, strokes = {{ {missing[0]} = ... }}.")
+    for name in head.plan.strokes:
+        ensure(name in found, f"say the pose, strokes = {{ {name} = ... }}.")
     return found
 
 
@@ -176,8 +175,7 @@ def condition_limits(head: StudyHead, given: object) -> list[Constraint]:
 
 def one_case(head: StudyHead, given: object) -> str:
     """Return the name of a load case; DefinitionError for several."""
-    if isinstance(case_said(head, given), (list, dict)):
-        raise DefinitionError("a study of tolerances is of one load case.")
+    ensure(isinstance(case_said(head, given), str), "a study of tolerances is of one load case.")
     return str(given)
 
 

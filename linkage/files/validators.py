@@ -10,14 +10,14 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..errors import DefinitionError, known_name, unknown
+from ..errors import DefinitionError, ensure, known_name, unknown
 from ..quantities import Number, Quantity, is_number, label, name_of, quantity
 from ..steps import Arrow
 from ..units import UNITS, parse
 from ..vectors import Side
 from .design import Design, degrees_text, option
 from .expression import arrow_in, expression, one_unit
-from .names import Names, by_whole_names, entry_as, is_list, require_entry, shortened
+from .names import Names, by_whole_names, entry_as, is_list, listed, require_entry, shortened
 from .source import each_of
 
 Read: TypeAlias = Callable[[Any, Names], Any]
@@ -34,19 +34,22 @@ def file_value(value: object, design: Design, name: str = "") -> Any:
 
     `name` is that of its design variable, where it is one. DefinitionError for what a file cannot hold.
     """
-    if isinstance(value, Quantity):
-        return design.variable(name, value)
-    if isinstance(value, Arrow):
-        return design.arrow(value)
-    if isinstance(value, Mapping):
-        return {key: file_value(each, design) for key, each in value.items()}
-    if isinstance(value, (list, tuple, np.ndarray)) and np.ndim(value):
-        return [file_value(each, design) for each in value]
-    if isinstance(value, Side):
-        return str(value)
-    if isinstance(value, (bool, np.bool_)):
-        return bool(value)
-    return word_of(value) if isinstance(value, str) else option(value)
+    match value:
+        case Quantity():
+            return design.variable(name, value)
+        case Arrow():
+            return design.arrow(value)
+        case Mapping():
+            return {key: file_value(each, design) for key, each in value.items()}
+        case list() | tuple() | np.ndarray() if np.ndim(value):
+            return [file_value(each, design) for each in value]
+        case Side():
+            return str(value)
+        case bool() | np.bool_():
+            return bool(value)
+        case str():
+            return word_of(value)
+    return option(value)
 
 
 @dataclass(frozen=True)
@@ -162,10 +165,9 @@ def loads_of(given: Any, names: Names) -> Any:
     return [names.checked(each, "load") for each in given] if is_list(given) else names.checked(given, "load")
 
 
-def factors_of(given: object, names: Names) -> dict[str, float]:
+def factors_of(given: Any, names: Names) -> dict[str, float]:
     """Return numbers by the names of loads."""
-    if not isinstance(given, Mapping):
-        raise DefinitionError("is not a table { key = value }.")
+    ensure(isinstance(given, Mapping), "is not a table { key = value }.")
     return dict(each_of(given.items(), lambda name, value: (names.checked(name, "load"), number_of(value, names))))
 
 
@@ -232,7 +234,7 @@ def written_lengths(value: Any, design: Design, name: str) -> list[Any]:
 
 def written_names(value: object, design: Design, name: str) -> str | list[str]:
     """Return the name of one member, or a list of names."""
-    found = [name_of(each) for each in (value if isinstance(value, (list, tuple)) else (value,))]
+    found = [name_of(each) for each in listed(value)]
     return found[0] if len(found) == 1 else found
 
 

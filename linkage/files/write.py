@@ -152,12 +152,13 @@ def toml_key(name: str) -> str:
 
 def toml_inline(value: object) -> str:
     """Return a value in one line."""
-    if isinstance(value, Mapping):
-        return f"{{ {', '.join(f'{toml_key(name)} = {toml_inline(each)}' for name, each in value.items())} }}"
-    if isinstance(value, list):
-        return f"[{', '.join(map(toml_inline, value))}]"
-    if isinstance(value, (str, bool)):
-        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+    match value:
+        case Mapping():
+            return f"{{ {', '.join(f'{toml_key(name)} = {toml_inline(each)}' for name, each in value.items())} }}"
+        case list():
+            return f"[{', '.join(map(toml_inline, value))}]"
+        case str() | bool():
+            return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
     return repr(value)
 
 

@@ -231,7 +231,11 @@ class Burmester(Shown):
         require(len(row) == 2, f"burmester: {name}", given, "x and y [m] are expected")
         place = complex(*row)
         if len(self.poses) == 3:
-            return self.body.link_at(place) if centre is None else self.body.link_about(place)
+            if centre is not None:
+                return self.body.link_about(place)
+            there = self.body.places_of(place)
+            middle = centre_through(there, self.body.size)
+            return GuidingLink.of(there, middle) if np.isfinite(middle) else GuidingLink.of(there, NOWHERE, line_through(there))
         if len(self.poses) == 4:
             loops = self.body.loops()
             ends = [loop.nearest(place, 0 if centre is None else 1) for loop in loops]
@@ -280,14 +284,6 @@ class PosedBody:
     def places_of(self, point: complex | ComplexArray) -> ComplexArray:
         """Return the places (n,) of the body's point that is at a place in the first pose; (m, n) of places (m, 1)."""
         return np.asarray(self.z + self.turned * (point - self.z[0]))
-
-    def link_at(self, point: complex) -> GuidingLink:
-        """Return the link of a circle point of three poses, a slider where its places lie on a line."""
-        places = self.places_of(point)
-        centre = centre_through(places, self.size)
-        if np.isfinite(centre):
-            return GuidingLink.of(places, centre)
-        return GuidingLink.of(places, NOWHERE, line_through(places))
 
     def link_about(self, centre: complex) -> GuidingLink:
         """Return the link of a centre point of three poses; StudyError where its circle point is at infinity."""

@@ -130,21 +130,11 @@ class Timing:
         return np.asarray(own - turn * np.round((own.mean(axis=1, keepdims=True) - 0.5) / turn))
 
 
-@final
-@dataclass(frozen=True, eq=False)
-class FitProgram:
-    """Whether every point has a place, and what a task wants, as a kernel; and with the derivatives behind them as another."""
-
-    values: Kernel
-    graded: Kernel
-
-    @classmethod
-    def of(cls, plan: Plan, requests: Sequence[Request], owners: tuple[str, ...]) -> FitProgram:
-        """Return the program of requests, on a plan that is not traced yet."""
-        placed = all_placed().nodes(plan)
-        values = [*placed, *(node for each in requests for node in each.nodes(plan))]
-        shares = [node for each in requests for node in slope(each, owners).nodes(plan)] if owners else []
-        return cls(Kernel(values), Kernel([*values, *shares]))
+def fit_kernels(plan: Plan, requests: Sequence[Request], owners: tuple[str, ...]) -> tuple[Kernel, Kernel]:
+    """Return whether every point has a place, and what a task wants, as a kernel; and with the derivatives behind them as another."""
+    values = [*all_placed().nodes(plan), *(node for each in requests for node in each.nodes(plan))]
+    shares = [node for each in requests for node in slope(each, owners).nodes(plan)] if owners else []
+    return Kernel(values), Kernel([*values, *shares])
 
 
 @final
@@ -164,7 +154,7 @@ class Fit:
         self.owners = tuple(dict.fromkeys(each.owner for each in self.space.variables))
         inputs = (*self.owners, timing.stroke)
         key: Hashable = ("fit", tuple(each.key for each in self.requests), inputs)
-        self.program = self.plan.made(key, lambda twin: FitProgram.of(twin, self.requests, inputs))
+        self.kernel, self.graded_kernel = self.plan.made(key, lambda twin: fit_kernels(twin, self.requests, inputs))
         self.held = {name: float(one.low) for name, one in problem.ranges.items() if is_still(one)}
         self.n, self.width = len(self.space.variables), timing.width
         self._fixed = problem.dimensions_at(np.zeros(self.n), self.combination)
@@ -185,7 +175,7 @@ class Fit:
 
     def values(self, designs: Mapping[str, Any], strokes: FloatArray, count: int) -> tuple[FloatArray, Mask]:
         """Return what is wanted of m designs at strokes, (m, r, n), NaN out of reach, and where it is reached (m, n)."""
-        found = self._run(self.program.values, designs, strokes, count)
+        found = self._run(self.kernel, designs, strokes, count)
         return found[1:].swapaxes(0, 1), np.isfinite(found[0])
 
     def _run(self, kernel: Kernel, designs: Mapping[str, Any], strokes: FloatArray, count: int) -> FloatArray:
@@ -235,7 +225,7 @@ class Fit:
     def graded(self, at: FloatArray, base: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the misses (m, r * n) and their derivatives (m, r * n, n + w)."""
         strokes = self.timing.strokes(base, at[:, self.n :])
-        found = self._run(self.program.graded, self.dimensions(at), strokes, len(at))
+        found = self._run(self.graded_kernel, self.dimensions(at), strokes, len(at))
         r, points, p = len(self.requests), strokes.shape[1], len(self.owners) + 1
         off = self.rows.off(found[1 : 1 + r].swapaxes(0, 1)).reshape(len(at), r * points)
         shares = found[1 + r :].reshape(r, p, len(at), points)

@@ -186,7 +186,12 @@ def laid_designs(fit: Fit, likeness: Likeness, unit: FloatArray, timed: Any, *, 
         own = np.zeros((len(unit), 0))
     elif timed is False and fit.rows.is_closed and runs and fit.timing.turn:
         values, _ = fit.swept(unit, poses_of(fit, timed))
-        best, own = along_closed_curve(likeness, fit, unit, values)
+        onto, places = drawn_curve(fit.rows.wanted[:2].T)  # point lies on point at the same part of the way
+        curves = ClosedCurves.of(as_complex(values))
+        free = {"shift": likeness.shift, "turn": likeness.turn, "scale": likeness.scale}
+        laid_on = laid_onto(curves, onto, likeness.sizes(fit, unit), **free)
+        strokes = fit.timing.start + fit.timing.span * curves.shares(laid_on.along(places))
+        best, own = Best(np.zeros(len(unit), int), laid_on.factor, laid_on.by, laid_on.error), fit.timing.own(strokes)
         base = np.zeros((len(unit), fit.rows.count))
     else:
         values, _ = fit.swept(unit, poses_of(fit, timed))
@@ -197,19 +202,6 @@ def laid_designs(fit: Fit, likeness: Likeness, unit: FloatArray, timed: Any, *, 
     if likeness.with_stroke:
         own = own + np.angle(best.factor)[:, None] / fit.timing.reach[1]
     return np.concatenate([fit.space.within(laid), np.clip(fit.timing.centred(own), 0.0, 1.0)], axis=1), np.array(base)
-
-
-def along_closed_curve(likeness: Likeness, fit: Fit, unit: FloatArray, values: FloatArray) -> tuple[Best, FloatArray]:
-    """Return how closed curves, the values (m, r, poses) of designs (m, n), lie best on a task's, and its points' own unknowns (m, w).
-
-    Point lies on point at the same part of the way.
-    """
-    onto, places = drawn_curve(fit.rows.wanted[:2].T)
-    curves = ClosedCurves.of(as_complex(values))
-    free = {"shift": likeness.shift, "turn": likeness.turn, "scale": likeness.scale}
-    laid = laid_onto(curves, onto, likeness.sizes(fit, unit), **free)
-    strokes = fit.timing.start + fit.timing.span * curves.shares(laid.along(places))
-    return Best(np.zeros(len(unit), int), laid.factor, laid.by, laid.error), fit.timing.own(strokes)
 
 
 def standing_apart(unit: FloatArray, error: FloatArray, many: int) -> Index:

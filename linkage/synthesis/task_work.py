@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from hashlib import blake2b
@@ -127,22 +127,14 @@ class FitWork(ABC):
 
     def _of_piece(self, rows: Rows, first: int, stop: int) -> dict[str, Array]:
         parts = []
-        for combination, begin, end in runs(rows["combination"][first:stop]):
+        for combination, group in groupby(map(tuple, rows["combination"][first:stop].tolist())):  # those that follow one another
+            begin, first = first, first + len(list(group))
             fit = self.fit(combination)
-            own = {name: column[first + begin : first + end] for name, column in rows.items() if name != "combination"}
-            looked = np.zeros(end - begin)
+            own = {name: column[begin:first] for name, column in rows.items() if name != "combination"}
+            looked = np.zeros(first - begin)
             parts.append(self.found(fit, own) | {"looked": looked})
             looked[0] = fit.problem.count.designs
         return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
-
-
-def runs(combinations: Array) -> Iterator[tuple[Combination, int, int]]:
-    """Yield the combinations (m, choices) that follow one another, each with its first design and the one after its last."""
-    begin = 0
-    for combination, group in groupby(map(tuple, combinations.tolist())):
-        end = begin + len(list(group))
-        yield combination, begin, end
-        begin = end
 
 
 @final

@@ -242,18 +242,15 @@ def table_of(what: str, name: str, given: Any, width: int, row: str = "pairs (x,
     found = numbers_in(given)
     shape = (found.shape[0] if found.ndim else 0, *((width,) if width else ()))
     if found.shape != shape or not found.size or not np.isfinite(found).all():
-        rows = f"{row}, shape (n, {width})" if width else "numbers in a row, shape (n,)"
-        raise DefinitionError(f"{what}: {name}={cited(given)}: finite {rows}, are expected, in SI{wrong_words(name, found, width)}.")
+        rows, hint = f"{row}, shape (n, {width})" if width else "numbers in a row, shape (n,)", ""
+        if found.ndim == (2 if width else 1) and found.size and not np.isfinite(found).all():
+            hint = f"; number {int(np.argmin(np.isfinite(found.reshape(len(found), -1)).all(axis=1))) + 1} is not finite"
+        elif width and found.ndim == 2 and found.shape[0] == width:
+            hint = f"; these have shape {found.shape}, write np.transpose({name})"
+        elif width and found.shape == (width,):
+            hint = f"; write a single one as [{tuple(found.tolist())}]"
+        raise DefinitionError(f"{what}: {name}={cited(given)}: finite {rows}, are expected, in SI{hint}.")
     return frozen(found)
-
-
-def wrong_words(name: str, found: FloatArray, width: int) -> str:
-    """Return what is wrong with a table of numbers, and how it is written right; "" where it is none at all."""
-    if found.ndim == (2 if width else 1) and found.size and not np.isfinite(found).all():
-        return f"; number {int(np.argmin(np.isfinite(found.reshape(len(found), -1)).all(axis=1))) + 1} is not finite"
-    if width and found.ndim == 2 and found.shape[0] == width:
-        return f"; these have shape {found.shape}, write np.transpose({name})"
-    return f"; write a single one as [{tuple(found.tolist())}]" if width and found.shape == (width,) else ""
 
 
 def check_radians(what: str, name: str, angles: FloatArray) -> None:

@@ -30,33 +30,17 @@ from ..study.regions import point_regions
 from ..study.space import size_of_machine
 from ..study.survey import Progress
 from ..surroundings import Outline
+from . import study_file
 from .criterion import condition_said, measure_said
 from .names import Keywords, entry_as, require_entry, shortened
 from .source import each_of
-from .study_file import (
-    PICTURE_SUFFIXES,
-    FindMachine,
-    Read,
-    Settings,
-    StudyHead,
-    amount_said,
-    case_said,
-    count_from,
-    file_path,
-    keywords_read,
-    one_of,
-    outputs_said,
-    over_said,
-    texts_said,
-    tolerances_said,
-    vary_said,
-)
+from .study_file import FindMachine, Read, Settings, StudyHead, amount_said
 
 SEARCH_OUTPUTS: Mapping[str, tuple[str, ...]] = {
     "table": (".csv",),
     "designs": (".csv", ".jsonl"),
-    "drawing": PICTURE_SUFFIXES,
-    "curves": PICTURE_SUFFIXES,
+    "drawing": study_file.PICTURE_SUFFIXES,
+    "curves": study_file.PICTURE_SUFFIXES,
     "machine": (".toml", ".json"),
 }
 ROUND_KEYS = {"to": "length", "angle": "angle"}
@@ -93,11 +77,11 @@ def read_search(path: str | os.PathLike[str], find: FindMachine, settings: Setti
     data, faults = head.data, head.faults
     arguments: Keywords = {}
     with faults.at():
-        arguments = keywords_read(head, optimise, {key: data[key] for key in data if key in SEARCH}, SEARCH)
+        arguments = study_file.keywords_read(head, optimise, {key: data[key] for key in data if key in SEARCH}, SEARCH)
     count = sum(len(each) if isinstance(each, list) else 1 for each in (data.get("minimise"), data.get("maximise")) if each)
     if not count:
         faults.add((), 'say minimise or maximise, one measure such as maximise = "least(...)", or a list of several.')
-    outputs = outputs_said(head, SEARCH_OUTPUTS)
+    outputs = study_file.outputs_said(head, SEARCH_OUTPUTS)
     if count > 1:
         for name in outputs.keys() - {"designs"}:
             faults.add(("outputs", name), "of several objectives there is no single best design; write its front by designs = ...")
@@ -118,13 +102,13 @@ def objective_said(head: StudyHead, given: object) -> Measure:
 
 def objectives_said(head: StudyHead, given: object) -> list[Measure]:
     """Return what is to be least or greatest: the measure of a text, or those of a list, mistakes under their numbers."""
-    return texts_said(given, partial(objective_said, head)) if isinstance(given, list) else [objective_said(head, given)]
+    return study_file.texts_said(given, partial(objective_said, head)) if isinstance(given, list) else [objective_said(head, given)]
 
 
 def conditions_said(head: StudyHead, given: object) -> list[Condition]:
     """Return the conditions of a list of texts; SeveralError with all mistakes, each under its number."""
     given = entry_as(given, (str, list), 'a list of conditions is expected, such as ["most(tilt) <= 8 deg"]')
-    return texts_said(given, lambda text: condition_said(text, head.machine, head.found["over"]))
+    return study_file.texts_said(given, lambda text: condition_said(text, head.machine, head.found["over"]))
 
 
 def regions_said(head: StudyHead, given: object) -> Keywords:
@@ -176,21 +160,21 @@ def rounding_said(head: StudyHead, given: object) -> dict[str, float] | None:
 
 
 SEARCH: Mapping[str, Read] = {
-    "over": over_said,
+    "over": study_file.over_said,
     "minimise": objectives_said,
     "maximise": objectives_said,
-    "vary": vary_said,
+    "vary": study_file.vary_said,
     "subject_to": conditions_said,
     "regions": regions_said,
-    "case": case_said,
-    "robust": tolerances_said("robust"),
+    "case": study_file.case_said,
+    "robust": study_file.tolerances_said("robust"),
     "sigmas": lambda head, given: amount_said(given, ""),
-    "method": one_of(SEARCH_METHODS),
-    "solver": one_of(SOLVERS),
-    "starts": count_from(1),
-    "seed": count_from(0),
-    "limit": count_from(1),
-    "folder": file_path,
+    "method": study_file.one_of(SEARCH_METHODS),
+    "solver": study_file.one_of(SOLVERS),
+    "starts": study_file.count_from(1),
+    "seed": study_file.count_from(0),
+    "limit": study_file.count_from(1),
+    "folder": study_file.file_path,
     "round": rounding_said,
 }
 """The keywords of `optimise` that a file may say, and the steps of `round`, each with what reads it."""

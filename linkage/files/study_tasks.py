@@ -42,28 +42,11 @@ from ..study.optimise import constraint_in_case
 from ..study.space import Around, coordinates
 from ..study.survey import Progress
 from ..units import display_unit, parse_span, show
+from . import study_file
 from .criterion import condition_said, criterion_of, measure_said, quantity_said
 from .names import Keywords, by_whole_names, entry_as, require_entry
 from .source import each_of
-from .study_file import (
-    PICTURE_SUFFIXES,
-    RANGE_KEYS,
-    FindMachine,
-    Settings,
-    StudyHead,
-    amount_said,
-    by_dimensions,
-    case_said,
-    count_from,
-    file_path,
-    keywords_read,
-    one_of,
-    outputs_said,
-    over_said,
-    range_said,
-    texts_said,
-    tolerances_said,
-)
+from .study_file import FindMachine, Settings, StudyHead, amount_said
 from .survey_measures import TextMeasures, named_measures
 
 
@@ -92,7 +75,7 @@ def box_said(head: StudyHead, given: object) -> Keywords:
     def ranges(name: str, value: object) -> Keywords:
         if name not in table.spellings and f"{name}.x" not in table.spellings:
             raise unknown("Dimension", name, table.names(), where=head.plan.title)
-        said = range_said(value, head.plan, name)
+        said = study_file.range_said(value, head.plan, name)
         if isinstance(said, tuple) and len(said) == 3:
             raise DefinitionError("a study looks between the steps of a range too; leave the step out, or write a list of choices.")
         found = {} if isinstance(said, Around) else {name: said}
@@ -103,7 +86,7 @@ def box_said(head: StudyHead, given: object) -> Keywords:
         Box.of(machine, found)
         return found
 
-    parts = by_dimensions(given, "vary", ranges, RANGE_KEYS).values()
+    parts = study_file.by_dimensions(given, "vary", ranges, study_file.RANGE_KEYS).values()
     return {name: value for part in parts for name, value in part.items()}
 
 
@@ -170,12 +153,12 @@ def condition_limits(head: StudyHead, given: object) -> list[Constraint]:
         kept = condition_said(text, head.machine).constraints(head.machine)
         return [*limits_listed(head.machine, [constraint_in_case(one, head.found["case"]) for one in kept])]
 
-    return [one for each in texts_said(given, limits) for one in each]
+    return [one for each in study_file.texts_said(given, limits) for one in each]
 
 
 def one_case(head: StudyHead, given: object) -> str:
     """Return the name of a load case; DefinitionError for several."""
-    ensure(isinstance(case_said(head, given), str), "a study of tolerances is of one load case.")
+    ensure(isinstance(study_file.case_said(head, given), str), "a study of tolerances is of one load case.")
     return str(given)
 
 
@@ -198,7 +181,7 @@ def targets_said(head: StudyHead, given: object) -> list[Target]:
                     return Target(quantity, other.value, unit=unit_of_quantity(head.plan, quantity), **one.strokes)
         raise DefinitionError(f"{condition} is no target; write at(tilt, S=100 mm) == 0 deg.")
 
-    return texts_said(given, target)
+    return study_file.texts_said(given, target)
 
 
 # The studies: what their sections may have, and what comes of them.
@@ -208,13 +191,13 @@ def survey_task(
     machine: Mechanism,
     *,
     vary: Annotated[Keywords, box_said, 'vary = { OB = "270 to 330 mm" }'],
-    over: Annotated[Keywords | None, over_said] = None,
+    over: Annotated[Keywords | None, study_file.over_said] = None,
     measure: Annotated[dict[str, tuple[str, str]], measures_said, 'measure = { travel = "most(G_y) - least(G_y)" }'],
-    count: Annotated[int, count_from(1)] = 1024,
-    method: Annotated[str, one_of(SAMPLE_METHODS)] = "sobol",
-    seed: Annotated[int, count_from(0)] = 0,
-    poses: Annotated[int, count_from(2)] = 101,
-    piece: Annotated[int, count_from(0)] = 0,
+    count: Annotated[int, study_file.count_from(1)] = 1024,
+    method: Annotated[str, study_file.one_of(SAMPLE_METHODS)] = "sobol",
+    seed: Annotated[int, study_file.count_from(0)] = 0,
+    poses: Annotated[int, study_file.count_from(2)] = 101,
+    piece: Annotated[int, study_file.count_from(0)] = 0,
     folder: Path | None = None,
     progress: bool | Progress = False,
 ) -> TaskResult:
@@ -254,7 +237,7 @@ def zone_task(
     *,
     quantity: Annotated[Any, pose_quantity, 'quantity = "tilt"'],
     vary: Annotated[Keywords, box_said, 'vary = { OB = "270 to 330 mm" }'],
-    poses: Annotated[int, count_from(2)] = 51,
+    poses: Annotated[int, study_file.count_from(2)] = 51,
     strokes: Annotated[Keywords | None, swept_strokes] = None,
 ) -> TaskResult:
     """Look for the extremes of a quantity at every stroke over a box."""
@@ -293,13 +276,13 @@ def tolerance_task(
     *,
     case: Annotated[str | None, one_case] = None,
     of: Annotated[Keywords, quantities_said, 'of = ["tilt"]'],
-    tolerances: Annotated[Keywords, tolerances_said("tolerances")],
+    tolerances: Annotated[Keywords, study_file.tolerances_said("tolerances")],
     subject_to: Annotated[Sequence[Constraint], condition_limits] = (),
-    count: Annotated[int, count_from(1)] = 1 << 14,
-    seed: Annotated[int, count_from(0)] = 0,
-    method: Annotated[str, one_of(SAMPLE_METHODS)] = "sobol",
+    count: Annotated[int, study_file.count_from(1)] = 1 << 14,
+    seed: Annotated[int, study_file.count_from(0)] = 0,
+    method: Annotated[str, study_file.one_of(SAMPLE_METHODS)] = "sobol",
     percentiles: Annotated[tuple[float, ...], percentile_list] = (5.0, 50.0, 95.0),
-    poses: Annotated[int, count_from(2)] = 21,
+    poses: Annotated[int, study_file.count_from(2)] = 21,
     strokes: Annotated[Keywords | None, swept_strokes] = None,
 ) -> TaskResult:
     """Vary dimensions within their tolerances at random: bands, the worst case, and the share of good machines."""
@@ -323,7 +306,7 @@ def tornado_task(
     machine: Mechanism,
     *,
     quantity: Annotated[Any, pose_quantity, 'quantity = "tilt"'],
-    tolerances: Annotated[Keywords, tolerances_said("tolerances")],
+    tolerances: Annotated[Keywords, study_file.tolerances_said("tolerances")],
     strokes: Annotated[Keywords, pose_said],
 ) -> TaskResult:
     """Look for the tolerance that matters most for a quantity at one pose."""
@@ -357,9 +340,9 @@ TASKS: Mapping[str, Callable[..., TaskResult]] = {
 """The studies by the sections that ask for them."""
 TASK_OUTPUTS: Mapping[str, Sequence[str]] = {
     "survey": (".csv", ".jsonl"),
-    "zone": (".csv", ".jsonl", *PICTURE_SUFFIXES),
-    "tolerance": (".csv", ".jsonl", *PICTURE_SUFFIXES),
-    "tornado": (".csv", ".jsonl", *PICTURE_SUFFIXES),
+    "zone": (".csv", ".jsonl", *study_file.PICTURE_SUFFIXES),
+    "tolerance": (".csv", ".jsonl", *study_file.PICTURE_SUFFIXES),
+    "tornado": (".csv", ".jsonl", *study_file.PICTURE_SUFFIXES),
     "settings": (".csv", ".jsonl"),
 }
 
@@ -388,14 +371,14 @@ def read_study(path: str | os.PathLike[str], find: FindMachine, settings: Settin
     for section in asked:
         with head.faults.at(section):
             given = entry_as(head.data[section], Mapping, f"a table is expected, [{section}]")
-            tasks[section] = keywords_read(head, TASKS[section], given)
+            tasks[section] = study_file.keywords_read(head, TASKS[section], given)
     if not asked:
         head.faults.add((), f"there is no study; begin one with {' or '.join(f'[{each}]' for each in TASKS)}.")
     folder = None
     if "folder" in head.data:
         with head.faults.at("folder"):
-            folder = file_path(head, head.data["folder"])
-    outputs = outputs_said(head, TASK_OUTPUTS)
+            folder = study_file.file_path(head, head.data["folder"])
+    outputs = study_file.outputs_said(head, TASK_OUTPUTS)
     for name in outputs:
         if name not in head.data:
             head.faults.add(("outputs", name), f"the file has no [{name}], of which this would be the result.")

@@ -25,31 +25,18 @@ from ..motion.measures import words_of
 from ..study.problem import is_still, ranges_of
 from ..synthesis import FunctionTask, PathTask, PoseTask
 from ..synthesis.task_search import synthesise
+from . import study_file
 from .criterion import quantity_said
 from .names import Keywords, entry_as, require_entry, shortened
 from .points import PointColumn, points_said, units_said
 from .search_file import SearchFile, conditions_said, objective_said, regions_said, rounding_said
 from .source import Mistakes
-from .study_file import (
-    PICTURE_SUFFIXES,
-    FindMachine,
-    Read,
-    Settings,
-    StudyHead,
-    amount_said,
-    case_said,
-    count_from,
-    file_path,
-    keywords_read,
-    outputs_said,
-    over_said,
-    vary_said,
-)
+from .study_file import FindMachine, Read, Settings, StudyHead, amount_said
 
 SECTION = "synthesis"
 SYNTHESIS_OUTPUTS: Mapping[str, tuple[str, ...]] = {
     "table": (".csv",),
-    "drawing": PICTURE_SUFFIXES,
+    "drawing": study_file.PICTURE_SUFFIXES,
     "page": (".html",),
     "machine": (".toml", ".json"),
 }
@@ -67,9 +54,9 @@ def read_synthesis(path: str | os.PathLike[str], find: FindMachine, settings: Se
         if len(named) != 1:
             words = f"{' and '.join(named)} are several tasks" if named else "there is no task"
             faults.add((SECTION,), f'{words}; write one, path = {{ of = "P", points = "points.csv" }}, function = ... or motion = ...')
-        arguments = keywords_read(head, synthesise, given if head.machines else {"vary": {}, **given}, SYNTHESIS)
+        arguments = study_file.keywords_read(head, synthesise, given if head.machines else {"vary": {}, **given}, SYNTHESIS)
         arguments = {key: value for key, value in arguments.items() if not head.machines or value != {}}
-    outputs = outputs_said(head, SYNTHESIS_OUTPUTS)
+    outputs = study_file.outputs_said(head, SYNTHESIS_OUTPUTS)
     faults.check()
     rounding = arguments.pop("round", None)
     return SearchFile(synthesise, [*head.machines.values()] or head.machine, arguments, rounding, outputs)
@@ -211,23 +198,23 @@ def task_said(name: str) -> Read:
         given = entry_as(given, Mapping, f'a table is expected, {name} = {{ of = "P", points = "points.csv" }}')
         if name == "path" and head.machines and given.get("of") is None:
             given = {**given, "of": {}}
-        return SYNTHESIS_TASKS[name](**keywords_read(head, SYNTHESIS_TASKS[name], given))
+        return SYNTHESIS_TASKS[name](**study_file.keywords_read(head, SYNTHESIS_TASKS[name], given))
 
     return read
 
 
 SYNTHESIS: Mapping[str, Read] = {
-    "over": over_said,
-    "vary": by_class(vary_said),
+    "over": study_file.over_said,
+    "vary": by_class(study_file.vary_said),
     "subject_to": by_class(conditions_said),
     "regions": by_class(regions_said, is_of_points=True),
     "timed": timed_said,
     "rank": by_class(objective_said),
-    "case": case_said,
-    "starts": lambda head, given: given if given == "catalogue" else count_from(1)(head, given),
-    "seed": count_from(0),
-    "limit": count_from(1),
-    "folder": file_path,
+    "case": study_file.case_said,
+    "starts": lambda head, given: given if given == "catalogue" else study_file.count_from(1)(head, given),
+    "seed": study_file.count_from(0),
+    "limit": study_file.count_from(1),
+    "folder": study_file.file_path,
     "round": rounding_said,
     **{name: task_said(name) for name in SYNTHESIS_TASKS},
 }

@@ -23,7 +23,6 @@ from ..motion import Request
 from ..motion.kinds import KINDS, MeasureKind, common_kind, kind_of_quantity
 from ..motion.measures import (
     Condition,
-    Constraint,
     Given,
     Measure,
     Worst,
@@ -82,7 +81,7 @@ def measure_said(text: object, machine: Mechanism, over: Mapping[str, object] | 
     if is_number(found) or isinstance(found, Given):
         raise DefinitionError(f"{text!r} is the same for every design; write a measure of the machine, such as least(...), or an output.")
     measure = measure_or_constant(found, machine)
-    check_measures(machine, [measure], [], over)
+    Problem(machine, [measure], [], NOWHERE, over=over)  # which refuses what a machine has not: an unknown point, no such stroke
     return measure
 
 
@@ -98,7 +97,7 @@ def condition_said(text: object, machine: Mechanism, over: Mapping[str, object] 
     if not isinstance(found, Condition):
         what = words_of(found) if isinstance(found, (Request, Quantity, Worst)) else str(found)
         raise DefinitionError(f"{text!r}: {what} says no limit; write one such as most(...) <= 8 deg.")
-    check_measures(machine, [], [each for each in found.constraints(machine)], over)
+    Problem(machine, [], [*found.constraints(machine)], NOWHERE, over=over)
     return found
 
 
@@ -107,7 +106,7 @@ def quantity_said(text: object, machine: Mechanism) -> Any:
     found = criterion_of(text, machine)
     if is_number(found) or isinstance(found, (Measure, Condition, Worst)):
         raise DefinitionError(f"{text!r} has no value at every pose; write an output such as tilt, or a request such as drive_force().")
-    check_measures(machine, [most(found)], [], None)
+    Problem(machine, [most(found)], [], NOWHERE)
     traced(machine.plan, found)  # which refuses what has two components
     return found
 
@@ -117,11 +116,6 @@ def criterion_of(text: object, machine: Mechanism) -> Any:
     if not isinstance(text, str) or not text.strip():
         raise DefinitionError(f'{text!r:.60} is no text in quotes, such as "least(tilt)".')
     return CriterionParser(text, machine).whole()
-
-
-def check_measures(machine: Mechanism, measures: list[Measure], constraints: list[Constraint], over: Mapping[str, object] | None) -> None:
-    """Raise DefinitionError where measures or constraints ask for what a machine has not: an unknown point, no such stroke."""
-    Problem(machine, measures, constraints, NOWHERE, over=over)
 
 
 @final

@@ -97,11 +97,6 @@ def output_of(given: object, names: Names) -> Quantity:
     return ref(found.name) if found.name else found
 
 
-def output_written(member: Any, design: Design) -> float | str:
-    """Return an output as its own rule, whatever its name."""
-    return member.number if member.is_constant else design.own(member)
-
-
 def vector_of(given: object, names: Names) -> steps.Arrow:
     """Return the vector that a text says; DefinitionError for the name of one."""
     found: Any = arrow_of(given, names)
@@ -171,7 +166,7 @@ OWN: tuple[AnEntry, ...] = (
     FileEntry(steps.Pin, "pins"),
     FileEntry(steps.Slide, "slides"),
     Bare(steps.Group, "groups", lambda given, names: steps.Group(" ".join(points_of(given, names))), group_written),
-    Bare(Quantity, "outputs", output_of, output_written, family=True),
+    Bare(Quantity, "outputs", output_of, lambda member, design: member.number if member.is_constant else design.own(member), family=True),
     *(FileEntry(load, "loads", load.__name__) for load in LOADS),
     FileEntry(Rope, "loads", "Rope"),
     FileEntry(loads.LoadCase, "cases"),

@@ -308,7 +308,8 @@ def drawing(joints: Joints) -> Places:
     O = joints.names.index("O")
     every -= every[:, [O]]
     turning = [joints.names.index(name) for name in joints.turning]
-    ways = np.array([crank_direction(k * 2.0 * pi / 3.0) for k in range(len(turning))])
+    angles = np.arange(len(turning)) * 2.0 * pi / 3.0
+    ways = np.stack([np.cos(angles), np.sin(angles)], axis=1)
     every[:, turning] = 1e-3 * ways
     pairs = [pair for pair in combinations(range(len(joints.names)), 2) if not {*pair} <= {O, *turning}]
     far = np.min([np.linalg.norm(every[:, a] - every[:, b], axis=1) for a, b in pairs], axis=0)
@@ -322,17 +323,12 @@ def drawing(joints: Joints) -> Places:
     raise DefinitionError(f"{joints.inversion}: no drawing was found from which link {joints.crank} turns fully.")
 
 
-def crank_direction(angle: float) -> FloatArray:
-    """Return the direction of an angle, shape (2,)."""
-    return np.array([np.cos(angle), np.sin(angle)])
-
-
 def turns_fully(joints: Joints, start: FloatArray, turning: list[int]) -> bool:
     """Return whether the crank turns fully from a drawing (joints, 2), by steps of Newton, and stays far from any dead point."""
     lengths, places, free = joints.lengths(start), np.array(start), len(joints.free)
     least = REGULAR * np.linalg.svd(joints.slopes(start), compute_uv=False)[-1]
     for angle in np.linspace(0.0, 2.0 * pi, POSES + 1)[1:]:
-        x, y = crank_direction(angle)
+        x, y = np.cos(angle), np.sin(angle)
         places[turning] = start[turning] @ np.array([[x, y], [-y, x]])
         for _ in range(8):
             slopes = joints.slopes(places)

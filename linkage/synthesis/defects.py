@@ -26,6 +26,7 @@ FAR_OFF, NEARER = 0.05, 0.1
 TOLD = 3
 """Answers that a sentence lists, and machines that do not run."""
 NEAR_CHANGE_POINT = 1.0 * deg
+"""A machine whose least transmission angle is less passes near a change point."""
 NEAR_GRASHOF = 0.01
 """Of the longest link: a margin that is less is told."""
 
@@ -135,15 +136,10 @@ def branch_words(fit: Fit, machine: Mechanism, at: FloatArray, base: FloatArray,
     return ""
 
 
-def is_near_change_point(angle: float) -> bool:
-    """Return whether a least transmission angle [rad] is that of a machine which passes near a change point; NaN is none."""
-    return bool(angle < NEAR_CHANGE_POINT)
-
-
 def change_point_words(angle: float, four_bars: Sequence[FourBar]) -> list[str]:
     """Return by how much a machine passes near a change point; none for one that keeps away."""
     words = []
-    if is_near_change_point(angle):
+    if angle < NEAR_CHANGE_POINT:
         words.append(said("it passes within {angle} of a change point", angle=show(angle, "deg", 3)))
     for each in four_bars:
         if abs(each.margin) < NEAR_GRASHOF * max(each.lengths):

@@ -376,9 +376,8 @@ class PosedBody:
         a plane of three directions, and there w m* is the product of w and m*: two conics.
         """
         z, T = (self.z - self.z.mean()) / self.size, self.turned
-        rows = np.stack([
-            *factors_of_parts(2.0 * z.conj() * T), *factors_of_parts(-2.0 * z.conj()), *factors_of_parts(-2.0 * T), abs(z) ** 2,
-        ], axis=1)  # fmt: skip
+        factors = (2.0 * z.conj() * T, -2.0 * z.conj(), -2.0 * T)  # of a number's real and imaginary part in Re(factor * number)
+        rows = np.stack([*(part for each in factors for part in (each.real, -each.imag)), abs(z) ** 2], axis=1)
         basis = np.linalg.svd(rows[1:] - rows[0])[2][-3:].T
         found: list[GuidingLink] = []
         w, m, product, one = basis[0:2], basis[2:4], basis[4:6], basis[6]
@@ -395,11 +394,6 @@ class PosedBody:
                 if all(abs(complex(*link.point) - complex(*each.point)) > 1e-7 * self.size for each in found):
                     found.append(link)
         return found
-
-
-def factors_of_parts(factor: ComplexArray) -> tuple[FloatArray, FloatArray]:
-    """Return the factors of a number's real and imaginary part in Re(factor * number)."""
-    return factor.real, -factor.imag
 
 
 def conics_meet(conics: Sequence[FloatArray]) -> list[FloatArray]:

@@ -32,7 +32,7 @@ from ..study.space import FAR, Space, size_of_machine
 from ..study.survey import Executor, LocalExecutor, check_executor, check_progress, progress_told
 from ..units import show
 from .curve_catalogue import NEIGHBOURS, CurveCatalogue, curve_catalogue
-from .defects import branch_words, circuit_words, in_order, is_near_change_point, order_words
+from .defects import NEAR_CHANGE_POINT, branch_words, circuit_words, in_order, order_words
 from .fit import Fit, Timing
 from .starts import POPULATION, WHOLE_ENOUGH, Likeness, Starts, standing_apart
 from .synthesis import (
@@ -561,7 +561,7 @@ class TaskSearch:
         error = told_error(each.error, exact_error(self.rows))
         if not np.isnan(each.ranked):
             return error, False, each.ranked
-        return error, error == 0.0 and is_near_change_point(each.transmission), each.error
+        return error, error == 0.0 and bool(each.transmission < NEAR_CHANGE_POINT), each.error
 
     def why_not(self, machine: Mechanism, ends: Ends, k: int) -> str:
         """Return why a design is no answer, in words; "" for one that is, by the judge."""

@@ -107,7 +107,8 @@ def highest(look: Look, counts: Sequence[int]) -> Highest:
     any_unbounded = np.asarray(unbounded.any(axis=-1))
     score = np.where(any_unbounded[..., None] & ~unbounded, -np.inf, ends.value)
     place = np.argmax(score, axis=-1)[..., None]
-    value, leg, t = (np.take_along_axis(each, place, axis=-1)[..., 0] for each in (ends.value, ends.leg, ends.t))
+    leg = np.take_along_axis(ends.leg, place, axis=-1)[..., 0]
+    value, t = (np.take_along_axis(each, place, axis=-1)[..., 0] for each in (ends.value, ends.t))
     value = np.where(any_unbounded, np.inf, np.where(value <= LOWEST, -np.inf, value))
     return Highest(np.where(np.isnan(seen).all(axis=-1), np.nan, value), leg, t, any_unbounded)
 

@@ -101,6 +101,6 @@ def test_picture_has_every_load_and_letter():
     texts = [each.get_text() for each in plot(found).axes[0].texts]
     text = ChartText(found)
     for load, limiter in zip(found.load.ravel(), found.limiter.ravel(), strict=True):
-        assert text.load(load) in texts and text.letters.get(limiter, "") in texts
+        assert text.load_text(load) in texts and text.letters.get(limiter, "") in texts
     assert any("50 % of what tips it" in each for each in texts) and any("not planar" in each for each in texts)
     assert not any("no supports" in each for each in texts)

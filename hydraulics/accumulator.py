@@ -28,6 +28,7 @@ from linkage.frozen import keep_own, refuses_changes
 from linkage.language import said
 from linkage.loads import Poses
 from linkage.loads.element import value_text
+from linkage.plan import Mask
 from linkage.program import is_traced
 from linkage.quantities import Dimension, Quantity, spelled
 from linkage.units import cm3, litre, require_measure, show, unit_or_none, units_of
@@ -81,7 +82,7 @@ class Accumulator:
         if not follows(self.charge):
             in_pascals(np.where(volume > 0.0, all_finite(self.charge, CHARGE), 0.0), CHARGE)
 
-    def recharged(self, charge: Any) -> Accumulator:
+    def recharged(self, charge: Array | float) -> Accumulator:
         """Return the same vessel with another charge [Pa gauge], one that a gas law gives."""
         changed = copy(self)
         object.__setattr__(changed, "charge", charge)
@@ -442,7 +443,7 @@ def there(charge: Array, vessel: Array) -> Array:
     return charge[vessel > 0.0]
 
 
-def one_atmosphere(atmosphere: Any) -> Array:
+def one_atmosphere(atmosphere: ArrayLike) -> Array:
     """Return the atmosphere [Pa]; DefinitionError where a batch gives several."""
     refuse(np.ndim(atmosphere), "atmosphere is one number for all designs of a batch; give a float.")
     return all_finite(atmosphere, "Atmosphere")
@@ -458,6 +459,6 @@ CHARGE_SHARE = 0.9
 COMPRESSION = 4.0
 
 
-def keeps_rule(rule: str, charge: Any, pressure: Any) -> Any:
+def keeps_rule(rule: str, charge: Array | float, pressure: Array | float) -> Mask | bool:
     """Return whether a charge suits the lowest pressure, rule "charge", or the highest one, rule "compression" [Pa absolute]."""
     return charge <= CHARGE_SHARE * pressure if rule == "charge" else pressure <= COMPRESSION * charge

@@ -25,7 +25,7 @@ LAWS: Mapping[str, tuple[Callable[..., Gas], tuple[str, ...]]] = {
 EXAMPLE = '"isothermal" or { law = "polytropic", n = 1.2 }'
 
 
-def gas_of(given: Any, number: Callable[[Any], float]) -> Gas:
+def gas_of(given: object, number: Callable[[object], float]) -> Gas:
     """Return the gas law that a word or a table says; `number` reads a number of it."""
     table = {"law": given} if isinstance(given, str) else given
     require(isinstance(table, Mapping) and isinstance(table.get("law"), str), "", given, f"is no gas law; write {EXAMPLE}")
@@ -40,29 +40,29 @@ def gas_of(given: Any, number: Callable[[Any], float]) -> Gas:
 
 
 @singledispatch
-def written_gas(gas: Gas) -> Any:
+def written_gas(gas: Gas) -> object:
     """Return a gas law as a file holds it; DefinitionError for one that it cannot."""
     raise DefinitionError(f"a file cannot hold the gas law {gas}; it knows {', '.join(LAWS)}.")
 
 
 @written_gas.register
-def _(gas: Polytropic) -> Any:
+def _(gas: Polytropic) -> object:
     if gas.spelled in LAWS:
         return gas.spelled
     return {"law": "polytropic", "n": gas_number(gas.n), **temperature(gas)}
 
 
 @written_gas.register
-def _(gas: RealNitrogen) -> Any:
+def _(gas: RealNitrogen) -> object:
     return {"law": "real_nitrogen", **temperature(gas)} if temperature(gas) else "real_nitrogen"
 
 
-def temperature(gas: Gas) -> dict[str, Any]:
+def temperature(gas: Gas) -> dict[str, object]:
     """Return the temperature of a law [K] where it is not the usual one."""
     return {} if gas.temperature == ROOM else {"temperature": gas_number(gas.temperature)}
 
 
-def gas_number(value: Any) -> Any:
+def gas_number(value: object) -> object:
     """Return a number of a gas law; DefinitionError where there are several."""
     refuse(not is_number(plain(value)), f"the gas law has several values, {value!r}; a file holds one design.")
     return plain(value)

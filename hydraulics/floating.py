@@ -29,7 +29,6 @@ from linkage.motion import Answer, Judge, Motion, MotionFunction, least, most
 from linkage.program import is_traced
 from linkage.quantities import Member, Reference, label, name_of, quantity
 from linkage.statics import AnyMotion, held_in_case, plan_of, same, stroke_followed
-from linkage.vectors import Scalar
 from linkage.verdict import Verdict
 
 from .accumulator import AccumulatorBlock, keeps_rule
@@ -63,7 +62,7 @@ class GasLine(Circuit):
     def charged_at(self, motion: Poses, ram: Ram) -> Mapping[str, Array]:
         """Return the strokes [SI] at which the block has its charge pressure, for one of its cylinders."""
 
-    def length_charged(self, motion: Poses, ram: Ram) -> Any:
+    def length_charged(self, motion: Poses, ram: Ram) -> Array:
         """Return the length of one of its cylinders where it was charged [m]."""
         return length_at(motion, ram, self.charged_at(motion, ram))
 
@@ -341,13 +340,13 @@ def gas_written(charges: Sequence[Array], vessels: Sequence[Array], pressure: Ar
     return reduce(np.add, (V * np.minimum(1.0, C / pressure) for C, V in zip(charges, vessels, strict=True)))
 
 
-def length_at(motion: Poses, ram: Ram, at: Mapping[str, Array]) -> Scalar:
+def length_at(motion: Poses, ram: Ram, at: Mapping[str, Array]) -> Array:
     """Return a cylinder's length [m] where the line is charged: with some strokes there, others at the sketch; broadcasts."""
     plan = plan_of(motion)
     reading = plan.reading({**motion.inputs, **plan.sketch_strokes, **at})
     length = plan.table.lengths.get(frozenset((name_of(ram.A), name_of(ram.B))))
     if length is not None:
-        return reading.value(length)
+        return np.asarray(reading.value(length))[()]
     if plan.followed or (plan.reaches(name_of(ram.A)) | plan.reaches(name_of(ram.B))) & set(plan.groups):
         if not isinstance(motion, Motion) or any(np.size(value) != 1 for value in at.values()):
             what = f"{ram}: its length follows from a group of links, which has no closed form"
@@ -355,10 +354,10 @@ def length_at(motion: Poses, ram: Ram, at: Mapping[str, Array]) -> Scalar:
         values = {name: float(np.ravel(value)[0]) for name, value in at.items()}
         strokes = {name: np.asarray(place) for name, place in {**motion.plan.sketch_strokes, **values}.items()}
         there = Motion(motion.plan, motion.designs, {name: strokes[name] for name in motion.strokes}, "nan")
-        found: Scalar = there.distance(ram.A, ram.B).reshape((*motion._design_shape, *(1,) * len(motion._stroke_shape)))
+        found: Array = there.distance(ram.A, ram.B).reshape((*motion._design_shape, *(1,) * len(motion._stroke_shape)))
     else:
         with np.errstate(all="ignore"):
-            found = (reading.at(name_of(ram.B)) - reading.at(name_of(ram.A))).length()
+            found = np.asarray((reading.at(name_of(ram.B)) - reading.at(name_of(ram.A))).length())[()]
     if not np.all(np.isfinite(found)):
         where = " and ".join(f"{name} = {np.ravel(value)[0]:.6g}" for name, value in at.items()) or "of the sketch"
         raise DefinitionError(f"{ram}: the mechanism cannot be assembled at the charging stroke {where}.")

@@ -168,7 +168,7 @@ def only_where(truth: Any, value: Array) -> Array:
 # -- settings that may follow the design --------------------------------------------------------------------
 
 
-def follows(*values: Any) -> bool:
+def follows(*values: object) -> bool:
     """Return whether one of the values is no number: a quantity, or the name of one."""
     return any(isinstance(value, Quantity) or (isinstance(value, str) and value.isidentifier()) for value in values)
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import Any, final
+from typing import final
 
 import numpy as np
 
@@ -22,7 +22,7 @@ from linkage.statics import LawRequest, elements_of, same
 from linkage.units import UNITS, show
 from linkage.verdict import Verdict
 
-from .inputs import not_negative, one_number
+from .inputs import Array, not_negative, one_number
 from .line import LiftLine, LineValve
 from .member import PISTON, SIDES, AllOf, Ram, as_in, carries_loads, judge_of, thrust_request
 from .remedy import Sizes, can_be_set, show_enough, size_words, smallest
@@ -195,7 +195,7 @@ class LiftingCylinder:
         """Whether another held line has its other side, so that its pump drives it back, as is judged there."""
         return as_in(self.judge.plan, self.ram).side == "both" and self.ram.side != "both"
 
-    def show(self, pressure: Any) -> str:
+    def show(self, pressure: Array | float) -> str:
         """Return a pressure in the unit of the sentences."""
         return show(float(pressure), self.unit, 4)
 
@@ -225,7 +225,7 @@ class LiftingCylinder:
         weak = said("; too weak {where}", where=with_and(short)) if short else ""
         return Verdict("lifting", False, f"{says}{weak}{free}. {self.remedy(float(found.value))}", answer=found)
 
-    def parts(self, found: Answer, of_reserve: Any) -> tuple[Span, ...]:
+    def parts(self, found: Answer, of_reserve: Callable[[Array], Array]) -> tuple[Span, ...]:
         """Return the parts of the one way, where there is one, on which a function of the reserve is below zero, in the worst situation."""
         way, acting = self.judge.way, self.judge.situation(found)
         if way is None:

@@ -222,7 +222,7 @@ class LiftLine(Circuit):
             pipes = [line for line, _ in lines_of(ram, members) if isinstance(line, LiftLine)]
             drained = [line for line in pipes if line.kind_in(members) == "given" and line.is_drained]
             back = drained[0].written(written, "back_pressure") if drained else number("back_pressure")
-            against: Any = 0.0 if written.equals(back, 0.0) else back * other
+            against: Array | float = 0.0 if written.equals(back, 0.0) else back * other
             supply = np.minimum(number("pressure"), number("relief")) if self.relieves(written.plan) else number("pressure")
             force = written.line(f"F_{ram.name}", thrust_along(ram, thrust) / k_m, "kN")
             written.line(f"p_{ram.name}", (force + against) / (area * k_h), "bar")

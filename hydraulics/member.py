@@ -549,7 +549,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         if acting.direction not in (None, "extending"):
             return push
         motion = held_in_case(motion, acting)
-        share: Any = 1.0
+        share: Array | float = 1.0
         for each in circuits_among(motion.plan.members):
             share = np.minimum(share, each.efficiency_out(self, motion))
         return np.asarray(push / share)[()]

@@ -25,7 +25,7 @@ from linkage.checks import refuse, require_type
 from linkage.errors import DefinitionError, cited, unknown
 from linkage.frozen import FrozenDict, refuses_changes
 from linkage.language import said
-from linkage.loads import Acting, ActingKeywords, Declared, ForceElement, Parameter, Poses, Tie, situation_of, takes_situation
+from linkage.loads import Acting, ActingKeywords, Declared, ForceElement, Loads, Parameter, Poses, Tie, situation_of, takes_situation
 from linkage.loads.element import UNBOUNDED, Formulas
 from linkage.motion import Condition, Judge, Motion, Question, at, least, most
 from linkage.plan import require_kinds
@@ -51,6 +51,7 @@ from .member import (
     Circuit,
     OnLines,
     Ram,
+    Reading,
     Side,
     as_in,
     by_other_lines,
@@ -174,7 +175,7 @@ class OilLine(PumpLine, GasLine):
     )
 
     def __init__(
-        self, *on: OnLine, at: float | Mapping[str, float] | None = None, filled: str | Mapping[str, Any] | None = None,
+        self, *on: OnLine, at: float | Mapping[str, float] | None = None, filled: str | Mapping[str, object] | None = None,
         oil: Parameter = 0.0, make_up: Parameter = 0.0, charge_pressure: Parameter | None = None, seal_friction: Parameter = 0.0,
         exponent: Parameter = 1.0,
     ) -> None:  # fmt: skip
@@ -492,7 +493,7 @@ class OilLine(PumpLine, GasLine):
     # -- its pressure and its oil ------------------------------------------------------------------------------
 
     @takes_situation
-    def pressure(self, motion: Any, loads: Any = None, **situation: Unpack[ActingKeywords]) -> Array:
+    def pressure(self, motion: AnyMotion, loads: Loads = None, **situation: Unpack[ActingKeywords]) -> Array:
         """Return the pressure of the line, shape (...) [Pa gauge]: of a held one the greatest that one of its cylinders asks for.
 
         Of a closed one it is what keeps its oil where it is; where other lines leave it open, the least that balances, not below
@@ -501,7 +502,7 @@ class OilLine(PumpLine, GasLine):
         return self.line_pressure(motion, situation_of("pressure", loads=loads, **situation))
 
     @takes_situation
-    def intensified(self, motion: Any, loads: Any = None, **situation: Unpack[ActingKeywords]) -> Array:
+    def intensified(self, motion: AnyMotion, loads: Loads = None, **situation: Unpack[ActingKeywords]) -> Array:
         """Return the pressure in it, shape (...) [Pa gauge], in a load case that shuts it, while the pump of the other side gives all.
 
         The piston pushes with the pump's pressure, and the smaller annulus takes up what the load does not: it may be far above the
@@ -534,7 +535,7 @@ class OilLine(PumpLine, GasLine):
         now, then = (self.accumulators(each).fluid(self.line_pressure(each)) for each in (motion, filled))
         return found + now - then.reshape((*motion._design_shape, *(1,) * len(motion._stroke_shape)))
 
-    def length_charged(self, motion: Poses, ram: Ram) -> Any:
+    def length_charged(self, motion: Poses, ram: Ram) -> Array:
         length = self.length_filled(ram, motion.plan.members)
         return super().length_charged(motion, ram) if isinstance(length, AtPose) else motion.value(length)
 
@@ -597,7 +598,7 @@ class OilLine(PumpLine, GasLine):
     def reserve_of(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array | None:
         return PumpLine.reserve_of(self, cylinder, motion, acting) if self.kind_open(motion.plan.members) == "held" else None
 
-    def gauges_of(self, cylinder: Ram) -> Any:
+    def gauges_of(self, cylinder: Ram) -> dict[str, Reading]:
         return PumpLine.gauges_of(self, cylinder) if self.kind_of_line == "held" else {}
 
     def questions(self, judge: Judge) -> list[Question]:
@@ -697,7 +698,7 @@ def put_in_later(members: Mapping[str, Member]) -> tuple[str, ...]:
     return tuple(each.cut for each in lines if not isinstance(members.get(each.cut), Stroke))
 
 
-def on_line_text(each: Any) -> str:
+def on_line_text(each: object) -> str:
     """Return what lies on a line as it is written."""
     if isinstance(each, (Chamber, AccumulatorBlock)):
         return str(each)

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 from types import MappingProxyType
-from typing import Any, ClassVar, Unpack, cast, final
+from typing import ClassVar, Unpack, cast, final
 
 import numpy as np
 
@@ -19,7 +19,7 @@ from linkage.checks import refuse
 from linkage.errors import DefinitionError, cited, known_name, unknown
 from linkage.frozen import refuses_changes
 from linkage.language import said
-from linkage.loads import Acting, ActingKeywords, Case, Parameter, Poses, situation_of, takes_situation
+from linkage.loads import Acting, ActingKeywords, Case, Loads, Parameter, Poses, situation_of, takes_situation
 from linkage.motion import Condition, Judge, Question, at, most
 from linkage.plan import Plan
 from linkage.quantities import Member, Reference, label, name_of
@@ -72,7 +72,7 @@ class HoldingValve(LineValve):
     def __str__(self) -> str:
         return f"HoldingValve({', '.join([label(self.line), f'pilot={label(self.pilot)}', *self.words()])})"
 
-    def options(self) -> dict[str, Any]:
+    def options(self) -> dict[str, object]:
         return {}
 
     def parts(self) -> tuple[Reference, ...]:
@@ -116,7 +116,7 @@ class HoldingValve(LineValve):
     # -- while the load goes down --------------------------------------------------------------------------
 
     @takes_situation
-    def pilot_pressure(self, motion: Any, loads: Any = None, **situation: Unpack[ActingKeywords]) -> Array:
+    def pilot_pressure(self, motion: AnyMotion, loads: Loads = None, **situation: Unpack[ActingKeywords]) -> Array:
         """Return the pressure in the pilot line that lowers the load, shape (...) [Pa gauge]; 0 where the load opens the valve by itself.
 
         Lowering counts the declared friction of that direction, and the mechanical efficiency of the line's pump.
@@ -124,12 +124,12 @@ class HoldingValve(LineValve):
         return self.lowered(motion, situation_of("pilot_pressure", loads=loads, **situation))[1]
 
     @takes_situation
-    def line_pressure(self, motion: Any, loads: Any = None, **situation: Unpack[ActingKeywords]) -> Array:
+    def line_pressure(self, motion: AnyMotion, loads: Loads = None, **situation: Unpack[ActingKeywords]) -> Array:
         """Return the pressure in the line that it holds while the load is lowered, shape (...) [Pa gauge]."""
         return self.lowered(motion, situation_of("line_pressure", loads=loads, **situation))[0]
 
     @takes_situation
-    def load_pressure(self, motion: Any, loads: Any = None, **situation: Unpack[ActingKeywords]) -> Array:
+    def load_pressure(self, motion: AnyMotion, loads: Loads = None, **situation: Unpack[ActingKeywords]) -> Array:
         """Return what the load alone makes in the line at rest, shape (...) [Pa gauge]; 0 where it drives the other way."""
         return self.loaded(motion, situation_of("load_pressure", loads=loads, **situation))
 
@@ -220,7 +220,7 @@ class HoldingValve(LineValve):
             text = said("the load presses nowhere on the side of {line}: the valve holds nothing.", line=line.name)
             return Verdict("setting", True, text, answer=found)
         pressure, share = show(found.value, "bar", 4), setting / float(found.value)
-        by: dict[str, Any] = {"setting": show(setting, "bar", 4), "share": share}
+        by: dict[str, object] = {"setting": show(setting, "bar", 4), "share": share}
         by["says"] = said("the load makes up to {pressure} in {line}, {where}", pressure=pressure, line=line.name, where=found.place)
         by["advised"] = show(USUAL_SETTING * float(found.value), "bar", 4)
         text = said("{says}; the setting of {setting} is {share:.2f} times that.", **by)

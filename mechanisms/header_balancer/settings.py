@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
@@ -45,26 +46,15 @@ def setting_table(wanted: Sequence[float], changes: Mapping[str, Any] | None = N
         machine = with_header(number, **changed)
         motion = machine.at(h=0.0)
         limit = largest_charge(motion, way)
-        charges = np.array([_charge(motion, force) for force in forces])
-        least = np.array([np.nan if np.isnan(charge) else _least(machine, charge) for charge in charges])
+        charges, least = np.full(forces.shape, np.nan), np.full(forces.shape, np.nan)
+        for place, force in enumerate(forces):
+            with suppress(DefinitionError):  # not so much reaction; then, a rigid block or too weak a pump
+                charges[place] = charge_for(motion, force)
+                down = HeaderState(over_following(machine.replaced(charge=charges[place]).at(h=0.0))).down
+                least[place] = float(np.min(down))
         columns += [
             Column(f"{noted('charge')} {number}", charges, "kgf/cm2", 2),
             Column(f"{noted('least')} {number}", least, "kgf", 0),
             Column(f"{noted('safe')} {number}", np.where(np.isnan(least), np.nan, charges <= limit), "", 0),
         ]
     return columns
-
-
-def _charge(motion: Any, force: float) -> float:
-    try:
-        return charge_for(motion, force)
-    except DefinitionError:
-        return float("nan")
-
-
-def _least(machine: HeaderBalancer, charge: float) -> float:
-    """Return the least reaction moving down [N] at a charge [Pa]; NaN where the block is rigid at it or the pump too weak."""
-    try:
-        return float(np.min(HeaderState(over_following(machine.replaced(charge=charge).at(h=0.0))).down))
-    except DefinitionError:
-        return float("nan")

@@ -22,7 +22,7 @@ from linkage.errors import DefinitionError, cited
 from linkage.units import inch, mm, shown_in, shown_number
 
 from .cylinder import INCH, chosen_series, series_of
-from .inputs import all_finite, in_metres, not_negative, one_number, positive, stroke_in_metres
+from .inputs import all_finite, in_metres, not_negative, positive, stroke_in_metres
 
 # Basic series of piston strokes, mm.
 #
@@ -74,8 +74,13 @@ def catalogue(
     what a cylinder is longer between its pins, drawn in, than its stroke: a length [m], or (length, factor) for length + factor x bore.
     DefinitionError if no row is left, for numbers that are not above zero, or that were given in millimetres.
     """
-    constant, factor = dead_length(dead)
-    rows = []
+    parts, rows = all_finite(dead, "Dead length"), []
+    if parts.shape not in ((), (2,)):
+        raise DefinitionError(f"Dead length = {cited(dead)}: give a length [m], or (length, factor of the bore) such as (0.12, 1.5).")
+    constant, factor = (float(parts), 0.0) if parts.ndim == 0 else map(float, parts)
+    in_metres(not_negative(constant, "Dead length"), "Dead length")
+    in_metres(not_negative(factor, "Factor of the bore"), "Factor of the bore", 100.0)
+    positive(constant + factor, "Dead length")
     standard = chosen_series()
     asked = ((bores, standard.bores, "Bore"), (rods, standard.rods, "Rod"), (strokes, standard_strokes(), "Stroke"))
     sizes = [series_values(*each) for each in asked]
@@ -99,15 +104,3 @@ def series_values(given: Sequence[float] | None, standard: Sequence[float], what
     refuse(sizes.ndim != 1, f"{what} = {cited(given)}: a list is expected, such as [{standard[-4] / mm:.6g} * mm].")
     in_metres(sizes, what) if what != "Stroke" else stroke_in_metres(sizes, what)
     return sorted({float(each) for each in sizes})
-
-
-def dead_length(given: float | tuple[float, float]) -> tuple[float, float]:
-    """Return a dead length's constant [m] and its factor of the bore; DefinitionError where it is not above zero."""
-    parts = all_finite(given, "Dead length")
-    if parts.shape not in ((), (2,)):
-        raise DefinitionError(f"Dead length = {cited(given)}: give a length [m], or (length, factor of the bore) such as (0.12, 1.5).")
-    constant, factor = (one_number(given, "Dead length"), 0.0) if parts.ndim == 0 else map(float, parts)
-    in_metres(not_negative(constant, "Dead length"), "Dead length")
-    in_metres(not_negative(factor, "Factor of the bore"), "Factor of the bore", 100.0)
-    positive(constant + factor, "Dead length")
-    return constant, factor

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from argparse import ArgumentParser, Namespace
-from collections.abc import Iterator
 from typing import final
 
 import numpy as np
@@ -58,8 +57,14 @@ class CapacityCommand(Command):
         machine = design(find(options.machine), options.settings)
         ram = cylinder_of(machine, options.cylinder)
         circuit, point = circuit_of(machine, ram, options), point_of(machine, options.at_point)
-        along, share = along_of(options.along), options.share
+        share = options.share
         proper_share(share)
+        try:
+            x, y = (float(each) for each in options.along.split(","))
+        except ValueError:
+            raise DefinitionError(f"--along {options.along}: two numbers are expected, x and y, such as 0,1 for upwards.") from None
+        along = x, y
+        unit = pull_direction(along, "--")
         case = None if options.case is None else known_name("Load case", options.case, machine.plan.of_kind(LoadCase), machine.plan.title)
         over = motion_at(machine, options)
 
@@ -68,13 +73,16 @@ class CapacityCommand(Command):
             return circuit.lifted(motion, point, along=along, share=share, cylinder=ram, case=case)
 
         whole = over.moved(over.strokes)
-        columns = [*strokes_and_point(over, point), *ram.columns_in(whole, case), Column(FURTHER, capacity(whole), "kN", 3)]
+        places = (*over.strokes, f"{point}_x", f"{point}_y")
+        shown = [each for each in columns_of(over) if each.name in places]
+        columns = [*shown, *ram.columns_in(whole, case), Column(FURTHER, capacity(whole), "kN", 3)]
         if options.csv != "-":
-            way = f"along ({along[0]:g}, {along[1]:g}){at_pressure(circuit, over, share)}"
+            supply = show(float(np.ravel(circuit.supply(over))[0]), "bar", 4)
+            way = f"along ({x:g}, {y:g}) at {f'{share:g} of ' if share != 1.0 else ''}{supply}"
             print(f"{machine.plan.title}: {ram.name} lifts at {point} {way}, beside the machine's own loads. Pressures are gauge.\n")
         write_table(columns, over.reached.size, options.csv)
         judge = machine.judge(judged_over(machine, options), Acting(case=case))
-        asked = capacity_request(ram, Acting(), circuit, point, pull_direction(along), share)
+        asked = capacity_request(ram, Acting(), circuit, point, unit, share)
         return print_verdicts([capacity_verdict(judge, asked, point), *line_verdicts(circuit, judge), *ram.verdicts(judge)], options)
 
 
@@ -120,28 +128,6 @@ def point_of(machine: Mechanism, name: str | None) -> str:
         return next(iter(points))
     said = f"its loads act at {', '.join(points)}" if points else "it declares no load"
     raise DefinitionError(f"{plan.title}: {said}; say where the load hangs, --at-point {next(iter(points), plan.moving[-1])}.")
-
-
-def along_of(text: str) -> tuple[float, float]:
-    """Return a direction; DefinitionError for anything else."""
-    parts = text.split(",")
-    try:
-        x, y = (float(each) for each in parts)
-    except ValueError:
-        raise DefinitionError(f"--along {text}: two numbers are expected, x and y, such as 0,1 for upwards.") from None
-    pull_direction((x, y), "--")
-    return x, y
-
-
-def strokes_and_point(motion: Motion, point: str) -> Iterator[Column]:
-    """Yield the strokes, and where the load hangs."""
-    yield from (column for column in columns_of(motion) if column.name in (*motion.strokes, f"{point}_x", f"{point}_y"))
-
-
-def at_pressure(circuit: LiftCircuit, motion: Motion, share: float) -> str:
-    """Return at which pressure it lifts, in words."""
-    supply = show(float(np.ravel(circuit.supply(motion))[0]), "bar", 4)
-    return f" at {share:g} of {supply}" if share != 1.0 else f" at {supply}"
 
 
 def capacity_verdict(judge: Judge, asked: LawRequest, point: str) -> Verdict:

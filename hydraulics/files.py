@@ -25,20 +25,6 @@ LAWS: Mapping[str, tuple[Callable[..., Gas], tuple[str, ...]]] = {
 EXAMPLE = '"isothermal" or { law = "polytropic", n = 1.2 }'
 
 
-def gas_of(given: object, number: Callable[[object], float]) -> Gas:
-    """Return the gas law that a word or a table says; `number` reads a number of it."""
-    table = {"law": given} if isinstance(given, str) else given
-    require(isinstance(table, Mapping) and isinstance(table.get("law"), str), "", given, f"is no gas law; write {EXAMPLE}")
-    name = table["law"]
-    known_name("Gas law", name, LAWS)
-    make, keys = LAWS[name]
-    for key in table:
-        if key not in ("law", *keys):
-            raise unknown(f"Key of {name}", key, keys)
-    refuse("n" in keys and "n" not in table, f"the exponent n of {name} is missing; write {EXAMPLE}.")
-    return make(**{key: number(table[key]) for key in keys if key in table})
-
-
 @singledispatch
 def written_gas(gas: Gas) -> object:
     """Return a gas law as a file holds it; DefinitionError for one that it cannot."""
@@ -72,8 +58,21 @@ def gas_number(value: object) -> object:
 class GasLaw:
     """A gas law in a file: how it is read, and how it is written."""
 
-    read = staticmethod(gas_of)
     write = staticmethod(written_gas)
+
+    @staticmethod
+    def read(given: object, number: Callable[[object], float]) -> Gas:
+        """Return the gas law that a word or a table says; `number` reads a number of it."""
+        table = {"law": given} if isinstance(given, str) else given
+        require(isinstance(table, Mapping) and isinstance(table.get("law"), str), "", given, f"is no gas law; write {EXAMPLE}")
+        name = table["law"]
+        known_name("Gas law", name, LAWS)
+        make, keys = LAWS[name]
+        for key in table:
+            if key not in ("law", *keys):
+                raise unknown(f"Key of {name}", key, keys)
+        refuse("n" in keys and "n" not in table, f"the exponent n of {name} is missing; write {EXAMPLE}.")
+        return make(**{key: number(table[key]) for key in keys if key in table})
 
 
 @final

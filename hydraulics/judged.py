@@ -42,12 +42,16 @@ def lift_verdicts(
     sentences. Of several strokes, `at(S1=..., S2=...)` with arrays of one axis, it is judged along the path, of a grid over the box.
     """
     given = situation_of("lift_verdicts", acting, loads=loads, case=case)
-    circuit = the_circuit(circuit, motion)
+    require_motion(motion)
+    circuits = motion.plan.of_kind(LiftLine)
+    line = circuits.get(circuit) if isinstance(circuit, str) else circuit
+    if not isinstance(line, LiftLine):
+        raise unknown("LiftCircuit", str(circuit), circuits, where=motion.plan.title)
     not_negative(one_number(resistance, "Return resistance"), "Return resistance")
     known_name("Unit", unit, UNITS, where="lift_verdicts(unit=...)")
     judge = judge_of(motion, "A lift", given)
     refuse(not motion.reached.any(), f"{motion.plan.title}: no pose of this motion can be assembled, so that there is nothing to judge.")
-    return line_verdicts(circuit, judge, resistance, unit)
+    return line_verdicts(line, judge, resistance, unit)
 
 
 def line_verdicts(circuit: LiftLine, judge: Judge, resistance: float = 0.0, unit: str = "bar") -> list[Verdict]:
@@ -95,16 +99,6 @@ def is_valved(circuit: LiftLine, judge: Judge) -> bool:
     return any(each.holds_line(circuit) for each in judge.plan.of_kind(LineValve).values())
 
 
-def the_circuit(circuit: LiftLine | str, motion: Motion) -> LiftLine:
-    """Return the circuit that is meant, by its name in the class too; DefinitionError for anything else."""
-    require_motion(motion)
-    circuits = motion.plan.of_kind(LiftLine)
-    found = circuits.get(circuit) if isinstance(circuit, str) else circuit
-    if not isinstance(found, LiftLine):
-        raise unknown("LiftCircuit", str(circuit), circuits, where=motion.plan.title)
-    return found
-
-
 def with_name(verdict: Verdict, ram: Ram, several: bool) -> Verdict:
     """Return a verdict that names its cylinder, where there are several."""
     return verdict.named(ram.name or str(ram)) if several else verdict
@@ -125,7 +119,7 @@ def idle(cylinders: Sequence[LiftingCylinder]) -> Verdict | None:
             ram=ram.name or ram, line=line,
         )  # fmt: skip
         return Verdict("lifting", False, text)
-    if any(each.carries for each in cylinders):
+    if any(answer.value != 0.0 for each in cylinders for answer in each.judge.answers(each.thrusts)):
         return None
     acting = [name for name, each in elements if not each.holds and not each.joined(members)]
     if not acting:
@@ -145,11 +139,6 @@ class LiftingCylinder:
 
     def __init__(self, judge: Judge, circuit: LiftLine, ram: Ram, unit: str = "bar") -> None:
         self.judge, self.circuit, self.ram, self.unit = judge, circuit, ram, unit
-
-    @property
-    def carries(self) -> bool:
-        """Whether the cylinder carries anything anywhere."""
-        return any(each.value != 0.0 for each in self.judge.answers(self.thrusts))
 
     @property
     def thrusts(self) -> list[Question]:

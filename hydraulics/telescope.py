@@ -177,10 +177,8 @@ class Telescope(Ram):
     def ends_of_stages(self, motion: Poses) -> list[Array]:
         """Return its closed length and the lengths at which its stages are out [m], one after another; they broadcast."""
         names = ("closed", *(f"stroke_{stage}" for stage in range(1, self.stages + 1)))
-        return list(accumulate(self._length_set(motion, name) for name in names))
-
-    def _length_set(self, motion: Poses, name: str) -> Array:
-        return positive(stroke_in_metres(number_set(self, motion, name), self._called(name)), self._called(name))
+        given = ((number_set(self, motion, name), self._called(name)) for name in names)
+        return list(accumulate(positive(stroke_in_metres(value, what), what) for value, what in given))
 
     def stage(self, motion: Poses, direction: str | None = None) -> Array:
         """Return the number of the stage that moves at each pose, 1 for the outermost, shape (...).

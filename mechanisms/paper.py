@@ -42,7 +42,7 @@ def duty_set(duty: type[Duty], options: Namespace, example: str, kinds: Mapping[
     return duty(**given)
 
 
-def drawn(figures: Mapping[str, Callable[[Machine], Figure]], name: str, machine: Machine) -> Figure:
+def named_figure(figures: Mapping[str, Callable[[Machine], Figure]], name: str, machine: Machine) -> Figure:
     """Return a figure of a machine by its name; DefinitionError for an unknown name, a batch of designs."""
     known_name("Figure", name, figures)
     require_one_design(machine.dimensions, f"{machine.plan.title}: a figure shows one design")

@@ -16,7 +16,7 @@ from linkage.pictures import style
 from linkage.pictures.sheet import panels
 from linkage.units import deg, kN
 
-from ..paper import drawn
+from ..paper import named_figure
 from .arm_drive import DrivenArm
 from .boom_drive import BoomDrive
 from .drive_report import Movement, WorstMovement, angle_of, worst_movements
@@ -26,7 +26,7 @@ COUNT = 361
 
 def drive_figure(name: str, drive: BoomDrive | DrivenArm) -> Figure:
     """Return a figure of a drive, "moments" or "positions"; DefinitionError for an unknown name, a batch of designs."""
-    return drawn(DRAWN, name, drive)
+    return named_figure(DRAWN, name, drive)
 
 
 # -- moments -----------------------------------------------------------------------------------------------

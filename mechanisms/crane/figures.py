@@ -16,7 +16,7 @@ from linkage.pictures import style
 from linkage.pictures.sheet import panels, sheet
 from linkage.units import kN
 
-from ..paper import drawn
+from ..paper import named_figure
 from .drive_figures import drive_figure as drive_figure
 from .drive_figures import one_movement
 from .drive_report import worst_movements
@@ -35,7 +35,7 @@ def crane_figure(name: str, crane: Crane | None = None) -> Figure:
     "positions" are those that its skeleton is laid out by, "moments" what boom and arm are given and asked for, "map" the load map,
     "reach" all that the tip reaches.
     """
-    return drawn(DRAWN, name, crane if crane is not None else Crane())
+    return named_figure(DRAWN, name, crane if crane is not None else Crane())
 
 
 # -- positions ---------------------------------------------------------------------------------------------

@@ -21,7 +21,7 @@ from linkage.pictures.sheet import panels
 from linkage.program import FloatArray
 from linkage.units import deg, mm
 
-from ..paper import drawn
+from ..paper import named_figure
 from .machine import Grapple
 from .report import GrappleState, gripping, moment_ratio, require_placed, travelling
 
@@ -35,7 +35,7 @@ THICK = 0.055
 
 def figure(name: str, grapple: Grapple | None = None) -> Figure:
     """Return a figure of a grapple, by default the shipped one, as a matplotlib figure; DefinitionError for an unknown name, a batch."""
-    return drawn(DRAWN, name, grapple if grapple is not None else Grapple())
+    return named_figure(DRAWN, name, grapple if grapple is not None else Grapple())
 
 
 # -- three positions with the rosette of stems -------------------------------------------------------------

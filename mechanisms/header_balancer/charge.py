@@ -9,7 +9,7 @@ from typing import final
 
 import numpy as np
 
-from hydraulics import AccumulatorBlock, adiabatic, isothermal
+from hydraulics import adiabatic, isothermal
 from hydraulics.gas import Gas
 from linkage import DefinitionError, Motion, least
 from linkage.checks import refuse, require_number
@@ -90,10 +90,17 @@ def largest_charge(motion: Motion, way: Way = SLOW) -> float:
 def charge_limits(motion: Motion, way: Way) -> FloatArray:
     """Return the charge pressure [Pa] at which the shoe just carries nothing at each pose, moving down, shape (n,)."""
     balance = HeaderState(motion)
-    block, left = block_in(motion, way), balance.circuit.withdrawn(motion)
+    block, left = balance.circuit.accumulators(motion), balance.circuit.withdrawn(motion)
+    block = replace(block, gas=way.gas, atmosphere=block.atmosphere if way.atmosphere is None else way.atmosphere)
     allowed = balance.required_while("retracting")
     lowest = float(np.min(block.lowest_charge))
-    refuse_light(motion, allowed, left, lowest)
+    light = (allowed < lowest) & (left <= 0.0)
+    if np.any(light):  # the accumulators hold more than the weights need: the shoe hangs at every charge
+        where = int(np.argmax(light))
+        raise DefinitionError(
+            f"The header is too light for these accumulators: at h = {motion.strokes['h'][where] / mm:.1f} mm the shoe lifts off from "
+            f"{allowed[where] / kgf_cm2:.2f} kgf/cm2 on, and the lowest gas charge is {lowest / kgf_cm2:.2f} kgf/cm2. Lower the gas charge."
+        )
     held = np.maximum(allowed, lowest)
     slow = np.where(allowed < lowest, block.pressure_holding(np.maximum(left, 0.0)), block.pressure(held, -left))
     if way.exponent is None:
@@ -104,20 +111,3 @@ def charge_limits(motion: Motion, way: Way) -> FloatArray:
 
     last, beyond = last_holding(falls_short, np.full_like(slow, lowest), 4.0 * slow, close=1e-6)
     return 0.5 * (last + beyond)
-
-
-def block_in(motion: Motion, way: Way) -> AccumulatorBlock:
-    """Return the machine's accumulators under a way's gas law and atmosphere."""
-    block = HeaderState(motion).circuit.accumulators(motion)
-    return replace(block, gas=way.gas, atmosphere=block.atmosphere if way.atmosphere is None else way.atmosphere)
-
-
-def refuse_light(motion: Motion, allowed: FloatArray, left: FloatArray, lowest: float) -> None:
-    """Raise DefinitionError where the shoe hangs at every charge: the accumulators hold more than the weights need."""
-    light = (allowed < lowest) & (left <= 0.0)
-    if np.any(light):
-        where = int(np.argmax(light))
-        raise DefinitionError(
-            f"The header is too light for these accumulators: at h = {motion.strokes['h'][where] / mm:.1f} mm the shoe lifts off from "
-            f"{allowed[where] / kgf_cm2:.2f} kgf/cm2 on, and the lowest gas charge is {lowest / kgf_cm2:.2f} kgf/cm2. Lower the gas charge."
-        )

@@ -29,7 +29,9 @@ def criteria(motion: Motion) -> list[Verdict]:
     """Return the verdicts on the five criteria and on the relief valve, and the paper's conclusions; the motion says which design."""
     fine = over_following(motion)
     balance = HeaderState(fine)
-    judged = [rises(balance), *hangs_up(fine), hysteresis(balance), matching(balance), reserve(balance), valve(motion)]
+    ways = SLOW, FAST, PAPER if motion.inputs["atmosphere"] else NORMAL  # slow with the gas law the other way, too
+    following = [rises(balance), *(hang_up(fine, way) for way in ways)]
+    judged = [*following, hysteresis(balance), matching(balance), reserve(balance), valve(motion)]
     return [*judged, vessels(balance), exchange(motion)]
 
 
@@ -49,12 +51,6 @@ def rises(balance: HeaderState) -> Verdict:
         says=says, at=show(at, "mm", "+.0f"), ways=with_and(way for way, _ in wrong),
     )  # fmt: skip
     return Verdict("1 reaction follows", False, text)
-
-
-def hangs_up(motion: Motion) -> list[Verdict]:
-    """Return criterion 2: no hang-up, slow and fast, and slow with the gas law the other way: without or with the atmosphere."""
-    other = PAPER if motion.inputs["atmosphere"] else NORMAL
-    return [hang_up(motion, way) for way in (SLOW, FAST, other)]
 
 
 def hang_up(motion: Motion, way: Way) -> Verdict:

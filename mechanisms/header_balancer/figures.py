@@ -63,7 +63,9 @@ def figure(number: int | str, machine: HeaderBalancer | None = None, measured: S
             _as_it_stands(ax, name)
         if part.is_reaction:
             _hanging(ax)
-        _finished(ax)
+        along = np.concatenate([x for x in (np.asarray(line.get_xdata(), float) for line in ax.get_lines()) if len(x) > 2])
+        ax.set_xlim(float(along.min()), float(along.max()))
+        ax.legend(loc="best", fontsize=style.SMALL, facecolor=style.PAPER, edgecolor="none", framealpha=0.85, labelcolor=style.INK)
     return sheet
 
 
@@ -231,15 +233,11 @@ def _charges(ax: Axes, balance: HeaderState) -> None:
         works = below_zero(motion, lambda at, gas=gas: gas - HeaderState(at).pressure)  # type: ignore[misc]
         if works and works[-1].end["h"] < motion.strokes["h"][-1]:
             height = float(motion.moved({"h": np.array([works[-1].end["h"]])}).y("R")[0]) / mm
-            _kink(ax, height, gas / kgf_cm2)
-
-
-def _kink(ax: Axes, height: float, pressure: float) -> None:
-    ax.plot(height, pressure, "o", color=style.CURVE, markersize=7, markeredgecolor=style.PAPER, zorder=8.0)
-    ax.annotate(
-        "the pair joins: a kink", (height, pressure), xytext=(-10, -22), textcoords="offset points", ha="right",
-        fontsize=style.SMALL, color=style.CURVE, arrowprops={"arrowstyle": "-", "color": style.CURVE, "linewidth": 0.8},
-    )  # fmt: skip
+            ax.plot(height, gas / kgf_cm2, "o", color=style.CURVE, markersize=7, markeredgecolor=style.PAPER, zorder=8.0)
+            ax.annotate(
+                "the pair joins: a kink", (height, gas / kgf_cm2), xytext=(-10, -22), textcoords="offset points", ha="right",
+                fontsize=style.SMALL, color=style.CURVE, arrowprops={"arrowstyle": "-", "color": style.CURVE, "linewidth": 0.8},
+            )  # fmt: skip
 
 
 # -- the sheet ---------------------------------------------------------------------------------------------
@@ -297,10 +295,3 @@ def _hanging(ax: Axes) -> None:
         "the shoe hangs", (1.0, 0.0), xycoords=("axes fraction", "data"), xytext=(-4, -3), textcoords="offset points",
         ha="right", va="top", fontsize=style.SMALL, color=style.ACCENT,
     )  # fmt: skip
-
-
-def _finished(ax: Axes) -> None:
-    lines = [np.asarray(line.get_xdata(), float) for line in ax.get_lines()]
-    along = np.concatenate([each for each in lines if len(each) > 2])
-    ax.set_xlim(float(along.min()), float(along.max()))
-    ax.legend(loc="best", fontsize=style.SMALL, facecolor=style.PAPER, edgecolor="none", framealpha=0.85, labelcolor=style.INK)

@@ -14,9 +14,9 @@ from linkage.checks import refuse, require_number, require_whole
 from linkage.language import noted
 from linkage.loads import SENSES, PinFriction, Support
 from linkage.loads.element import Formulas
-from linkage.motion import Judge, Request, require_motion
+from linkage.motion import Judge, require_motion
 from linkage.program import FloatArray
-from linkage.quantities import Coordinate, Distance, Quantity
+from linkage.quantities import Coordinate, Distance
 from linkage.statics import driving_force, reaction
 from linkage.units import mm, show
 
@@ -228,30 +228,21 @@ class HeaderState:
         return [name for name in dry_frictions(self.motion) if name != BEARING]
 
 
-def asked_arm() -> Quantity:
-    """Return the arm H of the cylinder's force about O as something to ask for [m]. (34)"""
-    OBx, OBy, ABx, ABy = (Coordinate("B", axis) - Coordinate(name, axis) for name in "OA" for axis in "xy")
-    return (OBx * ABy - OBy * ABx) / AB
-
-
-def asked_reaction(motion: Motion) -> Request:
-    """Return the reaction without friction as something to ask for [N]: the other loads' need on the stroke over the shoe's way."""
-    found: Request = drive_force("h", own_loads(motion, SHOE)) / ratio(Coordinate("R", "y"))
-    return found
-
-
 def reaction_columns(motion: Motion) -> list[Column]:
     """Return the table of a motion in the paper's units."""
     balance, shoes = HeaderState(motion), motion.inputs["shoes"]
+    OBx, OBy, ABx, ABy = (Coordinate("B", axis) - Coordinate(name, axis) for name in "OA" for axis in "xy")
+    arm = (OBx * ABy - OBy * ABx) / AB  # H (34)
+    free = drive_force("h", own_loads(motion, SHOE)) / ratio(Coordinate("R", "y"))  # the other loads' need over the shoe's way
     return [
         Column("h", motion.strokes["h"], "mm", 1, "h"),
         Column("R_y", balance.height, "mm", 1, Coordinate("R", "y")),
-        Column("H", balance.arm, "mm", 2, asked_arm()),
+        Column("H", balance.arm, "mm", 2, arm),
         Column("P", balance.pressure, "kgf/cm2", 2, pressure("lift")),
         Column("P_req", balance.required, "kgf/cm2", 2),
         Column(noted("F_R up"), balance.up, "kgf", 1),
         Column(noted("F_R down"), balance.down, "kgf", 1),
-        Column(noted("F_R free"), balance.free, "kgf", 1, asked_reaction(motion)),
+        Column(noted("F_R free"), balance.free, "kgf", 1, free),
         Column(noted("per shoe up"), balance.up / shoes, "kgf", 1),
         Column(noted("per shoe down"), balance.down / shoes, "kgf", 1),
         Column(noted("hysteresis"), balance.hysteresis, "kgf", 1),

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import partial
 
 import numpy as np
 
@@ -60,15 +59,12 @@ def capacity(motion: Motion, point: str = "G", share: float = 1.0) -> FloatArray
 
 def lifted(point: str = "G", share: float = 1.0) -> LawRequest:
     """Return the request for the lifting capacity (28) [N] at a point and a share of the pump's pressure."""
-    return LawRequest(
-        formula=partial(capacity_beside_own, point, share), text="the lifting capacity", known=("lifted", point, share), measures="force",
-        examine=lifting_circuit,
-    )  # fmt: skip
 
+    def formula(motion: AnyMotion) -> FloatArray:
+        return lifting_circuit(motion.plan).lifted(motion, point, own_loads(motion), share=share)
 
-def capacity_beside_own(point: str, share: float, motion: AnyMotion) -> FloatArray:
-    """Return the lifting capacity over a motion's poses [N], beside the hitch's own loads."""
-    return lifting_circuit(motion.plan).lifted(motion, point, own_loads(motion), share=share)
+    known = "lifted", point, share
+    return LawRequest(formula=formula, text="the lifting capacity", known=known, measures="force", examine=lifting_circuit)
 
 
 def lifting_circuit(plan: Plan) -> LiftCircuit:
@@ -116,11 +112,6 @@ def stroke_per_newton(motion: Motion) -> FloatArray:
     spare = most - lift.thrust(motion, own_loads(motion), direction="extending")
     with np.errstate(divide="ignore"):
         return np.asarray(lift.thrust(motion, [Force("G", (0.0, -1.0))]) / np.maximum(spare, 0.0))
-
-
-def stroke_per_newton_either_way(motion: Motion) -> FloatArray:
-    """Return the size of one over the capacity at G [1/N], shape (...)."""
-    return np.abs(stroke_per_newton(motion))
 
 
 def from_stroke_per_newton(value: FloatArray) -> FloatArray:
@@ -171,7 +162,8 @@ class Weakest:
 def weakest(motion: Motion) -> Weakest | None:
     """Return the weakest point over a motion of one design; None where the cylinder limits nothing."""
     judge = Judge(motion.plan, motion.designs, [motion])
-    worst, easiest = judge.answers([most(MotionFunction(stroke_per_newton)), least(MotionFunction(stroke_per_newton_either_way))])
+    either_way = MotionFunction(lambda each: np.abs(stroke_per_newton(each)))
+    worst, easiest = judge.answers([most(MotionFunction(stroke_per_newton)), least(either_way)])
     if not worst.value > 0.0:
         return None
     S = float(worst.strokes["S"])

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -19,10 +18,9 @@ from linkage.pictures import style
 from linkage.pictures.sheet import panels
 from linkage.program import FloatArray
 from linkage.reports import closely
-from linkage.study import Zone
 from linkage.units import deg, g0, kN, mm
 
-from ..paper import drawn
+from ..paper import named_figure
 from .capacity import at_hitch_points, behind, capacity, weakest
 from .machine import ThreePointHitch
 from .tractor import largest_mass, tipping_mass
@@ -33,7 +31,7 @@ COUNT = 101
 
 def figure(name: str, hitch: ThreePointHitch | None = None) -> Figure:
     """Return a figure of a hitch, by default the shipped one, as a matplotlib figure; DefinitionError for an unknown name, a batch."""
-    return drawn(DRAWN, name, hitch if hitch is not None else ThreePointHitch())
+    return named_figure(DRAWN, name, hitch if hitch is not None else ThreePointHitch())
 
 
 # -- figure 2 ----------------------------------------------------------------------------------------------
@@ -48,29 +46,21 @@ def zones(hitch: ThreePointHitch) -> Figure:
     for place, hole in enumerate(holes):
         text = f"hole M{place + 1} at ({hole[0] / mm:.0f}, {hole[1] / mm:.0f}) mm"
         for ax, band, unit in ((left, capacity_zone, kN), (right, tilt_zone, deg)):
-            _band(ax, band(hitch, {**over, "M": [hole]}, S=motion.strokes["S"]), unit, place, text)
+            found, colour = band(hitch, {**over, "M": [hole]}, S=motion.strokes["S"]), (style.CURVE, style.ACCENT, *style.BODIES)[place % 8]
+            S, low, high = found.strokes["S"] / mm, found.low / unit, found.high / unit
+            ax.fill_between(S, low, high, color=colour, alpha=0.22, linewidth=0, zorder=3.0 + place, label=text)
+            for edge in (low, high):
+                ax.plot(S, edge, color=colour, linewidth=1.3, zorder=4.0 + place)
     set_to = ", ".join(f"{name} {hitch[name] / mm:.0f}" for name, value in over.items() if isinstance(value, tuple))
     _curve(left, motion.strokes["S"] / mm, capacity(motion) / kN, "INK", f"set to {set_to} mm")
     _curve(right, motion.strokes["S"] / mm, motion["tilt"] / deg, "INK", f"set to {set_to} mm")
     _named(left, "Lifting capacity", "stroke S, mm", "capacity at G, kN")
     _named(right, "Tilt of the upright", "stroke S, mm", "tilt, deg; + leans towards the tractor")
-    sheet.text(0.012, 0.012, _settings_words(over), fontsize=style.SMALL, color=style.MUTED, ha="left")
+    ranges = [f"{name} {value[0] / mm:.0f} to {value[1] / mm:.0f}" for name, value in over.items() if isinstance(value, tuple)]
+    words = f"settings, mm: {', '.join(ranges)}; extremes over the whole box, not only its corners"
+    sheet.text(0.012, 0.012, words, fontsize=style.SMALL, color=style.MUTED, ha="left")
     right.axhline(0.0, color=style.MUTED, linewidth=0.8, zorder=2.0)
     return sheet
-
-
-def _band(ax: Axes, zone: Zone, unit: float, place: int, text: str) -> None:
-    colour = (style.CURVE, style.ACCENT, *style.BODIES)[place % 8]
-    S = zone.strokes["S"] / mm
-    ax.fill_between(S, zone.low / unit, zone.high / unit, color=colour, alpha=0.22, linewidth=0, zorder=3.0 + place, label=text)
-    for edge in (zone.low, zone.high):
-        ax.plot(S, edge / unit, color=colour, linewidth=1.3, zorder=4.0 + place)
-
-
-def _settings_words(over: Any) -> str:
-    """Return the ranges of the settings in words."""
-    ranges = [f"{name} {value[0] / mm:.0f} to {value[1] / mm:.0f}" for name, value in over.items() if isinstance(value, tuple)]
-    return f"settings, mm: {', '.join(ranges)}; extremes over the whole box, not only its corners"
 
 
 # -- the capacity curve ------------------------------------------------------------------------------------

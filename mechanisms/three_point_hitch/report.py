@@ -42,20 +42,13 @@ def rules(hitch: Mechanism, motion: Motion) -> list[Verdict]:
         return []
     if motion._design_shape:
         return [batch_verdict(motion)]
-    judge = Judge(motion.plan, motion.designs, [motion])
+    judge, worst = Judge(motion.plan, motion.designs, [motion]), weakest(motion)
+    says = said("the ratio is not above zero anywhere: the load is not limited by this cylinder.") if worst is None else worst.sentence
+    found = Verdict("capacity", worst is None or worst.capacity >= float(motion.inputs["load.mass"]) * g0, says)
     return [
-        weakest_verdict(motion), limit_verdict(judge), test_verdict(judge), upper_link_verdict(judge, motion), balance_verdict(judge),
+        found, limit_verdict(judge), test_verdict(judge), upper_link_verdict(judge, motion), balance_verdict(judge),
         mast_verdict(judge, hitch, motion),
     ]  # fmt: skip
-
-
-def weakest_verdict(motion: Motion) -> Verdict:
-    """Return the weakest point with what limits it, against the implement's weight."""
-    found = weakest(motion)
-    if found is None:
-        return Verdict("capacity", True, said("the ratio is not above zero anywhere: the load is not limited by this cylinder."))
-    weight = float(motion.inputs["load.mass"]) * g0
-    return Verdict("capacity", found.capacity >= weight, found.sentence)
 
 
 def limit_verdict(judge: Judge) -> Verdict:

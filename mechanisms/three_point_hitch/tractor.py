@@ -41,19 +41,17 @@ def added(motion: Motion) -> tuple[FloatArray, FloatArray, FloatArray]:
     Positive where it lifts the front axle. Masses turn with the slope, other forces stay. What acts between two points of the machine
     has none.
     """
-    level, wall, upside = (added_at(motion, slope) for slope in (0.0, np.pi / 2.0, np.pi))
+    elements, totals = motion.plan.of_kind(ForceElement), []
+    for slope in (0.0, np.pi / 2.0, np.pi):
+        total = np.zeros(motion.shape)
+        for name in own_loads(motion):
+            for load in elements[name].in_gravity(None, slope).loads(motion):
+                r, force = motion[load.point], load.force
+                total = total - (r[0] * force[1] - r[1] * force[0])
+        totals.append(total)
+    level, wall, upside = totals
     constant = 0.5 * (level + upside)
     return level - constant, wall - constant, constant
-
-
-def added_at(motion: Motion, slope: float) -> FloatArray:
-    """Return the moment of all other loads on one slope [Nm], shape (...)."""
-    elements, total = motion.plan.of_kind(ForceElement), np.zeros(motion.shape)
-    for name in own_loads(motion):
-        for load in elements[name].in_gravity(None, slope).loads(motion):
-            r, force = motion[load.point], load.force
-            total = total - (r[0] * force[1] - r[1] * force[0])
-    return total
 
 
 def added_moment(motion: Motion) -> FloatArray:

@@ -16,10 +16,12 @@ from linkage.frozen import refuses_changes
 from linkage.language import noted
 from linkage.loads import Glyph, Halves, Load, Parameter, Poses, Rates, TwoPoint
 from linkage.loads.point import DOWN, on_slope, vector
-from linkage.quantities import Axes, Member, Number, Operand, Quantity, Reference, Variable, Where, label, name_of, quantity, spelled
+from linkage.quantities import Axes, Member, Number, Operand, Quantity, Reference, Where, label, name_of, quantity, spelled
 from linkage.steps import Link, Point
 from linkage.units import mm
 from linkage.vectors import Vec
+
+from .inputs import number_written
 
 GLAND, PISTON = "gland", "piston"
 """The points at which a barrel and a rod end in the cylinder, as `lift.gland`."""
@@ -80,8 +82,7 @@ class BarrelAndRod(TwoPoint):
         if self.closed is None:
             what = f"{self.name} is a barrel and a rod here, which are as long as it is closed, and its closed length is not given"
             raise DefinitionError(f"{what}; add closed=... in m.", member=self.name)
-        given = quantity(self.given("closed"))
-        return Variable(f"{self.name}.closed") if isinstance(given, Number) else given
+        return number_written(self, "closed")
 
     @property
     def scales(self) -> bool:

@@ -51,11 +51,14 @@ class GasLine(Circuit):
     def gas_block(self) -> Block | None:
         """Return the accumulators on it; None for none."""
 
+    def parts(self) -> tuple[Reference, ...]:
+        return (*super().parts(), *getattr(self.gas_block(), "following", ()))
+
     def glyphs(self, members: Mapping[str, Member]) -> tuple[Glyph, ...]:
         block = self.gas_block()
         if block is None:
             return ()
-        count = len(block.accumulators) if isinstance(block, AccumulatorBlock) else 1
+        count = len(getattr(block, "accumulators", (block,)))
         return tuple(Glyph("accumulator", cylinder.ends, count) for cylinder in self.members(members))
 
     @abstractmethod
@@ -293,10 +296,6 @@ class FloatCircuit(GasLine):
 
     def line_pressure(self, motion: AnyMotion, acting: Acting | None = None) -> Array:
         return self.pressure_under(motion, acting)
-
-    def parts(self) -> tuple[Reference, ...]:
-        followed = self.block.following if isinstance(self.block, AccumulatorBlock) else ()
-        return (*super().parts(), *followed)
 
     def examine(self, members: Mapping[str, Member], title: str) -> None:
         super().examine(members, title)

@@ -19,7 +19,7 @@ from linkage.loads import ForceElement, Poses
 from linkage.loads.element import value_text
 from linkage.plan import ArrayReading
 from linkage.program import Comparison, is_traced
-from linkage.quantities import Quantity, quantity
+from linkage.quantities import Number, Quantity, Variable, quantity
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -211,6 +211,12 @@ def number_set(element: ForceElement, motion: Poses, name: str) -> Array:
     if not follows(given):
         return ForceElement.number(element, motion, name)
     return all_finite(setting_of_designs(motion, given, name.capitalize()), name.capitalize())
+
+
+def number_written(element: ForceElement, name: str) -> Quantity:
+    """Return a number of a force element as a quantity of its class: what it follows, else its design variable."""
+    given = quantity(element.given(name))
+    return Variable(f"{element.name}.{name}") if isinstance(given, Number) else given
 
 
 def proper_share(share: float) -> None:

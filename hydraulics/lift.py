@@ -20,7 +20,7 @@ from linkage.verdict import Verdict
 from .inputs import Array, check_pressures
 from .judged import line_conditions, line_questions, line_verdicts
 from .line import LiftLine
-from .member import Feeds
+from .member import Feeds, kind_among
 from .shut import shut_verdicts
 
 
@@ -87,7 +87,7 @@ class LiftCircuit(PumpLine):
             if any(same(ram, each) for each in own[:place]):
                 what = f"{self.name} has {ram.name or ram} twice, so that its oil would count double"
                 raise DefinitionError(f"{title}: {what}; name it once, or write count=2 in the Cylinder where there are two.")
-        for other in (each for each in members.values() if isinstance(each, LiftCircuit) and each is not self):
+        for other in (each for each in kind_among(members, LiftCircuit) if each is not self):
             rams = other.members(members)
             shared = [ram for ram in own if any(same(ram, each) for each in rams)]
             if shared and not len(shared) == len(own) == len(rams):

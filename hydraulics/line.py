@@ -34,7 +34,7 @@ from linkage.units import show
 
 from .cylinder import RamSize
 from .inputs import Array, efficient, follows, in_cubic_metres, in_pascals, not_negative, number_set, only_where, positive, proper_share
-from .member import PISTON, Circuit, OnLines, Ram, Reading, by_other_lines, line_thrust, lines_of, thrust_along
+from .member import PISTON, Circuit, OnLines, Ram, Reading, by_other_lines, kind_among, line_thrust, lines_of, thrust_along
 from .standing import is_blocked, standing_pressure
 
 
@@ -308,7 +308,7 @@ class LiftLine(Circuit):
         members = motion.plan.members
         if is_blocked(ram, members):
             return np.asarray(np.maximum(standing_pressure(self, motion, acting), 0.0))[()]
-        for valve in (each for each in members.values() if isinstance(each, LineValve)):
+        for valve in kind_among(members, LineValve):
             lowering = valve.pressure_lowering(self, ram, motion, acting)
             if lowering is not None:
                 return lowering

@@ -45,7 +45,7 @@ from linkage.loads.element import (
 from linkage.motion import Column, HasVerdicts, Judge, Motion, Question, Request, SmoothPiece, Tabled, greatest, lowest, require_motion
 from linkage.motion.measures import Condition, Constraint, at, least, most
 from linkage.plan import Mask, Plan
-from linkage.quantities import InnerQuantity, Member, Number, Quantity, Reference, Variable, body_name, distance, label, name_of, quantity
+from linkage.quantities import InnerQuantity, Member, Quantity, Reference, body_name, distance, label, name_of, quantity
 from linkage.statics import AnyMotion, LawRequest, applied_elements, case_words, elements_of, held_in_case, member_thrust, same
 from linkage.units import show, shown_number, unit_sign
 from linkage.verdict import Remark, Verdict
@@ -53,7 +53,7 @@ from linkage.verdict import Remark, Verdict
 from .barrel import HELD, MASSES, BarrelAndRod
 from .buckling import Buckling, never_pushed
 from .cylinder import SAME_SIZE, CylinderSize, RamSize, Works, chosen_series, series_of, standard_rods
-from .inputs import Array, follows, number_set, one_number, only_where, positive, stroke_in_metres
+from .inputs import Array, follows, number_set, number_written, one_number, only_where, positive, stroke_in_metres
 from .names import names_behind
 from .remedy import Sizes, can_be_set, show_enough, smallest
 
@@ -214,11 +214,6 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         closed = [(line, chamber) for line, chamber in lines_of(self, members) if line.kind_in(members) == "closed"]
         parts = [line.line_pressure(motion, acting) * chamber_area(chamber, self, motion) for line, chamber in closed]
         return reduce(np.add, parts) if parts else None
-
-    def number_written(self, name: str) -> Quantity:
-        """Return a number of it as a quantity of its class."""
-        given = quantity(self.given(name))
-        return Variable(f"{self.name}.{name}") if isinstance(given, Number) else given
 
     def working_area(self, motion: Poses) -> Array:
         """Return its thrust at one unit of pressure on the side that works [m2]."""
@@ -679,8 +674,8 @@ class Cylinder(BarrelAndRod, Ram):
 
     def _square_written(self, side: Side) -> Quantity:
         """Return the signed area of a chamber over that of a circle of diameter 1, as a quantity of its class."""
-        square = self.number_written("bore") ** 2
-        square = square if side == PISTON else self.number_written("rod") ** 2 - square
+        square = number_written(self, "bore") ** 2
+        square = square if side == PISTON else number_written(self, "rod") ** 2 - square
         return square if self.count == 1 else square * float(self.count)
 
     def taken(self, motion: Poses, low: Array, high: Array) -> Array:
@@ -812,6 +807,7 @@ class AllOf(Condition):
 
 Values = TypeVar("Values")
 Own = TypeVar("Own", bound=ForceElement)
+Kind = TypeVar("Kind", bound=Member)
 
 
 def cylinder_request(
@@ -861,11 +857,9 @@ def cylinder_in(named: str | Ram, plan: Plan) -> Ram:
 def thrust_request(cylinder: str | Ram, acting: Acting) -> LawRequest:
     """Return the request for what a cylinder carries [N]; that there is no friction goes without saying."""
     found = cylinder_request("thrust", cylinder, acting, member_thrust, measures="force")
-    written = found.text
 
     def text(acting: Acting) -> str:
-        plain = replace(acting, direction=None) if acting.direction == FRICTIONLESS else acting
-        return written if isinstance(written, str) else written(plain)
+        return str(replace(found, acting=replace(acting, direction=None) if acting.direction == FRICTIONLESS else acting))
 
     return replace(found, text=text)
 
@@ -910,14 +904,13 @@ def in_stages(pieces: Sequence[SmoothPiece], cylinder: str | Ram, plan: Plan) ->
 
 def in_stage(request: LawRequest, cylinder: str | Ram, stage: int) -> LawRequest:
     """Return a request of a telescope where one of its stages moves, with no value and no bound elsewhere."""
-    written = request.text
 
     def values(motion: AnyMotion, acting: Acting) -> Array:
         there = cylinder_in(cylinder, motion.plan).is_in_stage(motion, stage, acting.direction)
         return only_where(there, request.formula(motion, acting))
 
     def text(acting: Acting) -> str:
-        return f"{written if isinstance(written, str) else written(acting)} in stage {stage}"
+        return f"{replace(request, acting=acting)} in stage {stage}"
 
     def unlimited(motion: Motion, acting: Acting) -> Mask:
         elsewhere = motion.reached & ~cylinder_in(cylinder, motion.plan).is_in_stage(motion, stage, acting.direction)
@@ -1158,9 +1151,19 @@ def lines_of(cylinder: Ram, members: Mapping[str, Member]) -> list[tuple[Circuit
     return [(line, each) for line in circuits_among(members) for each in line.chambers_of(cylinder, members)]
 
 
+def kind_among(members: Mapping[str, Member], kind: type[Kind]) -> list[Kind]:
+    """Return the members of a kind, such as the cylinders, among those of a class."""
+    return [each for each in members.values() if isinstance(each, kind)]
+
+
 def circuits_among(members: Mapping[str, Member]) -> list[Circuit]:
     """Return the circuits and oil lines of a class."""
-    return [each for each in members.values() if isinstance(each, Circuit)]
+    return kind_among(members, Circuit)
+
+
+def in_class(members: Mapping[str, Member], reference: Reference) -> Member | str:
+    """Return what a reference stands for in a class; the reference itself where it has nothing of that name."""
+    return members.get(reference if isinstance(reference, str) else reference.name, reference)
 
 
 def side_left(cylinder: Ram, members: Mapping[str, Member]) -> Works:
@@ -1250,7 +1253,7 @@ def lines_giving(members: Mapping[str, Member]) -> dict[str, Circuit]:
 
     A cylinder whose pins follow its own length is given that; it is left out where there are more of them than lines.
     """
-    asking = [each for each in members.values() if isinstance(each, Ram) and lines_of(each, members)]
+    asking = [each for each in kind_among(members, Ram) if lines_of(each, members)]
     asking = [each for each in asking if f"{each.name}.length" in names_behind(each.ends, members)]
     closed = {each.name: [line for line, _ in lines_of(each, members) if line.kind_in(members) == "closed"] for each in asking}
     closed = {name: sorted(lines, key=lambda line: not line.fills(name)) for name, lines in closed.items()}
@@ -1309,7 +1312,7 @@ def found_in(members: Mapping[str, Member], reference: Reference, where: str) ->
     if name in members:
         return _cylinder(members[name], where)
     if isinstance(reference, str):
-        raise unknown("Cylinder", name, (each for each, member in members.items() if isinstance(member, Ram)), where=where)
+        raise unknown("Cylinder", name, (each.name for each in kind_among(members, Ram)), where=where)
     return _cylinder(reference, where)
 
 

@@ -57,7 +57,9 @@ from .member import (
     by_other_lines,
     chamber_area,
     circuits_among,
+    in_class,
     is_named,
+    kind_among,
     lines_giving,
     lines_of,
     side_left,
@@ -199,7 +201,7 @@ class OilLine(PumpLine, GasLine):
             raise DefinitionError(f'OilLine(filled={self.filled!r}): say "open", "closed", or lengths, filled=dict(slave=0.72).')
         if self.filled is not None:
             require_type("OilLine(filled", self.filled, (str, Mapping), "lengths of cylinders are expected, filled=dict(slave=0.72)")
-        for name, length in self.filled.items() if isinstance(self.filled, Mapping) else ():
+        for name, length in self.lengths_told.items():
             if not isinstance(length, (str, Quantity)):
                 one_number(length, f"OilLine: filled, {name}")
             require_measure(length, "length", f"OilLine: filled, {name}")
@@ -233,6 +235,11 @@ class OilLine(PumpLine, GasLine):
         given = self.given(name)
         return not isinstance(given, (str, Quantity)) and name in USUAL and bool(np.all(np.asarray(given) == USUAL[name]))
 
+    @property
+    def lengths_told(self) -> Mapping[str, Any]:
+        """The lengths of cylinders that `filled` tells, by their names [m]."""
+        return self.filled if isinstance(self.filled, Mapping) else {}
+
     # -- what is on it -------------------------------------------------------------------------------------
 
     @property
@@ -254,19 +261,22 @@ class OilLine(PumpLine, GasLine):
         return (*(each.cylinder for each in self.chambers), *self.bare)
 
     def parts(self) -> tuple[Reference, ...]:
-        block = next((each for each in self.on if isinstance(each, AccumulatorBlock)), None)
-        lengths = [quantity(each) for each in self.filled.values()] if isinstance(self.filled, Mapping) else []
-        return (*super().parts(), *(() if block is None else block.following), *(each for each in lengths if not each.is_constant))
+        return (*super().parts(), *(each for each in map(quantity, self.lengths_told.values()) if not each.is_constant))
 
     def supplies(self, members: Mapping[str, Member], kind: type[Supply]) -> list[Supply]:
         """Return the pumps, relief valves or tanks on it."""
-        found = (members.get(each if isinstance(each, str) else each.name, each) for each in self.bare)
+        found = (in_class(members, each) for each in self.bare)
         return [each for each in found if isinstance(each, kind)]
+
+    @property
+    def blocks(self) -> list[Block]:
+        """All accumulators that are named, of which one may be on it."""
+        return [each for each in self.on if not isinstance(each, (Chamber, str, Member))]
 
     @property
     def block(self) -> Block | None:
         """The accumulators on it; None where there are none."""
-        return next((each for each in self.on if not isinstance(each, (Chamber, str, Member))), None)
+        return next(iter(self.blocks), None)
 
     def gas_block(self) -> Block | None:
         return self.block
@@ -288,7 +298,7 @@ class OilLine(PumpLine, GasLine):
                 ram = members[name_of(each.cylinder)] if is_named(each.cylinder) else each.cylinder
                 found.append((cast(Ram, ram), each))
             elif isinstance(each, (str, Member)):
-                ram = members.get(each, each) if isinstance(each, str) else members.get(each.name, each)
+                ram = in_class(members, each)
                 if isinstance(ram, Ram):
                     found.append((ram, Chamber(each, cast(Side, side_left(ram, members)))))
         return found
@@ -324,7 +334,7 @@ class OilLine(PumpLine, GasLine):
         for each in self.references:
             name = each if isinstance(each, str) else each.name
             if name and name not in members:
-                known = [known for known, member in members.items() if isinstance(member, (Ram, Supply))]
+                known = [each.name for each in members.values() if isinstance(each, (Ram, Supply))]
                 raise unknown("Cylinder, pump, valve or tank", name, known, where=f"{title}.{self.name}")
         filling = self.filling(members)
         for ram, chamber in filling:
@@ -343,15 +353,14 @@ class OilLine(PumpLine, GasLine):
             raise DefinitionError(f"{opening}: {idle}= counts for nothing there, as {says}; leave it out.")
         if kind == "given" and self.block is not None and self.charge_pressure is None:
             raise DefinitionError(f"{opening}: its accumulators are charged to no pressure; say charge_pressure=90 * bar.")
-        if isinstance(self.filled, Mapping):
-            own = [ram.name for ram, _ in filling]
-            lost = next((name for name in self.filled if name not in own), None)
-            if lost is not None:
-                raise unknown("Cylinder", lost, own, where=f"{title}.{self.name}, filled")
+        own = [ram.name for ram, _ in filling]
+        lost = next((name for name in self.lengths_told if name not in own), None)
+        if lost is not None:
+            raise unknown("Cylinder", lost, own, where=f"{title}.{self.name}, filled")
 
     def _examine_supplies(self, members: Mapping[str, Member], opening: str) -> None:
         pumps, tanks, valves = (self.supplies(members, kind) for kind in (Pump, Tank, Relief))
-        blocks = [each for each in self.on if not isinstance(each, (Chamber, str, Member))]
+        blocks = self.blocks
         if pumps and tanks:
             what = f"{opening}: a pump and a tank are on one line, whose pressure would be given twice"
             raise DefinitionError(f"{what}; put the other side on the tank, OilLine(lift.rod_side, {tanks[0].name or 'Tank()'}).")
@@ -365,7 +374,7 @@ class OilLine(PumpLine, GasLine):
         twice = next((each for each in own if own.count(each) > 1), None)
         if twice is not None:
             raise DefinitionError(f"{title}: {self.name} has {twice[0]}.{twice[1]}_side twice; name it once.")
-        for other in (each for each in members.values() if isinstance(each, Circuit) and not same(each, self)):
+        for other in (each for each in circuits_among(members) if not same(each, self)):
             theirs = [(ram.name, chamber.side) for ram, chamber in other.filling(members)]
             shared = next((each for each in own if each in theirs), None)
             if shared is not None:
@@ -429,7 +438,7 @@ class OilLine(PumpLine, GasLine):
         return ""
 
     def fills(self, name: str) -> bool:
-        return isinstance(self.filled, str) or (isinstance(self.filled, Mapping) and name in self.filled)
+        return isinstance(self.filled, str) or name in self.lengths_told
 
     @property
     def scales(self) -> bool:
@@ -452,8 +461,8 @@ class OilLine(PumpLine, GasLine):
 
     def length_filled(self, ram: Ram, members: Mapping[str, Member]) -> Quantity:
         """Return the length of a cylinder where the line is filled [m]."""
-        if isinstance(self.filled, Mapping) and ram.name in self.filled:
-            return quantity(self.filled[ram.name])
+        if ram.name in self.lengths_told:
+            return quantity(self.lengths_told[ram.name])
         if isinstance(self.filled, str):
             wanted = ("closed", "stroke") if self.filled == "open" else ("closed",)
             lost = next((name for name in wanted if name not in ram.lengths_given), None)
@@ -461,7 +470,7 @@ class OilLine(PumpLine, GasLine):
                 raise DefinitionError(f"{self.name} = {self}: {ram.name} says no {lost}; declare it, or give lengths, filled=dict(...).")
             named = [each for name in wanted for each in ram.lengths_named(name)]
             return reduce(lambda a, b: a + b, (Variable(each) if isinstance(each, str) else each for each in named))
-        strokes = [name for name, member in members.items() if isinstance(member, Stroke)]
+        strokes = [each.name for each in kind_among(members, Stroke)]
         return AtPose(Distance(ram.A, ram.B), FrozenDict(self.strokes_filled(strokes)), put_in_later(members))
 
     def length_given(self, chamber: Chamber, members: Mapping[str, Member]) -> Quantity:
@@ -694,7 +703,7 @@ CHAMBERS: Mapping[str, Side] = MappingProxyType({"piston_side": PISTON, "rod_sid
 
 def put_in_later(members: Mapping[str, Member]) -> tuple[str, ...]:
     """Return the inputs of the oil of closed lines, which have nothing of it where they are filled."""
-    lines = [each for each in members.values() if isinstance(each, OilLine) and each.kind_in(members) == "closed"]
+    lines = [each for each in kind_among(members, OilLine) if each.kind_in(members) == "closed"]
     return tuple(each.cut for each in lines if not isinstance(members.get(each.cut), Stroke))
 
 

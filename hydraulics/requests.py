@@ -94,8 +94,8 @@ def circuit_request(
     measures: str = "",
 ) -> LawRequest:
     """Return the request for what a formula gives of a cylinder on the circuit that feeds it: the only one that has it, unless named."""
-    named = circuit if isinstance(circuit, str) else circuit.name or circuit
-    shown = (f"circuit={named}" if isinstance(named, str) and named else named) or None
+    name = circuit if isinstance(circuit, str) else circuit.name
+    shown = f"circuit={name}" if name else circuit or None
     found = cylinder_request(word, cylinder, acting, formula, (*before, shown), after, measures=measures)
 
     def examine(plan: Plan) -> None:

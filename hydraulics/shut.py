@@ -20,7 +20,7 @@ from linkage.verdict import Verdict
 
 from .inputs import Array
 from .line import LiftLine, pressure_range
-from .member import Circuit
+from .member import Circuit, kind_among
 from .standing import CommonStroke, members_in, no_direction, standing_pressure
 
 EMPTY = 1e-9
@@ -31,8 +31,8 @@ def pumps_against(line: Circuit, members: Mapping[str, Member]) -> LiftLine | No
     """Return the line of a pump that fills the other side of one of a line's cylinders; None for none."""
     rams = line.members(members)
     return next((
-        each for each in members.values()
-        if isinstance(each, LiftLine) and not same(each, line) and not each._is_shut and each.kind_open(members) == "held"
+        each for each in kind_among(members, LiftLine)
+        if not same(each, line) and not each._is_shut and each.kind_open(members) == "held"
         and any(same(ram, own) for ram, _ in each.filling(members) for own in rams)
     ), None)  # fmt: skip
 

@@ -19,7 +19,7 @@ from linkage.quantities import Member
 from linkage.statics import AnyMotion, held_in_case, member_thrust, plan_in_case, same, stroke_followed, tied_forces
 
 from .inputs import Array
-from .member import Chamber, Circuit, Ram, by_other_lines, chamber_area, changes_in_motion, circuits_among, line_thrust
+from .member import Chamber, Circuit, Ram, by_other_lines, chamber_area, changes_in_motion, circuits_among, in_class, line_thrust
 
 
 def is_blocked(ram: Ram, members: Mapping[str, Member]) -> bool:
@@ -98,7 +98,7 @@ def members_in(plan: Plan, case: str) -> Mapping[str, Member]:
 def moves_in(cylinder: str | Ram, plan: Plan, case: str) -> bool:
     """Return whether a load case of a plan leaves a cylinder its oil: no line of it is shut there."""
     members = members_in(plan, case)
-    ram = members.get(cylinder) if isinstance(cylinder, str) else cylinder
+    ram = in_class(members, cylinder)
     return not (isinstance(ram, Ram) and is_blocked(ram, members))
 
 

@@ -29,7 +29,7 @@ from linkage.verdict import Verdict
 
 from .inputs import Array, follows, in_pascals, number_set, positive
 from .line import LiftLine, LineValve
-from .member import PISTON, Circuit, Ram, carries_loads
+from .member import PISTON, Circuit, Ram, carries_loads, circuits_among, in_class, kind_among
 from .standing import CommonStroke, moves_in, no_direction
 
 USUAL_SETTING = 1.3
@@ -80,13 +80,13 @@ class HoldingValve(LineValve):
 
     def lines(self, members: Mapping[str, Member]) -> tuple[Circuit, Circuit]:
         """Return the line that it holds and that of its pilot, as a class has them."""
-        line, pilot = (members[name_of(each)] if isinstance(each, str) or each.name else each for each in (self.line, self.pilot))
+        line, pilot = (in_class(members, each) for each in (self.line, self.pilot))
         return cast(Circuit, line), cast(Circuit, pilot)
 
     def examine(self, members: Mapping[str, Member], title: str) -> None:
         """Raise DefinitionError for anything but a line, and where no cylinder lies between the two lines."""
         opening = f"{title}: {self.name} = {self}"
-        known = [name for name, each in members.items() if isinstance(each, Circuit)]
+        known = [each.name for each in circuits_among(members)]
         for each in (self.line, self.pilot):
             if name_of(each) not in known:
                 raise unknown("Line", name_of(each), known, where=f"{title}.{self.name}")
@@ -101,7 +101,7 @@ class HoldingValve(LineValve):
         if self.pumped(members) is None:
             what = f"{opening}: no pump is on {line.name} or {pilot.name}, so that their cylinders carry what is given and lower nothing"
             raise DefinitionError(f"{what}; put a Pump on {line.name}.")
-        valves = [each for each in members.values() if isinstance(each, HoldingValve) and not same(each, self)]
+        valves = [each for each in kind_among(members, HoldingValve) if not same(each, self)]
         doubled = [each.name for each in valves if each.holds_line(line)]
         if doubled:
             raise DefinitionError(f"{opening}: {doubled[0]} holds {line.name} as well; a line has one holding valve, take one out.")

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
-from typing import NamedTuple
+from typing import TypeAlias
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -41,6 +41,8 @@ COLOURS: Mapping[str, str] = MappingProxyType({"moving up": style.CURVE, "withou
 WAYS: Mapping[str, str] = MappingProxyType({"moving up": "extending", "without friction": "frictionless", "moving down": "retracting"})
 CURVES: Mapping[str, str] = MappingProxyType({"F_R up": "moving up", "F_R down": "moving down"})
 IMPROVED = ", improved mechanism"
+Drawing: TypeAlias = Callable[[Axes, Motion, Sequence[Deviation]], None]
+"""What draws half a figure."""
 
 
 def figure(number: int | str, machine: HeaderBalancer | None = None, measured: Sequence[Deviation] = ()) -> Figure:
@@ -56,12 +58,12 @@ def figure(number: int | str, machine: HeaderBalancer | None = None, measured: S
     shown = machine if machine is not None else ImprovedBalancer() if key[0] == "6" else with_header({"4": 2, "5": 3}.get(key[0], 1))
     motion = over_following(shown.at(h=shown.strokes["h"].start))
     improved = "" if isinstance(shown, ImprovedBalancer) else IMPROVED
-    sheet, cells = _sheet({name: part.title.removesuffix(improved) for name, part in parts.items()}, _name(shown))
-    for (name, part), ax in zip(parts.items(), cells, strict=True):
-        part.draw(ax, motion, measured)
+    sheet, cells = _sheet({name: title.removesuffix(improved) for name, (title, _) in parts.items()}, _name(shown))
+    for (name, (_, draw)), ax in zip(parts.items(), cells, strict=True):
+        draw(ax, motion, measured)
         if key[0] == "6" and machine is None:
             _as_it_stands(ax, name)
-        if part.is_reaction:
+        if draw in (seals_alone, reactions, with_measured):  # it may fall below zero
             _hanging(ax)
         along = np.concatenate([x for x in (np.asarray(line.get_xdata(), float) for line in ax.get_lines()) if len(x) > 2])
         ax.set_xlim(float(along.min()), float(along.max()))
@@ -176,27 +178,19 @@ def both_pressures(ax: Axes, motion: Motion, measured: Sequence[Deviation] = ())
     ax.margins(y=0.14)  # room for the legend
 
 
-class FigurePart(NamedTuple):
-    """A half of a figure: its title, what draws it, and whether it shows reactions, which may fall below zero."""
-
-    title: str
-    draw: Callable[[Axes, Motion, Sequence[Deviation]], None]
-    is_reaction: bool = False
-
-
-PARTS: Mapping[str, FigurePart] = MappingProxyType(
+PARTS: Mapping[str, tuple[str, Drawing]] = MappingProxyType(
     {
-        "2a": FigurePart("Reaction of a shoe, hysteresis from the cylinders' seals only", seals_alone, is_reaction=True),
-        "2b": FigurePart("What plain bearings at O add, as a force at a shoe", bearings),
-        "3a": FigurePart("Pressure in the accumulators while following", given_pressure),
-        "3b": FigurePart("Pressure needed to lift, over the whole stroke", needed_pressure),
-        "4a": FigurePart("Reaction of a shoe", reactions, is_reaction=True),
-        "4b": FigurePart("Given and needed pressure", both_pressures),
-        "5a": FigurePart("Reaction of a shoe", reactions, is_reaction=True),
-        "5b": FigurePart("Given and needed pressure", both_pressures),
-        "6a": FigurePart(f"Reaction of a shoe{IMPROVED}", reactions, is_reaction=True),
-        "6b": FigurePart(f"Given and needed pressure{IMPROVED}", both_pressures),
-        "7": FigurePart("Reaction of a shoe, calculated and measured", with_measured, is_reaction=True),
+        "2a": ("Reaction of a shoe, hysteresis from the cylinders' seals only", seals_alone),
+        "2b": ("What plain bearings at O add, as a force at a shoe", bearings),
+        "3a": ("Pressure in the accumulators while following", given_pressure),
+        "3b": ("Pressure needed to lift, over the whole stroke", needed_pressure),
+        "4a": ("Reaction of a shoe", reactions),
+        "4b": ("Given and needed pressure", both_pressures),
+        "5a": ("Reaction of a shoe", reactions),
+        "5b": ("Given and needed pressure", both_pressures),
+        "6a": (f"Reaction of a shoe{IMPROVED}", reactions),
+        "6b": (f"Given and needed pressure{IMPROVED}", both_pressures),
+        "7": ("Reaction of a shoe, calculated and measured", with_measured),
     }
 )
 

@@ -51,13 +51,14 @@ def zones(hitch: ThreePointHitch) -> Figure:
             ax.fill_between(S, low, high, color=colour, alpha=0.22, linewidth=0, zorder=3.0 + place, label=text)
             for edge in (low, high):
                 ax.plot(S, edge, color=colour, linewidth=1.3, zorder=4.0 + place)
-    set_to = ", ".join(f"{name} {hitch[name] / mm:.0f}" for name, value in over.items() if isinstance(value, tuple))
+    ranges = {name: value for name, value in over.items() if isinstance(value, tuple)}
+    set_to = ", ".join(f"{name} {hitch[name] / mm:.0f}" for name in ranges)
     _curve(left, motion.strokes["S"] / mm, capacity(motion) / kN, "INK", f"set to {set_to} mm")
     _curve(right, motion.strokes["S"] / mm, motion["tilt"] / deg, "INK", f"set to {set_to} mm")
     _named(left, "Lifting capacity", "stroke S, mm", "capacity at G, kN")
     _named(right, "Tilt of the upright", "stroke S, mm", "tilt, deg; + leans towards the tractor")
-    ranges = [f"{name} {value[0] / mm:.0f} to {value[1] / mm:.0f}" for name, value in over.items() if isinstance(value, tuple)]
-    words = f"settings, mm: {', '.join(ranges)}; extremes over the whole box, not only its corners"
+    words = ", ".join(f"{name} {low / mm:.0f} to {high / mm:.0f}" for name, (low, high) in ranges.items())
+    words = f"settings, mm: {words}; extremes over the whole box, not only its corners"
     sheet.text(0.012, 0.012, words, fontsize=style.SMALL, color=style.MUTED, ha="left")
     right.axhline(0.0, color=style.MUTED, linewidth=0.8, zorder=2.0)
     return sheet

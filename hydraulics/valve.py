@@ -131,20 +131,15 @@ class HoldingValve(LineValve):
     @takes_situation
     def load_pressure(self, motion: AnyMotion, loads: Loads = None, **situation: Unpack[ActingKeywords]) -> Array:
         """Return what the load alone makes in the line at rest, shape (...) [Pa gauge]; 0 where it drives the other way."""
-        return self.loaded(motion, situation_of("load_pressure", loads=loads, **situation))
+        acting = situation_of("load_pressure", loads=loads, **situation)
+        thrust, own, _ = self.works(held_in_case(motion, acting), replace(acting, direction=None, rates=None), False)
+        return np.asarray(np.maximum(thrust / own, 0.0))[()]
 
-    def loaded(self, motion: AnyMotion, acting: Acting, *, below: bool = False) -> Array:
-        """Return the same, at rest; below zero where the load drives the other way if that is asked for."""
-        motion = held_in_case(motion, acting)
-        thrust, own, _ = self.works(motion, replace(acting, direction=None, rates=None), False)
-        found = thrust / own
-        return found if below else np.asarray(np.maximum(found, 0.0))[()]
-
-    def lowered(self, motion: AnyMotion, acting: Acting, *, below: bool = False) -> tuple[Array, Array]:
+    def lowered(self, motion: AnyMotion, acting: Acting) -> tuple[Array, Array]:
         """Return the pressures of the line and of its pilot while the load is lowered [Pa gauge].
 
         p + ratio q = setting and a p + b q = T for the areas a of the line and b of the pilot. Where the pilot opens the valve wholly
-        nothing stands in the line. `below`: the pilot's goes on below zero where the load opens the valve by itself.
+        nothing stands in the line.
         """
         motion = held_in_case(motion, acting)
         line, _ = self.lines(motion.plan.members)
@@ -154,9 +149,8 @@ class HoldingValve(LineValve):
             thrust = np.where(thrust * np.sign(own) > 0.0, thrust * k_m, thrust / k_m)
         setting, ratio = self.at_designs(motion, "setting"), self.at_designs(motion, "ratio")
         pilot = (own * setting - thrust) / (own * ratio - other)
-        pilot = np.where(setting - ratio * pilot < 0.0, thrust / other, pilot)
-        shown = pilot if below else np.maximum(pilot, 0.0)
-        return np.asarray((thrust - other * np.maximum(pilot, 0.0)) / own)[()], np.asarray(shown)[()]
+        pilot = np.maximum(np.where(setting - ratio * pilot < 0.0, thrust / other, pilot), 0.0)
+        return np.asarray((thrust - other * pilot) / own)[()], np.asarray(pilot)[()]
 
     def pressure_lowering(self, line: Circuit, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array | None:
         members = motion.plan.members

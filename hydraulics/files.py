@@ -61,7 +61,7 @@ class GasLaw:
     write = staticmethod(written_gas)
 
     @staticmethod
-    def read(given: object, number: Callable[[object], float]) -> Gas:
+    def read(given: Any, number: Callable[[object], float]) -> Gas:
         """Return the gas law that a word or a table says; `number` reads a number of it."""
         table = {"law": given} if isinstance(given, str) else given
         require(isinstance(table, Mapping) and isinstance(table.get("law"), str), "", given, f"is no gas law; write {EXAMPLE}")

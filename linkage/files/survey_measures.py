@@ -14,7 +14,7 @@ from ..mechanism import Mechanism
 from ..motion.measures import Condition, Constraint, Integral, Leaf, Measure
 from ..program import FloatArray
 from ..study.optimum import unit_of_measure
-from ..study.problem import NOWHERE, Problem, missed, reduced
+from ..study.problem import NOWHERE, Problem, missed
 from .criterion import criterion_of, measure_or_constant
 from .names import shortened
 
@@ -44,8 +44,7 @@ class TextMeasures:
                 with suppress(LinkageError):
                     problem.refined_panels(leaf, drawn)
         look = problem.evaluated(machine.dimensions)
-        numbers = {leaf: reduced(leaf, rows.values) for leaf, rows in look.rows.items()}
-        count = max(np.size(value) for value in machine.dimensions.values())
+        numbers, count = look.numbers, max(np.size(value) for value in machine.dimensions.values())
         found: dict[str, Any] = {}
         for name, each in said.items():
             leaves = each.leaves if isinstance(each, Measure) else [leaf for one in each for leaf in one.margin.leaves]

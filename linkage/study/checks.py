@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from ..checks import require_one_design
-from ..errors import AssemblyError, DefinitionError, cited
+from ..checks import require_one_design, unfit
+from ..errors import AssemblyError, DefinitionError
 from ..mechanism import Mechanism
 from ..plan import Plan
 from .sides import is_side
@@ -40,11 +40,11 @@ def check_vary(machine: Mechanism, what: str, over: object) -> None:
     """Raise DefinitionError where the designs of a study, or strokes, are given as `over`."""
     if over is None:
         return
-    title = machine.plan.title
-    if isinstance(over, Mapping) and any(name in machine for name in over):
-        raise DefinitionError(f"{title}: {what}(over={cited(over)}): dimensions are varied by vary=, strokes run by over=; write vary=.")
     remedy = "name its strokes, such as S=[0.0, 0.1]" if what == "zone" else "let measure(machine) say at which strokes it looks"
-    raise DefinitionError(f"{title}: {what}(over={cited(over)}): a {what} varies designs, vary=, and has no over=; {remedy}.")
+    expected = f"a {what} varies designs, vary=, and has no over=; {remedy}"
+    if isinstance(over, Mapping) and any(name in machine for name in over):
+        expected = "dimensions are varied by vary=, strokes run by over=; write vary="
+    raise unfit(f"{machine.plan.title}: {what}(over", over, expected)
 
 
 WHOLE_POSES = {1: 101, 2: 25, 3: 13, 4: 8, 5: 6, 6: 5}

@@ -9,6 +9,7 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import islice, product
 from math import prod
+from operator import itemgetter
 from types import MappingProxyType
 from typing import Any, final
 
@@ -31,7 +32,7 @@ from .poles import check_bounded
 from .problem import LeafNumbers, Problem
 from .result_tables import EvaluatedDesigns, ResultRow, heading_with_unit, result_cells, result_text, tried_names, tried_rows
 from .sampling import no_value
-from .solver import MET, Local, SearchEnd, local_search, missing_of, scale_of, scales_of, true_worth, worth_in_order
+from .solver import MET, Local, SearchEnd, local_search, missing_of, scales_of, true_worth, worth_in_order
 from .space import Space, Varied, size_of_machine
 
 ACTIVE = 1e-6
@@ -203,15 +204,15 @@ class Optimum(Shown):
             near.append(steps_about(float(value), step, variable) if step else [float(value)])
         tried = list(islice(product(*near), MOST_ROUNDINGS))
         units = np.array([[(each - one.low) / (one.span or 1.0) for each, one in zip(row, space.variables, strict=True)] for row in tried])
-        best: tuple[float, float, Mechanism] | None = None
+        judged = []
         for place in best_first(problem, self.combination, units, MET)[1][:8] if space.variables else [0]:
             machine = problem.machine_of(units[place], self.combination)
-            worth = worth_of(problem, machine)
-            if np.isfinite(worth[0]) and (best is None or order_of_worth(problem, *worth) < order_of_worth(problem, *best[:2])):
-                best = *worth, machine
-        if best is None:
+            value, missing = worth_of(problem, machine)
+            if np.isfinite(value):
+                judged.append(((missing if missing > MET else 0.0, problem.sense * value), value, missing, machine))
+        if not judged:
             raise AssemblyError(f"{problem.plan.title}: no design on these steps can be assembled over the whole stroke; take finer ones.")
-        return Rounded.of(self, *best)
+        return Rounded.of(self, *min(judged, key=itemgetter(0))[1:])
 
     def rows(self, rounded: Rounded | None = None) -> tuple[ResultRow, ...]:
         """Return what varied, the objective and the conditions, before and after, and of a rounded design too."""
@@ -313,7 +314,7 @@ def as_kept(problem: Problem, constraint: Constraint, now: Mapping[Leaf, float],
     """
     left, right = (float(side.of(lambda leaf: now[leaf])) for side in constraint.compared)
     spare = -constraint.short(left, right)
-    size = scale_of(constraint, lambda leaf: now[leaf])
+    size = max((abs(side) for side in (left, right) if np.isfinite(side)), default=0.0)
     by = 0.01 * (size if size > 1e-6 * scale else scale)
     return Kept(constraint, left, right, spare, by, price * by if price * by > SHOWN else 0.0, unit_of_constraint(problem.plan, constraint))
 
@@ -334,11 +335,6 @@ def worth_of(problem: Problem, machine: Mechanism) -> tuple[float, float]:
         return float("nan"), float("inf")
     scales = scales_of(problem, problem.evaluated(machine.dimensions, slopes=True))
     return true_worth(problem, values), missing_of(problem.constraints, scales, values)
-
-
-def order_of_worth(problem: Problem, value: float, missing: float) -> tuple[float, float]:
-    """Return by what designs are put in order, the best first: what is missing, then the objective."""
-    return (missing if missing > MET else 0.0), problem.sense * value
 
 
 @final

@@ -181,8 +181,13 @@ class Evaluated:
 
     @cached_property
     def numbers(self) -> dict[Leaf, FloatArray]:
-        """The leaves' numbers (m,) at the samples."""
-        return {leaf: reduced(leaf, rows.values) for leaf, rows in self.rows.items()}
+        """The leaves' numbers (m,) at the samples; rows without a value say nothing, NaN where none has one."""
+        found = {}
+        with np.errstate(all="ignore"):
+            for leaf, rows in self.rows.items():
+                best = np.fmin if leaf.sense < 0.0 else np.fmax
+                found[leaf] = np.asarray(best.reduce(rows.values, axis=1) if leaf.sense else rows.values[:, 0])
+        return found
 
     @property
     def of_one(self) -> dict[Leaf, float]:
@@ -716,14 +721,14 @@ class Problem:
                 sampled.append(leaf)
         if sampled:
             self.count.add(len(sampled) - 1)  # as many looks as there are numbers
-            rows = self.evaluated(design).rows
+            look = self.evaluated(design)
+            values = look.of_one
             for leaf in sampled:
+                value = values[leaf]
                 if isinstance(leaf, Integral):
                     low, high = self.ends(design)[self._of_leaf[leaf][0].outer[0]]
                     value = float(self.panels(leaf, design).value) * (high - low)
-                else:
-                    value = float(reduced(leaf, rows[leaf].values)[0])
-                found.note(leaf, value, lost=rows[leaf].lost[0])
+                found.note(leaf, value, lost=look.lost(leaf)[0])
         for names, leaves in between.items():
             self._note_extremes(found, leaves, design, names, quick=quick)
         return found
@@ -875,10 +880,3 @@ def worst_along(values: FloatArray, slopes: FloatArray, count: int, sense: float
     bunch = slopes.reshape(len(slopes), cube.shape[1], count)
     parts = [np.take_along_axis(bunch, np.broadcast_to(top[0] + each, (*bunch.shape[:2], 1)), axis=-1)[..., 0] for each in (-1, 0, 1)]
     return best, np.asarray(sum(weight[0] * part for weight, part in zip(weights, parts, strict=True)))
-
-
-def reduced(leaf: Leaf, values: FloatArray) -> FloatArray:
-    """Return what a leaf takes of its rows (m, n): one number (m,); rows without a value say nothing, NaN where none has one."""
-    with np.errstate(all="ignore"):
-        best = np.fmin if leaf.sense < 0.0 else np.fmax
-        return np.asarray(best.reduce(values, axis=1) if leaf.sense else values[:, 0])

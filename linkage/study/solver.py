@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple, Protocol, final
+from typing import NamedTuple, Protocol, final
 
 import numpy as np
 
@@ -686,12 +686,6 @@ def single_extreme(constraint: Constraint) -> tuple[Leaf, float, float] | None:
             if sign * one.sense < 0.0:
                 return one, sign, other.value
     return None
-
-
-def scale_of(constraint: Constraint, value: Callable[[Leaf], Any]) -> float:
-    """Return the larger of a constraint's two sides, in size."""
-    sides = [abs(float(side.of(value))) for side in constraint.compared]
-    return max((side for side in sides if np.isfinite(side)), default=0.0)
 
 
 def scales_of(problem: Problem, look: Evaluated) -> list[float]:

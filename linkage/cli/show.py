@@ -54,12 +54,12 @@ class ShowCommand(Command):
         if options.modes:
             return show_modes(machine, at, None if options.output is None else picture(options, machine))
         if options.latex:
-            print(listed(machine, options, at).latex())
+            print(printed_equations(machine, options, at).latex())
             return 0
         for title, lines in sections(machine):
             print_section(title, lines)
         if options.equations:
-            print_section("Equations", str(listed(machine, options, at)).splitlines())
+            print_section("Equations", str(printed_equations(machine, options, at)).splitlines())
         verdicts = machine.verdicts(over=over)
         print_section("Verdict", verdicts)
         return judged_code(verdicts, options)
@@ -100,7 +100,7 @@ def show_modes(machine: Mechanism, at: dict[str, float], path: Path | None) -> i
     return 0
 
 
-def listed(machine: Mechanism, options: Namespace, at: Mapping[str, float]) -> Equations:
+def printed_equations(machine: Mechanism, options: Namespace, at: Mapping[str, float]) -> Equations:
     """Return the equations as they are asked for."""
     from ..formulas import equations
 

@@ -174,7 +174,7 @@ class Burmester(Shown):
     def synthesis(self) -> ExactSynthesis:
         """The machines of all pairs of links."""
         found = [
-            machine_of(self.body, one, other, in_order=self.in_order)
+            machine_of_links(self.body, one, other, in_order=self.in_order)
             for one, other in combinations(self.links, 2)
             if not ((one.slides and other.slides) or is_without_links(one.pivoted, other.pivoted, self.body.size))
         ]
@@ -253,7 +253,7 @@ class Burmester(Shown):
             raise DefinitionError("four_bar(...): two sliders have no link that could be driven; give one that turns.")
         if is_without_links(one.pivoted, other.pivoted, self.body.size):
             raise DefinitionError("four_bar(...): the two links share a pin; give two that differ.")
-        return machine_of(self.body, one, other, in_order=self.in_order)
+        return machine_of_links(self.body, one, other, in_order=self.in_order)
 
 
 # -- the body and its poses -----------------------------------------------------------------------------------
@@ -561,6 +561,6 @@ def lies_within(places: ComplexArray, region: Region) -> npt.NDArray[np.bool_]:
     return np.asarray(region.depths(as_points(places).T) >= 0.0)
 
 
-def machine_of(body: PosedBody, one: GuidingLink, other: GuidingLink, *, in_order: bool) -> ExactMachine:
+def machine_of_links(body: PosedBody, one: GuidingLink, other: GuidingLink, *, in_order: bool) -> ExactMachine:
     """Return the machine of two links, judged."""
     return judged_machine(one.pivoted, other.pivoted, CouplerTask(body.z, body=body.rows[:, 2], in_order=in_order))

@@ -36,7 +36,7 @@ from ..vectors import Side
 from .defects import TOLD, change_point_words, in_order, order_words
 from .exact import REGISTERED
 from .fit import Fit
-from .task_error import squares_near, summed
+from .task_error import squares_near, sum_of_parts
 from .tasks import PathTask, PoseTask, Task, TaskRows, of_class, task_named_in, task_of
 
 MOST_ROUNDINGS = 1024
@@ -232,7 +232,7 @@ class Synthesis(Shown):
 
         It is that of this answer and of machines near it: an untimed point counts by its distance from the path there.
         """
-        return summed(self.point_measures(place))
+        return sum_of_parts(self.point_measures(place))
 
     def point_measures(self, place: int = 0) -> tuple[Measure, ...]:
         """Return the square of what an answer misses at each point as a measure [SI^2]; `each**0.5 <= 0.5 * mm` is a condition."""

@@ -36,7 +36,7 @@ def task_error(
     counts by its distance from the path there, as studies of tolerances take it. `timed=True`: it counts at these strokes. `over` holds
     other strokes. Raises DefinitionError where several strokes move.
     """
-    return summed(point_errors(machine, task, strokes, timed=timed, over=over))
+    return sum_of_parts(point_errors(machine, task, strokes, timed=timed, over=over))
 
 
 def point_errors(
@@ -82,14 +82,14 @@ def misses_at(machine: Mechanism, rows: TaskRows, place: int) -> list[Any]:
     return found
 
 
-def summed(parts: Sequence[Any]) -> Any:
+def sum_of_parts(parts: Sequence[Any]) -> Any:
     """Return the sum of quantities or measures, of one at least."""
     return reduce(operator.add, parts)
 
 
 def squared_sum(parts: Sequence[Any]) -> Any:
     """Return the sum of the squares of quantities."""
-    return summed([each * each for each in parts])
+    return sum_of_parts([each * each for each in parts])
 
 
 def squares_near(

@@ -3,17 +3,15 @@
 from ..star import declare_public
 from .applied import applied_elements, applied_loads, elements_of, plan_in_case
 from .carried import PROBE, Direction, direction_at, direction_words, is_steady, member_limits, pull_direction, pulling
-from .force_requests import drive_force, pin_force, pin_forces_under, thrust_from_forces
+from .force_requests import drive_force, drive_remarks, held_verdict, pin_force, pin_forces_under, thrust_from_forces
 from .holding import each_once, same, stroke_followed, tied_forces
 from .joint_forces import GlandForce, JointForce, PinForces, pin_forces
-from .law_requests import LawRequest, case_words
+from .law_requests import LawRequest, TracedMotion, case_words, traced_loads
 from .poses import AnyMotion, plan_of
 from .rope import Rope, tension
 from .solution import held_fault, held_in_case, loose_movements, looseness
 from .table import PinLoad, judged_table, max_table, table_text
-from .traced_loads import TracedMotion, traced_loads
 from .vehicle import Standing, axle_load, ground_loads, reaction, slipping, standing, standing_supports
-from .verdicts import drive_remarks, held_verdict
 from .work import driving_force, member_thrust, pump_thrust
 
 declare_public(globals())

@@ -30,9 +30,8 @@ from ..quantities import Quantity, name_of, quantity, real
 from ..vectors import Numbers
 from .applied import case_of
 from .holding import holders_of
-from .law_requests import LawRequest
+from .law_requests import LawRequest, TracedMotion
 from .poses import AnyMotion
-from .traced_loads import TracedMotion
 from .vehicle import bare_loads, frame_supports, is_rough, standing_of, vehicle_of
 from .work import pump_thrust
 
@@ -342,7 +341,7 @@ def member_limits(plan: Plan, case: Case, *, are_remarks: bool = False) -> tuple
     """
 
     def made(plan: Plan) -> tuple[MemberLimit, ...]:
-        pose, load = [Over(**cast(dict[str, float], plan.sketch_strokes))], Force(plan.moving[-1], (0.0, -1.0))
+        pose, load = [Over(**cast(Any, plan.sketch_strokes))], Force(plan.moving[-1], (0.0, -1.0))
         judge, loaded = (Judge(plan, plan.defaults, pose, Acting(loads, case)) for loads in (None, [load]))
         found = []
         for name, member in speakers(plan, HasVerdicts).items():

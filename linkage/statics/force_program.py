@@ -24,9 +24,9 @@ from ..program import FloatArray, Kernel, Level, Node, Tangent
 from .applied import AppliedLoads
 from .equilibrium import CONTRACTS, JointFriction, PressingForces, System, consistent_frictions, iterated, joint_frictions, unit_friction
 from .joints import Contact, Structure
+from .law_requests import TracedMotion, eliminated_forces
 from .poses import FlatPoses
 from .solution import PoseForces, Solution, assumed_joints, by_equations
-from .traced_loads import TracedMotion, eliminated_forces
 
 PIECE = 1 << 13
 """Poses whose frictions are found at a time."""

@@ -11,19 +11,32 @@ from typing import cast, final
 import numpy as np
 
 from ..errors import DefinitionError, UntracedError, cited, known_name
-from ..loads import AT_REST, FRICTIONLESS, Acting, Case, Loads, situation_of
-from ..motion import Motion, require_motion, stroke_unit
+from ..language import said
+from ..loads import AT_REST, FRICTIONLESS, Acting, Case, Loads, TwoPoint, situation_of
+from ..motion import Judge, Motion, most, require_motion, stroke_unit
 from ..motion.requests import stroke_of
 from ..plan import Plan
 from ..program import FloatArray
+from ..units import show
 from ..vectors import Scalar
-from .holding import holders_of
+from ..verdict import Remark, Verdict
+from .applied import plan_in_case
+from .holding import closed_ties, holders_of
 from .joint_forces import JointForce, PinForces, joint_forces, joint_on, joints_of
 from .joints import Contact, Structure
-from .law_requests import LawInPlan, LawRequest, TracedLaw, case_words, law_in_plan, situation_identity
+from .law_requests import (
+    LawInPlan,
+    LawRequest,
+    TracedLaw,
+    TracedMotion,
+    case_words,
+    eliminated_forces,
+    law_in_plan,
+    situation_identity,
+    traced_loads,
+)
 from .poses import AnyMotion, FlatPoses
-from .solution import Solution, assumed_joints, held_in_case
-from .traced_loads import TracedMotion, eliminated_forces, traced_loads
+from .solution import Solution, assumed_joints, held_fault, held_in_case
 from .work import by_work, stroke_force, without_held
 
 
@@ -221,3 +234,48 @@ def thrust_among_forces(member: str, motion: AnyMotion, acting: Acting) -> Float
 def thrust_in_plan(request: LawRequest, motion: TracedMotion) -> LawInPlan:
     """Raise UntracedError: it has values alone."""
     raise UntracedError(f"{motion.plan.title}: {request}: it has values, and no program that gives derivatives.")
+
+
+# What is said of any machine's forces: that it is not held, and what the drives of strokes give that no cylinder holds.
+
+
+def held_verdict(judge: Judge) -> Verdict | None:
+    """Return the verdict that a machine is not held, of all load cases that a judge looks at; None where it is held in all."""
+    for case in dict.fromkeys(case for place in judge.places for case in place.cases(judge.acting)):
+        fault = held_fault(judge.motion, case)
+        if fault:
+            is_own = plan_in_case(judge.plan, Acting(case=case)) is judge.plan
+            return Verdict("held", False, fault if is_own else said("in load case {case}, {sentence}", case=case, sentence=fault))
+    return None
+
+
+LEAST = 1e-3
+"""N or Nm: less than this is no force of a drive."""
+
+
+def drive_remarks(judge: Judge) -> list[Remark]:
+    """Return what the drives of strokes give that no cylinder holds, of one design of a machine with cylinders.
+
+    Strokes that put oil into closed lines or wind ropes are held by these; in a load case that shuts a line, others may be.
+    """
+    plan = judge.plan
+    if not any(each.holds for each in plan.of_kind(TwoPoint).values()) or any(map(np.ndim, judge.designs.values())):
+        return []
+    held = {}
+    for case in judge.cases:
+        in_case = plan_in_case(plan, Acting(case=case))
+        held[case] = set(holders_of(in_case).strokes_taken)
+        for tie in closed_ties(in_case):
+            held[case].update(tie.run.strokes if tie.run is not None else (), in_case.reaches(tie.added) if tie.added is not None else ())
+    loose = {name: [case for case, strokes in held.items() if name not in strokes] for name in plan.strokes}
+    asked = [(name, case) for name, cases in loose.items() for case in (cases if len(cases) < len(held) else [""])]
+    answers = judge.lost_allowed().answers([most(abs(drive_force(name, case=case or None))) for name, case in asked]) if asked else []
+    found: dict[str, tuple[float, Remark]] = {}
+    for (name, case), answer in zip(asked, answers, strict=True):
+        size = float(answer.value)
+        if size > max(LEAST, found[name][0] if name in found else 0.0):
+            unit = "kN" if stroke_unit(plan, name) == "m" else "kNm"
+            force = answer.amount if np.isinf(size) else show(size, unit, 4)
+            what = said("{stroke} is held by no cylinder: its drive gives up to {force}", stroke=name, force=force)
+            found[name] = size, Remark(f"{what}, {said('in the case {case}', case=case) + ', ' if case else ''}{answer.place}.")
+    return [remark for _, remark in found.values()]

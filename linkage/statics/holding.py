@@ -361,9 +361,9 @@ class Levers:
         if self.matrix.shape[1] == 1:
             return need / self.matrix[:, 0]
         turned = np.swapaxes(self.matrix, 1, 2)
-        if object not in (turned.dtype, need.dtype):
+        if turned.dtype != object and need.dtype != object:
             return np.asarray(np.linalg.solve(turned, need[:, :, None])[:, :, 0])
-        some = next(each for each in (*turned.flat, *need.flat) if isinstance(each, Traced))
+        some = next(each for each in (*turned.ravel(), *need.ravel()) if isinstance(each, Traced))
         graph, found = some.node.graph, np.empty((1, len(need[0])), object)
         rows = [[graph.node(node_of(each)) for each in row] for row in turned[0]]
         found[0] = [Traced(each, some.notes) for each in eliminated(rows, [graph.node(node_of(each)) for each in need[0]])]

@@ -33,10 +33,9 @@ from ..verdict import Verdict
 from .applied import applied_loads, elements_of, rates_in
 from .holding import refused_where, where_negative
 from .joints import Wrench, frame_points
-from .law_requests import LawRequest, request_text, situation_identity
+from .law_requests import LawRequest, TracedMotion, request_text, situation_identity, traced_loads
 from .poses import AnyMotion, FlatPoses, cross
 from .solution import Equilibrium, check_joints, held_in_case, locked_words, system_with_friction
-from .traced_loads import TracedMotion, traced_loads
 from .work import by_work
 
 SAME_PLACE = 1e-9

@@ -21,10 +21,9 @@ from ..quantities import needs
 from .applied import AppliedLoads, applied_elements, applied_loads, member_title, path_tangent, rates_in
 from .force_program import forces_at
 from .holding import Holders, Levers, PressureLine, holders_of, same, stroke_followed, where_negative, with_levers
-from .law_requests import is_unchanging, situation_identity
+from .law_requests import TracedMotion, is_unchanging, situation_identity, traced_loads
 from .poses import AnyMotion, FlatPoses, plan_of
 from .solution import AGREES, LEAST, PoseForces, disagreeing, held_in_case, locked_words
-from .traced_loads import TracedMotion, refuse_friction, traced_loads
 
 Made = TypeVar("Made")
 MOST_WRITTEN = 3
@@ -228,9 +227,13 @@ def closed_force(motion: AnyMotion, element: ForceElement, acting: Acting) -> Fl
 
 def with_friction(motion: AnyMotion, applied: AppliedLoads, acting: Acting, what: str) -> PoseForces | None:
     """Return all forces where friction has a part in them; None where it has none. UntracedError for a program."""
-    refuse_friction(motion, applied)
     if not applied.frictions:
         return None
+    if isinstance(motion, TracedMotion):
+        rubbing = [each.name or str(each) for each in applied.elements if each.frictions(motion)]
+        what = f"{motion.plan.title}: the friction of {', '.join(rubbing)} follows from the forces that it changes and has no program"
+        remedy = f'Ask while nothing rubs, direction="frictionless", or leave {rubbing[0]} out by a LoadCase'
+        raise UntracedError(f"{what}: there are values, and no derivatives. {remedy}.")
     found = forces_at(poses_held(require_motion(motion), applied, what), applied)
     locked_words(found, acting.movement)
     return found

@@ -318,7 +318,7 @@ SLOWEST = 1e-10
 """Turning slower than this part of the fastest in the mechanism is none."""
 
 
-def rows_of(parts: Sequence[int]) -> tuple[FloatArray, FloatArray, FloatArray]:
+def pressing_rows(parts: Sequence[int]) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return the first and the last row of the forces that press each joint with friction: a pin has two `parts`, a guide one.
 
     The third is what the hypotenuse of both rows counts (frictions, 1): of a single row, counted twice, the half of its square.
@@ -352,7 +352,7 @@ class PressingForces:
 def consistent_frictions(pressing: PressingForces, coefficient: FloatArray) -> tuple[FloatArray, Mask]:
     """Return the frictions (frictions, n) [N] for coefficients (frictions, n), and where they have no bounded solution (n,)."""
     q, locked = np.zeros(coefficient.shape), np.zeros(coefficient.shape[1], bool)
-    first, last, share = rows_of(pressing.parts)
+    first, last, share = pressing_rows(pressing.parts)
     for start in range(0, coefficient.shape[1], BLOCK):
         block = slice(start, start + BLOCK)
         here, mu = pressing.at(block), coefficient[:, block]
@@ -361,15 +361,15 @@ def consistent_frictions(pressing: PressingForces, coefficient: FloatArray) -> t
         hard = ~(np.max(growth, axis=0, initial=0.0) < CONTRACTS)
         if not hard.all():
             with np.errstate(over="ignore", invalid="ignore"):  # of poses that do not contract
-                q[:, block] = iterated(pressing.parts, mu, here.forces)
+                q[:, block] = frictions_iterated(pressing.parts, mu, here.forces)
         if hard.any():
             q[:, block][:, hard], locked[block][hard] = continued(here.at(hard), mu[:, hard])
     return q, locked
 
 
-def iterated(parts: Sequence[int], coefficient: FloatArray, forces: Callable[[FloatArray], FloatArray]) -> FloatArray:
+def frictions_iterated(parts: Sequence[int], coefficient: FloatArray, forces: Callable[[FloatArray], FloatArray]) -> FloatArray:
     """Return the frictions (frictions, n) to which plain iteration comes, where it contracts, with the pressing forces at frictions."""
-    first, last, share = rows_of(parts)
+    first, last, share = pressing_rows(parts)
     q, factor = np.zeros(coefficient.shape), share * coefficient
     for _ in range(100):
         force = forces(q)
@@ -385,7 +385,7 @@ def iterated(parts: Sequence[int], coefficient: FloatArray, forces: Callable[[Fl
 def continued(pressing: PressingForces, coefficient: FloatArray) -> tuple[FloatArray, Mask]:
     """Return the frictions (frictions, n) that grow from none with the coefficients, NaN where they jam on the way, and where (n,)."""
     free, by_unit = pressing.free.T, np.moveaxis(pressing.by_unit * pressing.lever, -1, 0)
-    first, last, _ = rows_of(pressing.parts)
+    first, last, _ = pressing_rows(pressing.parts)
     forces = [(free[:, a : b + 1], by_unit[:, a : b + 1]) for a, b in zip(first, last, strict=True)]
     q, alive = np.zeros(coefficient.T.shape), np.ones(coefficient.shape[1], bool)
     for share in np.linspace(0.0, 1.0, STEPS + 1)[1:]:

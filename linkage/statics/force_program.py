@@ -22,7 +22,16 @@ from ..motion.evaluation import grid_blocks, part_of_input
 from ..plan import Mask, Plan
 from ..program import FloatArray, Kernel, Level, Node, Tangent
 from .applied import AppliedLoads
-from .equilibrium import CONTRACTS, JointFriction, PressingForces, System, consistent_frictions, iterated, joint_frictions, unit_friction
+from .equilibrium import (
+    CONTRACTS,
+    JointFriction,
+    PressingForces,
+    System,
+    consistent_frictions,
+    frictions_iterated,
+    joint_frictions,
+    unit_friction,
+)
 from .joints import Contact, Structure
 from .law_requests import TracedMotion, eliminated_forces
 from .poses import FlatPoses
@@ -218,7 +227,7 @@ def frictions_of_piece(
 
     growth, forces, by_each = kernels
     if np.max(values(growth, "lever", np.abs(lever)) * coefficient, initial=0.0) < CONTRACTS:
-        q = iterated(parts, coefficient, lambda q: values(forces, "friction", q * lever))
+        q = frictions_iterated(parts, coefficient, lambda q: values(forces, "friction", q * lever))
         return q, np.zeros(q.shape[1], bool)
     found, count = values(by_each, "friction", np.zeros(lever.shape)), sum(parts)
     by_unit = found[count:].reshape(count, len(lever), -1)

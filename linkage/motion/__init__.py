@@ -9,20 +9,20 @@ from .follow import followed
 from .gaps import gap, nearest_places
 from .grid import Grid
 from .judge import Judge, Question, case_named
-from .judging import HasVerdicts, geometry_verdicts, judge_verdicts
+from .judging import HasVerdicts, geometry_verdicts, judge_verdicts, limits_over
 from .limits import stroke_display_unit, stroke_measure, stroke_unit
 from .live import LiveText, live_text
 from .measures import Condition, Constraint, Leaf, Measure, at, integral, least, most, reachable, worst
-from .motion import Motion, OnePose, each_at_its_stroke, out_of_reach, require_motion
+from .motion import Motion, OnePose, each_at_its_stroke, require_motion
 from .over import OPTIONS, Over, Run
 from .planes import Planes, clearance, pair_at
 from .poles import whole_body
 from .pose_requests import condition, transmission
 from .positions import Positions, positions_for
-from .reach import limits_over
 from .regions import inside, outside
 from .requests import MotionFunction, NodeRequest, Request, RequestLike, SmoothPiece, Value, ratio
-from .search import Extremum, Span, below_zero, greatest, lowest, reached
+from .search import Span, below_zero, greatest, lowest, reached
+from .stroke_search import out_of_reach
 from .strokes import at_values, check_any, float_array, rates_of, sweep_values
 from .table import Column, Tabled, columns_of, speakers
 from .target import Target

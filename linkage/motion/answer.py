@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any, Self, final
+from typing import Any, Self, TypeAlias, final
 
 import numpy as np
 
@@ -43,6 +43,12 @@ class Lost:
 NONE_LOST = Lost()
 
 
+PerDesign: TypeAlias = Any
+"""What one design has, of a batch an array over its designs."""
+PER_DESIGN = ("value", "ok", "status", "case", "direction", "drive", "side", "over")
+"""What each design of a batch has an answer of its own."""
+
+
 @final
 @dataclass(frozen=True, eq=False)
 class Answer:
@@ -54,16 +60,16 @@ class Answer:
     stroke that the place may be broad at the least to be found, `count` the number of poses looked at.
     """
 
-    question: Any
-    value: Any
-    ok: Any
-    status: Any
-    strokes: Mapping[str, Any]
-    case: Any = ""
-    direction: Any = ""
-    drive: Any = ""
-    side: Any = ""
-    over: Any = ""
+    question: object
+    value: PerDesign
+    ok: PerDesign
+    status: PerDesign
+    strokes: Mapping[str, PerDesign]
+    case: PerDesign = ""
+    direction: PerDesign = ""
+    drive: PerDesign = ""
+    side: PerDesign = ""
+    over: PerDesign = ""
     lost: Lost = NONE_LOST
     unlimited: float = 0.0
     outside: float = 0.0
@@ -79,7 +85,7 @@ class Answer:
         return f"<Answer to {self.question}{kept}; {self}>"
 
     @property
-    def unbounded(self) -> Any:
+    def unbounded(self) -> PerDesign:
         """Whether it grows without bounds."""
         return np.asarray(self.status == UNBOUNDED)[()] if np.ndim(self.value) else self.status == UNBOUNDED
 
@@ -108,12 +114,11 @@ class Answer:
     def of_design(self, number: int) -> Self:
         """Return the answer of one design of a batch, by its number among them."""
 
-        def own(values: Any) -> Any:
+        def own(values: PerDesign) -> PerDesign:
             return np.ravel(values).tolist()[number] if np.ndim(values) else values
 
-        names = ("value", "ok", "status", "case", "direction", "drive", "side", "over")
         strokes = {name: own(value) for name, value in self.strokes.items()}
-        return replace(self, strokes=strokes, **{name: own(getattr(self, name)) for name in names})
+        return replace(self, strokes=strokes, **{name: own(getattr(self, name)) for name in PER_DESIGN})
 
     @property
     def place(self) -> str:
@@ -133,8 +138,11 @@ class Answer:
             return self.batch_words
         if self.status == NOTHING_LEFT:
             return said("nothing is left to judge: every place is unlimited, left out or lost")
-        if self.measures == LOST_SHARE:
-            return self.reach_words
+        if self.measures == LOST_SHARE:  # every place, or how much of them is lost, and where and why
+            if not self.lost:
+                return said("every place is assembled")
+            share, _, why = self.lost_words.partition(": ")
+            return ": ".join(each for each in (f"{share} {self.place}".strip(), why) if each)
         if np.isnan(self.value):
             return f"{said('no value at any pose')}{f'; {self.lost.sentence}' if self.lost.sentence else ''}"
         found = f"{self.amount} {self.place}".strip()
@@ -157,14 +165,6 @@ class Answer:
         if low == high:
             return f"{low} {self.where}".strip()
         return f"{said('{low} to {high}', low=low, high=high)} {self.where}".strip()
-
-    @property
-    def reach_words(self) -> str:
-        """What can be assembled, in words: every place, or how much of them is lost, and where and why."""
-        if not self.lost:
-            return said("every place is assembled")
-        share, _, why = self.lost_words.partition(": ")
-        return ": ".join(each for each in (f"{share} {self.place}".strip(), why) if each)
 
     @property
     def lost_words(self) -> str:

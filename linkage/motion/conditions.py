@@ -79,7 +79,7 @@ class PrecisionLeft:
         """Return those of some rows."""
         return PrecisionLeft(self.values[rows], self.errors[rows], self.size)
 
-    def relative(self, scale: Any) -> FloatArray:
+    def relative(self, scale: Numbers) -> FloatArray:
         """Return the largest error of a component, shape (n,), each relative to its own value or to a size that is larger.
 
         Infinite where one has no value. `scale` is one size for all, or one a component, shape (rows, n).
@@ -135,32 +135,21 @@ class Conditioning:
     @property
     def refused(self) -> Mask:
         """The poses where the result is refused."""
-        mask: Mask = ~(self.error <= LOST)
-        for name, cond in self.conditions.items():
-            if name in self.steep:
-                mask = mask | ~(cond <= REFUSE)
-        return mask
+        steep = [~(cond <= REFUSE) for name, cond in self.conditions.items() if name in self.steep]
+        return np.logical_or.reduce([~(self.error <= LOST), *steep])
 
     @property
     def doubtful(self) -> Mask:
         """The poses where the result holds, with an error that is reported."""
-        mask: Mask = self.error > self.doubt
-        for name, cond in self.conditions.items():
-            if name in self.steep:
-                mask = mask | (cond > WARN)
-        return mask & ~self.refused
-
-    def as_loops(self) -> Conditioning:
-        """Return the same with an error that is at least what the loops alone lose: 0.3 eps cond^2."""
-        lost = [0.3 * np.finfo(float).eps * cond * cond for cond in self.conditions.values()]
-        return replace(self, error=np.maximum.reduce([self.error, *lost]))
+        steep = [cond > WARN for name, cond in self.conditions.items() if name in self.steep]
+        return np.logical_or.reduce([self.error > self.doubt, *steep]) & ~self.refused
 
     def at(self, mask: Mask) -> Conditioning:
         """Return the same of some poses."""
-        def cut(given: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
-            return {name: np.broadcast_to(each, mask.shape)[mask] for name, each in given.items()}
-
-        return replace(self, conditions=cut(self.conditions), spans=cut(self.spans), error=self.error[mask])
+        conditions, spans = (
+            {name: np.broadcast_to(each, mask.shape)[mask] for name, each in given.items()} for given in (self.conditions, self.spans)
+        )
+        return replace(self, conditions=conditions, spans=spans, error=self.error[mask])
 
     def culprit(self) -> Culprit:
         """Return the member that comes nearest to a singular pose."""
@@ -223,15 +212,11 @@ def singular_error(found: Conditioning, mask: Mask, strokes: Mapping[str, object
         why = f"{opening(plan, name) if name else 'it'} {near}"
         if near.span is None:
             why = "its parts nearly cancel, as far from the origin or where several loops lose digits"
-        if not np.max(found.error) < 1.0:
-            why += ", and rounding leaves nothing of it"
-        else:
-            why += f", and rounding leaves an error of about {float(np.max(found.error)):.0e} of it"
-    return SingularError(
-        f"{what} {is_or_are(what)} refused {where_words(plan, mask, strokes)}: {why}. The positions hold; shorten the stroke, or ask with "
-        f'unreachable="nan" for the other poses.',
-        point=name, mask=mask, motion=motion,
-    )  # fmt: skip
+        most = float(np.max(found.error))
+        why += f", and rounding leaves {f'an error of about {most:.0e}' if most < 1.0 else 'nothing'} of it"
+    refused = f"{what} {is_or_are(what)} refused {where_words(plan, mask, strokes)}: {why}"
+    remedy = 'The positions hold; shorten the stroke, or ask with unreachable="nan" for the other poses.'
+    return SingularError(f"{refused}. {remedy}", point=name, mask=mask, motion=motion)
 
 
 def lost_places(found: Conditioning, mask: Mask, strokes: Mapping[str, object]) -> SingularError:
@@ -239,12 +224,10 @@ def lost_places(found: Conditioning, mask: Mask, strokes: Mapping[str, object]) 
     plan = found.plan
     near = found.culprit()
     name, why = near.member, str(near) if near.condition is None else f"has its links in line ({near})"
-    return SingularError(
-        f"{plan.title} stands at a change point {where_words(plan, mask, strokes)}: {opening(plan, name) if name else 'it'} {why}, so that "
-        "its place is not settled by its geometry and lost in rounding. Stop before it, move a point, or ask with "
-        'unreachable="nan" for the other poses.',
-        point=name, mask=mask,
-    )  # fmt: skip
+    where = f"stands at a change point {where_words(plan, mask, strokes)}: {opening(plan, name) if name else 'it'}"
+    remedy = 'Stop before it, move a point, or ask with unreachable="nan" for the other poses.'
+    lost = "so that its place is not settled by its geometry and lost in rounding"
+    return SingularError(f"{plan.title} {where} {why}, {lost}. {remedy}", point=name, mask=mask)
 
 
 def is_or_are(what: str) -> str:

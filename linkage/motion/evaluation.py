@@ -28,7 +28,6 @@ from .requests import (
     RequestLike,
     all_bound,
     examined,
-    holds_given,
     identities_of,
     keeps_digits,
     known_bound,
@@ -61,8 +60,7 @@ def evaluate(
                 found = at_few_poses(plan, designs, strokes, requests, way)
             if found is not None:
                 return found
-    grid = Grid(plan, designs, at_values(strokes, plan, float_array), per_design=per_design)
-    return evaluate_grid(grid, requests, out, way, unreachable)
+    return evaluate_grid(Grid(plan, designs, at_values(strokes, plan, float_array), per_design=per_design), requests, out, way, unreachable)
 
 
 def evaluate_grid(
@@ -114,14 +112,12 @@ def at_one_pose(
             return None
         values.append(float(value))  # NumPy's own would not raise where it is divided by zero
     identities = identities_of(plan, requests)
-    if identities is None or holds_given(identities):
+    if identities is None:
         return None
     program = plan.made(("one pose", identities), lambda _: PoseProgram(plan, all_bound(plan, requests)))
     pose = program.of_design(designs)
     found = None if pose is None else pose(values)
-    if found is None:
-        return None
-    return program.bulk.split(np.array(found))
+    return None if found is None else program.bulk.split(np.array(found))
 
 
 FEW = 8192
@@ -144,15 +140,13 @@ def at_few_poses(
             return None
         sizes.add(value.size)
     identities = identities_of(plan, requests)
-    if identities is None or holds_given(identities) or len(sizes) != 1:
+    if identities is None or len(sizes) != 1:
         return None
     program = plan.made(("few poses", identities), lambda _: BulkProgram.of(plan, all_bound(plan, requests)))
     if program.angles:
         return None
     result = program.kernel({**designs, **strokes}, None, way, (1, sizes.pop()))
-    if not program.is_clear(result):
-        return None
-    return program.split(result.values[:, 0])
+    return program.split(result.values[:, 0]) if program.is_clear(result) else None
 
 
 @dataclass(frozen=True)
@@ -279,7 +273,9 @@ class Evaluation:
                 near &= ~keeps_digits(plan, self.requests, inputs, near)
                 bad = ~np.all(hard, axis=0) | near.any(axis=0) | ~np.isfinite(block).all(axis=0)
             if bad.any():
-                at_bad = {name: input_at(value, name in plan.table.entries, bad) for name, value in inputs.items()}
+                shaped = {name: np.asarray(value, float) for name, value in inputs.items()}
+                own = {name for name, value in shaped.items() if value.ndim == 1 and name in plan.table.entries}  # one a design
+                at_bad = {name: np.broadcast_to(value[:, None] if name in own else value, bad.shape)[bad] for name, value in shaped.items()}
                 self._put_right(block, bad, at_bad, worst, np.logical_not(hard[:assumed, bad].all(axis=0)), near[:, bad])
             for (first, each), gap in zip(self._starts(), empty, strict=True):
                 block[first : first + each.rows, gap] = np.nan
@@ -297,8 +293,12 @@ class Evaluation:
         with np.errstate(all="ignore"):
             lengths = plan.reading(inputs)
             lost = ~np.isfinite(block[:, bad]).all(axis=0) | negative(plan, lengths, shape)
-            if lost.any():
-                lost[lost] = self._failed({name: value[lost] for name, value in inputs.items()}, int(lost.sum()))
+            if lost.any():  # where something that the requests are built from cannot be placed
+                names, failed = members_behind(plan, self.requests), np.zeros(int(lost.sum()), bool)
+                for name, mask in failures(plan, plan.read({name: value[lost] for name, value in inputs.items()}), failed.shape):
+                    if name in names:
+                        failed |= mask
+                lost[lost] = failed
         refused, looked = np.zeros((len(self.requests), *shape), bool), near & ~lost
         here, among = looked.any(axis=0), np.flatnonzero(looked.any(axis=1)).tolist()
         at = {name: value[here] for name, value in inputs.items()}
@@ -313,15 +313,6 @@ class Evaluation:
         if (broken & ~lost & ~refused.any(axis=0)).any() or (self._raises and (lost.any() or refused.any())):
             self._refuse()
         self._fill(block, bad, inputs, lost | refused)
-
-    def _failed(self, inputs: Mapping[str, object], count: int) -> Mask:
-        """Return the mask of poses, shape (count,), at which something that the requests are built from cannot be placed."""
-        plan, failed = self.grid.plan, np.zeros(count, bool)
-        names = members_behind(plan, self.requests)
-        for name, mask in failures(plan, plan.read(inputs), failed.shape):
-            if name in names:
-                failed |= mask
-        return failed
 
     def _fill(self, block: FloatArray, bad: Mask, inputs: Mapping[str, Any], without: Mask) -> None:
         """Fill the bad poses of a block: to rounding where they stand at a dead point, with NaN where a request has no value."""
@@ -396,14 +387,6 @@ def part_of_input(value: Any, band: slice, part: slice, of_design: bool) -> Any:
     if np.ndim(value) == 2:
         return value[band if value.shape[0] > 1 else slice(None), part]
     return value if np.ndim(value) == 0 or np.size(value) == 1 else value[band] if of_design else value[part]
-
-
-def input_at(value: object, of_design: bool, mask: Mask) -> Any:
-    """Return a flat input at the poses of a mask."""
-    shaped = np.asarray(value, float)
-    if shaped.ndim == 1 and of_design:
-        shaped = shaped[:, None]
-    return np.broadcast_to(shaped, mask.shape)[mask]
 
 
 # Values and ratios of one design, pose by pose, in floats: for root finders and other loops.
@@ -497,19 +480,16 @@ class PoseFunction:
         if len(values) != len(names):
             raise DefinitionError(f"{plan.title}: one value for each stroke is expected: {', '.join(names)}.")
         require_kinds(plan, dict(zip(names, values, strict=True)))
-        grid = Grid(plan, self._designs, {name: one_value(value, name, plan.title) for name, value in zip(names, values, strict=True)})
+        given = {name: numbers_in(value) for name, value in zip(names, values, strict=True)}
+        for name, found in given.items():
+            if found.size != 1 or not np.isfinite(found).all():
+                what = f"{plan.title}: the stroke {name}={values[names.index(name)]!r:.60}"
+                raise DefinitionError(f"{what}: one finite number is expected; evaluate takes arrays.")
+        grid = Grid(plan, self._designs, {name: found.reshape(()) for name, found in given.items()})
         return tuple(float(part) for found in evaluate_grid(grid, self._requests, None, QUICKEST, "raise") for part in np.ravel(found))
 
     def __reduce__(self) -> tuple[Any, ...]:
         return PoseFunction, (self._plan, self._designs, self._requests)
-
-
-def one_value(value: object, name: str, title: str) -> FloatArray:
-    """Return a stroke's one value, shape (); DefinitionError for several, and for anything but a finite number."""
-    found = numbers_in(value)
-    if found.size != 1 or not np.isfinite(found).all():
-        raise DefinitionError(f"{title}: the stroke {name}={value!r:.60}: one finite number is expected; evaluate takes arrays.")
-    return found.reshape(())
 
 
 # Values and ratios as the text of a function in another language: for a controller, or a page of one's own.
@@ -528,21 +508,10 @@ def source_of(plan: Plan, designs: Mapping[str, Any], requests: Sequence[Request
     nodes = plan.made(
         ("source", tuple(each.key for each in bound)), lambda twin: [node for each in bound for node in true_nodes(twin, each)]
     )
-    if language == "javascript" and is_solved(plan, nodes):
-        return live_source(plan, bound, name, design)
-    closed_form(plan, nodes)
-    return writer.text(nodes, name, design)
-
-
-def is_solved(plan: Plan, nodes: Sequence[Node]) -> bool:
-    """Return whether nodes hang on pins that are found by iteration, or on an angle that is followed."""
-    return not {node.value for node in Kernel(nodes).plan.pose_inputs}.isdisjoint(plan.solved)
-
-
-def closed_form(plan: Plan, nodes: Sequence[Node]) -> None:
-    """Raise DefinitionError where nodes hang on pins that are found by iteration, or on an angle that is followed."""
     read = {node.value for node in Kernel(nodes).plan.pose_inputs}
-    for group in plan.groups.values():
+    if language == "javascript" and not read.isdisjoint(plan.solved):
+        return live_source(plan, bound, name, design)
+    for group in plan.groups.values():  # what hangs on pins that are found by iteration, or on a followed angle, has no closed form
         if not read.isdisjoint(group.inputs):
             what = f"{plan.title}: {group} is solved by iteration and has no closed form to write down"
             raise DefinitionError(f"{what}; ask for what does not hang on {', '.join(group.pins)}, or use function().")
@@ -550,3 +519,4 @@ def closed_form(plan: Plan, nodes: Sequence[Node]) -> None:
         if angle in read:
             what = f"{plan.title}: {angle} is followed from the sketch, as its whole turns tell poses apart, and has no closed form"
             raise DefinitionError(f"{what} to write down; use a whole multiple of it, drive the angle by a Stroke, or use function().")
+    return writer.text(nodes, name, design)

@@ -14,17 +14,16 @@ from typing import Any, TypeAlias, final
 
 import numpy as np
 
-from ..checks import require
 from ..errors import AssemblyError, DefinitionError, SingularError, cited, one_word, unwarned
 from ..language import said
-from ..plan import Mask, Plan, opening, require_kind
+from ..numeric.linear import solved
+from ..plan import Mask, Plan, opening
 from ..program import NO_VALUE, FloatArray
 from ..units import show
 from .interruptions import ON_ARRAYS, Clearances
 from .motion import Motion
-from .places import Places, branches, nearest, unmet_words
-from .strokes import TURN, checked_name
-from .target import is_one
+from .places import BranchSearch, Places, stroke_numbers, unmet_words
+from .strokes import TURN
 
 TOLERANCE = 1e-12
 """Of the size of what it measures: a target that is missed by no more is met."""
@@ -48,15 +47,22 @@ def followed(plan: Plan, designs: Mapping[str, object], targets: object, hold: o
     """Return the motion along a path of places; see Mechanism.follow."""
     one_word("unreachable", unreachable, ("raise", "nan"))
     places = Places.of(plan, designs, targets, hold, where="follow")
-    route, begun = Route(places, goals_of(places)), start_of(places, start)
-    first, starts = 0, [] if begun is None else [begun]
+    lengths = {len(each.value) for each in places.targets if isinstance(each.value, np.ndarray)} or {1}
+    if len(lengths) > 1:
+        given = ", ".join(f"{each.quantity} {np.size(each.value)}" for each in places.targets)
+        what = f"the targets have values of different lengths, {given}; give each one value a place"
+        raise DefinitionError(f"{plan.title}: follow: {what}.")
+    route = Route(places, np.stack([np.broadcast_to(each.value, tuple(lengths)) for each in places.targets], axis=1))
+    first, starts = 0, [] if start is None else [start_of(places, start)]
     with unwarned():
-        if begun is None:
-            last = len(route.goals) if unreachable == "nan" else 1
-            found = ((place, first_branches(places, route.goals[place])) for place in range(last))
-            first, starts = next(((place, [*each]) for place, each in found if len(each)), (0, []))
+        if start is None:
+            for place in range(len(route.goals) if unreachable == "nan" else 1):
+                starts = route.first_branches(place)
+                if starts:
+                    first = place
+                    break
         if not starts and unreachable == "raise":
-            why = unmet_words(places, route.goals[0], nearest(places, route.goals[0]))
+            why = unmet_words(places, route.goals[0], BranchSearch(places, route.goals[0]).nearest())
             text = said("place {n} of {count} is not reached: {why}", n=1, count=len(route.goals), why=why)
             raise AssemblyError(f"{plan.title}: follow: {text}", mask=np.ones(len(route.goals), bool))
         best = None
@@ -72,52 +78,19 @@ def followed(plan: Plan, designs: Mapping[str, object], targets: object, hold: o
     return route.motion(np.where(best.inside[:, None], best.strokes, np.nan), unreachable)
 
 
-def goals_of(places: Places) -> FloatArray:
-    """Return what is wanted at each place (n, t); DefinitionError where the arrays of the targets are not of one length."""
-    lengths = {len(each.value) for each in places.targets if isinstance(each.value, np.ndarray)}
-    if len(lengths) > 1:
-        given = ", ".join(f"{each.quantity} {np.size(each.value)}" for each in places.targets)
-        what = f"the targets have values of different lengths, {given}; give each one value a place"
-        raise DefinitionError(f"{places.plan.title}: follow: {what}.")
-    count = lengths.pop() if lengths else 1
-    return np.stack([np.broadcast_to(each.value, (count,)) for each in places.targets], axis=1)
-
-
-def start_of(places: Places, start: Any) -> FloatArray | None:
-    """Return where the path begins, values of the free strokes (k,), None if that is not said; DefinitionError for anything else."""
-    if start is None:
-        return None
+def start_of(places: Places, start: Any) -> FloatArray:
+    """Return where the path begins, values of the free strokes (k,); DefinitionError for anything else."""
     title = f"{places.plan.title}: follow"
     if hasattr(start, "keys"):  # a row of `Positions.strokes` too
         start = dict(start)
     if not isinstance(start, Mapping):
         example = ", ".join(f'"{name}": ...' for name in places.free)
         raise DefinitionError(f"{title}: start={cited(start)}: the strokes it begins near are expected, start={{{example}}}.")
-    for name, value in start.items():
-        checked_name("Stroke", name, places.plan.strokes, places.plan.title)
-        require_kind(places.plan, name, value, f"{title}: start: {name}")
-        require(is_one(value), f"{title}: start: {name}", value, "one number is expected, in SI")
-    missing = [name for name in places.free if name not in start]
+    known = stroke_numbers(places.plan, start, f"{title}: start")
+    missing = [name for name in places.free if name not in known]
     if missing:
         raise DefinitionError(f"{title}: start= does not say {', '.join(missing)}; give a value for each stroke that is not held.")
-    return np.array([float(start[name]) for name in places.free])
-
-
-def first_branches(places: Places, goal: FloatArray) -> FloatArray:
-    """Return the strokes of all branches of a place, shape (n, k), the nearest to the declared first pose of the strokes first."""
-    found = branches(places, goal).unit
-    begun = (np.array([places.plan.sketch_strokes[name] for name in places.free]) - places.low) / places.span
-    return places.low + found[np.argsort(np.abs(found - begun).max(axis=1), kind="stable")] * places.span
-
-
-@final
-@dataclass(frozen=True, eq=False)
-class PathEnd:
-    """Where a path ends: before which place, the strokes there (k,), and what they give (t,) [SI]."""
-
-    place: int
-    strokes: FloatArray
-    values: FloatArray
+    return np.array([known[name] for name in places.free])
 
 
 @final
@@ -169,35 +142,35 @@ class Route:
             for a, b, is_angle in zip(values, goal, self.angles, strict=True)
         ]
 
+    def first_branches(self, place: int) -> list[FloatArray]:
+        """Return the strokes (k,) of all branches of a place, the nearest to the declared first pose of the strokes first."""
+        places = self.places
+        found = BranchSearch(places, self.goals[place]).branches().unit
+        begun = (np.array([places.plan.sketch_strokes[name] for name in places.free]) - places.low) / places.span
+        return [*(places.low + found[np.argsort(np.abs(found - begun).max(axis=1), kind="stable")] * places.span)]
+
     def tracked(self, start: FloatArray, first: int) -> Track:
         """Return the strokes of each place from the first one on, from some strokes near those of it; NaN from where it ends."""
         goals: list[list[float]] = self.goals.tolist()
         strokes = np.full((len(goals), len(self.places.free)), np.nan)
         begun = self.pose(start.tolist())
         if begun is None:
-            return Track(self, strokes, first, PathEnd(first, start, np.full(len(goals[0]), np.nan)))
+            return Track(self, strokes, first, first, TrackedPose(start.tolist(), [np.nan] * len(goals[0]), [], 0.0))
         step = solved(begun[1], begun[0])
         here = TrackedPose(start.tolist(), *begun, step[1] if step is not None else 0.0)
         ahead: list[TrackedPose] = []
         for place, goal in enumerate(goals[first:], first):
             found = None
-            if len(ahead) == 4:
-                found = self._ahead(ahead, goal)
+            if len(ahead) == 4:  # where the last four places lead to, a cubic through them
+                last = zip(*(each.strokes for each in ahead), strict=True)
+                found = self._corrected(here, [4.0 * z - 6.0 * y + 4.0 * x - w for w, x, y, z in last], goal, TURNS)
                 ahead = ahead if found is not None else []
-            if found is None:
-                found = self._divided(here, goal)
-            if not self.is_met(self.off(found.values, goal), NOISE):
-                return Track(self, strokes, first, PathEnd(place, np.array(found.strokes), np.array(found.values)))
-            here = found
+            here = self._divided(here, goal) if found is None else found
+            if not self.is_met(self.off(here.values, goal), NOISE):
+                return Track(self, strokes, first, place, here)
             ahead = [*ahead[-3:], here]
             strokes[place] = here.strokes
-        return Track(self, strokes, first, None)
-
-    def _ahead(self, last: Sequence[TrackedPose], goal: Sequence[float]) -> TrackedPose | None:
-        """Return the pose at a goal from where the last four places lead to, a cubic through them; None where that is not near it."""
-        a, b, c, here = (each.strokes for each in last)
-        guess = [4.0 * z - 6.0 * y + 4.0 * x - w for w, x, y, z in zip(a, b, c, here, strict=True)]
-        return self._corrected(last[-1], guess, goal, TURNS)
+        return Track(self, strokes, first, len(goals), here)
 
     def _divided(self, here: TrackedPose, goal: Sequence[float]) -> TrackedPose:
         """Return the pose at a goal, in as many steps as are needed; the last one that is reached where none leads there."""
@@ -280,43 +253,16 @@ class TrackedPose:
     determinant: float
 
 
-def solved(matrix: Sequence[Sequence[float]], right: Sequence[float]) -> tuple[list[float], float] | None:
-    """Return the solution of a small system of linear equations in floats, and its determinant; None for a singular one."""
-    rows = [[*row, b] for row, b in zip(matrix, right, strict=True)]
-    count, determinant = len(rows), 1.0
-    for k in range(count):
-        pivot = k
-        for row in range(k + 1, count):
-            if abs(rows[row][k]) > abs(rows[pivot][k]):
-                pivot = row
-        if not abs(rows[pivot][k]) > 0.0:
-            return None
-        if pivot != k:
-            rows[k], rows[pivot], determinant = rows[pivot], rows[k], -determinant
-        top = rows[k]
-        determinant *= top[k]
-        for below in rows[k + 1 :]:
-            factor = below[k] / top[k]
-            for column in range(k + 1, count + 1):
-                below[column] -= factor * top[column]
-    found = [0.0] * count
-    for k in range(count - 1, -1, -1):
-        found[k] = (rows[k][count] - sum(rows[k][j] * found[j] for j in range(k + 1, count))) / rows[k][k]
-    return found, determinant
-
-
 @final
 @dataclass(frozen=True, eq=False)
 class Track:
-    """The strokes (n, k) of a path on one branch, from the first place that it reaches, NaN from where it ends.
-
-    `ended` is where that is, None for one that goes to the end.
-    """
+    """The strokes (n, k) of a path on one branch, from the first place that it reaches, NaN from where it ends, with the last pose."""
 
     route: Route
     strokes: FloatArray
     first: int
-    ended: PathEnd | None
+    end: int
+    last: TrackedPose
 
     @cached_property
     def past(self) -> FloatArray:
@@ -340,17 +286,22 @@ class Track:
 
     def error(self) -> AssemblyError:
         """Return why it does not go all the way."""
-        place = self.reached_first
-        out = self.past[place] > 0.0
-        if out.any():
-            return AssemblyError(self._past_words(place, out), mask=~self.inside, shortfall=float(self.past[place].max()))
-        assert self.ended is not None
-        past = self.route.past(self.ended.strokes)
+        place, places = self.reached_first, self.route.places
+        past = self.past[place]
         if (past > 0.0).any():
-            words = self.route.places.past_words(self.ended.strokes, past > 0.0)
+            text = said("{opening}: {words}.", opening=self._opening(place), words=places.past_words(self.strokes[place], past > 0.0))
+            worst = int(np.argmax(np.max(self.past / places.span, axis=1)))
+            if worst != place:
+                most = places.past_words(self.strokes[worst], self.past[worst] > 0.0)
+                text += " " + said("Farthest out is place {n}: {words}.", n=worst + 1, words=most)
+            return AssemblyError(text, mask=~self.inside, shortfall=float(past.max()))
+        strokes = np.array(self.last.strokes)
+        past = self.route.past(strokes)
+        if (past > 0.0).any():
+            words = places.past_words(strokes, past > 0.0)
             text = said("{opening}: on the way there {words}.", opening=self._opening(place), words=words)
             return AssemblyError(text, mask=~self.inside, shortfall=float(past.max()))
-        return self._dead_point(self.ended)
+        return self._dead_point(strokes)
 
     def _opening(self, place: int) -> str:
         """Return how a sentence about a place begins."""
@@ -358,28 +309,18 @@ class Track:
         at = said("place {n} of {count}, {wanted}", n=place + 1, count=len(goals), wanted=places.shown(goals[place]))
         return f"{places.plan.title}: follow: {at}"
 
-    def _past_words(self, place: int, out: Mask) -> str:
-        """Return which stroke is past which end at a place, by how much; and where most."""
-        words = self.route.places.past_words(self.strokes[place], out)
-        text = said("{opening}: {words}.", opening=self._opening(place), words=words)
-        worst = int(np.argmax(np.max(self.past / self.route.places.span, axis=1)))
-        if worst != place:
-            most = self.route.places.past_words(self.strokes[worst], self.past[worst] > 0.0)
-            text += " " + said("Farthest out is place {n}: {words}.", n=worst + 1, words=most)
-        return text
-
-    def _dead_point(self, ended: PathEnd) -> SingularError:
+    def _dead_point(self, strokes: FloatArray) -> SingularError:
         """Return the error for a path that ends at a dead point: of a loop where one is in line there, else of the drive."""
         places = self.route.places
-        at = places.stroke_words(ended.strokes)
-        missing = self.route.off(ended.values.tolist(), self.route.goals[ended.place].tolist())
+        at = places.stroke_words(strokes)
+        missing = self.route.off(self.last.values, self.route.goals[self.end].tolist())
         lacks = ", ".join(
             said("{amount} of {name}", amount=show(abs(each), target.shown_in(places.plan), 4), name=name)
             for each, target, name, least in zip(missing, places.targets, places.bound, self.route.tolerance, strict=True)
             if not abs(each) <= least
         )
-        loop = loop_in_line(places, ended.strokes)
-        if not np.isfinite(ended.values).all():
+        loop = loop_in_line(places, strokes)
+        if not np.isfinite(self.last.values).all():
             what = said("at {strokes}, where it begins, there is no pose", strokes=at)
         elif loop:
             what = said("at {strokes} {step} stands at a dead point, {missing} short of it", strokes=at, step=loop, missing=lacks)
@@ -391,11 +332,11 @@ class Track:
             )  # fmt: skip
         poses = self.route.motion(np.where(self.inside[:, None], self.strokes, np.nan), "nan")
         point = loop.partition(" = ")[0]
-        return SingularError(f"{self._opening(ended.place)}: {what}.", point=point, mask=~self.inside, motion=poses)
+        return SingularError(f"{self._opening(self.end)}: {what}.", point=point, mask=~self.inside, motion=poses)
 
 
 def loop_in_line(places: Places, strokes: FloatArray) -> str:
-    """Return the step whose loop stands at its dead point at some strokes, as a sentence begins with it; "" where none does."""
+    """Return the step whose loop stands at its dead point at some strokes (k,), as a sentence begins with it; "" where none does."""
     clearances = places.plan.made("clearances", Clearances.of)
     if not clearances.loops:
         return ""

@@ -12,11 +12,11 @@ Source: C. Ericson, Real-time collision detection (2005), 5.1 and 5.2.1 (separat
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import reduce
 from itertools import combinations, pairwise, product
-from typing import final
+from typing import TypeAlias, final
 
 import numpy as np
 import numpy.typing as npt
@@ -32,9 +32,16 @@ from ..steps import Link
 from ..surroundings import CircleOutline, Outline, numbers_at
 from ..units import require_measure
 from ..vectors import Scalar, Vec, pick
-from .cuts import FAR, Pick, how_sound, triangles
 from .requests import MotionLike, NodeRequest
 
+Pick: TypeAlias = Callable[[Scalar, Scalar, Scalar, Scalar], Scalar]
+"""What gives its third number where the first is at most the second, else the fourth."""
+Triangle: TypeAlias = tuple[Vec, Vec, Vec]
+
+ROUNDED = 1e-9
+"""The part of an outline's area that rounding may take or give."""
+FAR = 1e12
+"""m2: more than any cut is long."""
 SMALLEST = 1e-24
 """m2; the square of an edge that is no longer is taken as this, so that two points that coincide give no direction and no harm."""
 
@@ -125,17 +132,14 @@ class BodyShape:
 
 def gap_of(plan: Plan, a: str, b: str) -> Scalar:
     """Return the gap of two bodies or outlines in a plan's trace [m]."""
-    one, other = two_shapes(plan, a, b)
-    pick = plan.trace.graph.pick
-    found = least_number([gap_if_any(p, q, pick) for p, q in product(*(each.pieces(plan, plan.trace, pick) for each in (one, other)))])
-    follow = any(each.outline is not None and follows_dimensions(each.outline) for each in (one, other))
-    return pick(FAR, found, np.nan, found) if follow else found  # no piece at all: an outline crosses itself
-
-
-def gap_if_any(one: Piece, other: Piece, pick: Pick) -> Scalar:
-    """Return the gap of two pieces; where one of them is none in a design, more than any gap."""
-    found, counts = signed_gap(one, other, pick), [each.counts for each in (one, other) if each.counts is not None]
-    return pick(0.0, least_number(counts), found, FAR) if counts else found
+    shapes, pick = two_shapes(plan, a, b), plan.trace.graph.pick
+    gaps = list[Scalar]()
+    for pair in product(*(each.pieces(plan, plan.trace, pick) for each in shapes)):
+        found, counts = signed_gap(*pair, pick), [each.counts for each in pair if each.counts is not None]
+        gaps.append(pick(0.0, least_number(counts), found, FAR) if counts else found)  # more than any gap where one is none in a design
+    least = least_number(gaps)
+    follow = any(each.outline is not None and follows_dimensions(each.outline) for each in shapes)
+    return pick(FAR, least, np.nan, least) if follow else least  # no piece at all: an outline crosses itself
 
 
 def follows_dimensions(outline: Outline) -> bool:
@@ -194,7 +198,12 @@ def two_shapes(plan: Plan, a: str, b: str) -> tuple[BodyShape, BodyShape]:
     """Return the shapes of two bodies, points or outlines by their names; DefinitionError for bodies that share a point."""
     one, other = shape_named(plan, a), shape_named(plan, b)
     if one.outline is None and other.outline is None:
-        check_apart(plan, a, b, one.points, other.points)
+        shared = [name for name in one.points if name in other.points]
+        if shared:
+            what = f"{plan.title}: gap({a}, {b}): both have {', '.join(shared)}, so that there is no gap between them"
+            first, body, rest = (b, a, other.points) if b == plan.links[0].name else (a, b, one.points)
+            free = next((each for each in rest if each not in shared), first)
+            raise DefinitionError(f"{what}; ask for that of a point, such as gap({free}, {body}), or of outlines on both.")
     elif one == other:
         raise DefinitionError(f"{plan.title}: gap({a}, {b}): this is one outline; name two.")
     elif one.outline is None or other.outline is None:
@@ -212,25 +221,10 @@ def body_points_of(plan: Plan, shape: BodyShape) -> set[str]:
 
 
 def shape_named(plan: Plan, name: str) -> BodyShape:
-    """Return the shape of a body, a straight element, a point or an outline by its name."""
+    """Return the shape of a body, a straight element, a point or an outline by its name; DefinitionError for any other."""
     outline = plan.of_kind(Outline).get(name)
     if outline is not None:
         return BodyShape(outline.carriers, outline=outline)
-    return BodyShape(shape_of(plan, name), each_alone=name == plan.links[0].name)
-
-
-def check_apart(plan: Plan, a: str, b: str, of_a: tuple[str, ...], of_b: tuple[str, ...]) -> None:
-    """Raise DefinitionError for two bodies that share a point."""
-    shared = [name for name in of_a if name in of_b]
-    if shared:
-        what = f"{plan.title}: gap({a}, {b}): both have {', '.join(shared)}, so that there is no gap between them"
-        first, body, rest = (b, a, of_b) if b == plan.links[0].name else (a, b, of_a)
-        free = next((each for each in rest if each not in shared), first)
-        raise DefinitionError(f"{what}; ask for that of a point, such as gap({free}, {body}), or of outlines on both.")
-
-
-def shape_of(plan: Plan, name: str) -> tuple[str, ...]:
-    """Return the points of a body, a straight element or a point by its name; DefinitionError for any other."""
     known: dict[str, tuple[str, ...]] = {body.name: body.points for body in plan.links}
     known |= {joined_names(bar.P, bar.Q): (bar.P, bar.Q) for bar in plan.cylinders}
     known |= {each: element.ends for each, element in plan.of_kind(TwoPoint).items()}
@@ -239,11 +233,9 @@ def shape_of(plan: Plan, name: str) -> tuple[str, ...]:
     known |= {each: (each,) for each in plan.points}
     points = set(name.split())
     found = [body.points for body in plan.links if len(points) > 1 and points <= set(body.points)]
-    if name not in known and len(found) == 1:
-        return found[0]
-    if name not in known:
+    if name not in known and len(found) != 1:
         raise unknown("Body", name, [*known, *plan.of_kind(Outline)], where=plan.title)
-    return known[name]
+    return BodyShape(known.get(name, found[0] if found else ()), each_alone=name == plan.links[0].name)
 
 
 def signed_gap(one: Piece, other: Piece, pick: Pick) -> Scalar:
@@ -252,7 +244,7 @@ def signed_gap(one: Piece, other: Piece, pick: Pick) -> Scalar:
     edges, rounded = [one.edges, other.edges], one.radius + other.radius
     if not any(edges):
         return np.sqrt((a[0] - b[0]).square()) - rounded
-    squares = [square_to_edge(P, edge) for points, own in ((a, edges[1]), (b, edges[0])) for P in points for edge in own]
+    squares = [(P - nearest_on(edge, P)).square() for points, own in ((a, edges[1]), (b, edges[0])) for P in points for edge in own]
     overlap = reduce(np.maximum, [separation(a, b, way) for own in edges for way in ways_across(own)])
     return pick(overlap, 0.0, overlap, np.sqrt(least_number(squares))) - rounded
 
@@ -260,11 +252,6 @@ def signed_gap(one: Piece, other: Piece, pick: Pick) -> Scalar:
 def ways_across(edges: Sequence[tuple[Vec, Vec]]) -> list[Vec]:
     """Return the directions along which two pieces may be parted for the edges of one of them: bars in line are parted along it."""
     return [*((start - end).left() for start, end in edges), *(end - start for start, end in edges[:1])]
-
-
-def square_to_edge(P: Vec, edge: tuple[Vec, Vec]) -> Scalar:
-    """Return the square of a point's distance from a straight edge [m2]."""
-    return (P - nearest_on(edge, P)).square()
 
 
 def nearest_on(edge: tuple[Vec, Vec], P: Vec) -> Vec:
@@ -285,6 +272,80 @@ def separation(a: Sequence[Vec], b: Sequence[Vec], way: Vec) -> Scalar:
 def least_number(values: Sequence[Scalar]) -> Scalar:
     """Return the least of some numbers, pose by pose."""
     return reduce(np.minimum, values)
+
+
+# An outline whose corners follow dimensions, cut into convex pieces in the program: as its class is where that holds, else anew.
+#
+# Which corners make up a piece hangs on the design. Where the pieces of the class's own design stay convex and still make up the whole,
+# they count; elsewhere the triangles do that ears leave which are cut off one after the other, that with the shortest cut first.
+
+
+def doubled_turn(a: Vec, b: Vec, c: Vec) -> Scalar:
+    """Return twice the area of three corners, above zero where they go round counter-clockwise [m2]."""
+    return (b - a).cross(c - a)
+
+
+def doubled_area(corners: Sequence[Vec]) -> Scalar:
+    """Return twice the area of a closed line, above zero where it goes round counter-clockwise [m2]."""
+    start = corners[0]
+    return sum(((b - start).cross(c - start) for b, c in pairwise(corners[1:])), 0.0 * start.x)
+
+
+def how_sound(corners: Sequence[Vec], pieces: Sequence[Sequence[int]], class_sense: float, pick: Pick) -> Scalar:
+    """Return a number that is zero or more where pieces, by the numbers of their corners, are convex and make up the whole of a line."""
+    whole = doubled_area(corners)
+    sense = pick(0.0, whole, class_sense, -class_sense)
+    size = np.abs(whole)
+    turns, areas = [], []
+    for piece in pieces:
+        places = [corners[each] for each in piece]
+        around = [*places, *places[:2]]
+        turns += [doubled_turn(a, b, c) for a, b, c in zip(around, around[1:], around[2:], strict=False)]
+        turns += [doubled_turn(places[0], b, c) for b, c in pairwise(places[1:])]
+        areas.append(doubled_area(places))
+    least_turn = reduce(np.minimum, [each * sense for each in turns])
+    missed = np.abs(sum(areas[1:], areas[0]) * sense - size)
+    return np.minimum(least_turn + ROUNDED * size, ROUNDED * size - missed)
+
+
+def triangles(corners: Sequence[Vec], pick: Pick) -> tuple[list[Triangle], Scalar]:
+    """Return the triangles that a closed line is cut into, and a number above zero where it can be cut: where it does not cross itself."""
+    order, found = list(corners), list[Triangle]()
+    whole = doubled_area(corners)
+    sense, sound = pick(0.0, whole, 1.0, -1.0), np.abs(whole)
+    least_room = ROUNDED * sound
+    while len(order) > 3:
+        count = len(order)
+        around = [(order[place - 1], order[place], order[(place + 1) % count]) for place in range(count)]
+        rooms = [ear_room(order, place, sense) for place in range(count)]
+        costs = [pick(room, least_room, FAR, (c - a).square()) for room, (a, _, c) in zip(rooms, around, strict=True)]
+        best, which, ear = costs[0], 0.0 * costs[0], around[0]
+        for place in range(1, count):
+            which = pick(best, costs[place], which, float(place))
+            ear = tuple(chosen(best, costs[place], one, other, pick) for one, other in zip(ear, around[place], strict=True))  # type: ignore[assignment]
+            best = np.minimum(best, costs[place])
+        found.append(ear)
+        sound = np.minimum(sound, 0.5 * FAR - best)
+        order = [chosen(which, float(place), order[place + 1], order[place], pick) for place in range(count - 1)]
+    last = (order[0], order[1], order[2])
+    return [*found, last], np.minimum(sound, doubled_turn(*last) * sense + least_room)
+
+
+def chosen(a: Scalar, b: Scalar, one: Vec, other: Vec, pick: Pick) -> Vec:
+    """Return one place where a is at most b, else the other."""
+    return Vec(pick(a, b, one.x, other.x), pick(a, b, one.y, other.y))
+
+
+def ear_room(order: Sequence[Vec], place: int, sense: Scalar) -> Scalar:
+    """Return a number above zero where a corner can be cut off: it turns to the inside, and nothing else lies in its triangle."""
+    count = len(order)
+    a, b, c = order[place - 1], order[place], order[(place + 1) % count]
+    room = doubled_turn(a, b, c) * sense
+    for step in range(2, count - 1):
+        P = order[(place + step) % count]
+        inside = reduce(np.minimum, [doubled_turn(start, end, P) * sense for start, end in ((a, b), (b, c), (c, a))])
+        room = np.minimum(room, 0.0 - inside)
+    return room
 
 
 # Where two bodies come nearest.

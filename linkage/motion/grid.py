@@ -50,14 +50,22 @@ class Grid:
         except ValueError:
             shapes = ", ".join(map(str, arrays))
             raise DefinitionError(f"{plan.title}: the shapes of the design arrays do not fit each other: {shapes}.") from None
-        if per_design:
-            self.strokes = strokes_per_design(self.strokes, self.design_shape, plan.title)
+        if per_design:  # arrays begin with the shape of the designs
+            designs = self.design_shape
+            try:
+                full = {name: np.broadcast_to(value, (*designs, *value.shape[len(designs) :])) for name, value in strokes.items()}
+            except ValueError:
+                name, value = next(iter(strokes.items()))
+                what = f"the strokes of each design begin with the shape of the designs, {designs}; {name} has the shape {value.shape}"
+                remedy = "Strokes that all designs share are given without per_design=True"
+                raise DefinitionError(f"{plan.title}: {what}. {remedy}.") from None
+            self.strokes = FrozenDict({name: read_only(value) for name, value in full.items()})
         shape: tuple[int, ...] = ()
         for value in self.strokes.values():
             shape = value.shape
         self.stroke_shape = shape[len(self.design_shape) :] if per_design else shape
         self.shape = (*self.design_shape, *self.stroke_shape)
-        self.joins_itself, self._joining = joining is None, joining or joined_by_stroke
+        self.joins_itself, self.joining = joining is None, joining or joined_by_stroke
         self._angles: dict[Kernel, FloatArray] = {}
         self._is_pose = self._is_plain and not plan.solved and all(value.size == 1 for value in self.strokes.values())
 
@@ -152,26 +160,11 @@ class Grid:
 
     # -- angles --------------------------------------------------------------------------------------------
 
-    def joined(self, angles: FloatArray, kernel: Kernel) -> FloatArray:
-        """Return the angles that a kernel gives [rad], shape (angles, ...), without jumps from pose to pose."""
-        return self._joining(self, angles, kernel)
-
     def angles(self, kernel: Kernel) -> FloatArray:
         """Return the angles of a kernel here [rad], without jumps; kept."""
         if kernel not in self._angles:
-            self._angles[kernel] = self.joined(self.full(kernel(self.flat).values), kernel)
+            self._angles[kernel] = self.joining(self, self.full(kernel(self.flat).values), kernel)
         return self._angles[kernel]
-
-
-def strokes_per_design(strokes: Mapping[str, FloatArray], designs: tuple[int, ...], title: str) -> FrozenDict[str, FloatArray]:
-    """Return strokes whose arrays begin with the shape of the designs; DefinitionError where they do not fit it."""
-    try:
-        full = {name: np.broadcast_to(value, (*designs, *value.shape[len(designs) :])) for name, value in strokes.items()}
-    except ValueError:
-        name, value = next(iter(strokes.items()))
-        what = f"the strokes of each design begin with the shape of the designs, {designs}; {name} has the shape {value.shape}"
-        raise DefinitionError(f"{title}: {what}. Strokes that all designs share are given without per_design=True.") from None
-    return FrozenDict({name: read_only(value) for name, value in full.items()})
 
 
 def varies(value: Any) -> bool:
@@ -182,20 +175,18 @@ def varies(value: Any) -> bool:
 class MotionLike(Protocol):
     """What limits, conditions and requests ask of a motion, which itself is made with them; see `Motion`."""
 
+    plan: Plan
+    shape: tuple[int, ...]
+    reached: Mask
+    _grid: Grid
+    _design_shape: tuple[int, ...]
+
     @property
-    def plan(self) -> Plan: ...
-    @property
-    def _grid(self) -> Grid: ...
-    @property
-    def shape(self) -> tuple[int, ...]: ...
-    @property
-    def _design_shape(self) -> tuple[int, ...]: ...
-    @property
-    def designs(self) -> Mapping[str, Any]: ...
+    def designs(self) -> Mapping[str, Numbers]: ...
     @property
     def strokes(self) -> Mapping[str, FloatArray]: ...
     @property
-    def reached(self) -> Mask: ...
+    def inputs(self) -> Mapping[str, Numbers]: ...
     @property
     def _reading(self) -> ArrayReading: ...
     @property
@@ -309,7 +300,7 @@ class Angles:
         at_end = np.zeros(grid.shape, bool) if reached is None else reached & ~np.isfinite(raw).all(axis=0)
         if at_end.any():
             raw = to_rounding(raw, at_end, self.kernel.plan.outputs, grid.inputs_at(at_end))
-        joined = grid.joined(raw, self.kernel)
+        joined = grid.joining(grid, raw, self.kernel)
         if not np.any((joined != raw) & np.isfinite(joined)):
             return None
         known: dict[Node, Any] = dict(zip(self.angles, joined, strict=True))

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import cache
 from typing import Any, final
 
 import numpy as np
@@ -75,6 +74,11 @@ class Clearances:
     kernel: Kernel
     rounding: Kernel
 
+    @property
+    def is_signed(self) -> Mask:
+        """Of which loops, shape (loops, 1), the sign says on which side they are assembled: of guides, and of points that meet."""
+        return np.array([loop.kind in ("guides", "meeting") for loop in self.loops])[:, None]
+
     @classmethod
     def of(cls, plan: Plan) -> Clearances:
         """Return those of a plan; pins of groups are followed on their own."""
@@ -108,25 +112,20 @@ class StrokeClearance:
 
     def seen(self, x: FloatArray) -> FloatArray:
         """Return the clearance of every loop, shape (loops, n): squared sines of links, sines of guides without a sign, lengths [m]."""
-        found: FloatArray = self.clearances.kernel(self.inputs(x), way=ON_ARRAYS, size=(1, x.size)).values[:, 0]
-        for row, loop in enumerate(self.loops):
-            if loop.kind in ("guides", "meeting"):
-                np.abs(found[row], out=found[row])
-        return found
+        found = self.clearances.kernel(self.inputs(x), way=ON_ARRAYS, size=(1, x.size)).values[:, 0]
+        return np.where(self.clearances.is_signed, np.abs(found), found)
 
     def rounding(self, x: FloatArray) -> FloatArray:
         """Return by how much rounding moves every loop's clearance at the most along the values, shape (loops, 1)."""
         sizes = self.clearances.rounding(self.inputs(x), way=ON_ARRAYS, size=(1, x.size)).values[:, 0]
-        found: FloatArray = ROUNDING * np.fmax.reduce(np.abs(sizes), axis=1, initial=1.0)[:, None]
-        return found
+        return np.asarray(ROUNDING * np.fmax.reduce(np.abs(sizes), axis=1, initial=1.0)[:, None])
 
     # -- the search --------------------------------------------------------------------------------------
 
     def grid(self, low: float, high: float) -> FloatArray:
         """Return the values at which a way is looked at first."""
         turns = (high - low) / (2.0 * np.pi) if self.name in self.plan.turning else 1.0
-        found: FloatArray = low + (high - low) * equal_steps(GRID * max(1, int(np.ceil(turns))))
-        return found
+        return np.asarray(low + (high - low) * np.linspace(0.0, 1.0, GRID * max(1, int(np.ceil(turns))) + 1))
 
     def interruptions(self, low: float, high: float) -> tuple[Interruption, ...]:
         """Return what interrupts the way between two values of the stroke, in their order."""
@@ -142,7 +141,6 @@ class StrokeClearance:
 
     def _narrowed(self, x: FloatArray, seen: FloatArray, bends: FloatArray) -> tuple[Interruption, ...]:
         """Return what interrupts the way, from the grid on."""
-        low, high = float(x[0]), float(x[-1])
         noise = self.rounding(x)
         tops = np.fmax.reduce(seen, axis=1)
         tells = np.array([loop.kind != "length" for loop in self.loops])
@@ -155,18 +153,14 @@ class StrokeClearance:
             still &= ~(np.fmax.reduce(wide, axis=1) > 4.0 * level[:, 0])
         places, values = divided(self.seen, x, seen, bends, noise, ~still)
         found: list[Interruption] = []
-        for row, loop in enumerate(self.loops):
-            if not still[row]:
-                found += self._of_loop(row, loop, places, values[row], float(level[row, 0]), float(noise[row, 0]), (low, high))
+        for row in np.flatnonzero(~still).tolist():
+            known = np.isfinite(values[row])
+            found += self._of_loop(row, places[known], values[row][known], float(level[row, 0]), float(noise[row, 0]))
         return tuple(sorted(found, key=lambda each: each.low))
 
-    def _of_loop(
-        self, row: int, loop: Loop, x: FloatArray, seen: FloatArray, level: float, noise: float, ends: tuple[float, float]
-    ) -> list[Interruption]:
+    def _of_loop(self, row: int, x: FloatArray, seen: FloatArray, level: float, noise: float) -> list[Interruption]:
         """Return where one loop interrupts the way: runs of values that have come to zero."""
-        known = np.isfinite(seen)
-        x, seen = x[known], seen[known]
-        found = []
+        found, loop = [], self.loops[row]
         edges = np.flatnonzero(np.diff(np.concatenate([[False], seen <= level, [False]]).astype(int)))
         for first, last in zip(edges[::2], edges[1::2] - 1, strict=True):
             run = slice(first, last + 1)
@@ -176,7 +170,7 @@ class StrokeClearance:
                 low = self._border(row, x, int(under[0]), -1, noise)
                 high = self._border(row, x, int(under[-1]), 1, noise)
                 found.append(Interruption(self.name, self.unit, loop.step, low, high, deepest, loop.kind))
-            elif loop.kind != "length" and min(deepest - ends[0], ends[1] - deepest) > END * (ends[1] - ends[0]):
+            elif loop.kind != "length" and min(deepest - x[0], x[-1] - deepest) > END * (x[-1] - x[0]):
                 found.append(Interruption(self.name, self.unit, loop.step, deepest, deepest, deepest, loop.kind))
         return found
 
@@ -218,11 +212,3 @@ def divided(
     at = np.concatenate(places)
     order = np.argsort(at, kind="stable")
     return at[order], np.concatenate(values, axis=1)[:, order]
-
-
-@cache
-def equal_steps(count: int) -> FloatArray:
-    """Return equal steps from 0 to 1."""
-    found: FloatArray = np.linspace(0.0, 1.0, count + 1)
-    found.flags.writeable = False
-    return found

@@ -20,16 +20,17 @@ from ..language import said
 from ..loads import FRICTIONLESS, PLAIN, PLAIN_CASE, Acting, ForceElement, LoadCase
 from ..numeric.box import values_a_stroke
 from ..numeric.line import SAMPLES
+from ..numeric.quadrature import quadrature
 from ..plan import Mask, Plan
 from ..program import QUICKEST, FloatArray, Kernel
 from ..quantities import PoseCondition, Quantity, Ref, is_whole, keywords
 from ..vectors import Numbers
-from .answer import LOST, LOST_SHARE, NONE_LOST, NOTHING_LEFT, OF_VALUE, UNBOUNDED, Answer, Lost
+from .answer import LOST, LOST_SHARE, NONE_LOST, NOTHING_LEFT, OF_VALUE, PER_DESIGN, UNBOUNDED, Answer, Lost
 from .evaluation import Evaluation
 from .grid import Grid, recalled
 from .kinds import check_condition, check_kinds
 from .limits import stroke_unit
-from .margins import LeastMargin, assembly_error_at, has_all_margins, least_margins
+from .margins import LeastMargin, assembly_error_at, least_margins
 from .measures import (
     At,
     Condition,
@@ -42,6 +43,7 @@ from .measures import (
     Reachable,
     Worst,
     conditions_of,
+    is_quantity,
     reachable,
     strokes_behind,
     traced,
@@ -49,7 +51,6 @@ from .measures import (
 )
 from .motion import Motion
 from .over import ALLOWED, Over, Run, with_strokes
-from .quadrature import quadrature
 from .requests import Request, SmoothPiece, identity_of
 from .search import extremum, strokes_moved
 from .strokes import at_values
@@ -81,6 +82,11 @@ class Situation:
         """It as requests take it."""
         case = None if self.case in ("", PLAIN_CASE) else self.case
         return Acting(case=case, direction=self.direction or None, drive=self.drive or None)
+
+    @property
+    def is_moving(self) -> bool:
+        """Whether it is one of a movement."""
+        return self.direction not in ("", FRICTIONLESS)
 
 
 @final
@@ -135,8 +141,14 @@ class WorstPiece:
     value: FloatArray
     strokes: Mapping[str, FloatArray]
     unbounded: Mask
-    lawless: Any = 0.0
-    unlimited: Any = 0.0
+    lawless: Numbers = 0.0
+    unlimited: Numbers = 0.0
+
+    @property
+    def mover(self) -> Hashable:
+        """What moves in its direction: a cylinder's name, None for a stroke or a path."""
+        quantity = self.row.leaf.quantity
+        return quantity.mover if isinstance(quantity, Request) else None
 
 
 @final
@@ -239,12 +251,11 @@ class Domain:
         if request.of_strokes and not self.is_path:
             drives = [acting.drive] if acting.drive else [*(self.running or self.plan.strokes)]
         cases = self.cases(acting)
-        found = [
+        return [
             Situation(case, direction, drive)
             for case in [each for each in cases if request.occurs_in(self.plan, each)] or cases for direction in directions
-            for drive in (drives if direction not in ("", "frictionless") else [""])
+            for drive in (drives if direction not in ("", FRICTIONLESS) else [""])
         ]  # fmt: skip
-        return found
 
     def cases(self, acting: Acting) -> list[str]:
         """Return the load cases that are looked at, by name: the one asked for, else those that occur here."""
@@ -257,9 +268,8 @@ class Domain:
         name = case_named(self.plan, acting.case)
         if name not in occurring:
             where = self.over.name or str(self.over)
-            raise DefinitionError(
-                f"{self.plan.title}: the load case {name} does not occur over {where}, where there are {', '.join(occurring)}."
-            )
+            what = f"{self.plan.title}: the load case {name} does not occur over {where}"
+            raise DefinitionError(f"{what}, where there are {', '.join(occurring)}.")
         return [name]
 
     def extremes(self, rows: Sequence[Sought]) -> tuple[list[WorstPiece], Coverage]:
@@ -272,25 +282,25 @@ class Domain:
 
     def searched(self, rows: Sequence[Sought]) -> tuple[list[WorstPiece], Coverage]:
         """Return the same, looked for."""
-        asked = Asked(self, rows)
-        if self.over.shape == "poses" or not self.motion.strokes:
+        asked, shape = Asked(self, rows), (len(rows), *self.motion._design_shape)
+        if self.over.shape == "poses" or not self.motion.strokes:  # nothing between the poses
             with np.errstate(all="ignore"):
-                return worst_at_poses(asked, self.motion), asked.seen
-        found = warned_once(lambda: extremum(self.motion, asked, 1.0))
-        shape = (len(rows), *self.motion._design_shape)
-        value, unbounded = (np.broadcast_to(np.asarray(each), shape) for each in (found.value, found.unbounded))
-        strokes = {name: np.broadcast_to(np.asarray(each), shape) for name, each in found.strokes.items()}
-        return [
-            WorstPiece(
-                row,
-                row.value(value[k]),
-                {name: each[k] for name, each in strokes.items()},
-                unbounded[k],
-                asked.seen.lawless[k],
-                asked.seen.unlimited[k],
-            )
-            for k, row in enumerate(rows)
-        ], asked.seen
+                flat = asked(self.motion).reshape(*shape, -1)
+            place = np.argmax(np.where(np.isnan(flat), -np.inf, flat), axis=-1)[..., None]
+            value = np.take_along_axis(flat, place, axis=-1)[..., 0]
+            unbounded = np.isposinf(value)
+            every = {name: np.broadcast_to(np.ravel(each), flat.shape) for name, each in self.motion.strokes.items()}
+            strokes = {name: np.take_along_axis(each, place, axis=-1)[..., 0] for name, each in every.items()}
+        else:
+            found = warned_once(lambda: extremum(self.motion, asked, 1.0))
+            value, unbounded = (np.broadcast_to(np.asarray(each), shape) for each in (found.value, found.unbounded))
+            strokes = {name: np.broadcast_to(np.asarray(each), shape) for name, each in found.strokes.items()}
+        lawless, unlimited = (np.broadcast_to(each, shape) for each in (asked.seen.lawless, asked.seen.unlimited))
+        pieces = list[WorstPiece]()
+        for k, row in enumerate(rows):
+            where = {name: each[k] for name, each in strokes.items()}
+            pieces.append(WorstPiece(row, row.value(value[k]), where, unbounded[k], lawless[k], unlimited[k]))
+        return pieces, asked.seen
 
     # -- what is lost ------------------------------------------------------------------------------------
 
@@ -312,7 +322,7 @@ class Domain:
             return NONE_LOST
         if self.motion._design_shape:
             deepest = seen.deepest or holes[0]
-            return Lost(seen.lost_share, deepest, "" if seen.lost_share else said("some poses are refused"), has_all_margins(self.plan))
+            return Lost(seen.lost_share, deepest, "" if seen.lost_share else said("some poses are refused"), not self.plan.groups)
         with unwarned():
             places = holes + ([dict(seen.deepest)] if seen.deepest and seen.lost_share else [])
             errors = [(assembly_error_at(self.motion, place), place) for place in places]
@@ -321,7 +331,7 @@ class Domain:
             return Lost(seen.lost_share, seen.deepest, said("some poses are refused"), not self.plan.groups)
         error, place = max(known, key=lambda each: each[0].shortfall or 0.0)
         strokes = {name: float(value) for name, value in place.items()}
-        return Lost(seen.lost_share, strokes, " ".join(str(error).split()), has_all_margins(self.plan))
+        return Lost(seen.lost_share, strokes, " ".join(str(error).split()), not self.plan.groups)
 
 
 def rubs(plan: Plan, motion: Motion, acting: Acting) -> bool:
@@ -356,11 +366,11 @@ class Coverage:
     Shares are arrays over the designs, of rows (rows, ...).
     """
 
-    lost_share: Any = 0.0
-    outside: Any = 0.0
+    lost_share: Numbers = 0.0
+    outside: Numbers = 0.0
     deepest: Mapping[str, Any] = field(default_factory=dict)
-    lawless: Any = 0.0
-    unlimited: Any = 0.0
+    lawless: Numbers = 0.0
+    unlimited: Numbers = 0.0
     count: int = 0
     design: tuple[int, ...] = ()
 
@@ -369,11 +379,6 @@ class Coverage:
         deepest = {name: float(value[design]) for name, value in self.deepest.items()}
         lost, outside = (float(np.asarray(each)[design]) for each in (self.lost_share, self.outside))
         return replace(self, lost_share=lost, outside=outside, deepest=deepest if lost else {}, design=design)
-
-    def with_count_of(self, other: Coverage) -> Coverage:
-        """Return it with the poses of another look at the same places."""
-        return replace(self, count=self.count + other.count)
-
 
 @final
 class Asked:
@@ -431,10 +436,13 @@ class Asked:
 
     def without_bound(self, k: int, motion: Motion) -> Mask:
         """Return where the law of a row has no bound: by its program, else as the request says."""
-        request = self.rows[k].request
+        request, mask = self.rows[k].request, None
         if k in self._bound:
-            return without_bound(self.plan, self._bound[k], motion)
-        mask = request.unlimited(motion) if isinstance(request, Request) else None
+            kernel = self.plan.made_beside(("gaps", self._bound[k].key), lambda twin: gaps_kernel(twin, self._bound[k]))
+            if kernel.plan.outputs:
+                mask = (motion._grid.full(kernel(motion._grid.flat, size=motion._grid.size).values) <= 0.0).any(axis=0)
+        elif isinstance(request, Request):
+            mask = request.unlimited(motion)
         return np.zeros(motion.shape, bool) if mask is None else np.asarray(np.broadcast_to(mask, motion.shape))
 
     def note(self, motion: Motion, kept: Mask, values: FloatArray, unlimited: Mask) -> None:
@@ -468,29 +476,20 @@ def reached_grid(motion: Motion) -> Grid:
         return grid
     first = np.unravel_index(int(np.argmax(motion.reached)), motion.shape)
     strokes = {name: np.where(motion.reached, value, value[first]) for name, value in grid.strokes.items()}
-    return Grid(motion.plan, motion.designs, strokes, per_design=True, joining=grid._joining)
+    return Grid(motion.plan, motion.designs, strokes, per_design=True, joining=grid.joining)
 
 
-def without_bound(plan: Plan, bound: Request, motion: Motion) -> Mask:
-    """Return where the law of a request has no bound, by its program."""
-    kernel = plan.made_beside(("gaps", bound.key), lambda twin: Kernel(nodes_without_bound(twin, bound)))
-    if not kernel.plan.outputs:
-        return np.zeros(motion.shape, bool)
-    found = motion._grid.full(kernel(motion._grid.flat, size=motion._grid.size).values)
-    return np.asarray((found <= 0.0).any(axis=0))
-
-
-def nodes_without_bound(plan: Plan, bound: Request) -> list[Any]:
-    """Return the nodes below zero where a request has no bound."""
-    bound.nodes(plan)
-    return [*bound.gaps(plan)]
+def gaps_kernel(plan: Plan, bound: Request) -> Kernel:
+    """Return the kernel of what is below zero where a request has no bound."""
+    bound.nodes(plan)  # its gaps are known then
+    return Kernel([*bound.gaps(plan)])
 
 
 def values_over(motion: Motion, quantity: Any) -> FloatArray:
     """Return a quantity over a motion's poses, infinite where a function says so; DefinitionError unless it is one number a pose."""
     if isinstance(quantity, Worst):
         return worst_at(motion, quantity)
-    if callable(quantity) and not isinstance(quantity, (str, Quantity, Request)):
+    if not is_quantity(quantity):
         with told(f"{motion.plan.title}: {words_of(quantity)}"):
             found = np.asarray(quantity(motion), float)
     else:
@@ -517,23 +516,6 @@ def worst_at(motion: Motion, worst: Worst) -> FloatArray:
     return np.asarray(worst.sense * np.where(np.isneginf(best), np.nan, best))
 
 
-def worst_at_poses(asked: Asked, motion: Motion) -> list[WorstPiece]:
-    """Return the worst of every row at some poses, and nothing between them."""
-    values = asked(motion)
-    designs = motion._design_shape
-    flat = values.reshape(len(values), *designs, -1)
-    place = np.argmax(np.where(np.isnan(flat), -np.inf, flat), axis=-1)[..., None]
-    best = np.take_along_axis(flat, place, axis=-1)[..., 0]
-    strokes = {name: np.broadcast_to(np.ravel(value), flat.shape) for name, value in motion.strokes.items()}
-    return [
-        WorstPiece(
-            row, row.value(best[k]), {name: np.take_along_axis(value[k], place[k], axis=-1)[..., 0] for name, value in strokes.items()},
-            np.isposinf(best[k]), asked.seen.lawless[k], asked.seen.unlimited[k],
-        )
-        for k, row in enumerate(asked.rows)
-    ]  # fmt: skip
-
-
 # Questions.
 
 
@@ -551,10 +533,19 @@ class Candidate:
     place: Domain
     seen: Coverage | None
     """What was seen over its `Over`; None where it is only about poses that the question itself says."""
-    lawless: Any
-    unlimited: Any
+    lawless: FloatArray
+    unlimited: FloatArray
     undefined: Mask
     """Whether its measures have values and what is calculated from these has none, such as 0 / 0 or the root of what is negative."""
+
+    def of_design(self, place: tuple[int, ...], shape: tuple[int, ...]) -> Candidate:
+        """Return that of one design of a batch of some shape, by its place in it."""
+        own = {
+            name: np.broadcast_to(getattr(self, name), shape)[place]
+            for name in ("value", "margin", "unbounded", "lawless", "unlimited", "undefined")
+        }
+        strokes = {name: np.broadcast_to(value, shape)[place] for name, value in self.strokes.items()}
+        return replace(self, strokes=strokes, seen=None if self.seen is None else self.seen.of_design(place), **own)
 
 
 @final
@@ -583,8 +574,12 @@ class Judge:
 
     def lost_allowed(self) -> Judge:
         """Return the judge of the same for whom places that are lost are part of the machine; what is known already both know."""
+        places = []
+        for each in self.places:
+            places.append(object.__new__(Domain))
+            vars(places[-1]).update(vars(each) | {"over": each.over.renewed(lost=ALLOWED)})
         found = object.__new__(Judge)
-        vars(found).update(vars(self) | {"places": tuple(tolerant(each) for each in self.places), "_lost": {}})
+        vars(found).update(vars(self) | {"places": tuple(places), "_lost": {}})
         return found
 
     def of_design(self, number: int) -> Judge:
@@ -661,17 +656,19 @@ class Judge:
 
     def answers(self, questions: Sequence[Question]) -> list[Answer]:
         """Return the answers to some questions, the worst over all that the machine runs, in one pass; earlier answers are kept."""
-        held = [(question, self.as_constraints(question)) for question in questions_of(self.plan, questions)]
-        for _, each in held:
-            check_kinds(self.plan, [one for one in each if isinstance(one, Measure)], [one for one in each if isinstance(one, Constraint)])
+        held = list[tuple[Question, Sequence[Measure | Constraint]]]()
+        for question in questions_of(self.plan, questions):
+            if isinstance(question, Measure):
+                check_kinds(self.plan, [question], [])
+                held.append((question, [question]))
+            else:
+                constraints = conditions_of([question], self.machine)
+                check_kinds(self.plan, [], constraints)
+                held.append((question, constraints))
         leaves = tuple(dict.fromkeys(leaf for _, each in held for one in each for leaf in leaves_of(one)))
         for number in range(len(self.places)):
             self.find(number, leaves)
         return [self.reached() if isinstance(question, Reachable) else self.worst(question, each) for question, each in held]
-
-    def as_constraints(self, question: Question) -> Sequence[Any]:
-        """Return the constraints that a question is, or the bare measure."""
-        return [question] if isinstance(question, Measure) else conditions_of([question], self.machine)
 
     def find(self, number: int, leaves: Sequence[Leaf]) -> None:
         """Look for the worst of some leaves over one `Over`, by its number, in one pass; what was found before is known."""
@@ -681,7 +678,8 @@ class Judge:
         sought = [row for key, each in rows.items() if not isinstance(asked[key], (At, Integral)) for row in each]
         if sought or not self._seen[number].count:
             each_of, seen = place.extremes(sought or [Sought(Least(nothing), SmoothPiece(nothing), Situation(), -1.0)])
-            self._seen[number] = seen if not self._seen[number].count else self._seen[number].with_count_of(seen)
+            known_seen = self._seen[number]
+            self._seen[number] = replace(known_seen, count=known_seen.count + seen.count) if known_seen.count else seen
             found = dict(zip(map(id, sought), each_of, strict=False))
         for key, leaf in asked.items():
             if isinstance(leaf, At):
@@ -704,8 +702,12 @@ class Judge:
                 pieces = situated.pieces(self.plan)
             for piece in pieces:
                 key = key_of(self.plan, piece.request)
-                row = Sought(leaf, piece, situation, sense)
-                found[key] = row if key not in found else replace(found[key], situation=shared(found[key].situation, situation))
+                if key not in found:
+                    found[key] = Sought(leaf, piece, situation, sense)
+                else:  # a piece that is the same in two situations is named by what these have in common
+                    one, names = found[key].situation, ("case", "direction", "drive")
+                    common = {name: getattr(one, name) for name in names if getattr(one, name) == getattr(situation, name)}
+                    found[key] = replace(found[key], situation=Situation(**common))
         return [*found.values()]
 
     def split(self, constraint: Constraint) -> list[Constraint]:
@@ -751,31 +753,16 @@ class Judge:
         made = []
         for chosen in together([self._found[number][leaf_key(self.plan, leaf)][1] for leaf in leaves]):
             values = {leaf: each.value for leaf, each in zip(leaves, chosen, strict=True)}
-
             with np.errstate(all="ignore"):
-                value, margin = valued(question, values.__getitem__)
-            unbounded = np.any([each.unbounded for each in chosen], axis=0) if chosen else np.zeros((), bool)
+                value, margin = (np.asarray(each) for each in valued(question, values.__getitem__))
+            unbounded = np.asarray(np.any([each.unbounded for each in chosen], axis=0) if chosen else False)
             where = next((each.strokes for each in chosen if each.strokes), {})
             side = next((each.row.piece.side for each in chosen if each.row.piece.side), "")
-            lawless, unlimited = (
-                np.asarray(reduce(np.fmax, (getattr(each, name) for each in chosen), 0.0)) for name in ("lawless", "unlimited")
-            )
-            undefined = np.isnan(margin) & ~np.any([np.isnan(each.value) for each in chosen], axis=0)
-            made.append(
-                Candidate(
-                    np.asarray(value),
-                    np.asarray(margin),
-                    where,
-                    np.asarray(unbounded),
-                    situation_found(chosen),
-                    side,
-                    place,
-                    seen,
-                    lawless,
-                    unlimited,
-                    np.asarray(undefined),
-                )
-            )
+            lawless = np.asarray(reduce(np.fmax, (each.lawless for each in chosen), 0.0))
+            unlimited = np.asarray(reduce(np.fmax, (each.unlimited for each in chosen), 0.0))
+            undefined = np.asarray(np.isnan(margin) & ~np.any([np.isnan(each.value) for each in chosen], axis=0))
+            situation = situation_found(chosen)
+            made.append(Candidate(value, margin, where, unbounded, situation, side, place, seen, lawless, unlimited, undefined))
         return made
 
     def lost(self, candidate: Candidate) -> Lost:
@@ -801,42 +788,30 @@ class Judge:
             raise DefinitionError(f"{self.plan.title}: {question}: there is nothing to ask it of.")
         shape = np.broadcast_shapes(*(np.shape(each.margin) for each in candidates))
         margins = np.stack([np.broadcast_to(each.margin, shape) for each in candidates])
-        if not shape:
-            return self.answered(question, [of_one_design(each, (), ()) for each in candidates], margins)
-        each_of = []
-        for number in range(int(np.prod(shape))):
-            design = tuple(int(k) for k in np.unravel_index(number, shape))
-            own = margins.reshape(len(candidates), -1)[:, number]
-            each_of.append(self.answered(question, [of_one_design(each, design, shape) for each in candidates], own))
-        return of_batch(each_of, shape)
+        each_of = [
+            self.answered(question, [each.of_design(design, shape) for each in candidates], margins[:, *design])
+            for design in np.ndindex(shape)
+        ]
+        return of_batch(each_of, shape) if shape else each_of[0]
 
     def answered(self, question: object, candidates: Sequence[Candidate], margins: FloatArray) -> Answer:
-        """Return the answer of one design."""
+        """Return the answer of one design, with what has to be named as there are several."""
         is_bare = isinstance(question, Measure)
-        lost = next((found for each in candidates if (found := self.lost(each))), NONE_LOST)
+        lost = next(filter(None, map(self.lost, candidates)), NONE_LOST)
         fatal = [
             each for each in candidates
             if each.undefined or ((each.seen is None or each.place.over.lost != ALLOWED) and (each.lawless or self.lost(each)))
         ]  # fmt: skip
         known = [k for k, each in enumerate(candidates) if not np.isnan(margins[k])]
-        if not known:
+        place = min(known, key=lambda k: margins[k], default=0)
+        worst, value, strokes, kept = candidates[place], np.nan, dict[str, float](), False
+        if known:
+            value, strokes = float(worst.value), {name: float(each) for name, each in worst.strokes.items()}
+            kept = bool(margins[place] >= 0.0)
+            status = UNBOUNDED if worst.unbounded and (is_bare or not kept) else LOST if kept and fatal and not is_bare else OF_VALUE
+        else:
             status = LOST if fatal or any(each.lawless for each in candidates) else NOTHING_LEFT
-            ok = None if is_bare or status == NOTHING_LEFT else False
-            return self.named_answer(question, candidates[0], np.nan, ok, status, {}, candidates, lost)
-        worst = candidates[min(known, key=lambda k: margins[k])]
-        margin = float(min(margins[k] for k in known))
-        status = UNBOUNDED if (bool(worst.unbounded) and margin < 0.0) or (is_bare and bool(worst.unbounded)) else OF_VALUE
-        ok = None if is_bare else bool(margin >= 0.0) and not fatal
-        if not is_bare and fatal and margin >= 0.0:
-            status = LOST
-        strokes = {name: float(value) for name, value in worst.strokes.items()}
-        return self.named_answer(question, worst, float(worst.value), ok, status, strokes, candidates, lost)
-
-    def named_answer(
-        self, question: object, worst: Candidate, value: float, ok: bool | None, status: str, strokes: Mapping[str, float],
-        candidates: Sequence[Candidate], lost: Lost,
-    ) -> Answer:  # fmt: skip
-        """Return an answer, with what has to be named as there are several."""
+        ok = None if is_bare or status == NOTHING_LEFT else kept and not fatal
         kinds: dict[str, set[Any]] = {
             "case": {each.situation.case for each in candidates}, "direction": {each.situation.direction for each in candidates},
             "drive": {each.situation.drive for each in candidates} - {""}, "over": {each.place.over for each in candidates},
@@ -859,9 +834,8 @@ class Judge:
     def reached(self) -> Answer:
         """Return whether all places can be assembled."""
         shape = self.motion._design_shape
-        if not shape:
-            return self.reached_by(())
-        return of_batch([self.reached_by(design) for design in np.ndindex(shape)], shape)
+        each_of = [self.reached_by(design) for design in np.ndindex(shape)]
+        return of_batch(each_of, shape) if shape else each_of[0]
 
     def reached_by(self, design: tuple[int, ...]) -> Answer:
         """Return whether all places can be assembled, of one design by its place in a batch."""
@@ -885,45 +859,18 @@ class Judge:
 def of_batch(each_of: Sequence[Answer], shape: tuple[int, ...]) -> Answer:
     """Return the answers of the designs of a batch as one, arrays of their shape."""
 
-    def over_designs(name: str, kind: Any = None) -> Any:
-        return np.array([getattr(each, name) for each in each_of], kind).reshape(shape)
-
+    own = {name: np.array([getattr(each, name) for each in each_of]).reshape(shape) for name in PER_DESIGN}
+    own["value"] = own["value"].astype(float)
     names = dict.fromkeys(name for each in each_of for name in each.strokes)
     strokes = {name: np.array([float(each.strokes.get(name, np.nan)) for each in each_of]).reshape(shape) for name in names}
     units = {name: unit for each in each_of for name, unit in each.units.items()}
-    return replace(
-        each_of[0], value=over_designs("value", float), ok=over_designs("ok"), status=over_designs("status"), strokes=strokes,
-        case=over_designs("case"), direction=over_designs("direction"), drive=over_designs("drive"), side=over_designs("side"),
-        over=over_designs("over"), units=units, named=frozenset().union(*(each.named for each in each_of)),
-        lost=next((each.lost for each in each_of if each.lost), NONE_LOST),
-    )  # fmt: skip
+    named, lost = frozenset().union(*(each.named for each in each_of)), next((each.lost for each in each_of if each.lost), NONE_LOST)
+    return replace(each_of[0], strokes=strokes, units=units, named=named, lost=lost, **own)
 
 
 def nothing(motion: Motion) -> FloatArray:
     """Return zeros: what is looked at where only the places themselves are asked about."""
     return np.zeros(motion.shape)
-
-
-def tolerant(place: Domain) -> Domain:
-    """Return the same place, of which lost parts are part of the machine."""
-    found = object.__new__(Domain)
-    vars(found).update(vars(place))
-    found.over = place.over.renewed(lost=ALLOWED)
-    return found
-
-
-def of_one_design(candidate: Candidate, place: tuple[Any, ...], shape: tuple[int, ...]) -> Candidate:
-    """Return a candidate of one design of a batch."""
-
-    def of(values: Any) -> Any:
-        return np.broadcast_to(values, shape)[place]
-
-    return replace(
-        candidate, value=of(candidate.value), margin=of(candidate.margin), unbounded=of(candidate.unbounded),
-        strokes={name: of(value) for name, value in candidate.strokes.items()}, lawless=of(candidate.lawless),
-        unlimited=of(candidate.unlimited), undefined=of(candidate.undefined),
-        seen=None if candidate.seen is None else candidate.seen.of_design(place),
-    )  # fmt: skip
 
 
 def questions_of(plan: Plan, given: object) -> list[Any]:
@@ -933,13 +880,12 @@ def questions_of(plan: Plan, given: object) -> list[Any]:
         raise DefinitionError(f"{plan.title}: answers({cited(given)}): a list of questions is expected, [most(...) <= 8 * deg].")
     for each in listed:
         if not isinstance(each, (Measure, Condition)):
-            at_poses = isinstance(each, (str, Quantity, Request, Worst))
+            at_poses = is_quantity(each) or isinstance(each, Worst)
             said_of = f"{words_of(each)} has a value at every pose" if at_poses else f"{cited(each)} is none"
             if isinstance(each, PoseCondition):
                 said_of = f"{each} is kept at some poses and not at others; say which value is meant, or where, Over(only=[...])"
-            raise DefinitionError(
-                f"{plan.title}: a question is a measure or a condition, and {said_of}; write least(...), most(...) >= ...."
-            )
+            what = f"{plan.title}: a question is a measure or a condition, and {said_of}"
+            raise DefinitionError(f"{what}; write least(...), most(...) >= ....")
     return [*listed]
 
 
@@ -955,7 +901,7 @@ def is_at_poses(question: object) -> bool:
     return bool(leaves) and all(isinstance(leaf, At) for leaf in leaves)
 
 
-def leaf_key(plan: Plan, leaf: Leaf) -> Any:
+def leaf_key(plan: Plan, leaf: Leaf) -> Hashable:
     """Return what tells a leaf from others as long as it lives."""
     quantity = leaf.quantity
     inner = (key_of(plan, quantity.quantity), quantity.over, quantity.sense) if isinstance(quantity, Worst) else key_of(plan, quantity)
@@ -965,18 +911,13 @@ def leaf_key(plan: Plan, leaf: Leaf) -> Any:
 
 def plain_identity(plan: Plan, quantity: object) -> Hashable:
     """Return what tells a quantity or a request from others; None for a function of a motion, and for what may change."""
-    return identity_of(plan, quantity) if isinstance(quantity, (str, Quantity, Request)) else None
+    return identity_of(plan, quantity) if is_quantity(quantity) else None
 
 
-def key_of(plan: Plan, quantity: object) -> Any:
+def key_of(plan: Plan, quantity: object) -> Hashable:
     """Return what tells a piece from others as long as it lives."""
     identity = plain_identity(plan, quantity)
     return id(quantity) if identity is None else identity
-
-
-def shared(a: Situation, b: Situation) -> Situation:
-    """Return what two situations have in common: a piece that is the same in both is named by neither."""
-    return Situation(*("" if x != y else x for x, y in ((a.case, b.case), (a.direction, b.direction), (a.drive, b.drive))))
 
 
 def together(of_leaves: Sequence[Sequence[WorstPiece]]) -> list[tuple[WorstPiece, ...]]:
@@ -985,7 +926,7 @@ def together(of_leaves: Sequence[Sequence[WorstPiece]]) -> list[tuple[WorstPiece
     They are in the same load case, where they name one, and either at rest or moving: what is at rest only, as nothing has friction,
     goes with both. What the same stroke, path or cylinder moves goes the same way.
     """
-    moves = {id(each): any(is_moving(one) for one in pieces) for pieces in of_leaves for each in pieces}
+    moves = {id(each): any(one.row.situation.is_moving for one in pieces) for pieces in of_leaves for each in pieces}
 
     def at_once(a: WorstPiece, b: WorstPiece) -> bool:
         one, other = a.row.situation, b.row.situation
@@ -993,9 +934,9 @@ def together(of_leaves: Sequence[Sequence[WorstPiece]]) -> list[tuple[WorstPiece
             return False
         if not (one.direction and other.direction):
             return True
-        if is_moving(a) != is_moving(b):
-            return not moves[id(b if is_moving(a) else a)]
-        return mover_of(a) != mover_of(b) or (one.direction, one.drive) == (other.direction, other.drive)
+        if one.is_moving != other.is_moving:
+            return not moves[id(b if one.is_moving else a)]
+        return a.mover != b.mover or (one.direction, one.drive) == (other.direction, other.drive)
 
     found: list[tuple[WorstPiece, ...]] = [()]
     for pieces in of_leaves:
@@ -1003,23 +944,11 @@ def together(of_leaves: Sequence[Sequence[WorstPiece]]) -> list[tuple[WorstPiece
     return found
 
 
-def is_moving(piece: WorstPiece) -> bool:
-    """Return whether a piece is one of a movement."""
-    return piece.row.situation.direction not in ("", FRICTIONLESS)
-
-
-def mover_of(piece: WorstPiece) -> Any:
-    """Return what moves in the direction of a piece: a cylinder's name, None for a stroke or a path."""
-    quantity = piece.row.leaf.quantity
-    return quantity.mover if isinstance(quantity, Request) else None
-
-
 def situation_found(chosen: Sequence[WorstPiece]) -> Situation:
     """Return the situation of pieces that occur at once: their load case, and their movement where one of them moves."""
-    case = next((each.row.situation.case for each in chosen if each.row.situation.case), "")
-    moving_one = next((each for each in chosen if is_moving(each)), None)
-    way = moving_one or next((each for each in chosen if each.row.situation.direction), None)
-    return Situation(case, way.row.situation.direction, way.row.situation.drive) if way else Situation(case)
+    every = [each.row.situation for each in chosen]
+    ways = [each for each in every if each.is_moving] or [each for each in every if each.direction] or [Situation()]
+    return Situation(next((each.case for each in every if each.case), ""), ways[0].direction, ways[0].drive)
 
 
 def valued(question: Any, number: Callable[[Leaf], FloatArray]) -> tuple[FloatArray, FloatArray]:

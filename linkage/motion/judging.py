@@ -1,4 +1,4 @@
-"""What can be said of any motion: whether it is assembled, where its dead points are, and what its members say of themselves."""
+"""What can be said of any motion: whether it is assembled, how far it goes, its dead points, and what its members say of themselves."""
 
 from __future__ import annotations
 
@@ -9,20 +9,23 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 
 from ..assembly import sketch_words, width_words
-from ..errors import DefinitionError
+from ..errors import DefinitionError, unwarned
 from ..language import said
 from ..loads import TwoPoint
-from ..plan import name_or_pins
+from ..plan import Plan, name_or_pins
 from ..quantities import Member
 from ..units import deg, show
 from ..verdict import Remark, Verdict
 from . import stroke_search
 from .answer import NONE_LOST, Answer, places_text, share_text
 from .judge import Domain, Judge, Question
-from .limits import StrokeLimits, place_text
+from .limits import BoxLimits, Limits, LoopMargin, StrokeLimits, place_text
+from .margins import LeastMargin, least_margins
 from .measures import Condition, Measure, least, reachable
-from .motion import out_of_reach
+from .motion import Motion
+from .over import Over
 from .pose_requests import transmission
+from .stroke_search import out_of_reach
 from .table import speakers
 
 POOR = 40.0 * deg
@@ -68,21 +71,17 @@ def judge_verdicts(judge: Judge, fault: str = "") -> list[Verdict]:
     Where there are no forces, for a `fault` of the machine, only what is said of places.
     """
     told = [*sketch_words(judge.plan, judge.designs), width_words(judge.plan, judge.designs)]
-    return [*run_verdicts(judge, fault), *map(Remark, filter(None, told))]
-
-
-def run_verdicts(judge: Judge, fault: str) -> list[Verdict]:
-    """Return what is said of a machine over all that it runs; of a batch, how many designs fail."""
     if any(map(np.ndim, judge.designs.values())):
-        return batch_verdicts(judge, fault)
-    if not judge.is_reached:
-        return assembly_verdicts(judge)
-    if fault:
-        return [*geometry_verdicts(judge), *member_verdicts(judge.lost_allowed(), fault)]
-    members = speakers(judge.plan, HasVerdicts).values()
-    judge.answers([reachable, *transmissions(judge).values(), *(each for member in members for each in member.questions(judge))])
-    geometry, found = geometry_verdicts(judge), member_verdicts(judge.lost_allowed())
-    return [*geometry, *(map(valued_everywhere, found) if all(geometry) else found)]
+        found = batch_verdicts(judge, fault)
+    elif not judge.is_reached:
+        found = assembly_verdicts(judge)
+    else:
+        if not fault:
+            members = speakers(judge.plan, HasVerdicts).values()
+            judge.answers([reachable, *transmissions(judge).values(), *(each for member in members for each in member.questions(judge))])
+        found, said_of = geometry_verdicts(judge), member_verdicts(judge.lost_allowed(), fault)
+        found += said_of if fault or not all(found) else map(valued_everywhere, said_of)
+    return [*found, *map(Remark, filter(None, told))]
 
 
 def valued_everywhere(verdict: Verdict) -> Verdict:
@@ -148,25 +147,22 @@ def assembly_verdicts(judge: Judge) -> list[Verdict]:
     if not judge.plan.strokes or not judge.plan.moving:
         return []
     answer = judge.answer(reachable)
-    domains = [place.over.words(place.motion) for place in judge.places]
-    named = [
-        f"{place.over.name}: {words}" if place.over.name and len(domains) > 1 else words
-        for place, words in zip(judge.places, domains, strict=True)
-    ]
+    several = len(judge.places) > 1
+    titles = [f"{place.over.name}: " if place.over.name and several else "" for place in judge.places]
+    spans = "; ".join(title + place.over.words(place.motion) for title, place in zip(titles, judge.places, strict=True))
+    ok: bool | None = bool(answer.ok)
     if judge.is_empty:
-        return [Verdict("assembly", None, said("over {spans} no place is left to look at.", spans="; ".join(named)), answer=answer)]
-    if not answer.lost:
-        return [Verdict("assembly", True, said("it is assembled over {spans}.", spans="; ".join(named)), answer=answer)]
-    if not judge.is_reached:
-        return [Verdict("assembly", False, " ".join(str(out_of_reach(judge.places[0].motion)).split()), answer=answer)]
-    text = said(
-        "over {spans} {share} cannot be assembled, deepest {place}: {why}", spans="; ".join(named), share=share_text(answer.lost.share),
-        place=answer.place, why=answer.lost.sentence,
-    )  # fmt: skip
-    if answer.ok:
-        return [Verdict("assembly", True, said("{lost}; its Over allows that.", lost=text.rstrip(".")), answer=answer)]
-    remedy = said('what follows holds for the rest. Shorten a stroke, or declare Over(..., lost="allowed").')
-    return [Verdict("assembly", False, f"{text.rstrip('.')}; {remedy}", answer=answer)]
+        ok, text = None, said("over {spans} no place is left to look at.", spans=spans)
+    elif not answer.lost:
+        ok, text = True, said("it is assembled over {spans}.", spans=spans)
+    elif not judge.is_reached:
+        ok, text = False, " ".join(str(out_of_reach(judge.places[0].motion)).split())
+    else:
+        deepest = {"share": share_text(answer.lost.share), "place": answer.place, "why": answer.lost.sentence}
+        text = said("over {spans} {share} cannot be assembled, deepest {place}: {why}", spans=spans, **deepest).rstrip(".")
+        remedy = said('what follows holds for the rest. Shorten a stroke, or declare Over(..., lost="allowed").')
+        text = said("{lost}; its Over allows that.", lost=text) if ok else f"{text}; {remedy}"
+    return [Verdict("assembly", ok, text, answer=answer)]
 
 
 def dead_point_verdicts(limits: StrokeLimits, span: tuple[float, float], pushed: bool) -> Iterator[Verdict]:
@@ -188,13 +184,16 @@ def dead_point_verdicts(limits: StrokeLimits, span: tuple[float, float], pushed:
     elif points:
         before = max((each for each in points if each[0] <= low), default=None)
         behind = min((each for each in points if each[0] >= high), default=None)
-        nearest = [f"{place_of(limits, *each)}, {away_text(points[each], limits.unit)}" for each in (before, behind) if each is not None]
+        nearest = []
+        for each in (before, behind):
+            if each is not None:
+                away = said("{distance} beyond it", distance=show(points[each], "deg" if limits.unit == "rad" else "mm", 3))
+                nearest.append(f"{place_of(limits, *each)}, {away}")
         yield Verdict("dead points", True, said("none within the stroke; the nearest: {places}.", places="; ".join(nearest)))
     crossing = [place_of(limits, value, step) for value, step in limits.change_points if low <= value <= high]
     if crossing:
-        text = said(
-            "branches cross: {places}; there the motion may go on either way. Change a length, or guide it.", places="; ".join(crossing)
-        )
+        places = "; ".join(crossing)
+        text = said("branches cross: {places}; there the motion may go on either way. Change a length, or guide it.", places=places)
         yield Verdict("change points", False, text)
     still = [place_of(limits, value, name) for value, name in limits.cylinder_dead_points if low <= value <= high]
     if still:
@@ -207,11 +206,6 @@ def place_of(limits: StrokeLimits, value: float, what: str) -> str:
     return said("{what} at {stroke} = {value}", what=what, stroke=limits.stroke, value=place_text(value, limits.unit))
 
 
-def away_text(value: float, unit: str) -> str:
-    """Return how far beyond a stroke [m or rad] something is, in words: `13.2 mm beyond it`."""
-    return said("{distance} beyond it", distance=show(value, "deg" if unit == "rad" else "mm", 3))
-
-
 def transmissions(judge: Judge) -> dict[str, Measure]:
     """Return the least transmission angle of every joint that has one and moves, as a question."""
     joints = (name for name in judge.motion._joints if not judge.plan.reaches(name).isdisjoint(judge.plan.strokes))
@@ -221,17 +215,13 @@ def transmissions(judge: Judge) -> dict[str, Measure]:
 def transmission_remarks(judge: Judge) -> list[Remark]:
     """Return the least transmission angle, where it is poor; it is no fault as such, a toggle lives of it."""
     asked = transmissions(judge)
-    found = [
-        (float(each.value), name, each) for name, each in zip(asked, judge.answers([*asked.values()]), strict=True) if each.value < POOR
-    ]
+    found = {name: each for name, each in zip(asked, judge.answers([*asked.values()]), strict=True) if each.value < POOR}
     if not found:
         return []
-    angle, joint, where = min(found, key=lambda each: each[0])
-    text = said(
-        "The least transmission angle is {angle}, of {joint} {place}: below {poor} pin forces and play grow.",
-        angle=show(angle, "deg", 3), joint=joint, place=where.place, poor=show(POOR, "deg", 3),
-    )  # fmt: skip
-    return [Remark(text)]
+    joint = min(found, key=lambda name: float(found[name].value))
+    angle, poor = (show(float(each), "deg", 3) for each in (found[joint].value, POOR))
+    given = {"angle": angle, "joint": joint, "place": found[joint].place, "poor": poor}
+    return [Remark(said("The least transmission angle is {angle}, of {joint} {place}: below {poor} pin forces and play grow.", **given))]
 
 
 # -- members -----------------------------------------------------------------------------------------------
@@ -265,9 +255,7 @@ def batch_verdicts(judge: Judge, fault: str = "") -> list[Verdict]:
         return found
     if total > JUDGED:
         text = said(
-            "Members are judged for up to {most} designs, this batch has {total}: take a part of it, or survey.",
-            most=JUDGED,
-            total=total,
+            "Members are judged for up to {most} designs, this batch has {total}: take a part of it, or survey.", most=JUDGED, total=total
         )
         return [*found, Remark(text)]
     failed: dict[str, list[tuple[int, str]]] = {}
@@ -290,10 +278,10 @@ def batch_dead_points(judge: Judge, total: int) -> list[Verdict]:
     """Return how many designs of a batch come to a dead point, with that of the first; nothing where none does."""
     shape = judge.motion._design_shape
     numbered = ((int(np.ravel_multi_index(design, shape)), text) for place in judge.places for design, text in in_line(place).items())
-    found = dict(sorted(numbered, reverse=True))
+    found = sorted(dict(sorted(numbered, reverse=True)).items())
     if not found:
         return []
-    (number, place), *_ = sorted(found.items())
+    number, place = found[0]
     text = said("{n} of {total} designs come to one", n=len(found), total=total)
     text += said("; the first is design {number}: {sentence}", number=number + 1, sentence=f"{place}.")
     return [Verdict("dead points", False if any(is_pushed(judge, name) for name in judge.plan.strokes) else None, text)]
@@ -305,3 +293,35 @@ def range_words(answers: Sequence[Answer]) -> str:
     if low is None or high is None or low.amount == high.amount:
         return ""
     return said(", of their worst values {low} to {high}", low=low.amount, high=high.amount)
+
+
+# -- limits ------------------------------------------------------------------------------------------------
+
+
+def limits_over(motion: Motion, overs: Sequence[Over | Motion] = (Over(),)) -> Limits:
+    """Return the limits along every stroke of one design, and what is lost over the box of all, or over what is given."""
+    strokes = stroke_search.limits(motion)
+    if not strokes:
+        return strokes
+    judge = Judge(motion.plan, motion.designs, overs)
+    lost, title = judge.answer(reachable).lost, "; ".join(place.over.words(place.motion) for place in judge.places)
+    with unwarned():
+        found = [each for place in judge.places if place.over.shape != "poses" for each in least_margins(place.motion)]
+    known = [each for each in found if not np.isnan(each.value)]
+    loops = dict.fromkeys((each.step, each.kind) for each in known)
+    least = [min((each for each in known if (each.step, each.kind) == loop), key=lambda each: float(each.value)) for loop in loops]
+    box = BoxLimits(title, lost.share, dict(lost.strokes), lost.sentence, tuple(loop_margin(motion.plan, each) for each in least))
+    return Limits(strokes, box, width_words(motion.plan, motion.designs))
+
+
+def loop_margin(plan: Plan, least: LeastMargin) -> LoopMargin:
+    """Return the least margin of a loop as it is read: squares as their roots, sines as angles."""
+    value = max(float(least.value), 0.0)
+    clear = value if least.kind == "length" else value**0.5
+    if least.kind in ("links", "guides"):
+        clear = float(np.arcsin(min(clear, 1.0)))
+    strokes = {name: float(each) for name, each in least.strokes.items()}
+    return LoopMargin(name_or_pins(plan, least.step), least.kind, clear, bool(least.is_hole), strokes, places_text(strokes, least.units))
+
+
+Motion._limits_of = limits_over  # a motion's limits ask the judge, who is made with motions

@@ -8,7 +8,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import reduce
 from typing import Any, TypeAlias, final
 
 from ..errors import DefinitionError
@@ -71,32 +73,22 @@ def measure_of(plan: Plan, quantity: object) -> str:
     if isinstance(known, Ref):
         return measure_of(plan, known.target)
     found = known.measured(plan) if isinstance(known, Request) else known.measures if isinstance(known, Quantity) else ""
-    if found or not isinstance(known, (Quantity, Request)):
+    if found:
         return "" if found == "moment" else str(found)
-    parts = of_one_kind(known)
-    kinds = {measure_of(plan, part) for part in parts}
+    sign, every = operation(known)
+    parts = [each for each in every if constant_part(each) is None]
+    scaled = isinstance(known, Combined) and len(parts) == 1 and (sign == "multiply" or (sign == "divide" and parts[0] is every[0]))
+    kinds = {measure_of(plan, part) for part in parts} if scaled or sign in ("add", "subtract", "negative", *CHOOSING) else set()
     return kinds.pop() if len(kinds) == 1 else ""
 
 
 CHOOSING = ("absolute", "minimum", "maximum")
 
 
-def of_one_kind(quantity: Quantity | Request) -> tuple[Any, ...]:
-    """Return the parts of a quantity that measure what it measures itself: those of a sum, a size, a multiple."""
-    if isinstance(quantity, Combined):
-        same = quantity.function in ("add", "subtract", "negative", *CHOOSING)
-        scaled = quantity.function == "multiply" or (quantity.function == "divide" and isinstance(quantity.parts[1], float))
-        parts = tuple(each for each in quantity.parts if not isinstance(each, float))
-        return parts if same or (scaled and len(parts) == 1) else ()
-    if isinstance(quantity, (Sum, Negative)) or (isinstance(quantity, Function) and quantity.symbol in CHOOSING):
-        return tuple(each for each in quantity.parts() if not isinstance(each, Number))
-    return ()
-
-
 def kind_of_measure(plan: Plan, measure: Measure) -> MeasureKind | None:
     """Return the kind of a measure; None where it is not known, and of a number. DefinitionError where parts are added that differ."""
     if isinstance(measure, Given):
-        return MeasureKind(KINDS[measure.measures]) if measure.measures in KINDS else None
+        return kind_called(measure.measures)
     if isinstance(measure, Integral):
         by = measure.by or (next(iter(plan.strokes)) if len(plan.strokes) == 1 else "")
         inner = kind_of_quantity(plan, measure.quantity)
@@ -124,37 +116,30 @@ def kind_of_quantity(plan: Plan, quantity: object) -> MeasureKind | None:
         return kind_of_quantity(plan, known.target)
     if known is None and isinstance(quantity, str):
         owner = plan.table.spellings.get(quantity)
-        found = plan_measure(plan, owner[0]) if owner else ""
-        return MeasureKind(KINDS[found]) if found in KINDS else None
+        return kind_called(plan_measure(plan, owner[0]) if owner else "")
     sign, parts = operation(known)
-    if not sign:
-        return kind_of_one(plan, known)
+    if not sign and isinstance(known, Value) and known.along:
+        target = plan.members.get(known.target) if isinstance(known.target, str) else known.target
+        inner = kind_called("length") if isinstance(target, Point) else kind_of_quantity(plan, known.target)
+        by = kind_of_stroke(plan, stroke_of(plan, known.along[0]))
+        return None if inner is None else inner.times(by.to_the(float(known.order)), -1.0)
+    if not sign:  # of a moment it is told here, which is shown as a plain number
+        return kind_called((known.measured(plan) if isinstance(known, Request) else "") or measure_of(plan, known))
     kinds = [kind_of_quantity(plan, each) for each in parts if constant_part(each) is None]
     if sign in ("add", "subtract", *CHOOSING, "hypot", "negative"):
-        found_kind = kinds[0] if kinds else None
-        for each in kinds[1:]:
-            found_kind = common_kind(plan, words_of(known), found_kind, each)
-        return found_kind
+        return reduce(lambda one, other: common_kind(plan, words_of(known), one, other), kinds, None)
     if sign in ("multiply", "divide"):
         a, b = ((kind_of_quantity(plan, each), constant_part(each)) for each in parts)
         return product_of(sign == "divide", a, b)
     if sign in ("power", "sqrt") and kinds and kinds[0] is not None:
         power = 0.5 if sign == "sqrt" else constant_part(parts[1])
         return None if power is None else kinds[0].to_the(power)
-    return MeasureKind(KINDS["angle"]) if sign == "arctan2" else None
+    return kind_called("angle") if sign == "arctan2" else None
 
 
-def kind_of_one(plan: Plan, known: object) -> MeasureKind | None:
-    """Return the kind of a quantity or request that is made of no others."""
-    if isinstance(known, Value) and known.along:
-        target = plan.members.get(known.target) if isinstance(known.target, str) else known.target
-        inner = MeasureKind(KINDS["length"]) if isinstance(target, Point) else kind_of_quantity(plan, known.target)
-        by = kind_of_stroke(plan, stroke_of(plan, known.along[0]))
-        return None if inner is None else inner.times(by.to_the(float(known.order)), -1.0)
-    found = known.measured(plan) if isinstance(known, Request) else ""
-    if not found and isinstance(known, (Quantity, Request)):
-        found = measure_of(plan, known)
-    return MeasureKind(KINDS[found]) if found in KINDS else None
+def kind_called(name: str) -> MeasureKind | None:
+    """Return the kind by what it is called, "length"; None for any other name."""
+    return MeasureKind(KINDS[name]) if name in KINDS else None
 
 
 def kind_of_stroke(plan: Plan, name: str) -> MeasureKind:
@@ -205,13 +190,12 @@ def common_kind(plan: Plan, what: str, left: MeasureKind | None, right: MeasureK
         return left or right
     kinds = left.name, right.name
     if left.is_sure and right.is_sure and kinds[0] != kinds[1] and all(each in APART for each in kinds):
-        article = ["an" if each[0] in "aeiou" else "a" for each in kinds]
-        both = f"{article[0]} {kinds[0]} and {article[1]} {kinds[1]}"
+        both = " and ".join(f"{'an' if each[0] in 'aeiou' else 'a'} {each}" for each in kinds)
         raise DefinitionError(f"{plan.title}: {what}: {both} neither add nor compare; write both sides in one kind.")
     return left if left.is_sure else right
 
 
-def check_kinds(plan: Plan, measures: Any, constraints: Any) -> None:
+def check_kinds(plan: Plan, measures: Iterable[Measure], constraints: Iterable[Constraint]) -> None:
     """Raise DefinitionError where measures or conditions add or compare what differs in kind."""
     for each in measures:
         kind_of_measure(plan, each)

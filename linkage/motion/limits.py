@@ -48,28 +48,16 @@ class StrokeLimits:
         lines = [f"{self.stroke}: {said('declared {low} to {high}', low=start, high=end)}{held}"]
         for each in self.intervals:
             lines += self._reach(each)
-        found = [
-            *(
-                said("change point at {place}: the branches of {step} cross", place=stroke_text(value, self.unit), step=step)
-                for value, step in self.change_points
-            ),
-            *(
-                said(
-                    "dead point of {name} at {stroke} = {place}: its length stands still",
-                    name=name, stroke=self.stroke, place=stroke_text(value, self.unit),
-                )
-                for value, name in self.cylinder_dead_points
-            ),
-            *(
-                said(
-                    "least transmission angle at {joint}: {angle} at {place}",
-                    joint=each.joint, angle=show(each.angle, "deg", 4), place=stroke_text(each.stroke, self.unit, 6),
-                )
-                for each in self.transmission
-            ),
-            *([str(self.open_turn)] if self.open_turn else []),
-        ]  # fmt: skip
-        return "\n".join([*lines, *(f"  {each}" for each in found)])
+        for value, step in self.change_points:
+            place = stroke_text(value, self.unit)
+            lines.append("  " + said("change point at {place}: the branches of {step} cross", place=place, step=step))
+        for value, name in self.cylinder_dead_points:
+            at = {"stroke": self.stroke, "place": stroke_text(value, self.unit)}
+            lines.append("  " + said("dead point of {name} at {stroke} = {place}: its length stands still", name=name, **at))
+        for least in self.transmission:
+            where = {"joint": least.joint, "place": stroke_text(least.stroke, self.unit, 6)}
+            lines.append("  " + said("least transmission angle at {joint}: {angle} at {place}", angle=show(least.angle, "deg", 4), **where))
+        return "\n".join([*lines, *([f"  {self.open_turn}"] if self.open_turn else [])])
 
     def _reach(self, interval: Interval) -> list[str]:
         """Return the lines of an interval."""
@@ -151,14 +139,14 @@ class LoopMargin:
     def __str__(self) -> str:
         if self.is_hole:
             return said("{step} comes apart, most of all at {place}", step=self.step, place=self.place)
-        clear, where = show(self.clear, "deg" if self.kind in ("links", "guides") else "mm", 4), {"step": self.step, "place": self.place}
-        if self.kind == "links":
-            return said("the links of {step} are at least {clear} out of line, at {place}", clear=clear, **where)
-        if self.kind == "guides":
-            return said("the guides of {step} are at least {clear} from parallel, at {place}", clear=clear, **where)
-        if self.kind == "meeting":
-            return said("the points that {step} takes a direction between are at least {clear} apart, at {place}", clear=clear, **where)
-        return said("the length behind {step} is at least {clear}, at {place}", clear=clear, **where)
+        clear = show(self.clear, "deg" if self.kind in ("links", "guides") else "mm", 4)
+        given = {"clear": clear, "step": self.step, "place": self.place}
+        return {
+            "links": said("the links of {step} are at least {clear} out of line, at {place}", **given),
+            "guides": said("the guides of {step} are at least {clear} from parallel, at {place}", **given),
+            "meeting": said("the points that {step} takes a direction between are at least {clear} apart, at {place}", **given),
+            "length": said("the length behind {step} is at least {clear}, at {place}", **given),
+        }[self.kind]
 
 
 @final
@@ -212,12 +200,11 @@ class Open:
 
     def __str__(self) -> str:
         apart = said("after one turn the pins {pins} do not stand where they began", pins=" ".join(self.pins))
-        if not self.turns:
-            return f"{apart}; {said('nor after a few more')}"
-        turned = show(360 * self.turns * deg, "deg")
-        again = said_of(
-            self.turns, "the motion repeats after {n} turn ({angle})", "the motion repeats after {n} turns ({angle})", angle=turned
-        )  # fmt: skip
+        again, turned = said("nor after a few more"), show(360 * self.turns * deg, "deg")
+        if self.turns:
+            again = said_of(
+                self.turns, "the motion repeats after {n} turn ({angle})", "the motion repeats after {n} turns ({angle})", angle=turned
+            )
         return f"{apart}; {again}"
 
 
@@ -258,16 +245,11 @@ def where_words(plan: Plan, mask: Mask, strokes: Mapping[str, Any]) -> str:
     if mask.ndim > poses:
         designs = mask.reshape(*mask.shape[: mask.ndim - poses], -1)
         return f"at {count} of {total} poses, in {int(designs.any(axis=-1).sum())} of {designs[..., 0].size} designs"
-    spans = [f"{name} = {si_span(value[mask], stroke_unit(plan, name))}" for name, value in strokes.items()]
+    ends = {name: (float(np.min(value[mask])), float(np.max(value[mask])), stroke_unit(plan, name)) for name, value in strokes.items()}
+    spans = [f"{name} = {low:.4f}{f' to {high:.4f}' if low != high else ''} {unit}" for name, (low, high, unit) in ends.items()]
     if total == 1:
         return f"at {', '.join(spans)}" if spans else "anywhere"
     return f"at {count} of {total} strokes, {'from ' if count > 1 else 'at '}{', '.join(spans)}"
-
-
-def si_span(values: Any, unit: str) -> str:
-    """Return the range of some stroke values as text."""
-    low, high = float(np.min(values)), float(np.max(values))
-    return f"{low:.4f} {unit}" if low == high else f"{low:.4f} to {high:.4f} {unit}"
 
 
 # Strokes as they are read.

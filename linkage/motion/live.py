@@ -60,7 +60,7 @@ def live_text(plan: Plan, requests: Mapping[str, RequestLike], name: str = "engi
             found[each] = bound(plan, request)
         except (LawError, UntracedError) as error:
             left_out[each] = str(error)
-    program = live_program(plan, tuple(found.values()))
+    program = LiveProgram.of(plan, tuple(found.values()))
     ends = np.cumsum([0, *(each.rows for each in found.values())]).tolist()
     rows = {each: (first, what.rows) for first, (each, what) in zip(ends, found.items(), strict=False)}
     text = f"const {name}=(()=>{{{program.text}return {{{program.said},sweep}}}})();"
@@ -69,16 +69,11 @@ def live_text(plan: Plan, requests: Mapping[str, RequestLike], name: str = "engi
 
 def live_source(plan: Plan, requests: Sequence[Request], name: str, design: Mapping[str, float]) -> str:
     """Return JavaScript that declares `poses(d, p)`, requests at one pose, found along the way from the sketch."""
-    program = live_program(plan, tuple(requests))
+    program = LiveProgram.of(plan, tuple(requests))
     stated = ", ".join(f"{each} = {design[each]!r}" for each in program.dimensions)
     count = sum(each.rows for each in requests)
     head = f"/* d: {stated or 'none'}; p: {', '.join(plan.strokes)}; {count} outputs */"
     return f"{head}\nconst {name}=(()=>{{{program.text}return (d,p)=>sweep(d,p.map(s=>[s])).values.map(v=>v[0])}})();\n"
-
-
-def live_program(plan: Plan, requests: tuple[Request, ...]) -> LiveProgram:
-    """Return the program of some requests, made once."""
-    return plan.made(("live", tuple(each.key for each in requests)), lambda twin: LiveProgram.of(twin, requests))
 
 
 @final
@@ -91,8 +86,13 @@ class LiveProgram:
     dimensions: tuple[str, ...]
 
     @classmethod
-    def of(cls, plan: Plan, requests: Sequence[Request]) -> LiveProgram:
-        """Return the program of some requests."""
+    def of(cls, plan: Plan, requests: tuple[Request, ...]) -> LiveProgram:
+        """Return the program of some requests, made once."""
+        return plan.made(("live", tuple(each.key for each in requests)), lambda twin: cls.written(twin, requests))
+
+    @classmethod
+    def written(cls, plan: Plan, requests: Sequence[Request]) -> LiveProgram:
+        """Return the same, traced in a plan of its own."""
         nodes = [true_nodes(plan, each) for each in requests]
         rows = [node for each in nodes for node in each]
         checks = list(checks_of(plan))
@@ -121,11 +121,9 @@ class LiveProgram:
         }
         text = [part_text("live.js"), constants_text(constants)]
         if plan.solved:
-            ends_of = plan.strokes[next(iter(plan.strokes))]
-            begin = plan.sketch_strokes[next(iter(plan.strokes))]
-            text.append(
-                constants_text({"reach": json_of([max(ends_of.start, ends_of.end) - begin, begin - min(ends_of.start, ends_of.end)])})
-            )
+            name, stroke = next(iter(plan.strokes.items()))
+            begin, low, high = plan.sketch_strokes[name], min(stroke.start, stroke.end), max(stroke.start, stroke.end)
+            text.append(constants_text({"reach": json_of([high - begin, begin - low])}))
         solve = []
         if plan.groups:
             text += [groups_text(plan, inputs, dimensions), part_text("live_groups.js")]
@@ -134,17 +132,11 @@ class LiveProgram:
             text += [angles_text(plan, clipped, inputs), part_text("live_angles.js")]
             solve.append(f"anglesOf(d,{'groupsOf(d)' if plan.groups else '()=>{}'})")
         text.append(f"const solved=d=>{{const f=[{','.join(solve)}];return p=>f.forEach(g=>g(p))}};" + part_text("live_sweep.js"))
-        names = {
-            "d": list(dimensions), "p": list(plan.strokes), "steps": [name for name, _ in checks],
-        }  # fmt: skip
-        said = [f"{key}:{json_words(value)}" for key, value in names.items()]
+        names = {"d": list(dimensions), "p": list(plan.strokes), "steps": [name for name, _ in checks]}
+        words = {key: json.dumps(value, ensure_ascii=True, separators=(",", ":")) for key, value in names.items()}
+        said = [f"{key}:{value}".replace("<", "\\u003c") for key, value in words.items()]
         said += [f"d0:{json_of([plan.defaults[each] for each in dimensions])}", "sketch", "rows:ROWS"]
         return cls("".join(text), ",".join(said), dimensions)
-
-
-def json_words(words: Sequence[str]) -> str:
-    """Return words as a JavaScript array."""
-    return json.dumps(words, ensure_ascii=True, separators=(",", ":")).replace("<", "\\u003c")
 
 
 def part_text(name: str) -> str:

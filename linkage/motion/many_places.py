@@ -15,11 +15,13 @@ from typing import Any, final
 import numpy as np
 
 from ..errors import DefinitionError
-from ..numeric.descent import descended
+from ..numeric.cells import all_known, corners_all, extremes_of_cells
+from ..numeric.descent import descended, grid_axes
 from ..numeric.line import Index
+from ..numeric.linear import solved_systems
 from ..plan import Mask, Plan
 from ..program import FloatArray
-from .places import MET, SCATTERED, Places, StrokeRanges, all_known, corners_all, extremes_of_cells, held_strokes, traced_target, way_of
+from .places import MET, SCATTERED, Places, StrokeRanges, held_strokes, traced_target
 from .strokes import TURN
 from .target import Target
 
@@ -30,7 +32,6 @@ A_TURN = {1: 96, 2: 24, 3: 12}
 """Values of a crank for each turn of it, at the least."""
 SPARE = {0: 1, 1: 17, 2: 9}
 """Values of each spare stroke of the first look."""
-MOST_POSES = 1 << 19
 ITERATIONS = 9
 """Steps of Newton, after which those that are not settled are looked for with damping."""
 TOLERANCE = 1e-13
@@ -107,11 +108,8 @@ class ManyPlaces:
 
     def seen(self, unit: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the values of the targets (n, t) and their derivatives (n, t, k) by unit coordinates (n, k); NaN out of reach."""
-        places, count = self.places, len(unit)
-        strokes = (places.low + unit * places.span).T
-        found = places.program.together(places.inputs(strokes), way=way_of(count), size=(1, count)).values[:, 0]
-        t, k = len(places.targets), len(places.free)
-        return found[:t].T, found[t:].reshape(t, k, count).transpose(2, 0, 1) * places.span
+        found, t = self.places.run(self.places.program.together, unit), len(self.places.targets)
+        return found[:t].T, self.places.by_unit(found[t:])
 
     # -- the first look ----------------------------------------------------------------------------------
 
@@ -124,19 +122,14 @@ class ManyPlaces:
         """Return a grid of the strokes, which reach `out` of their ranges beyond either end; the spare ones at `ends` where given."""
         places, k = self.places, self.solved
         outs = np.broadcast_to(np.asarray(out, float), (len(places.free),))
-        wide = 1.0 + 2.0 * outs
-        turns = np.where(places.turning, wide * places.span / TURN, 0.0)
-        counts = np.maximum(SIDE[self.spare].get(k, 6) * wide, A_TURN.get(k, 6) * turns)
-        counts[k:] = SPARE[self.spare] * wide[k:]
-        shrink = max(1.0, float((np.prod(counts) / MOST_POSES) ** (1.0 / len(counts))))
-        axes = [np.linspace(-o, 1.0 + o, max(int(count / shrink), 4)) for o, count in zip(outs, counts, strict=True)]
+        counts = places.looked_at(outs, SIDE[self.spare].get(k, 6), A_TURN.get(k, 6))
+        counts[k:] = SPARE[self.spare] * (1.0 + 2.0 * outs[k:])
+        axes = grid_axes(outs, counts)
         axes[k:] = axes[k:] if ends is None else ends
         order = [*range(k, len(axes)), *range(k)]
         grid = np.stack([each.ravel() for each in np.meshgrid(*(axes[at] for at in order), indexing="ij")], axis=1)
         unit = grid[:, [order.index(at) for at in range(len(axes))]]
-        strokes = (places.low + unit * places.span).T
-        values = places.program.values(places.inputs(strokes), way=way_of(len(unit)), size=(1, len(unit))).values[:, 0]
-        return PlaceGrid(self, outs, axes[:k], axes[k:], unit, values)
+        return PlaceGrid(self, outs, axes[:k], axes[k:], unit, places.run(places.program.values, unit))
 
     # -- steps -------------------------------------------------------------------------------------------
 
@@ -217,20 +210,6 @@ def spared(every: Places, count: int) -> tuple[str, ...]:
         size = float(np.median(np.abs(np.linalg.det(slopes[:, :, kept])))) if len(slopes) else 0.0
         if size > best * (1.0 + 1e-9):
             best, found = size, tuple(every.free[at] for at in loose)
-    return found
-
-
-def solved_systems(matrix: FloatArray, right: FloatArray) -> FloatArray:
-    """Return the solutions (n, k) of many small systems of equations; not finite of singular ones."""
-    if right.shape[1] == 2:
-        (a, b), (c, d) = matrix[:, 0].T, matrix[:, 1].T
-        det = a * d - b * c
-        with np.errstate(divide="ignore", invalid="ignore"):
-            return np.stack([(d * right[:, 0] - b * right[:, 1]) / det, (a * right[:, 1] - c * right[:, 0]) / det], axis=1)
-    good: Mask = np.asarray(np.isfinite(matrix).all(axis=(1, 2)) & np.isfinite(right).all(axis=1))
-    good[good] = np.abs(np.linalg.det(matrix[good])) > 0.0
-    found = np.full(right.shape, np.nan)
-    found[good] = np.linalg.solve(matrix[good], right[good][:, :, None])[:, :, 0]
     return found
 
 

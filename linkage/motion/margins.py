@@ -13,12 +13,13 @@ from typing import Any, final
 import numpy as np
 
 from ..errors import AssemblyError
-from ..plan import Mask, Plan
+from ..plan import Mask
 from ..program import FloatArray
 from .grid import recalled
 from .interruptions import ON_ARRAYS, ROUNDING, Clearances
-from .motion import Motion, out_of_reach
+from .motion import Motion
 from .search import extremum_reached, places_text
+from .stroke_search import out_of_reach
 
 
 @final
@@ -47,48 +48,35 @@ def least_margins(motion: Motion, kept: Callable[[Motion], Mask] | None = None) 
 
     `kept` says which poses are asked for, all where it is None.
 
-    A hole down to 1e-5 of the strokes is found. Groups have no such margin, and laws that give no value somewhere have none either:
-    see `has_all_margins`.
+    A hole down to 1e-5 of the strokes is found. Groups, whose pins are looked for by iteration, have no such margin, and laws that give no
+    value somewhere have none either.
     """
     known = motion.plan.made("clearances", Clearances.of)
     if not (known.loops and motion.strokes):
         return []
-    if kept is None:
-        return recalled(motion, "margins", lambda: margins_found(motion, known, None))
-    return margins_found(motion, known, kept)
-
-
-def margins_found(motion: Motion, known: Clearances, kept: Callable[[Motion], Mask] | None) -> list[LeastMargin]:
-    """Return the least margins of some loops, looked for."""
 
     def asked(each: Motion) -> FloatArray:
         found = margins(each, known)
         return found if kept is None else np.where(kept(each), found, np.nan)
 
-    found = extremum_reached(motion, asked, -1.0, everywhere=True)
-    shape = (len(known.loops), *motion._design_shape)
-    places = [{name: value[row] for name, value in found.strokes.items()} for row in range(shape[0])]
-    noise = np.array([rounding_at(motion, known, place)[row] for row, place in enumerate(places)])
-    holes = np.asarray(found.value < -noise.reshape(shape))
-    return [
-        LeastMargin(loop.step, loop.kind, found.value[row], holes[row], places[row], found.units) for row, loop in enumerate(known.loops)
-    ]
+    def found() -> list[LeastMargin]:
+        least, each_of = extremum_reached(motion, asked, -1.0, everywhere=True), list[LeastMargin]()
+        for row, loop in enumerate(known.loops):
+            place = {name: value[row] for name, value in least.strokes.items()}
+            hole = np.asarray(least.value[row] < -rounding_at(motion, known, place)[row].reshape(motion._design_shape))[()]
+            each_of.append(LeastMargin(loop.step, loop.kind, least.value[row], hole, place, least.units))
+        return each_of
 
-
-def has_all_margins(plan: Plan) -> bool:
-    """Return whether every loop has a margin: no pin of a group is looked for by iteration."""
-    return not plan.groups
+    return recalled(motion, "margins", found) if kept is None else found()
 
 
 def margins(motion: Motion, known: Clearances) -> FloatArray:
     """Return the margins of loops, shape (loops, ...), smooth: sines of guides are squared."""
     grid = motion._grid
     values = known.kernel(grid.flat, way=ON_ARRAYS, size=grid.size).values
-    found = np.array(grid.full(values))
-    for row, loop in enumerate(known.loops):
-        if loop.kind in ("guides", "meeting"):  # the sign says which side it is assembled on
-            found[row] *= found[row]
-    return found
+    found = grid.full(values)
+    is_signed = known.is_signed.reshape(-1, *(1,) * len(grid.shape))
+    return np.where(is_signed, found * found, found)
 
 
 def rounding_at(motion: Motion, known: Clearances, strokes: Mapping[str, Any]) -> FloatArray:
@@ -96,8 +84,7 @@ def rounding_at(motion: Motion, known: Clearances, strokes: Mapping[str, Any]) -
     there = {name: np.reshape(value, (*motion._design_shape, 1)) for name, value in strokes.items()}
     grid = Motion(motion.plan, motion.designs, there, "nan", per_design=True)._grid
     sizes = known.rounding(grid.flat, way=ON_ARRAYS, size=grid.size).values
-    found: FloatArray = ROUNDING * np.fmax(np.abs(grid.full(sizes))[..., 0], 1.0)
-    return found
+    return np.asarray(ROUNDING * np.fmax(np.abs(grid.full(sizes))[..., 0], 1.0))
 
 
 def assembly_error_at(motion: Motion, strokes: Mapping[str, float]) -> AssemblyError | None:

@@ -13,9 +13,11 @@ import operator
 import re
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
+from functools import partial, reduce
 from types import MappingProxyType
-from typing import Any, ClassVar, NoReturn, TypeAlias, final
+from typing import Any, ClassVar, NoReturn, TypeAlias, TypeGuard, final
 
 import numpy as np
 
@@ -106,7 +108,7 @@ def as_measure(given: object) -> Measure:
         return given
     if is_number(given):
         return Given(float(given), getattr(given, "measures", ""))
-    if isinstance(given, (Quantity, Request, str, Worst)):
+    if is_quantity(given) or isinstance(given, Worst):
         raise DefinitionError(f"{words_of(given)} has a value at every pose: say which is meant, least(...), most(...), at(..., S=...).")
     raise DefinitionError(f"{cited(given)} is no measure and no number; write one such as least(...) or 35 * kN.")
 
@@ -119,9 +121,7 @@ class Given(Measure):
     value: float
     measures: str = ""
 
-    @property
-    def leaves(self) -> tuple[Leaf, ...]:
-        return ()
+    leaves = ()
 
     @property
     def numbers(self) -> tuple[float, ...]:
@@ -302,11 +302,16 @@ def worst(quantity: MeasuredQuantity, over: str, by: Callable[..., Any] = most) 
     return Worst(inner, over, 1.0 if by is most else -1.0)
 
 
+def is_quantity(value: object) -> TypeGuard[str | Quantity | Request]:
+    """Return whether a value is a named output, a quantity or a request: what is told from others by what it is."""
+    return isinstance(value, (str, Quantity, Request))
+
+
 def require_quantity(quantity: object, word: str) -> Any:
     """Return what is a quantity; DefinitionError for anything else."""
     if isinstance(quantity, Measure):
         raise DefinitionError(f"{word}({quantity}): {quantity} is one number of a design already.")
-    if isinstance(quantity, type) or not (isinstance(quantity, (str, Quantity, Request, Worst)) or callable(quantity)):
+    if isinstance(quantity, type) or not (is_quantity(quantity) or isinstance(quantity, Worst) or callable(quantity)):
         said = 'a named output, a quantity such as y("G"), a request such as drive_force(), or a function of a motion is expected'
         raise DefinitionError(f"{word}({cited(quantity)}): {said}.")
     return quantity
@@ -422,18 +427,12 @@ def in_case(measure: Measure, case: Case) -> Measure:
     if isinstance(measure, CombinedMeasure):
         left, right = in_case(measure.left, case), in_case(measure.right, case)
         return measure if left is measure.left and right is measure.right else replace(measure, left=left, right=right)
-    if isinstance(measure, Leaf):
-        situated = quantity_in_case(measure.quantity, case)
-        return measure if situated is measure.quantity else replace(measure, quantity=situated)
-    return measure
-
-
-def quantity_in_case(quantity: object, case: Case) -> Any:
-    """Return a quantity with the forces of a load case."""
-    if isinstance(quantity, Worst):
-        situated = quantity_in_case(quantity.quantity, case)
-        return quantity if situated is quantity.quantity else replace(quantity, quantity=situated)
-    return quantity.under(Acting(case=case), keep=True) if isinstance(quantity, Request) else quantity
+    quantity = measure.quantity if isinstance(measure, Leaf) else None
+    inner = quantity.quantity if isinstance(quantity, Worst) else quantity
+    situated = inner.under(Acting(case=case), keep=True) if isinstance(inner, Request) else inner
+    if situated is inner or not isinstance(measure, Leaf):
+        return measure
+    return replace(measure, quantity=replace(quantity, quantity=situated) if isinstance(quantity, Worst) else situated)
 
 
 def shares_of(spectrum: Spectrum, where: str = "case") -> dict[str, float]:
@@ -458,7 +457,7 @@ def in_duty(leaf: Leaf, case: object) -> Measure:
         said = 'a load case, its name, or load cases with their hours are expected, case={"empty": 700, "full": 300}'
         raise DefinitionError(f"{leaf}: case={cited(case)}: {said}.")
     inner = leaf.quantity.quantity if isinstance(leaf.quantity, Worst) else leaf.quantity
-    if not isinstance(inner, (str, Quantity, Request)):
+    if not is_quantity(inner):
         raise DefinitionError(f"{leaf}: case={cited(case)}: a function of a motion says its load case itself; leave case= out.")
     return mean_in_cases(leaf, shares_of(case)) if isinstance(case, Mapping) else in_case(leaf, case)
 
@@ -468,10 +467,7 @@ def mean_in_cases(measure: Measure, shares: Spectrum) -> Measure:
     parts = [CombinedMeasure("*", Given(share), in_case(measure, name)) for name, share in shares.items()]
     if len(parts) == 1 or all(part.right is measure for part in parts):
         return parts[0].right
-    mean: Measure = parts[0]
-    for part in parts[1:]:
-        mean = CombinedMeasure("+", mean, part)
-    return mean
+    return reduce(partial(CombinedMeasure, "+"), parts)
 
 
 # Quantities as requests of a plan.
@@ -480,28 +476,23 @@ def mean_in_cases(measure: Measure, shares: Spectrum) -> Measure:
 def which_component(plan: Plan, quantity: object) -> str:
     """Return how one component of a quantity of two is asked for: `ratio(x(G), order=2)` of `ratio(G, order=2)`."""
     if isinstance(quantity, Value) and name_of(quantity.target) in plan.points:
-        one, other = (replace(quantity, target=part(name_of(quantity.target))) for part in (x, y))
-        return f"say which, {one} or {other}"
+        return f"say which, {' or '.join(str(replace(quantity, target=part(name_of(quantity.target)))) for part in (x, y))}"
     name = words_of(quantity)
     return f'say which, x("{name}") or y("{name}")' if quantity in plan.points else "take x(P) or y(P) for a point P in it"
 
 
 def traced(plan: Plan, quantity: object) -> Request | None:
     """Return a quantity bound to a plan as nodes of its program; None where it has none; DefinitionError for anything but a number."""
-    if not isinstance(quantity, (str, Quantity, Request)):
+    if not is_quantity(quantity):
         return None
-    try:
+    with suppress(UntracedError, LawError):
         request = bound_quantity(plan, quantity)
-    except (UntracedError, LawError):
-        return None
-    if request.rows > 1:
-        raise DefinitionError(f"{plan.title}: {words_of(quantity)} has two components; {which_component(plan, quantity)}.")
-    try:
+        if request.rows > 1:
+            raise DefinitionError(f"{plan.title}: {words_of(quantity)} has two components; {which_component(plan, quantity)}.")
         if request.traced_with is not None:
             plan.made(("traced", request.traced_with), lambda twin: len(request.nodes(twin)))
-    except (UntracedError, LawError):
-        return None
-    return request
+        return request
+    return None
 
 
 def bound_quantity(plan: Plan, quantity: str | Quantity | Request) -> Request:
@@ -513,13 +504,12 @@ def bound_quantity(plan: Plan, quantity: str | Quantity | Request) -> Request:
 
 def strokes_behind(plan: Plan, quantity: object) -> tuple[str, ...]:
     """Return the strokes that a quantity depends on; all of them for a function of a motion."""
-    if not isinstance(quantity, (str, Quantity, Request)):
-        return tuple(plan.strokes)
-    try:
-        names = bound_quantity(plan, quantity).names(plan)
-    except (UntracedError, LawError):
-        return tuple(plan.strokes)
-    return tuple(name for name in plan.strokes if name in names or name in plan.reaches(*(each for each in names if each in plan.members)))
+    if is_quantity(quantity):
+        with suppress(UntracedError, LawError):
+            names = bound_quantity(plan, quantity).names(plan)
+            behind = names | plan.reaches(*(each for each in names if each in plan.members))
+            return tuple(name for name in plan.strokes if name in behind)
+    return tuple(plan.strokes)
 
 
 def dimension_value(owner: str, sign: int) -> NodeRequest:

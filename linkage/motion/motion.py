@@ -9,20 +9,21 @@ from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Self, TypeVar, cast
 import numpy as np
 
 from ..assembly import ambiguous_angle
-from ..errors import AssemblyError, DefinitionError, SingularError, SingularWarning, cited, one_word, unwarned, warn
+from ..errors import DefinitionError, SingularError, SingularWarning, cited, one_word, unwarned, warn
+from ..numeric import differences
 from ..plan import ArrayReading, Mask, Plan, failures, negative, require_kinds
 from ..program import FloatArray, Kernel
 from ..quantities import Angle, Distance, Member, Quantity, Reference, as_mapping, needs
 from ..shown import Shown
 from ..steps import Arrow, Point
 from ..vectors import Vec
-from . import conditions, differences, stroke_search
+from . import conditions, stroke_search
 from .conditions import Conditioning
 from .grid import Grid, JoinedTo, Joining, angles_of, joined_in_order, not_joined, to_rounding
 from .interruptions import Interruption
-from .limits import Limits, assembly_error, no_joint, span_text, stroke_unit, where_words
+from .limits import Limits, no_joint, span_text, stroke_unit, where_words
 from .over import Over, over_of
-from .part_motion import PartOfMotion
+from .part_motion import part_at_poses
 from .poles import body_points, body_rates, pole_of, whole_body
 from .requests import (
     Request,
@@ -83,15 +84,19 @@ class Motion(Shown):
         self._values: dict[Hashable, FloatArray] = {}
         self._kept: dict[Hashable, Any] = {}
         self._watched: dict[Hashable, bool] = {}
-        self.reached: Mask = np.empty(self.shape, bool)
-        self.reached.fill(True)
+        self.reached: Mask = np.ones(self.shape, bool)
         self._places, is_clear = self._grid.run(plan.kernel(plan.moving, guarded=True))
         self._is_near_singular, self._is_reached = not is_clear, True
         has_gaps = unreachable == "nan" and any([np.isnan(value).any() for value in self._grid.strokes.values()])
         if self._is_near_singular or plan.may_overflow or has_gaps:  # a place of a path that is not reached has no strokes
             self._settle_unreached()
-        if self._is_near_singular:
-            self._settle_lost()
+        if self._is_near_singular:  # refuse or mask the poses of which rounding leaves nothing, as where two points come together
+            words, what = f"The places of {plan.title}", places_of(plan.moving)
+            lost = self._refused_near(what, words, lambda found, mask: conditions.lost_places(found, mask, self.strokes))
+            if lost.any():
+                self._places = np.where(lost, np.nan, self._places)
+                self.reached &= ~lost
+                self._is_reached = False
         self._places.flags.writeable = self.reached.flags.writeable = False
         if unreachable == "raise" and stroke_search.is_watched(self):
             stroke_search.refuse_interrupted(self)
@@ -140,7 +145,9 @@ class Motion(Shown):
         spans = [f"{name} = {span_text(values, stroke_unit(self.plan, name))}" for name, values in self.strokes.items()]
         poses = f"{', '.join(spans) or 'no stroke'}; shape {self.shape}"
         reached = "all reached" if self.reached.all() else f"{int(self.reached.sum())} of {self.reached.size} reached"
-        return f"<Motion of {self.plan.title}: {poses}, {reached}{stroke_search.between_words(self.interruptions)}>"
+        if self.interruptions is None:
+            reached += ", not looked at between the poses"
+        return f"<Motion of {self.plan.title}: {poses}, {reached}{''.join(f', interrupted: {each}' for each in self.interruptions or ())}>"
 
     def __contains__(self, name: object) -> bool:
         """Whether a name is that of a point, a vector or a quantity: what `motion[name]` gives."""
@@ -183,8 +190,8 @@ class Motion(Shown):
         Places and ratios are those of the part alone, thrusts, pressures and joint forces those of the whole; its `columns` and `rules`
         take it. Strokes and dimensions have the values that the whole gives them. DefinitionError for a dimension that follows a stroke.
         """
-        found = PartOfMotion.of(self, name)
-        motion = Motion(found.part.plan, found.designs, found.strokes, "nan", per_design=bool(self._design_shape))
+        part, designs, strokes = part_at_poses(self, name)
+        motion = Motion(part.plan, designs, strokes, "nan", per_design=bool(self._design_shape))
         motion._held = (self, name)
         return motion
 
@@ -299,26 +306,29 @@ class Motion(Shown):
         words = f"The ratio of {what.name}"
         refused = self._refused(what, words)
         found = self._evaluated(what) if method == "exact" else self._numeric(what, None if step is None else float(step))
-        found = np.where(refused, np.nan, found) if np.count_nonzero(refused) else found
+        found = np.where(refused, np.nan, found) if refused.any() else found
         return self._finite(found, refused, f"{words} by {stroke}")
 
     def velocity(self, target: Reference, rates: Mapping[str, object]) -> FloatArray:
         """Return the velocity of a point [m/s], shape (2, ...), or the rate of an output, from stroke rates [1/s]."""
-        gaps = self.unreachable == "nan"
-        given = rates_of("rates", rates, self.strokes, self.shape, self.plan.title, gaps=gaps)
-        return sum((self.ratio(target, wrt=name) * rate for name, rate in given.items()), self._still(target))
+        return self._along(target, rates_of("rates", rates, self, gaps=self.unreachable == "nan"))
+
+    def _along(self, target: Reference, rates: Mapping[str, FloatArray]) -> FloatArray:
+        """Return the sum of the ratios by the strokes, each times its rate; NaN where the pose is not reached."""
+        parts = (2,) if isinstance(self._member(target), (Point, Arrow)) else ()
+        still = np.where(self.reached, np.zeros((*parts, *self.shape)), np.nan)
+        return sum((self.ratio(target, wrt=name) * rate for name, rate in rates.items()), still)
 
     def acceleration(self, target: Reference, rates: Mapping[str, object], accelerations: Mapping[str, object] | None = None) -> FloatArray:
         """Return the acceleration of a point [m/s2], shape (2, ...), from stroke rates and accelerations."""
         gaps = self.unreachable == "nan"
-        given = rates_of("rates", rates, self.strokes, self.shape, self.plan.title, gaps=gaps)
-        asked = {} if accelerations is None else accelerations
-        driven = rates_of("accelerations", asked, self.strokes, self.shape, self.plan.title, gaps=gaps)
+        given, asked = rates_of("rates", rates, self, gaps=gaps), {} if accelerations is None else accelerations
+        driven = rates_of("accelerations", asked, self, gaps=gaps)
         member = self._member(target)
         along = [tuple(sorted((first, second))) for first in given for second in given]
         masks = [self._refused(Value(member, each), f"The acceleration of {member.name or member}") for each in dict.fromkeys(along)]
         refused = np.any(masks, axis=0)
-        total = sum((self.ratio(target, wrt=name) * value for name, value in driven.items()), self._still(target))
+        total = self._along(target, driven)
         for first, u in given.items():
             for second, v in given.items():
                 total = total + self._evaluated(Value(member, tuple(sorted((first, second))))) * u * v
@@ -331,7 +341,54 @@ class Motion(Shown):
         stroke that stands still is one of them, `{"S": 0.0}`. Raises SingularError where the strokes cannot give them, at a dead point of
         the drive, unless the motion has `unreachable="nan"`.
         """
-        return rates_for(self, velocities)
+        plan, title = self.plan, f"{self.plan.title}.rates_for"
+        if not isinstance(velocities, Mapping) or not velocities:
+            raise DefinitionError(f'{title}: {cited(velocities)}: rates by name are expected, such as {{"px": 0.2, "py": 0.0}}.')
+        names, slopes, wanted, sizes = list[str](), list[FloatArray](), list[FloatArray](), list[FloatArray]()
+        for quantity, rate in velocities.items():
+            what = bound(plan, quantity)
+            parts: Sequence[object] = [rate]
+            if what.rows > 1:
+                if not isinstance(rate, (tuple, list, np.ndarray)) or len(rate) != what.rows:
+                    two = "is a point or a vector: its two parts are expected, (0.2, 0.0)"
+                    raise DefinitionError(f"{title}: {what} {two}, not {cited(rate)}.")
+                parts = rate
+            names += [str(what)] * what.rows
+            wanted += [np.broadcast_to(checked_rate(f"rates_for: {what}", part, self.shape, plan.title), self.shape) for part in parts]
+            along = [np.broadcast_to(self.ratio(quantity, wrt=stroke), (what.rows, *self.shape)) for stroke in self.strokes]
+            slopes += list(np.stack(along, axis=1))
+            measured = what.member if isinstance(what, Value) else what.measured(plan)
+            sizes += [np.broadcast_to(self._natural_size(measured), self.shape)] * what.rows
+        if len(wanted) != len(self.strokes):
+            counted = f"{len(wanted)} rate{'s' * (len(wanted) != 1)} for {' and '.join(self.strokes)}"
+            still = f'one that stands still is a rate too, "{[*self.strokes][-1]}": 0.0'
+            remedy = still if len(wanted) < len(self.strokes) else "leave out some"
+            raise DefinitionError(f"{title}: {counted}: give as many as there are strokes; {remedy}.")
+        return self._rates(title, names, np.array(slopes), np.array(wanted), np.array(sizes))
+
+    def _rates(self, title: str, names: Sequence[str], slopes: FloatArray, wanted: FloatArray, sizes: FloatArray) -> dict[str, FloatArray]:
+        """Return the rates by slopes (n, n, ...) of n values by the strokes, what is wanted of them and their sizes (n, ...)."""
+        matrix, right = np.moveaxis(slopes, (0, 1), (-2, -1)), np.moveaxis(wanted, 0, -1)[..., None]
+        spans = np.array([abs(stroke.end - stroke.start) for stroke in self.plan.strokes.values()])
+        sizes, known = np.moveaxis(sizes, 0, -1), np.isfinite(matrix).all(axis=(-2, -1))
+        scaled = np.where(known[..., None, None], matrix, np.eye(len(wanted))) * spans / np.where(sizes > 0.0, sizes, 1.0)[..., None]
+        found = np.linalg.svd(scaled, compute_uv=False)
+        dead = known & ~(found[..., -1] * conditions.REFUSE > np.maximum(found[..., 0], 1.0))
+        if dead.any() and self.unreachable == "raise":
+            where = where_words(self.plan, dead, self.strokes)
+            text = f"{title}: no stroke rates give {', '.join(dict.fromkeys(names))} {where}, at a dead point of the drive"
+            raise SingularError(f'{text}. Leave these poses out, or ask with unreachable="nan".', mask=dead, motion=self)
+        solvable = (known & ~dead)[..., None, None]
+        found = np.linalg.solve(np.where(solvable, matrix, np.eye(len(wanted))), right)[..., 0]
+        found = np.asarray(np.where(solvable[..., 0], found, np.nan), float)
+        return {stroke: np.asarray(found[..., place], float) for place, stroke in enumerate(self.strokes)}
+
+    def _natural_size(self, measured: Member | str) -> FloatArray:
+        """Return what places and lengths are compared with, the size of the machine [m], other values with 1."""
+        extent = self.plan.made(("extent",), lambda fork: Kernel([fork.trace.graph.node(fork.trace.extent)]))
+        size = np.asarray(np.sqrt(self._grid.full(extent(self._grid.flat, size=self._grid.size).values)[0]))
+        found = natural_size(measured, size) if isinstance(measured, Member) else size if measured == "length" else None
+        return np.ones_like(size) if found is None else found
 
     def pole(
         self, body: Reference, other: Reference = "frame", *, wrt: str | None = None, rates: Mapping[str, object] | None = None
@@ -462,16 +519,7 @@ class Motion(Shown):
         self.reached[failed] = ~lost
         self._is_reached = not lost.any()
         if self.unreachable == "raise" and lost.any():
-            raise out_of_reach(self)
-
-    def _settle_lost(self) -> None:
-        """Refuse or mask the poses of which rounding leaves nothing, as where two points that another hangs from come together."""
-        words = f"The places of {self.plan.title}"
-        lost = self._refused_near(places_of(self.plan.moving), words, lambda found, mask: conditions.lost_places(found, mask, self.strokes))
-        if lost.any():
-            self._places = np.where(lost, np.nan, self._places)
-            self.reached &= ~lost
-            self._is_reached = False
+            raise stroke_search.out_of_reach(self)
 
     def _refuse_parted(self) -> None:
         """Raise SingularError where an angle that is followed from the sketch changes by a turn from one pose to the next."""
@@ -482,17 +530,10 @@ class Motion(Shown):
         strokes = {name: np.broadcast_to(value, self.shape).reshape(m, *shape) for name, value in self.strokes.items()}
         name = ambiguous_angle(self.plan, designs, strokes, references)
         if name:
-            raise SingularError(
-                f"{self.plan.title}: {name}, whose whole turns count here, is followed from the sketch, and the straight ways to two "
-                "neighbours of these poses pass a pose where its ends meet on either side, so that a turn lies between them. Stay on one "
-                "side of it, take a whole multiple of the angle, or drive it by a Stroke.",
-                mask=np.ones(self.shape, bool), motion=self,
-            )  # fmt: skip
-
-    @property
-    def _crossed(self) -> Mask:
-        """The poses that a group's pins reach only through a change point."""
-        return np.asarray(self._grid.crossed > 0.0)
+            what = f"{self.plan.title}: {name}, whose whole turns count here, is followed from the sketch, and the straight ways to two"
+            why = "neighbours of these poses pass a pose where its ends meet on either side, so that a turn lies between them"
+            remedy = "Stay on one side of it, take a whole multiple of the angle, or drive it by a Stroke."
+            raise SingularError(f"{what} {why}. {remedy}", mask=np.ones(self.shape, bool), motion=self)
 
     # -- values through the program ----------------------------------------------------------------------
 
@@ -505,12 +546,9 @@ class Motion(Shown):
     def _point(self, name: Reference) -> FloatArray:
         return self._place(checked_name("Point", name, self.plan.points, self.plan.title))
 
-    def _known(self, target: Reference) -> Member:
-        return self.plan.members[checked_name("Name", target, self.plan.members, self.plan.title)]
-
     def _member(self, target: Reference) -> Member:
         if not isinstance(target, Quantity) or target.name:
-            return self._known(target)
+            return self.plan.members[checked_name("Name", target, self.plan.members, self.plan.title)]
         for name in needs(target):
             checked_name("Name", name, self.plan.members, self.plan.title)
         return target
@@ -533,8 +571,11 @@ class Motion(Shown):
             if self._is_near_singular and not along:
                 at_end = self.reached & ~np.isfinite(found).all(axis=0)
                 found = to_rounding(found, at_end, kernel.plan.outputs, self._grid.inputs_at(at_end)) if at_end.any() else found
-            continued = self._continued(what) if isinstance(member, Quantity) else None
-            self._values[key] = found if continued is None else continued
+            if isinstance(member, Quantity):  # angles in it are continued along the stroke
+                angles = self.plan.made(("angles", what.key), lambda plan: angles_of(plan, what.nodes(plan)))
+                continued = angles.continued(self._grid, self.reached)
+                found = found if continued is None else continued
+            self._values[key] = found
             self._values[key].flags.writeable = False
         values = self._values[key]
         if not self._is_reached and member.name not in self.plan.ground:
@@ -543,10 +584,6 @@ class Motion(Shown):
             index = 2 * self.plan.moving.index(member.name)
             return values[index : index + 2]
         return values if isinstance(member, (Arrow, Point)) else values[0]
-
-    def _continued(self, what: Value) -> FloatArray | None:
-        """Return what holds angles, which are continued along the stroke; None where they need not be."""
-        return self.plan.made(("angles", what.key), lambda plan: angles_of(plan, what.nodes(plan))).continued(self._grid, self.reached)
 
     def _numeric(self, what: Value, step: float | None) -> FloatArray:
         member, stroke, order = what.member, what.strokes[0], what.order
@@ -565,18 +602,16 @@ class Motion(Shown):
         if step is not None:
             useless |= self.reached & ~np.isfinite(found).all(axis=tuple(range(found.ndim - len(self.shape))))
         if useless.any() and self.unreachable == "raise":
-            where = where_words(self.plan, useless, self.strokes)
-            raise SingularError(f"{title} is refused {where}: {differences.why_refused(step)}", mask=useless, motion=self)
+            where, why = where_words(self.plan, useless, self.strokes), "differences do not settle so near a dead point. Ask"
+            if step is not None:
+                why = "the difference is rounding, or goes too far or out of reach, or stands too near a dead point. "
+                why += "Leave the step out, which is then chosen at every pose, or ask"
+            raise SingularError(f'{title} is refused {where}: {why} for method="exact".', mask=useless, motion=self)
         if lost > differences.WARN[order]:
             other = "the exact one is not" if step is None else "without a step it is chosen at every pose"
             text = f"{title} is off by up to about {lost:.0e} of its greatest value; {other}."
             warn(SingularWarning(text, estimate=lost))
         return np.where(useless, np.nan, found)
-
-    def _still(self, target: Reference) -> FloatArray:
-        """Return zeros in the shape of a ratio, NaN where the pose is not reached."""
-        parts = (2,) if isinstance(self._member(target), (Point, Arrow)) else ()
-        return np.where(self.reached, np.zeros((*parts, *self.shape)), np.nan)
 
     def _finite(self, values: FloatArray, excused: Mask, what: str) -> FloatArray:
         """Return values that are finite at every pose reached; NaN where they are not and NaN was asked for."""
@@ -598,16 +633,19 @@ class Motion(Shown):
             raise other_law_error(self.plan, what)
         for words, values in switches:
             if np.any(good & (values > 0.0)):
-                raise DefinitionError(
-                    f"{self.plan.title}: {what.sentence} has no derivative by {words} that it equals here, and is another law next to it. "
-                    "Leave that dimension out of wrt=, or set it beside that number."
-                )
+                why = f"{what.sentence} has no derivative by {words} that it equals here, and is another law next to it"
+                remedy = "Leave that dimension out of wrt=, or set it beside that number."
+                raise DefinitionError(f"{self.plan.title}: {why}. {remedy}")
 
     # -- near singular poses -----------------------------------------------------------------------------
 
     def _refused(self, what: Request, words: str) -> Mask:
         """Return the mask of poses where a result is refused; raise or warn as asked. `words` begin a sentence about it."""
-        if not self._is_near(what):
+        near = self._is_near_singular
+        if isinstance(what, Value) and not isinstance(what.member, Point):  # of points it is known, of other values told with these
+            self._evaluated(what)
+            near = self._watched[what.key]
+        if not near:
             return np.zeros(self.shape, bool)
         return self._refused_near(what, words, lambda found, mask: self._singular(found, mask, words))
 
@@ -631,13 +669,6 @@ class Motion(Shown):
         if doubtful.any():
             conditions.warn_near(found.at(found.doubtful), f"{words} {where_words(self.plan, doubtful, self.strokes)}")
         return refused
-
-    def _is_near(self, what: Request) -> bool:
-        """Return whether some pose has to be looked at closely: for points that is known, for other values it is told with these."""
-        if isinstance(what, Value) and not isinstance(what.member, Point):
-            self._evaluated(what)
-            return self._watched[what.key]
-        return self._is_near_singular
 
     def _once(self, key: Hashable, make: Callable[[], Made]) -> Made:
         """Return what several ask of these poses, such as all joint forces in one situation, made once and kept with the motion."""
@@ -684,57 +715,6 @@ class Motion(Shown):
         return np.asarray(values, float)
 
 
-def rates_for(motion: Motion, velocities: object) -> dict[str, FloatArray]:
-    """Return the stroke rates that give some velocities; see Motion.rates_for."""
-    plan, title = motion.plan, f"{motion.plan.title}.rates_for"
-    if not isinstance(velocities, Mapping) or not velocities:
-        raise DefinitionError(f'{title}: {cited(velocities)}: rates by name are expected, such as {{"px": 0.2, "py": 0.0}}.')
-    names, slopes, wanted, natural = [], [], [], []
-    for quantity, rate in velocities.items():
-        what = bound(plan, quantity)
-        parts: Any = [rate]
-        if what.rows > 1:
-            if not isinstance(rate, (tuple, list, np.ndarray)) or len(rate) != what.rows:
-                raise DefinitionError(f"{title}: {what} is a point or a vector: its two parts are expected, (0.2, 0.0), not {cited(rate)}.")
-            parts = rate
-        names += [str(what)] * what.rows
-        wanted += [np.broadcast_to(checked_rate(f"rates_for: {what}", part, motion.shape, plan.title), motion.shape) for part in parts]
-        along = [np.broadcast_to(motion.ratio(quantity, wrt=stroke), (what.rows, *motion.shape)) for stroke in motion.strokes]
-        slopes += list(np.stack(along, axis=1))
-        natural += [compared_size(motion, what)] * what.rows
-    if len(wanted) != len(motion.strokes):
-        counted = f"{len(wanted)} rate{'s' * (len(wanted) != 1)} for {' and '.join(motion.strokes)}"
-        last = [*motion.strokes][-1]
-        remedy = f'one that stands still is a rate too, "{last}": 0.0' if len(wanted) < len(motion.strokes) else "leave out some"
-        raise DefinitionError(f"{title}: {counted}: give as many as there are strokes; {remedy}.")
-    matrix = np.moveaxis(np.array(slopes), (0, 1), (-2, -1))
-    right = np.moveaxis(np.array(wanted), 0, -1)[..., None]
-    spans = np.array([abs(stroke.end - stroke.start) for stroke in plan.strokes.values()])
-    sizes = np.moveaxis(np.array([np.broadcast_to(each, motion.shape) for each in natural]), 0, -1)
-    known = np.isfinite(matrix).all(axis=(-2, -1))
-    slopes = np.where(known[..., None, None], matrix, np.eye(len(wanted))) * spans / np.where(sizes > 0.0, sizes, 1.0)[..., None]
-    found = np.linalg.svd(slopes, compute_uv=False)
-    dead = known & ~(found[..., -1] * conditions.REFUSE > np.maximum(found[..., 0], 1.0))
-    if dead.any() and motion.unreachable == "raise":
-        where = where_words(plan, dead, motion.strokes)
-        text = f"{title}: no stroke rates give {', '.join(dict.fromkeys(names))} {where}, at a dead point of the drive"
-        raise SingularError(f'{text}. Leave these poses out, or ask with unreachable="nan".', mask=dead, motion=motion)
-    solvable = (known & ~dead)[..., None, None]
-    found = np.linalg.solve(np.where(solvable, matrix, np.eye(len(wanted))), right)[..., 0]
-    found = np.asarray(np.where(solvable[..., 0], found, np.nan), float)
-    return {stroke: np.asarray(found[..., place], float) for place, stroke in enumerate(motion.strokes)}
-
-
-def compared_size(motion: Motion, what: Request) -> FloatArray:
-    """Return what values of a request are compared with [SI]: places and lengths with the size of the machine, others with 1."""
-    extent = motion.plan.made(("extent",), lambda fork: Kernel([fork.trace.graph.node(fork.trace.extent)]))
-    size = np.asarray(np.sqrt(motion._grid.full(extent(motion._grid.flat, size=motion._grid.size).values)[0]))
-    if isinstance(what, Value):
-        found = natural_size(what.member, size)
-        return np.ones_like(size) if found is None else found
-    return size if what.measured(motion.plan) == "length" else np.ones_like(size)
-
-
 def each_at_its_stroke(
     plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, Any], like: Motion | None = None, at: Any = slice(None)
 ) -> Motion:
@@ -748,14 +728,6 @@ def each_at_its_stroke(
     at_each = {name: np.broadcast_to(np.asarray(value, float), size) for name, value in strokes.items()}
     joining = not_joined if like is None else JoinedTo(like._grid, at)
     return Motion(plan, of_each, at_each, "nan", per_design=True, joining=joining)
-
-
-def out_of_reach(motion: Motion) -> AssemblyError:
-    """Return the error for the poses of a motion that are not reached: out of reach, or behind a change point."""
-    if motion._crossed.any():
-        return stroke_search.group_change_point_error(motion, motion._crossed)
-    missing = ~motion.reached
-    return assembly_error(motion.plan, motion._grid.read_at(missing), missing, motion.strokes, stroke_search.stop_words(motion))
 
 
 class OnePose:

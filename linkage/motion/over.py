@@ -51,7 +51,7 @@ class Over(Member):
         self, *, only: Sequence[PoseCondition] | PoseCondition = (), cases: Sequence[object] | None = None, lost: str = "",
         **strokes: object,
     ) -> None:
-        self._hold("box", {name: box_ends(name, value) for name, value in strokes.items()}, only, cases, lost)
+        self._hold("box", strokes, only, cases, lost)
 
     @classmethod
     def path(
@@ -71,31 +71,30 @@ class Over(Member):
     def _of_places(cls, shape: str, strokes: Mapping[str, object], only: object, cases: object, lost: object) -> Self:
         found = cls()
         object.__setattr__(found, "_name", "")
-        values = {name: place_values(shape, name, value) for name, value in strokes.items()}
-        counts = {len(value) for value in values.values() if isinstance(value, tuple)}
-        if len(counts) > 1:
-            each = ", ".join(f"{name} has {len(value)}" for name, value in values.items() if isinstance(value, tuple))
-            raise DefinitionError(f"Over.{shape}: {each} values; give each stroke as many, or one number where it is held.")
-        found._hold(shape, values, only, cases, lost)
+        found._hold(shape, strokes, only, cases, lost)
         return found
 
     def _hold(self, shape: str, strokes: Mapping[str, object], only: object, cases: object, lost: object) -> None:
-        """Keep what was given; DefinitionError for a wrong condition, case or word."""
-        listed = (only,) if isinstance(only, PoseCondition) else only
-        if not isinstance(listed, (list, tuple)) or not all(isinstance(each, PoseCondition) for each in listed):
-            wrong = (
-                next((each for each in listed if not isinstance(each, PoseCondition)), only) if isinstance(listed, (list, tuple)) else only
-            )
-            raise DefinitionError(f'Over(only=...): {cited(wrong)} is no condition on poses; write comparisons, only=[x("T") <= 4].')
+        """Keep what was given; DefinitionError for a wrong stroke, condition, case or word."""
+        values = {name: box_ends(name, value) if shape == "box" else place_values(shape, name, value) for name, value in strokes.items()}
+        counts = {name: len(value) for name, value in values.items() if isinstance(value, tuple)}
+        if shape != "box" and len({*counts.values()}) > 1:
+            each = ", ".join(f"{name} has {count}" for name, count in counts.items())
+            raise DefinitionError(f"Over.{shape}: {each} values; give each stroke as many, or one number where it is held.")
+        listed = only if isinstance(only, (list, tuple)) else (only,)
+        for condition in listed:
+            if not isinstance(condition, PoseCondition):
+                what = f"Over(only=...): {cited(condition)} is no condition on poses"
+                raise DefinitionError(f'{what}; write comparisons, only=[x("T") <= 4].')
         if isinstance(cases, (str, LoadCase)):
             raise DefinitionError(f"Over(cases={cited(cases)}): a list of load cases is expected, cases=({cited(cases)},).")
-        if cases is not None and not (
-            isinstance(cases, (list, tuple)) and cases and all(isinstance(each, (str, LoadCase)) for each in cases)
-        ):
+        named = isinstance(cases, (list, tuple)) and all(isinstance(each, (str, LoadCase)) for each in cases)
+        if cases is not None and not (named and cases):
             raise DefinitionError(f'Over(cases={cited(cases)}): names of load cases are expected, cases=("full",); leave it out for all.')
         require(lost in ("", ALLOWED), "Over(lost", lost, '"allowed" is expected, or nothing: places that are lost are then a fault')
-        names = None if cases is None else tuple(map(name_of, cases))
-        for name, value in (("shape", shape), ("strokes", FrozenDict(strokes)), ("only", tuple(listed)), ("cases", names), ("lost", lost)):
+        names = tuple(map(name_of, cases)) if isinstance(cases, (list, tuple)) else None
+        held = {"shape": shape, "strokes": FrozenDict(values), "only": tuple(listed), "cases": names, "lost": lost}
+        for name, value in held.items():
             object.__setattr__(self, name, value)
 
     def parts(self) -> tuple[Any, ...]:
@@ -103,10 +102,8 @@ class Over(Member):
 
     def examine(self, members: Mapping[str, Member], title: str) -> None:
         """Raise DefinitionError for strokes and load cases that a class has not, and for conditions on what it has not."""
-        self.check(
-            title, [name for name, each in members.items() if isinstance(each, Stroke)],
-            [name for name, each in members.items() if isinstance(each, LoadCase)],
-        )  # fmt: skip
+        strokes = [name for name, each in members.items() if isinstance(each, Stroke)]
+        self.check(title, strokes, [name for name, each in members.items() if isinstance(each, LoadCase)])
         for each in self.only:
             for name in (name for side in (each.left, each.right) if isinstance(side, (str, Quantity)) for name in needs(quantity(side))):
                 known_name("Name", name, members, where=f"{title}.{self.name}: only={each}")
@@ -120,10 +117,8 @@ class Over(Member):
                 raise DefinitionError(f"{error} Designs are varied by vary=, not by over=.")
         missing = [name for name in known if name not in self.strokes] if self.shape != "box" else []
         if missing:
-            example = keywords(dict.fromkeys(missing, "..."))
-            raise DefinitionError(
-                f"{where}: it does not say where {', '.join(missing)} stand; give {example}, one number where it is held."
-            )
+            what = f"{where}: it does not say where {', '.join(missing)} stand"
+            raise DefinitionError(f"{what}; give {keywords(dict.fromkeys(missing, '...'))}, one number where it is held.")
         for name in self.cases or ():
             known_name("Load case", name, (PLAIN_CASE, *cases), where=where)
 
@@ -201,11 +196,11 @@ class Over(Member):
         plan = motion.plan
         ends = [f"{name} = {span_text(values, stroke_unit(plan, name))}" for name, values in motion.strokes.items()]
         if self.shape == "path" and len(motion.strokes) > 1:
-            places = [
-                ", ".join(f"{name} = {place_text(float(value[k]), stroke_unit(plan, name))}" for name, value in motion.strokes.items())
-                for k in (0, -1)
-            ]
-            text = said("the path from {start} to {end}", start=places[0], end=places[1])
+            units = {name: stroke_unit(plan, name) for name in motion.strokes}
+            start, end = (
+                ", ".join(f"{name} = {place_text(float(value[k]), units[name])}" for name, value in motion.strokes.items()) for k in (0, -1)
+            )
+            text = said("the path from {start} to {end}", start=start, end=end)
         elif self.shape == "poses":
             text = said("{count} poses, {spans}", count=motion.reached.size, spans=", ".join(ends))
         else:
@@ -288,9 +283,8 @@ def box_ends(name: str, value: object) -> Any:
         if len(value) == 2 and all(map(is_end, value)):
             return tuple(amount_or_float(each) if is_number(each) else each for each in value)
         if len(value) > 2 and all(map(is_number, value)):
-            raise DefinitionError(
-                f"Over({name}={cited(value)}): (low, high) or one value is expected; places in an order are Over.path(...)."
-            )
+            expected = "(low, high) or one value is expected; places in an order are Over.path(...)"
+            raise DefinitionError(f"Over({name}={cited(value)}): {expected}.")
     elif is_end(value):
         return amount_or_float(value) if is_number(value) else value
     if isinstance(value, PoseCondition):
@@ -328,5 +322,4 @@ def over_of(strokes: Mapping[str, FloatArray], per_design: bool) -> Over:
     if several and not per_design and all(value.ndim == 1 for value in strokes.values()):
         return Over.path(**{name: value.tolist() for name, value in strokes.items()})
     ends = {name: (float(np.min(value)), float(np.max(value))) for name, value in strokes.items()}
-    given: dict[str, Any] = {name: pair if pair[0] < pair[1] else pair[0] for name, pair in ends.items()}
-    return Over(**given)
+    return Over(**{name: (low, high) if low < high else low for name, (low, high) in ends.items()})

@@ -15,10 +15,11 @@ from typing import Any, TypeAlias, final
 import numpy as np
 
 from ..checks import require, require_one_design, require_type
-from ..errors import DefinitionError, cited, unwarned
+from ..errors import DefinitionError, unwarned
 from ..frozen import FrozenDict
 from ..language import said
-from ..numeric.descent import descended
+from ..numeric.cells import all_known, along, corners_all, extremes_of_cells
+from ..numeric.descent import descended, grid_axes, is_one_solution, without_repeats
 from ..numeric.line import Index, last_holding
 from ..plan import Mask, Plan, require_kind
 from ..program import QUICKEST, FloatArray, Kernel, RunOptions
@@ -32,7 +33,7 @@ from .measures import traced, words_of
 from .motion import Motion
 from .requests import Request
 from .strokes import TURN, check_magnitude, checked_name
-from .target import Target, is_one
+from .target import Target, is_one, targets_given
 
 StrokeRanges: TypeAlias = Mapping[str, tuple[float, float]]
 """The ends of strokes, by name [m or rad]."""
@@ -43,7 +44,6 @@ SIDE = {1: 129, 2: 33, 3: 13, 4: 8, 5: 6}
 """Values of each stroke of the grid, by how many strokes are looked for; 5 of more of them."""
 A_TURN = {1: 128, 2: 32, 3: 16, 4: 9, 5: 7}
 """Values of a crank for each turn of it, at the least."""
-MOST_POSES = 1 << 19
 STARTS = 96
 """Starts on the grid, those where most seems to be met first."""
 BORDER_STARTS = 48
@@ -64,8 +64,6 @@ MET = 1e-10
 """Of the size of what it measures: a target that is missed by no more is met."""
 SAME = 1e-7
 """Of the range of a stroke: branches that are nearer to each other are one."""
-NEAR = 1e-2
-"""Of the range: branches that are so near are one where what lies between them meets the targets too."""
 BESIDE = 0.01
 """Of a cell of the grid: how far aside it is looked how the slopes change."""
 CELLS = 3.0
@@ -138,11 +136,8 @@ class Places:
         """Return targets bound to one design; DefinitionError for anything else, and where they do not ask for the strokes there are."""
         title = f"{plan.title}: {where}"
         require_one_design(designs, f"{title} is of one design")
-        if not isinstance(targets, (list, tuple)) or not targets or not all(isinstance(each, Target) for each in targets):
-            example = 'a list of targets is expected, such as [Target(x("G"), 2.5), Target(y("G"), 0.5)]'
-            raise DefinitionError(f"{title}: {cited(targets)}: {example}.")
-        held = held_strokes(plan, hold, title)
-        for each in targets:
+        listed, held = targets_given(targets, title, 'such as [Target(x("G"), 2.5), Target(y("G"), 0.5)]'), held_strokes(plan, hold, title)
+        for each in listed:
             if each.strokes:
                 names = ", ".join(f'hold={{"{name}": {value!r}}}' for name, value in each.strokes.items())
                 raise DefinitionError(f"{title}: {each!r}: strokes are what is looked for here; one that stands still is held, {names}.")
@@ -162,19 +157,20 @@ class Places:
         return PlaceProgram.of(self.plan, self.bound, self.free)
 
     @cached_property
+    def ends(self) -> FloatArray:
+        """The ends of the strokes that are looked for [m or rad], as they are declared unless `ranges` say, shape (k, 2)."""
+        declared = {name: (each.start, each.end) for name, each in self.plan.strokes.items()}
+        return np.array([self.ranges.get(name, declared[name]) for name in self.free], float).reshape(-1, 2)
+
+    @cached_property
     def low(self) -> FloatArray:
-        """The least values of the strokes that are looked for [m or rad], shape (k,)."""
-        return np.array([min(ends) for ends in self._ends])
+        """The least values of these strokes [m or rad], shape (k,)."""
+        return np.asarray(self.ends.min(axis=1))
 
     @cached_property
     def span(self) -> FloatArray:
         """The ranges of these strokes [m or rad], shape (k,)."""
-        return np.array([abs(end - start) for start, end in self._ends])
-
-    @property
-    def _ends(self) -> list[tuple[float, float]]:
-        declared = {name: (each.start, each.end) for name, each in self.plan.strokes.items()}
-        return [self.ranges.get(name, declared[name]) for name in self.free]
+        return np.abs(self.ends[:, 1] - self.ends[:, 0])
 
     @cached_property
     def turning(self) -> Mask:
@@ -221,16 +217,26 @@ class Places:
         every |= {name: np.full(len(unit), value) for name, value in self.held.items()}
         return {name: every[name] for name in self.plan.strokes}
 
+    def run(self, kernel: Kernel, unit: FloatArray) -> FloatArray:
+        """Return what a kernel gives at unit coordinates (n, k), shape (outputs, n); NaN out of reach."""
+        return kernel(self.inputs((self.low + unit * self.span).T), way=way_of(len(unit)), size=(1, len(unit))).values[:, 0]
+
     def values(self, unit: FloatArray) -> FloatArray:
         """Return the values of the targets [SI], shape (n, t), at unit coordinates (n, k); NaN out of reach."""
-        strokes = (self.low + unit * self.span).T
-        return self.program.values(self.inputs(strokes), way=way_of(len(unit)), size=(1, len(unit))).values[:, 0].T
+        return self.run(self.program.values, unit).T
 
     def slopes(self, unit: FloatArray) -> FloatArray:
         """Return their derivatives by unit coordinates, shape (n, t, k)."""
-        strokes = (self.low + unit * self.span).T
-        found = self.program.slopes(self.inputs(strokes), way=way_of(len(unit)), size=(1, len(unit))).values[:, 0]
-        return found.reshape(len(self.targets), len(self.free), len(unit)).transpose(2, 0, 1) * self.span
+        return self.by_unit(self.run(self.program.slopes, unit))
+
+    def by_unit(self, slopes: FloatArray) -> FloatArray:
+        """Return derivatives by the strokes, shape (t k, n), as those by unit coordinates, shape (n, t, k)."""
+        return slopes.reshape(len(self.targets), len(self.free), -1).transpose(2, 0, 1) * self.span
+
+    def looked_at(self, out: FloatArray, side: float, turn: float) -> FloatArray:
+        """Return how many values of each stroke are looked at from -out to 1 + out: `side` over its range, of a crank `turn` a turn."""
+        wide = 1.0 + 2.0 * out
+        return np.maximum(side * wide, turn * np.where(self.turning, wide * self.span / TURN, 0.0))
 
     def off(self, values: FloatArray, wanted: FloatArray) -> FloatArray:
         """Return by how much values (n, t) exceed what is wanted (t,) [SI], angles the shorter way round."""
@@ -299,13 +305,19 @@ def held_strokes(plan: Plan, hold: object, title: str) -> dict[str, float]:
     if hold is None:
         return {}
     example = f'hold={{"{next(iter(plan.strokes))}": 0.1}}'
-    held = require_type(f"{title}: hold", hold, Mapping, f"strokes by name are expected, {example}")
+    held = stroke_numbers(plan, require_type(f"{title}: hold", hold, Mapping, f"strokes by name are expected, {example}"), f"{title}: hold")
     for name, value in held.items():
+        check_magnitude(name, (value,), plan)
+    return held
+
+
+def stroke_numbers(plan: Plan, given: Mapping[str, Any], where: str) -> dict[str, float]:
+    """Return strokes by name, a number each; DefinitionError for a name that is no stroke, and for a value that is no number."""
+    for name, value in given.items():
         checked_name("Stroke", name, plan.strokes, plan.title)
-        require(is_one(value), f"{title}: hold: {name}", value, "one number is expected, in SI")
-        require_kind(plan, name, value, f"{title}: hold: {name}")
-        check_magnitude(name, (float(value),), plan)
-    return {name: float(value) for name, value in held.items()}
+        require(is_one(value), f"{where}: {name}", value, "one number is expected, in SI")
+        require_kind(plan, name, value, f"{where}: {name}")
+    return {name: float(value) for name, value in given.items()}
 
 
 def check_targets(places: Places, title: str) -> None:
@@ -372,16 +384,6 @@ class Found:
         return Found(self.unit[rows], self.off[rows])
 
 
-def branches(places: Places, wanted: FloatArray) -> Found:
-    """Return all unit coordinates in the ranges of the strokes that give what is wanted (t,), ascending; of infinitely many some."""
-    return BranchSearch(places, wanted, 0.0).branches()
-
-
-def nearest(places: Places, wanted: FloatArray) -> Found:
-    """Return the unit coordinates in the ranges at which least is missing, of one pose; none where nothing can be assembled."""
-    return BranchSearch(places, wanted, 0.0).nearest()
-
-
 def beyond(places: Places, wanted: FloatArray) -> Found:
     """Return the unit coordinates outside the ranges that give what is wanted, the least far out first.
 
@@ -422,18 +424,14 @@ class BranchSearch:
 
     places: Places
     wanted: FloatArray
-    out: Any
+    out: FloatArray | float = 0.0
 
     @cached_property
     def axes(self) -> list[FloatArray]:
         """The values of each unit coordinate on the grid."""
         k = len(self.places.free)
-        wide = 1.0 + 2.0 * np.broadcast_to(self.out, (k,))
-        turns = np.where(self.places.turning, wide * self.places.span / TURN, 0.0)
-        counts = np.maximum(SIDE.get(k, 5) * wide, A_TURN.get(k, 6) * turns).astype(int)
-        shrink = max(1.0, float((np.prod(counts.astype(float)) / MOST_POSES) ** (1.0 / k)))
         outs = np.broadcast_to(self.out, (k,))
-        return [np.linspace(-out, 1.0 + out, max(int(count / shrink), 4)) for out, count in zip(outs, counts, strict=True)]
+        return grid_axes(outs, np.floor(self.places.looked_at(outs, SIDE.get(k, 5), A_TURN.get(k, 6))))
 
     @cached_property
     def grid(self) -> FloatArray:
@@ -457,9 +455,6 @@ class BranchSearch:
     def _to_unit(self, box: FloatArray) -> FloatArray:
         return np.asarray(box * (1.0 + 2.0 * self.out) - self.out)
 
-    def _to_box(self, unit: FloatArray) -> FloatArray:
-        return np.asarray((unit + self.out) / (1.0 + 2.0 * self.out))
-
     def descend(self, unit: FloatArray, steps: int, scale: FloatArray) -> Found:
         """Return where misses over a scale (t,) are least near each start (n, k)."""
         places, sides = self.places, 1.0 + 2.0 * self.out
@@ -471,7 +466,7 @@ class BranchSearch:
             return np.asarray(places.slopes(self._to_unit(box)) * sides / scale[:, None])
 
         enough = ROUNDING * float(np.min(places.sizes / scale))
-        box, off = descended(misses, slopes, self._to_box(unit), steps, enough=enough, begin=DAMPING)
+        box, off = descended(misses, slopes, (unit + self.out) / sides, steps, enough=enough, begin=DAMPING)
         return Found(self._to_unit(box), off * scale)
 
     # -- where it begins ---------------------------------------------------------------------------------
@@ -530,26 +525,11 @@ class BranchSearch:
         order = np.argsort(off, kind="stable")[:BORDER_STARTS]
         return np.asarray(starts[order[off[order] < FAR_OFF]])
 
-    def least_missed(self, count: int) -> FloatArray:
-        """Return the places of the grid where least is missed, shape (n, k): the best, and those that no neighbour improves on."""
-        with np.errstate(invalid="ignore"):
-            size = np.sum((self.seen / self.places.within.reshape(-1, *[1] * len(self.axes))) ** 2, axis=0)
-        size = np.where(np.isfinite(size), size, np.inf)
-        low = size.copy()
-        for axis in range(size.ndim):
-            moved = np.moveaxis(low, axis, 0).copy()
-            wide = moved.copy()
-            wide[1:] = np.minimum(wide[1:], moved[:-1])
-            wide[:-1] = np.minimum(wide[:-1], moved[1:])
-            low = np.moveaxis(wide, 0, axis)
-        place = np.flatnonzero((size.ravel() <= low.ravel()) & np.isfinite(size.ravel()))
-        return self.grid[place[np.argsort(size.ravel()[place], kind="stable")][:count]]
-
     # -- what is found -----------------------------------------------------------------------------------
 
     @np.errstate(all="ignore")
     def branches(self) -> Found:
-        """Return all that meets the targets, ascending."""
+        """Return all that meets the targets, ascending; of infinitely many some."""
         places = self.places
         scale = self.changes
         starts = np.concatenate([self.starts(), self.border_starts()])
@@ -558,8 +538,13 @@ class BranchSearch:
             return none
         found = self.descend(starts, STEPS, scale)
         met = self._met(found)
-        near = ~met & (np.abs(found.off) < CLOSE * scale).all(axis=1)
-        found = self._joined(found.where(met), self._again(found.where(near), scale))
+        near = found.unit[~met & (np.abs(found.off) < CLOSE * scale).all(axis=1)]
+        again = none
+        if len(near):
+            _, first = np.unique(np.round(near, 3), axis=0, return_index=True)
+            again = self.descend(near[first], MORE_STEPS, scale)
+            again = again.where(self._met(again))
+        found = self._joined(found.where(met), again)
         found = self._joined(found, self._beside(found, scale))
         if not len(found.unit):
             return none
@@ -568,14 +553,6 @@ class BranchSearch:
     def _met(self, found: Found) -> Mask:
         """Return which meet all targets."""
         return np.asarray((np.abs(found.off) <= MET * self.places.sizes).all(axis=1))
-
-    def _again(self, found: Found, scale: FloatArray) -> Found:
-        """Return those of some places from which steps go on to where all targets are met."""
-        if not len(found.unit):
-            return found
-        _, first = np.unique(np.round(found.unit, 3), axis=0, return_index=True)
-        on = self.descend(found.unit[first], MORE_STEPS, scale)
-        return on.where(self._met(on))
 
     def _beside(self, found: Found, scale: FloatArray) -> Found:
         """Return what is found on the other side of branches that have another one close by, where the slopes lose a rank between them.
@@ -603,10 +580,7 @@ class BranchSearch:
         """Return the places of two lots, each once, ascending by the first coordinate, then by the next ones."""
         unit, off = np.concatenate([one.unit, other.unit]), np.concatenate([one.off, other.off])
         order = np.argsort(np.abs(off / self.places.sizes).max(axis=1), kind="stable")
-        kept: list[int] = []
-        for each in order.tolist():
-            if len(kept) < MOST and not any(self._is_same(unit[known], unit[each]) for known in kept):
-                kept.append(each)
+        kept = without_repeats(order, lambda known, each: self._is_same(unit[known], unit[each]), MOST)
         kept.sort(key=lambda each: tuple(np.round(unit[each], 9)))
         return Found(unit[kept], off[kept])
 
@@ -616,51 +590,28 @@ class BranchSearch:
         whole = self.places.turning & (self.places.span <= TURN * (1.0 + 1e-9))
         turn = TURN / self.places.span
         apart = np.where(whole, apart - turn * np.round(apart / turn), apart)
-        far = float(np.abs(apart).max())
-        if far <= SAME or far > NEAR:
-            return far <= SAME
         middle = (other + 0.5 * apart)[None]
-        return bool(self._met(Found(middle, self.places.off(self.places.values(middle), self.wanted)))[0])
+        return is_one_solution(
+            apart, SAME, lambda: bool(self._met(Found(middle, self.places.off(self.places.values(middle), self.wanted)))[0])
+        )
 
     @np.errstate(all="ignore")
     def nearest(self) -> Found:
-        """Return the place at which least is missing by what each target may miss; none where nothing can be assembled."""
-        starts = self.least_missed(16)
+        """Return the place at which least is missing by what each target may miss; none where nothing can be assembled.
+
+        It starts where least is missed on the grid: from the best, and those that no neighbour improves on.
+        """
+        size = np.sum((self.seen / self.places.within.reshape(-1, *[1] * len(self.axes))) ** 2, axis=0)
+        low = size = np.where(np.isfinite(size), size, np.inf)
+        for axis in range(size.ndim):
+            moved = np.moveaxis(low, axis, 0)
+            wide = moved.copy()
+            wide[1:] = np.minimum(wide[1:], moved[:-1])
+            wide[:-1] = np.minimum(wide[:-1], moved[1:])
+            low = np.moveaxis(wide, 0, axis)
+        place = np.flatnonzero((size.ravel() <= low.ravel()) & np.isfinite(size.ravel()))
+        starts = self.grid[place[np.argsort(size.ravel()[place], kind="stable")][:16]]
         found = self.descend(starts, MORE_STEPS, self.places.within)
         found = found.where(self.places.reached(found.unit)) if len(starts) else found
         size = np.sum((found.off / self.places.within) ** 2, axis=1)
         return found.where(np.argsort(size, kind="stable")[:1])
-
-
-def extremes_of_cells(values: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return the least and the greatest of the corners of every cell of a grid, (t, *counts), and how far values may bend beyond them."""
-    low = high = values
-    bend = np.zeros(values.shape)
-    for axis in range(1, values.ndim):
-        curve = np.zeros(values.shape)
-        curve[along(axis, values.ndim, slice(1, -1))] = np.abs(np.diff(values, 2, axis=axis))
-        for end, inner in ((slice(0, 1), slice(1, 2)), (slice(-1, None), slice(-2, -1))):
-            curve[along(axis, values.ndim, end)] = curve[along(axis, values.ndim, inner)]
-        bend += 0.25 * np.where(np.isfinite(curve), curve, 0.0)
-    for axis in range(1, values.ndim):
-        before, behind = (along(axis, values.ndim, part) for part in (slice(None, -1), slice(1, None)))
-        low, high = np.fmin(low[before], low[behind]), np.fmax(high[before], high[behind])
-        bend = np.maximum(bend[before], bend[behind])
-    return low, high, bend
-
-
-def along(axis: int, axes: int, part: slice) -> tuple[slice, ...]:
-    """Return the index of a part of an array along one of its axes."""
-    return tuple(part if each == axis else slice(None) for each in range(axes))
-
-
-def all_known(values: FloatArray) -> Mask:
-    """Return in which rows of an array all values are finite, shape (n,) of (n, ...)."""
-    return np.asarray(np.isfinite(values).all(axis=tuple(range(1, values.ndim))))
-
-
-def corners_all(mask: Mask) -> Mask:
-    """Return of which cells of a grid all corners are in a mask."""
-    for axis in range(mask.ndim):
-        mask = np.asarray(mask[along(axis, mask.ndim, slice(None, -1))] & mask[along(axis, mask.ndim, slice(1, None))])
-    return mask

@@ -22,7 +22,6 @@ from ..quantities import Number, Operand, Quantity, Reference, Variable, joined_
 from ..surroundings import Outline
 from ..units import show
 from ..verdict import Verdict
-from .answer import Answer
 from .gaps import body_points_of, check_forms, corner_pieces, follows_dimensions, gap, gap_of, least_number, shape_named
 from .judge import Judge, Question
 from .judging import HasVerdicts
@@ -65,10 +64,6 @@ class Planes(HasVerdicts):
     def having(self, values: Mapping[str, float]) -> Planes:
         return self.renewed(width=quantity(values.get(f"{self.name}.width", self.width)))
 
-    def names(self) -> tuple[tuple[str, ...], ...]:
-        """Return the names in each plane."""
-        return tuple(tuple(each.split()) for each in self.planes)
-
     def questions(self, judge: Judge) -> list[Question]:
         """Return the least clearance."""
         return [least(clearance())] if pairs_of(judge.plan) else []
@@ -91,7 +86,8 @@ class Planes(HasVerdicts):
             except DefinitionError as error:
                 return [Verdict("clearance", False, " ".join(str(error).split()))]
             return []
-        one, other = nearest_pair(judge, answer)
+        strokes = {name: np.asarray(float(value)) for name, value in answer.strokes.items()}
+        (one, other), _ = pair_at(Motion(judge.plan, judge.designs, strokes, "nan"))
         size = show(abs(float(answer.value)), "mm", 3)
         if answer.value >= 0.0:
             text = said("{one} and {other} come within {gap} of each other, {where}.", one=one, other=other, gap=size, where=answer.where)
@@ -149,11 +145,14 @@ def width_of(plan: Plan) -> Quantity:
 def pairs_of(plan: Plan) -> dict[Pair, bool]:
     """Return what must stay apart, each pair with whether the width of bars counts: bodies of a common plane, and pins that pass it."""
     declared = planes_of(plan)
-    bodies = bodies_named(plan)
+    bars = {joined_names(bar.P, bar.Q): frozenset((bar.P, bar.Q)) for bar in plan.cylinders}
+    elements = {name: frozenset(element.ends) for name, element in plan.of_kind(TwoPoint).items()}
+    alone = [name for name, ends in bars.items() if ends not in elements.values()]
+    bodies = [*(body.name for body in plan.links[1:]), *alone, *elements]
     known = {id_of(plan, name): name for name in bodies}
     planes: dict[str, set[int]] = {name: set() for name in bodies}
-    for number, names in enumerate(declared.names()):
-        for name in names:
+    for number, names in enumerate(declared.planes):
+        for name in names.split():
             shape_named(plan, name)  # DefinitionError for an unknown body
             owner = known.get(id_of(plan, name), name)
             planes.setdefault(owner, set()).add(number)
@@ -163,19 +162,13 @@ def pairs_of(plan: Plan) -> dict[Pair, bool]:
     for a, b in combinations(lie, 2):
         if lie[a] & lie[b]:
             found |= dict(pairs_of_bodies(plan, a, b))
-    for point, between in passing(plan, lie).items():
-        for name in lie:
-            if lie[name] & between and point not in shape_named(plan, name).points:
-                found[point, name] = True
+    points = {name: shape_named(plan, name).points for name in lie}
+    for point in plan.points:  # a pin that joins bodies of different planes passes through those between them
+        joined = [numbers for name, numbers in lie.items() if point in points[name]]
+        taken = set().union(*joined)
+        between = set(range(min(taken), max(taken))) - taken if len(joined) > 1 and taken else set[int]()
+        found |= {(point, name): True for name in lie if lie[name] & between and point not in points[name]}
     return found
-
-
-def bodies_named(plan: Plan) -> list[str]:
-    """Return the moving bodies and the straight elements of a class by name."""
-    bars = {joined_names(bar.P, bar.Q): frozenset((bar.P, bar.Q)) for bar in plan.cylinders}
-    elements = {name: frozenset(element.ends) for name, element in plan.of_kind(TwoPoint).items()}
-    alone = [name for name, ends in bars.items() if ends not in elements.values()]
-    return [*(body.name for body in plan.links[1:]), *alone, *elements]
 
 
 def id_of(plan: Plan, name: str) -> frozenset[str] | str:
@@ -219,24 +212,6 @@ def outlines_on(plan: Plan, points: tuple[str, ...]) -> list[str]:
     home = set(points)
     carried = [name for name, each in plan.of_kind(Outline).items() if each.filled and len(each.carriers) == 2]
     return [name for name in carried if body_points_of(plan, shape_named(plan, name)) <= home]
-
-
-def passing(plan: Plan, lie: Mapping[str, set[int]]) -> dict[str, set[int]]:
-    """Return the pins that join bodies of different planes, each with the planes between them that it passes through."""
-    found: dict[str, set[int]] = {}
-    for point in plan.points:
-        joined = [numbers for name, numbers in lie.items() if point in shape_named(plan, name).points]
-        taken = set().union(*joined)
-        between = set(range(min(taken), max(taken))) - taken if len(joined) > 1 and taken else set[int]()
-        if between:
-            found[point] = between
-    return found
-
-
-def nearest_pair(judge: Judge, answer: Answer) -> Pair:
-    """Return the pair that comes nearest where the clearance is least."""
-    strokes = {name: np.asarray(float(value)) for name, value in answer.strokes.items()}
-    return pair_at(Motion(judge.plan, judge.designs, strokes, "nan"))[0]
 
 
 def pair_at(motion: Motion) -> tuple[Pair, float]:

@@ -14,7 +14,7 @@ from ..language import said
 from ..plan import Plan
 from ..program import FloatArray
 from .conditions import WARN
-from .places import Found, Places, branches, check_independent, nearest, unmet_words
+from .places import BranchSearch, Found, Places, check_independent, unmet_words
 
 TOLD = 4
 """Branches that are told in a sentence."""
@@ -47,11 +47,9 @@ class StrokeRows(np.ndarray[Any, np.dtype[np.float64]]):
         found = np.asarray(self)[key]
         if self.ndim < 2 or not isinstance(key, (int, np.integer, slice)):
             return found
-        return found.view(type(self))._named(self.names)
-
-    def _named(self, names: tuple[str, ...]) -> StrokeRows:
-        self.names = names
-        return self
+        rows = found.view(type(self))
+        rows.names = self.names
+        return rows
 
     def keys(self) -> tuple[str, ...]:
         """Return the names of the strokes."""
@@ -105,12 +103,13 @@ def positions_for(plan: Plan, designs: Mapping[str, object], targets: object, ho
         if each.is_path:
             raise DefinitionError(f"{plan.title}: strokes_for: {each!r}: one number is expected; a path is followed, machine.follow(...).")
     wanted = np.array([float(each.value) for each in places.targets])
-    found = branches(places, wanted)
+    search = BranchSearch(places, wanted)
+    found = search.branches()
     condition, rows = places.condition(found.unit), rows_of_branches(places, found)
     if len(found.unit):
         check_independent(places, condition)
         return Positions(rows, condition, True, found.off, None, met_words(places, found, condition, wanted))
-    near = nearest(places, wanted)
+    near = search.nearest()
     words = unmet_words(places, wanted, near)
     nearest_row = rows_of_branches(places, near)[0] if len(near.unit) else None
     return Positions(rows, condition, False, near.off, nearest_row, words[0].upper() + words[1:])

@@ -12,7 +12,7 @@ Source: J. O'Rourke, Computational geometry in C (1998), 7.4.2.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import partial, reduce
+from functools import reduce
 from itertools import pairwise
 from typing import Any, TypeAlias, final
 
@@ -27,8 +27,7 @@ from ..quantities.quantity import plain
 from ..surroundings import CircleOutline, Outline, numbers_at
 from ..units import require_measure
 from ..vectors import Scalar, Vec, pick
-from .cuts import Pick
-from .gaps import SMALLEST, square_to_edge
+from .gaps import SMALLEST, Pick, nearest_on
 from .requests import NodeRequest
 
 
@@ -43,7 +42,8 @@ class Polygon:
         """Return how far a place lies inside [m], below zero outside."""
         corners = [Vec(x, y) for x, y in self.corners]
         edges = list(pairwise((*corners, corners[0])))
-        distance = np.sqrt(np.maximum(reduce(np.minimum, [square_to_edge(X, edge) for edge in edges]), SMALLEST))
+        squares = [(X - nearest_on(edge, X)).square() for edge in edges]
+        distance = np.sqrt(np.maximum(reduce(np.minimum, squares), SMALLEST))
         return reduce(lambda a, b: a * b, [crossing(X, edge, choose) for edge in edges]) * -1.0 * distance
 
     def border(self, places: FloatArray) -> FloatArray:
@@ -95,6 +95,7 @@ class Disc:
 
 
 Shape: TypeAlias = Polygon | Disc
+LISTS = (list, tuple, np.ndarray)
 
 
 @final
@@ -169,22 +170,18 @@ def inside(point: Reference, *shapes: object) -> NodeRequest:
 
 def inside_region(point: str, region: Region) -> NodeRequest:
     """Return the same of a region."""
+    def nodes(plan: Plan) -> tuple[Node, ...]:
+        return (plan.trace.graph.node(region.depth(plan.trace.at(point), plan.trace.graph.pick)),)
+
+    def names(plan: Plan) -> set[str]:
+        if point not in plan.points:
+            raise DefinitionError(f"{plan.title}: inside({point}, ...): {point} is no point; its points are {', '.join(plan.points)}.")
+        return plan.reaches(point)
+
     return NodeRequest(
         text=f"inside({point}, {region})", sentence=f"how far {point} lies inside its region", key=("inside", point, region),
-        measures="length", nodes_of=partial(inside_nodes, point, region), names_of=partial(inside_names, point),
+        measures="length", nodes_of=nodes, names_of=names,
     )  # fmt: skip
-
-
-def inside_nodes(point: str, region: Region, plan: Plan) -> tuple[Node, ...]:
-    """Return the node of the request in a plan's program."""
-    return (plan.trace.graph.node(region.depth(plan.trace.at(point), plan.trace.graph.pick)),)
-
-
-def inside_names(point: str, plan: Plan) -> set[str]:
-    """Return what the request is built from; DefinitionError for anything but a point."""
-    if point not in plan.points:
-        raise DefinitionError(f"{plan.title}: inside({point}, ...): {point} is no point; its points are {', '.join(plan.points)}.")
-    return plan.reaches(point)
 
 
 # What a user writes.
@@ -195,7 +192,7 @@ def region_of(given: object, where: str, outlines: object = None, value: object 
 
     `outlines` are those of a machine by name, whose coordinates `value` gives as numbers.
     """
-    listed = [given] if is_shape(given) else list(given) if isinstance(given, (list, tuple, np.ndarray)) else []
+    listed = [given] if is_shape(given) else list(given) if isinstance(given, LISTS) else []
     if not listed:
         example = "corners [(0, 0), (1, 0), (1, 0.5)] in m, an outline, outside(...) of one, or a list of these"
         raise DefinitionError(f"{where}: {cited(given)} is no region; {example} is expected.")
@@ -211,16 +208,12 @@ def is_shape(given: object) -> bool:
     """Return whether this is one shape and no list of several: an outline, its name, or corners."""
     if isinstance(given, (str, Outline, Forbidden, Polygon, Disc)):
         return True
-    return isinstance(given, (list, tuple, np.ndarray)) and len(given) > 0 and all(is_place(each) for each in given)
-
-
-def is_place(given: object) -> bool:
-    """Return whether this is a pair of numbers."""
-    return isinstance(given, (list, tuple, np.ndarray)) and len(given) == 2 and all(map(is_number, given))
+    corners = list(given) if isinstance(given, LISTS) else []
+    return len(corners) > 0 and all(isinstance(each, LISTS) and len(each) == 2 and all(map(is_number, each)) for each in corners)
 
 
 def region_shape(given: Any, where: str, outlines: Any, value: Any) -> Shape:
-    """Return one shape; DefinitionError for anything else."""
+    """Return one shape; DefinitionError for anything else, for an outline that moves, and for one that encloses nothing."""
     if isinstance(given, (Polygon, Disc)):
         return given
     if isinstance(given, str):
@@ -228,16 +221,12 @@ def region_shape(given: Any, where: str, outlines: Any, value: Any) -> Shape:
             known = f"its outlines are {', '.join(outlines)}" if outlines else "it has no outlines"
             raise DefinitionError(f"{where}: there is no outline {given}; {known}.")
         given = outlines[given]
-    if isinstance(given, Outline):
-        return outline_shape(given, where, value)
     if not is_shape(given):
         raise DefinitionError(f"{where}: {cited(given)} is no shape; corners are expected, [(0, 0), (1, 0), (1, 0.5)] in m.")
-    require_measure(given, "length", where)
-    return polygon_of(np.array(given, float), where)
-
-
-def outline_shape(outline: Outline, where: str, value: Any) -> Shape:
-    """Return an outline of the frame as a shape; DefinitionError for one that moves, or that encloses nothing."""
+    if not isinstance(given, Outline):
+        require_measure(given, "length", where)
+        return polygon_of(np.array(given, float), where)
+    outline = given
     if outline.carriers:
         carried = f"{outline} is carried by {', '.join(outline.carriers)}"
         raise DefinitionError(f"{where}: {carried}, and a region stands in the frame; ask gap(...) of it.")

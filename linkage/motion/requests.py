@@ -7,7 +7,7 @@ where it has no value, and the error that rounding leaves of it. Kernels, functi
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence, Set
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import reduce
 from itertools import accumulate, product
 from types import MappingProxyType
@@ -268,15 +268,15 @@ def identity_of(plan: Plan, request: RequestLike) -> Hashable:
 
 
 def identities_of(plan: Plan, requests: Sequence[RequestLike]) -> Hashable:
-    """Return what tells a list of requests from others; None where one of them has no identity, or it is no list."""
+    """Return what tells a list of requests from others; None where one has none, or holds loads that were given, or it is no list."""
     found = tuple([identity_of(plan, each) for each in requests]) if type(requests) in (list, tuple) else (None,)
-    return None if None in found else found
+    return None if None in found or holds_given(found) else found
 
 
 def known_bound(plan: Plan, requests: Sequence[RequestLike]) -> tuple[Request, ...]:
     """Return a list of requests bound to a plan, as they were bound before where they are the same; the errors of `all_bound`."""
     identities = identities_of(plan, requests)
-    if identities is None or holds_given(identities):
+    if identities is None:
         return all_bound(plan, requests)
     return plan.made(("all bound", identities), lambda _: all_bound(plan, requests))
 
@@ -445,6 +445,8 @@ SIGNS: Mapping[str, tuple[str, int, int, int]] = MappingProxyType(
 """How a function of two is written: its sign, how strongly it binds, and how strongly its sides must to stand without brackets."""
 UNIT_SIZE = frozenset({"sin", "cos", "arctan2"})
 """The functions whose values are compared with 1."""
+LIKE_ITS_PARTS = ("add", "subtract", "negative", "absolute", "minimum", "maximum", "hypot")
+"""The functions whose values measure what their parts measure."""
 
 
 @final
@@ -467,8 +469,8 @@ class Combined(Request):
     def measures(self) -> str:
         known = [each.measures for each in self.parts if not isinstance(each, float)]
         scaled = self.function == "multiply" or (self.function == "divide" and isinstance(self.parts[1], float))
-        same = self.function in ("add", "subtract", "negative", "absolute", "minimum", "maximum", "hypot")
-        return known[0] if (same or (scaled and len(known) == 1)) and len(set(known)) == 1 else ""
+        same = self.function in LIKE_ITS_PARTS or (scaled and len(known) == 1)
+        return known[0] if same and len(set(known)) == 1 else ""
 
     def of(self, motion: MotionLike) -> FloatArray:
         given = [each if isinstance(each, float) else motion[each] for each in self.parts]
@@ -621,7 +623,13 @@ class Combined(Request):
             sizes.append(np.maximum(values[-1], each.scale(plan, own)))
             first += count
         with np.errstate(all="ignore"):
-            return np.nan_to_num(np.maximum(combined_size(self.function, values, sizes), SMALL), nan=SMALL)
+            if self.function in ("multiply", "divide"):
+                size = sizes[0] * sizes[1] if self.function == "multiply" else sizes[0] / values[1]
+            elif self.function in UNIT_SIZE:
+                size = np.ones_like(sizes[0])
+            else:
+                size = reduce(np.maximum, sizes) if self.function in LIKE_ITS_PARTS else np.full(sizes[0].shape, SMALL)
+            return np.nan_to_num(np.maximum(size, SMALL), nan=SMALL)
 
 
 NUMPY: Mapping[str, Callable[..., Any]] = MappingProxyType({name: getattr(np, name) for name in TAKEN})
@@ -644,19 +652,6 @@ def bracketed(part: Request | Quantity | float, binding: int) -> str:
     else:
         text, binds = str(part), part.binds if isinstance(part, Combined) else 9
     return f"({text})" if binds < binding else text
-
-
-def combined_size(function: str, values: Sequence[FloatArray], sizes: Sequence[FloatArray]) -> FloatArray:
-    """Return the size that a combination's error is compared with, from the values and sizes of its parts, shape (n,) or (rows, n) each."""
-    if function == "multiply":
-        return sizes[0] * sizes[1]
-    if function == "divide":
-        return sizes[0] / values[1]
-    if function in UNIT_SIZE:
-        return np.ones_like(sizes[0])
-    if function in ("add", "subtract", "negative", "absolute", "minimum", "maximum", "hypot"):
-        return reduce(np.maximum, sizes)
-    return np.full(sizes[0].shape, SMALL)
 
 
 @final
@@ -941,7 +936,10 @@ def _conditioned(plan: Plan, what: Request, reading: ArrayReading, left: Precisi
     what.read_own(reading)
     error = what.error(plan, left)
     found = conditioning(plan, reading, what.differentiated(plan), what.names(plan), error, DOUBTFUL if what.order else ROUGH)
-    return found.as_loops() if what.stands_for_others else found
+    if not what.stands_for_others:
+        return found
+    by_loops = [0.3 * np.finfo(float).eps * cond * cond for cond in found.conditions.values()]  # what the loops alone lose
+    return replace(found, error=np.maximum.reduce([error, *by_loops]))
 
 
 def other_law_error(plan: Plan, what: Request) -> DefinitionError:

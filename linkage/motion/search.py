@@ -9,10 +9,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import pairwise, product
 from typing import Any, Protocol, TypeAlias, final, runtime_checkable
 
 import numpy as np
+import numpy.typing as npt
 
 from ..errors import DefinitionError, cited, told, unwarned
 from ..language import said
@@ -20,7 +22,7 @@ from ..numeric.box import highest_in, values_a_stroke, weights_of
 from ..numeric.line import CLOSE, SAMPLES, Index, bisected, highest, missing_lowest, peaks, samples, zoomed
 from ..plan import Mask
 from ..program import FloatArray
-from .answer import places_text
+from .answer import OF_VALUE, UNBOUNDED, Answer, PerDesign, places_text
 from .grid import JoinedTo, joined_in_order, recalled
 from .limits import place_text, stroke_unit
 from .motion import Motion, require_motion
@@ -28,36 +30,11 @@ from .requests import Request, identity_of
 from .strokes import check_any
 
 
-@final
-@dataclass(frozen=True, eq=False)
-class Extremum:
-    """The greatest or the lowest value of a quantity, and where: floats, or arrays over what was asked for and the designs.
-
-    `value` is NaN where there is none at any pose, and infinite where it is `unbounded`: where it grows beyond bounds up to a pose at
-    which it is refused. `strokes` say where [m or rad, which `units` say].
-    """
-
-    value: Any
-    strokes: Mapping[str, Any]
-    unbounded: Any
-    units: Mapping[str, str]
-
-    @property
-    def where(self) -> str:
-        """Where it stands, in words: `at S = 0.1234 m`, `at S1 = 0.1000 m, phi = 25.00 deg`; of several, the ranges."""
-        return said("at {place}", place=places_text(self.strokes, self.units))
-
-    def __str__(self) -> str:
-        if np.ndim(self.value):
-            ends = said("{low} to {high}", low=f"{np.nanmin(self.value):.6g}", high=f"{np.nanmax(self.value):.6g}")
-            return f"{ends} {self.where}"
-        if np.isnan(self.value):
-            return said("no value at any pose")
-        return f"{said('without bounds') if self.unbounded else f'{self.value:.6g}'} {self.where}"
-
-
-def greatest(motion: Motion, f: Function) -> Extremum:
+def greatest(motion: Motion, f: Function) -> Answer:
     """Return the greatest value of f over all that a motion covers, and where: one a design, and of each of several quantities.
+
+    The `value` is NaN where there is none at any pose, and infinite where it is `unbounded`: where it grows beyond bounds up to a pose at
+    which it is refused. `strokes` say where [m or rad, which `units` say].
 
     `f(motion)` is asked again, of motions with the same designs at strokes in between. Its shape is (...) as the motion's, or (k, ...) for
     k quantities at once, NaN where it has no value. It may have kinks, jumps and gaps. The value is right to 1e-6 of its range, the place
@@ -72,12 +49,12 @@ def greatest(motion: Motion, f: Function) -> Extremum:
     return extremum(motion, f, 1.0)
 
 
-def lowest(motion: Motion, f: Function) -> Extremum:
+def lowest(motion: Motion, f: Function) -> Answer:
     """Return the lowest value of f over all that a motion covers, and where; as `greatest`."""
     return extremum(motion, f, -1.0)
 
 
-def extremum(motion: Motion, f: Function, sense: float) -> Extremum:
+def extremum(motion: Motion, f: Function, sense: float) -> Answer:
     """Return the greatest (sense 1.0) or the lowest (-1.0) value of f over all that a motion covers."""
     require_function(motion, f)
     if not motion.strokes:
@@ -85,23 +62,23 @@ def extremum(motion: Motion, f: Function, sense: float) -> Extremum:
     return extremum_reached(motion, f, sense)
 
 
-def extremum_reached(motion: Motion, f: Function, sense: float, *, everywhere: bool = False) -> Extremum:
+def extremum_reached(motion: Motion, f: Function, sense: float, *, everywhere: bool = False) -> Answer:
     """Return the same of poses that are reached only, or `everywhere`."""
-    units = {name: stroke_unit(motion.plan, name) for name in motion.strokes}
     if len(motion._stroke_shape) > 1 and len(strokes_moved(motion)) > 1:
         box = InBox(motion, f, sense, everywhere=everywhere)
-        top, shape = highest_in(box), (*box.front, *motion._design_shape)
-        strokes = {name: in_shape(value, shape) for name, value in box.strokes(top.unit).items()}
-        return Extremum(in_shape(sense * top.value, shape), strokes, in_shape(top.unbounded, shape), units)
-    between = OnLegs(motion, f, sense, everywhere=everywhere)
-    found, shape = highest(between.look, between.route.counts), (*between.front, *motion._design_shape)
-    strokes = {name: in_shape(value, shape) for name, value in between.route.strokes(found.leg, found.t).items()}
-    return Extremum(in_shape(sense * found.value, shape), strokes, in_shape(found.unbounded, shape), units)
+        top, front = highest_in(box), box.front
+        value, unbounded, strokes = top.value, top.unbounded, box.strokes(top.unit)
+    else:
+        between = OnLegs(motion, f, sense, everywhere=everywhere)
+        found, front = highest(between.look, between.route.counts), between.front
+        value, unbounded, strokes = found.value, found.unbounded, between.route.strokes(found.leg, found.t)
+    shape, units = (*front, *motion._design_shape), {name: stroke_unit(motion.plan, name) for name in motion.strokes}
 
+    def shaped(values: npt.NDArray[Any]) -> PerDesign:
+        return values.reshape(shape) if shape else values.item()  # (K, D); a single one as a plain number
 
-def in_shape(values: Any, shape: tuple[int, ...]) -> Any:
-    """Return values (K, D) in the shape asked for; a single one as a plain number."""
-    return values.reshape(shape) if shape else values.item()
+    status = shaped(np.where(unbounded, UNBOUNDED, OF_VALUE))
+    return Answer(f, shaped(sense * value), None, status, {name: shaped(each) for name, each in strokes.items()}, units=units)
 
 
 def strokes_moved(motion: Motion) -> tuple[str, ...]:
@@ -152,7 +129,11 @@ def below_zero(motion: Motion, f: Function | Request) -> tuple[Span, ...]:
     between = OnLegs(motion, f)
     if between.front:
         raise DefinitionError(f"{motion.plan.title}: ranges are told for one number a pose; there are {between.front}.")
-    leg, t, value = with_dips(between)
+    leg, t, value = between.leg, between.t, between.seen.ravel()
+    found = [each for sense in (1.0, -1.0) for each in dips(between, sense, np.asarray(sense * value >= 0.0))]
+    leg, t, value = (np.concatenate([known, *(each[row] for each in found)]) for row, known in enumerate((leg, t, value)))
+    order = np.lexsort((t, leg))
+    leg, t, value = leg[order], t[order], value[order]
     below = np.concatenate([[False], value < 0.0, [False]])
     firsts, lasts = np.flatnonzero(below[1:] & ~below[:-1]), np.flatnonzero(below[:-1] & ~below[1:]) - 1
     low, high = (ends(between, leg, t, inside, by) for inside, by in ((firsts, -1), (lasts, 1)))
@@ -165,15 +146,6 @@ def below_zero(motion: Motion, f: Function | Request) -> tuple[Span, ...]:
 def reached(motion: Motion) -> tuple[Span, ...]:
     """Return the parts of a motion's way that are reached, one design along strokes or a path."""
     return recalled(motion, "reached", lambda: below_zero(motion, lambda each: -np.ones(each.shape)))
-
-
-def with_dips(between: OnLegs) -> tuple[Index, FloatArray, FloatArray]:
-    """Return leg, t and value of the samples, and of places between them where the value is on the other side of zero."""
-    leg, t, value = between.leg, between.t, between.seen.ravel()
-    found = [each for sense in (1.0, -1.0) for each in dips(between, sense, np.asarray(sense * value >= 0.0))]
-    leg, t, value = (np.concatenate([known, *(each[row] for each in found)]) for row, known in enumerate((leg, t, value)))
-    order = np.lexsort((t, leg))
-    return leg[order], t[order], value[order]
 
 
 @np.errstate(all="ignore")
@@ -322,7 +294,18 @@ class OnLegs:
         self.seen = sense * values_of(f, self.first, everywhere=everywhere)
         self.front = self.seen.shape[: self.seen.ndim - len(self.first.shape)]
         self._starts = np.cumsum([0, *(count + 1 for count in self.route.counts[:-1])])
-        self._reached = nearest_reached(self.first.reached.reshape(-1, leg.size))
+        self._reached = self.first.reached.reshape(-1, leg.size)
+
+    @cached_property
+    def _nearest(self) -> Index:
+        """For every sample (D, n) the nearest that is reached; itself where none is."""
+        n = self._reached.shape[-1]
+        here = np.broadcast_to(np.arange(n), self._reached.shape)
+        before = np.maximum.accumulate(np.where(self._reached, here, -1), axis=-1)
+        after = np.minimum.accumulate(np.where(self._reached, here, 2 * n)[..., ::-1], axis=-1)[..., ::-1]
+        first, last = np.where(before < 0, after, before), np.where(after >= n, before, after)
+        found = np.where(here - first <= last - here, first, last)
+        return np.where((found >= 0) & (found < n), found, here)
 
     def look(self, leg: Index, t: FloatArray) -> tuple[FloatArray, Mask]:
         """Return the values (K, D, n) at places (n,) of all designs or (D, n) of each its own, and which poses (D, n) are reached.
@@ -337,7 +320,7 @@ class OnLegs:
         """Return the poses at places (D, n), each design at its own, and the values there."""
         first, tangent = self.first, self.route.tangent(leg)
         places = self._starts[leg] + np.rint(t * np.asarray(self.route.counts)[leg]).astype(int)
-        near = np.take_along_axis(self._reached, places, axis=-1)
+        near = np.take_along_axis(self._nearest, places, axis=-1)
 
         def shaped(values: Any) -> Any:
             return values.reshape(*first._design_shape, t.shape[-1])
@@ -348,17 +331,6 @@ class OnLegs:
             tangent=tangent and {name: shaped(value) for name, value in tangent.items()},
         )  # fmt: skip
         return motion, self.sense * values_of(self.f, motion, everywhere=self.everywhere)
-
-
-def nearest_reached(reached: Mask) -> Index:
-    """Return for every sample (D, n) the nearest that is reached; itself where none is."""
-    n = reached.shape[-1]
-    here = np.broadcast_to(np.arange(n), reached.shape)
-    before = np.maximum.accumulate(np.where(reached, here, -1), axis=-1)
-    after = np.minimum.accumulate(np.where(reached, here, 2 * n)[..., ::-1], axis=-1)[..., ::-1]
-    first, last = np.where(before < 0, after, before), np.where(after >= n, before, after)
-    found = np.where(here - first <= last - here, first, last)
-    return np.where((found >= 0) & (found < n), found, here)
 
 
 # The box of strokes that the poses of a motion cover.

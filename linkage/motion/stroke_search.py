@@ -2,38 +2,45 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import final
 
 import numpy as np
 
 from ..errors import AssemblyError, DefinitionError, SingularError, unwarned
 from ..loads import ForceElement, TwoPoint
 from ..numeric.line import CLOSE, SAMPLES, Curve, Index, highest, last_holding, samples, sign_changes
-from ..plan import Mask, Plan, failures, missing_words, name_or_pins, opening
+from ..plan import Mask, failures, missing_words, name_or_pins, opening
 from ..program import FloatArray
 from ..quantities import Distance
 from ..steps import Point
 from ..units import deg
 from .grid import MotionLike, recalled
 from .interruptions import Interruption, StrokeClearance
-from .limits import (
-    Extreme,
-    Held,
-    Interval,
-    Limits,
-    Open,
-    StrokeLimits,
-    stroke_unit,
-    where_words,
-)
+from .limits import Extreme, Held, Interval, Limits, Open, StrokeLimits, assembly_error, stroke_unit, where_words
 from .pose_requests import transmission
 from .strokes import TURN, check_any
 
 KEPT = 64
 """The designs of a plan whose clear stretches are kept."""
-Moved = Callable[[Mapping[str, Any]], MotionLike]
-"""The motion at other strokes, unreachable poses as NaN."""
+LOOKED_AT = 1441
+"""Values of a stroke at which it is looked for reachable ranges."""
+UNCHANGED = 1e-9
+"""A transmission angle that changes by less [rad] does not follow the stroke."""
+MOST = 6
+"""Turns of a crank after which it is looked whether pins have returned."""
+CLOSED = 1e-6
+"""Pins that are so near to where they began, compared with the linkage, have returned."""
+NEAR = 1e-8
+"""How far beside a root it is looked whether the ratio really passes zero, and how far beyond a range's ends for roots on these, of the
+range; at a pole the ratio grows instead."""
+LOOKS = 65
+"""Poses of each range at which it is looked whether a length follows the stroke."""
+STILL = 1e-9
+"""A length that changes by less than this part of its ends' way does not follow a stroke."""
+AGAIN = 1e-6
+"""Poses whose points are so near to each other, compared with the linkage, are one, as after a full turn."""
 
 
 def limits(motion: MotionLike) -> Limits:
@@ -43,221 +50,164 @@ def limits(motion: MotionLike) -> Limits:
         raise DefinitionError(f"{title}: limits are worked out for one design at a time; this motion has {shape}.")
     check_any(motion.strokes, motion.plan)
     held = {name: float(np.ravel(value)[0]) for name, value in motion.strokes.items()}
-
-    def of_stroke(name: str) -> StrokeLimits:
-        return recalled(motion, ("limits", name), lambda: stroke_limits(motion, name, held))
-
-    return Limits({name: of_stroke(name) for name in motion.strokes})
+    lines = {name: StrokeLine(motion, name, held) for name in motion.strokes}
+    return Limits({name: recalled(motion, ("limits", name), line.limits) for name, line in lines.items()})
 
 
-def stroke_limits(motion: MotionLike, name: str, held: Mapping[str, float]) -> StrokeLimits:
-    """Return the limits along one stroke, looked for one span beyond its declared range, a crank over a full turn."""
-    stroke = motion.plan.strokes[name]
-    unit = stroke_unit(motion.plan, name)
-    start, end = min(stroke.start, stroke.end), max(stroke.start, stroke.end)
-    span = end - start
-    turn = max(0.0, np.pi - 0.5 * span)
-    low, high = (start - span, end + span) if unit == "m" else (start - turn, end + turn)
-    between = StrokeClearance(motion.plan, motion._grid.flat, name, held).interruptions(low, high)
-    found = reachable_ranges(moved_along(motion.moved, name, held), low, high, [each.deepest for each in between if each.is_gap])
-    crossings = tuple((each.deepest, name_or_pins(motion.plan, each.step)) for each in between if not each.is_gap)
-    others = tuple(Held(each, value, stroke_unit(motion.plan, each)) for each, value in held.items() if each != name)
-    least = least_transmission(motion, name, held, found)
-    turns = open_turn(motion, name, held, found) if unit == "rad" else None
-    still = dead_points(motion, name, held, [(each.low, each.high) for each in found])
-    return StrokeLimits(name, unit, stroke.start, stroke.end, tuple(found), crossings, least, others, turns, tuple(still))
+@final
+@dataclass(frozen=True, eq=False)
+class StrokeLine:
+    """One design along one stroke, the others held."""
 
+    motion: MotionLike
+    name: str
+    held: dict[str, float]
 
-def moved_along(moved: Moved, name: str, held: Mapping[str, float]) -> Scan:
-    """Return the motion at values of one stroke (n,), the others held."""
-    return lambda at: moved({**held, name: at})
+    def at(self, values: FloatArray) -> MotionLike:
+        """Return the motion at values of the stroke, unreachable poses as NaN."""
+        return self.motion.moved({**self.held, self.name: values})
 
+    def limits(self) -> StrokeLimits:
+        """Return the limits, looked for one span beyond the declared range, a crank over a full turn."""
+        plan, name = self.motion.plan, self.name
+        stroke, unit = plan.strokes[name], stroke_unit(plan, name)
+        start, end = min(stroke.start, stroke.end), max(stroke.start, stroke.end)
+        beyond = end - start if unit == "m" else max(0.0, np.pi - 0.5 * (end - start))
+        low, high = start - beyond, end + beyond
+        between = StrokeClearance(plan, self.motion._grid.flat, name, self.held).interruptions(low, high)
+        gaps = [each.deepest for each in between if each.is_gap]  # they may lie between samples
+        at = np.linspace(low, high, LOOKED_AT)
+        reached = np.concatenate([self.at(at).reached, np.zeros(len(gaps), bool)])
+        at = np.concatenate([at, gaps])
+        order = np.argsort(at, kind="stable")
+        found = self.ranges_among(at[order], reached[order])
+        crossings = tuple((each.deepest, name_or_pins(plan, each.step)) for each in between if not each.is_gap)
+        others = tuple(Held(each, value, stroke_unit(plan, each)) for each, value in self.held.items() if each != name)
+        least, turns = self.least_transmission(found), self.open_turn(found) if unit == "rad" else None
+        still = tuple(self.dead_points([(each.low, each.high) for each in found]))
+        return StrokeLimits(name, unit, stroke.start, stroke.end, tuple(found), crossings, least, others, turns, still)
 
-# The ends of what is reached.
+    # -- the ends of what is reached ----------------------------------------------------------------------
 
-LOOKED_AT = 1441
-"""Values of a stroke at which it is looked for reachable ranges."""
-Scan = Callable[[FloatArray], MotionLike]
-"""The motion at some values of a stroke."""
+    def ranges_among(self, at: FloatArray, reached: Mask) -> list[Interval]:
+        """Return the reachable ranges among samples, with their ends."""
+        found: list[Interval] = []
+        edges = np.flatnonzero(np.diff(np.concatenate([[False], reached, [False]]).astype(int)))
+        for first, last in zip(edges[::2], edges[1::2] - 1, strict=True):
+            low, low_stop = (at[first], "") if first == 0 else self.end_of_reach(at[first], at[first - 1])
+            high, high_stop = (at[last], "") if last == len(at) - 1 else self.end_of_reach(at[last], at[last + 1])
+            found.append(Interval(float(low), float(high), low_stop, high_stop))
+        return found
 
+    def end_of_reach(self, inside: float, outside: float) -> tuple[float, str]:
+        """Return the last stroke reached between one inside and one outside, and the step that fails beyond it.
 
-def reachable_ranges(scan: Scan, low: float, high: float, gaps: Sequence[float] = ()) -> list[Interval]:
-    """Return the reachable ranges between two strokes, given places in the gaps that may lie between samples."""
-    at = np.linspace(low, high, LOOKED_AT)
-    reached = np.concatenate([scan(at).reached, np.zeros(len(gaps), bool)])
-    at = np.concatenate([at, gaps])
-    order = np.argsort(at, kind="stable")
-    return ranges_among(scan, at[order], reached[order])
+        Ends of groups are known already, found on the way.
+        """
+        at = np.linspace(inside, outside, 65)
+        seen = self.at(at)
+        known = [stop for stop in seen._grid.solved.stops if min(inside, outside) <= stop <= max(inside, outside)]
+        if not known and np.all(seen.reached):
+            return inside, ""
+        if known:
+            last, beyond = known[0], at[int(np.argmin(seen.reached))]
+        else:
+            last, beyond = last_holding(lambda at: np.array(self.at(at).reached), inside, outside)
+        there, plan = self.at(np.array([beyond])), self.motion.plan
+        failing = (name_or_pins(plan, name) for name, mask in failures(plan, there._reading, there.shape) if mask.any())
+        return float(last), next(failing, "")
 
+    # -- the least transmission angles: of every dyad whose angle changes with the stroke ------------------
 
-def ranges_among(scan: Scan, at: FloatArray, reached: Mask) -> list[Interval]:
-    """Return the reachable ranges among samples, with their ends."""
-    found: list[Interval] = []
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], reached, [False]]).astype(int)))
-    for first, last in zip(edges[::2], edges[1::2] - 1, strict=True):
-        low, low_stop = (at[first], "") if first == 0 else end_of_reach(scan, at[first], at[first - 1])
-        high, high_stop = (at[last], "") if last == len(at) - 1 else end_of_reach(scan, at[last], at[last + 1])
-        found.append(Interval(float(low), float(high), low_stop, high_stop))
-    return found
+    def least_transmission(self, found: Sequence[Interval]) -> tuple[Extreme, ...]:
+        """Return the least transmission angle of every dyad that moves with the stroke, over its declared and reachable part."""
+        declared = self.motion.plan.strokes[self.name]
+        start, end = sorted((declared.start, declared.end))
+        parts = np.array([(max(each.low, start), min(each.high, end)) for each in found if each.low < end and each.high > start])
+        if not parts.size:
+            return ()
+        low, high, long = parts[:, 0], parts[:, 1], np.ptp(parts, axis=1)
+        counts = [max(int(np.ceil(SAMPLES * each)), 2) for each in long / (end - start)]
 
+        def stroke(leg: Index, t: FloatArray) -> FloatArray:
+            return np.where(t == 1.0, high[leg], low[leg] + long[leg] * t)
 
-def end_of_reach(scan: Scan, inside: float, outside: float) -> tuple[float, str]:
-    """Return the last stroke reached between one inside and one outside, and the step that fails beyond it.
+        def look(leg: Index, t: FloatArray) -> tuple[FloatArray, Mask]:
+            wide = self.at(stroke(leg, t).ravel())
+            return -np.array([[transmission(joint).of(wide)] for joint in moving]), wide.reached[None]
 
-    Ends of groups are known already, found on the way.
-    """
-    at = np.linspace(inside, outside, 65)
-    seen = scan(at)
-    known = [stop for stop in seen._grid.solved.stops if min(inside, outside) <= stop <= max(inside, outside)]
-    if known:
-        place = int(np.argmin(seen.reached))
-        return known[0], failing(scan(at[place : place + 1]))
-    if np.all(seen.reached):
-        return inside, ""
-    last, beyond = last_holding(lambda at: np.array(scan(at).reached), inside, outside)
-    return float(last), failing(scan(np.array([beyond])))
+        wide = self.at(stroke(*samples(counts)))
+        angles = {joint: wide.transmission_angle(joint) for joint in wide._joints}
+        moving = [joint for joint, angle in angles.items() if np.nanmax(angle) - np.nanmin(angle) > UNCHANGED]
+        if not moving:
+            return ()
+        least = highest(look, counts)
+        strokes = stroke(least.leg, least.t)
+        return tuple(Extreme(joint, -float(least.value[row, 0]), float(strokes[row, 0])) for row, joint in enumerate(moving))
 
+    def open_turn(self, found: Sequence[Interval]) -> Open | None:
+        """Return the pins that do not return after one turn of the stroke [rad], and how many turns they take; None where all do.
 
-def failing(motion: MotionLike) -> str:
-    """Return what cannot be placed first at a motion's pose, by its name."""
-    return next((name_or_pins(motion.plan, name) for name, mask in failures(motion.plan, motion._reading, motion.shape) if mask.any()), "")
+        A dyad returns with its parents, because its side holds. A group of class III has up to six poses for one pose of its drive, and a
+        full turn may lead from one to another. Source: T. R. Chase, J. A. Mirth, Circuits and branches of single-degree-of-freedom planar
+        linkages, J. Mech. Design 115 (1993) 223-230.
+        """
+        plan = self.motion.plan
+        pins = [pin for group in plan.groups.values() for pin in group.pins if self.name in plan.reaches(pin)]
+        whole = next((each for each in found if each.high - each.low > TURN * (1.0 - 1e-9)), None)
+        if not pins or whole is None:
+            return None
+        turned = self.at(whole.low + TURN * np.arange(MOST + 1))
+        every = np.array([turned[point][:, 0] for point in plan.points])
+        gaps = {pin: np.hypot(*(turned[pin] - turned[pin][:, :1])) / np.ptp(every, axis=0).max() for pin in pins}
+        away = tuple(pin for pin, gap in gaps.items() if gap[1] > CLOSED)
+        back = np.all([gaps[pin] <= CLOSED for pin in pins], axis=0)
+        return Open(away, int(np.argmax(back[1:])) + 1 if back[1:].any() else 0) if away else None
 
+    # -- dead points of cylinders: where a length stands still, so that its thrust moves nothing -----------
 
-# The least transmission angles along a stroke: of every dyad whose angle changes with it.
+    def dead_points(self, ranges: Sequence[tuple[float, float]]) -> list[tuple[float, str]]:
+        """Return where in some ranges lengths of elements that hold stand still: the stroke and the element's name.
 
-UNCHANGED = 1e-9
-"""A transmission angle that changes by less [rad] does not follow the stroke."""
+        Those whose two points a stroke drives apart never do, and what a closed line alone holds drives nothing. The others are held.
+        """
+        plan, wrt = self.motion.plan, self.name
+        ranges = [(low, high) for low, high in ranges if low < high]
+        if not ranges:
+            return []
+        driven = {frozenset((bar.P, bar.Q)) for bar in plan.cylinders}
+        ties = [tie for tie in (each.tie(plan.members) for each in plan.of_kind(ForceElement).values()) if tie is not None]
+        shut, held = ({share.member.name for tie in ties if tie.held is way for share in tie.shares} for way in (False, True))
+        found: list[tuple[float, str]] = []
+        for name, element in plan.of_kind(TwoPoint).items():
+            if not element.holds or frozenset(element.ends) in driven or name in shut - held:
+                continue
+            if not any(wrt in plan.reaches(end) for end in element.ends):
+                continue
+            length = Distance(*element.ends)
 
+            def rate(at: FloatArray, length: Distance = length) -> FloatArray:
+                with unwarned(), np.errstate(all="ignore"):
+                    return self.at(at).ratio(length, wrt=wrt)
 
-def least_transmission(motion: MotionLike, name: str, held: Mapping[str, float], found: Sequence[Interval]) -> tuple[Extreme, ...]:
-    """Return the least transmission angle of every dyad that moves with a stroke, over its declared and reachable part."""
-    ends = sorted((motion.plan.strokes[name].start, motion.plan.strokes[name].end))
-    parts = np.array([(max(each.low, ends[0]), min(each.high, ends[1])) for each in found if each.low < ends[1] and each.high > ends[0]])
-    if not parts.size:
-        return ()
-    low, high, long = parts[:, 0], parts[:, 1], np.ptp(parts, axis=1)
-    counts = [max(int(np.ceil(SAMPLES * each)), 2) for each in long / (ends[1] - ends[0])]
+            looked = self.at(np.concatenate([np.linspace(low, high, LOOKS) for low, high in ranges]))
+            with unwarned(), np.errstate(all="ignore"):
+                way = sum(np.hypot(*looked.ratio(end, wrt=wrt)) for end in element.ends)
+                follows = np.abs(looked.ratio(length, wrt=wrt)) > STILL * way  # that between two points of a body does not
+            if np.any(follows):
+                at = np.array(sorted(root for low, high in ranges for root in roots_between(rate, low, high)))
+                found += [(float(each), name) for each in at[self.first_times(at)]]
+        return sorted(found)
 
-    def stroke(leg: Index, t: FloatArray) -> FloatArray:
-        return np.where(t == 1.0, high[leg], low[leg] + long[leg] * t)
-
-    def look(leg: Index, t: FloatArray) -> tuple[FloatArray, Mask]:
-        wide = motion.moved({**held, name: stroke(leg, t).ravel()})
-        return -np.array([[transmission(joint).of(wide)] for joint in moving]), wide.reached[None]
-
-    wide = motion.moved({**held, name: stroke(*samples(counts))})
-    angles = {joint: wide.transmission_angle(joint) for joint in wide._joints}
-    moving = [joint for joint, angle in angles.items() if np.nanmax(angle) - np.nanmin(angle) > UNCHANGED]
-    if not moving:
-        return ()
-    least = highest(look, counts)
-    strokes = stroke(least.leg, least.t)
-    return tuple(Extreme(joint, -float(least.value[row, 0]), float(strokes[row, 0])) for row, joint in enumerate(moving))
-
-
-# How many turns a crank makes until the pins of a group stand where they began.
-#
-# A dyad returns with its parents, because its side holds. A group of class III has up to six poses for one pose of its
-# drive, and a full turn may lead from one to another. Source: T. R. Chase, J. A. Mirth, Circuits and branches of
-# single-degree-of-freedom planar linkages, J. Mech. Design 115 (1993) 223-230.
-
-MOST = 6
-CLOSED = 1e-6
-"""Pins that are so near to where they began, compared with the linkage, have returned."""
-
-
-def open_turn(motion: MotionLike, name: str, held: Mapping[str, float], found: Sequence[Interval]) -> Open | None:
-    """Return the pins that do not return after one turn of a stroke [rad], and how many turns they take; None where all do."""
-    pins = [pin for group in motion.plan.groups.values() for pin in group.pins if name in motion.plan.reaches(pin)]
-    whole = next((each for each in found if each.high - each.low > TURN * (1.0 - 1e-9)), None)
-    if not pins or whole is None:
-        return None
-    turned = motion.moved({**held, name: whole.low + TURN * np.arange(MOST + 1)})
-    every = np.array([turned[point][:, 0] for point in motion.plan.points])
-    gaps = {pin: np.hypot(*(turned[pin] - turned[pin][:, :1])) / np.ptp(every, axis=0).max() for pin in pins}
-    away = tuple(pin for pin, gap in gaps.items() if gap[1] > CLOSED)
-    back = np.all([gaps[pin] <= CLOSED for pin in pins], axis=0)
-    return Open(away, int(np.argmax(back[1:])) + 1 if back[1:].any() else 0) if away else None
-
-
-# Where a cylinder's length stands still against a stroke: its dead points, at which its thrust moves nothing.
-
-NEAR = 1e-8
-"""How far beside a root it is looked whether the ratio really passes zero, and how far beyond a range's ends for roots on these, of the
-range; at a pole the ratio grows instead."""
-LOOKS = 65  # poses of each range at which it is looked whether a length follows the stroke
-STILL = 1e-9
-"""A length that changes by less than this part of its ends' way does not follow a stroke."""
-AGAIN = 1e-6
-"""Poses whose points are so near to each other, compared with the linkage, are one, as after a full turn."""
-
-
-def dead_points(
-    motion: MotionLike, stroke: str, held: Mapping[str, float], ranges: Sequence[tuple[float, float]]
-) -> list[tuple[float, str]]:
-    """Return where along a stroke, in some ranges, lengths of elements that hold stand still: the stroke and the element's name.
-
-    Those whose two points a stroke drives apart never do, and what a closed line alone holds drives nothing. The others are held.
-    """
-    plan = motion.plan
-    ranges = [(low, high) for low, high in ranges if low < high]
-    if not ranges:
-        return []
-    driven = {frozenset((bar.P, bar.Q)) for bar in plan.cylinders}
-    idle = kept_alone(plan)
-    found: list[tuple[float, str]] = []
-    for name, element in plan.of_kind(TwoPoint).items():
-        if not element.holds or frozenset(element.ends) in driven or name in idle:
-            continue
-        if not any(stroke in plan.reaches(end) for end in element.ends):
-            continue
-        if not follows_stroke(motion, element, stroke, held, ranges):
-            continue
-        rate = length_ratio(motion, element, stroke, held)
-        at = np.array(sorted(root for low, high in ranges for root in roots_between(rate, low, high)))
-        found += [(float(each), name) for each in at[first_times(motion, stroke, held, at)]]
-    return sorted(found)
-
-
-def kept_alone(plan: Plan) -> set[str]:
-    """Return the names of what closed ties hold, and no other one."""
-    ties = [tie for tie in (each.tie(plan.members) for each in plan.of_kind(ForceElement).values()) if tie is not None]
-    kept, held = ({share.member.name for tie in ties if tie.held is way for share in tie.shares} for way in (False, True))
-    return kept - held
-
-
-def follows_stroke(
-    motion: MotionLike, element: TwoPoint, stroke: str, held: Mapping[str, float], ranges: Sequence[tuple[float, float]]
-) -> bool:
-    """Return whether an element's length changes with a stroke beyond rounding, as that of one between two points of a body does not."""
-    at = np.concatenate([np.linspace(low, high, LOOKS) for low, high in ranges])
-    moved = motion.moved({**held, stroke: at})
-    with unwarned(), np.errstate(all="ignore"):
-        way = sum(np.hypot(*moved.ratio(end, wrt=stroke)) for end in element.ends)
-        rate = np.abs(moved.ratio(Distance(*element.ends), wrt=stroke))
-    return bool(np.any(rate > STILL * way))
-
-
-def first_times(motion: MotionLike, stroke: str, held: Mapping[str, float], at: FloatArray) -> Mask:
-    """Return which of some strokes (n,) give a pose that no one before gives."""
-    if at.size < 2:
-        return np.ones(at.shape, bool)
-    poses = motion.moved({**held, stroke: at})
-    places = np.array([poses[name] for name in motion.plan.points]).reshape(-1, at.size)
-    apart = np.abs(places[:, :, None] - places[:, None, :]).max(axis=0)
-    size = float(np.ptp(places.reshape(-1, 2, at.size), axis=0).max(initial=0.0))
-    return np.asarray(~np.tril(apart <= AGAIN * size, -1).any(axis=1))
-
-
-def length_ratio(motion: MotionLike, element: TwoPoint, stroke: str, held: Mapping[str, float]) -> Curve:
-    """Return the ratio of an element's length by a stroke, as a function of that stroke (n,); NaN where it has none."""
-    length = Distance(*element.ends)
-
-    def rate(at: FloatArray) -> FloatArray:
-        with unwarned(), np.errstate(all="ignore"):
-            return motion.moved({**held, stroke: at}).ratio(length, wrt=stroke)
-
-    return rate
+    def first_times(self, at: FloatArray) -> Mask:
+        """Return which of some strokes (n,) give a pose that no one before gives."""
+        if at.size < 2:
+            return np.ones(at.shape, bool)
+        poses = self.at(at)
+        places = np.array([poses[name] for name in self.motion.plan.points]).reshape(-1, at.size)
+        apart = np.abs(places[:, :, None] - places[:, None, :]).max(axis=0)
+        size = float(np.ptp(places.reshape(-1, 2, at.size), axis=0).max(initial=0.0))
+        return np.asarray(~np.tril(apart <= AGAIN * size, -1).any(axis=1))
 
 
 def roots_between(rate: Curve, low: float, high: float) -> list[float]:
@@ -272,17 +222,16 @@ def roots_between(rate: Curve, low: float, high: float) -> list[float]:
         return []
     before, after = known[crossed], known[crossed + 1]
     roots, _ = sign_changes(rate, at[before], at[after], CLOSE * span)
-    senses = np.sign(values[before])
-    return [float(np.clip(root, *ends)) for root, sense in zip(roots, senses, strict=True) if passes(rate, root, NEAR * span, sense)]
-
-
-def passes(rate: Curve, root: float, near: float, sense: float) -> bool:
-    """Return whether a function passes zero at a place: of this sign before, of the other behind, and much less there than beside."""
-    before, here, behind = (sense * rate(root + near * np.array([-1.0, 0.0, 1.0]))).tolist()
-    return bool(before > 0.0 > behind and abs(here) < 0.5 * min(before, -behind))
+    found = []
+    for root, sense in zip(roots, np.sign(values[before]), strict=True):
+        first, here, last = (sense * rate(root + NEAR * span * np.array([-1.0, 0.0, 1.0]))).tolist()
+        if first > 0.0 > last and abs(here) < 0.5 * min(first, -last):
+            found.append(float(np.clip(root, *ends)))
+    return found
 
 
 # What lies between the poses of a sweep, and what is said of it.
+
 
 def is_watched(motion: MotionLike) -> bool:
     """Return whether it is looked at between the poses: of one design along one stroke, from two poses on."""
@@ -309,25 +258,6 @@ def interruptions(motion: MotionLike) -> tuple[Interruption, ...]:
     return found
 
 
-def between_words(found: Sequence[Interruption] | None) -> str:
-    """Return what is known of the way between the poses, in words: nothing where it is clear."""
-    if found is None:
-        return ", not looked at between the poses"
-    return "".join(f", interrupted: {each}" for each in found)
-
-
-def stop_words(motion: MotionLike) -> str:
-    """Return how far a sweep of one design goes, in words: `It goes from S = 0 to 0.408276 m.`"""
-    if len(motion.strokes) != 1 or motion._design_shape or not motion.reached.any() or motion.reached.ndim != 1:
-        return ""
-    ((name, values),) = motion.strokes.items()
-    order = np.argsort(values, kind="stable")
-    found = ranges_among(moved_along(motion.moved, name, {}), values[order], motion.reached[order])
-    unit = stroke_unit(motion.plan, name)
-    spans = [f"from {name} = {each.low:.6g} to {each.high:.6g} {unit}" for each in found]
-    return f" It goes {', and '.join(spans)}."
-
-
 def refuse_interrupted(motion: MotionLike) -> None:
     """Raise the error of what interrupts a sweep between its poses: a stretch out of reach, or a change point.
 
@@ -351,12 +281,14 @@ def gap_error(motion: MotionLike, first: Interruption, found: Sequence[Interrupt
     words, shortfall = missing_words(plan, step, there._reading, np.ones(1, bool))
     far = np.asarray(values > first.low if np.ravel(values)[0] <= first.low else values < first.high)
     edges = [float(values.min()), *(edge for each in found if each.is_gap for edge in (each.low, each.high)), float(values.max())]
-    spans = [f"from {name} = {low:.6g} to {high:.6g} {unit}" for low, high in zip(edges[::2], edges[1::2], strict=True)]
-    return AssemblyError(
-        f"{opening(plan, step)} cannot be assembled between two poses, from {name} = {first.low:.9g} to {first.high:.9g} {unit}:\n"
-        f"{words} It goes {', and '.join(spans)}.",
-        point=step, mask=far, shortfall=shortfall,
-    )  # fmt: skip
+    goes = spans_words(name, unit, list(zip(edges[::2], edges[1::2], strict=True)))
+    where = f"cannot be assembled between two poses, from {name} = {first.low:.9g} to {first.high:.9g} {unit}"
+    return AssemblyError(f"{opening(plan, step)} {where}:\n{words}{goes}", point=step, mask=far, shortfall=shortfall)
+
+
+def spans_words(name: str, unit: str, spans: Sequence[tuple[float, float]]) -> str:
+    """Return how far a sweep of one design goes, in words: ` It goes from S = 0 to 0.408276 m.`"""
+    return f" It goes {', and '.join(f'from {name} = {low:.6g} to {high:.6g} {unit}' for low, high in spans)}."
 
 
 def change_point_error(motion: MotionLike, found: Interruption) -> SingularError:
@@ -375,21 +307,26 @@ def change_point_error(motion: MotionLike, found: Interruption) -> SingularError
         what = f"a change point at {where}"
         line = f"{named} has its links in line there and its two branches cross"
         why = f"{line}, so which way the mechanism goes on is not settled by its geometry"
-    return SingularError(
-        f"{motion.plan.title} passes {what}: {why}. Stop the sweep before it, take the poses on each side "
-        'in sweeps of their own, or ask with unreachable="nan".',
-        point=loop, mask=np.asarray(motion.strokes[name] >= value), motion=motion,
-    )  # fmt: skip
+    remedy = 'Stop the sweep before it, take the poses on each side in sweeps of their own, or ask with unreachable="nan".'
+    mask = np.asarray(motion.strokes[name] >= value)
+    return SingularError(f"{motion.plan.title} passes {what}: {why}. {remedy}", point=loop, mask=mask, motion=motion)
 
 
-def group_change_point_error(motion: MotionLike, crossed: Mask) -> SingularError:
-    """Return the error for poses that a group's pins reach only through a change point."""
-    numbers = np.unique(motion._grid.crossed[crossed])
-    named = list(motion.plan.groups.items())
-    groups = ", ".join(f"{name} = {group}" for name, group in (named[int(number) - 1] for number in numbers))
-    where = where_words(motion.plan, crossed, motion.strokes)
-    return SingularError(
-        f"{motion.plan.title} passes a change point before the poses {where}: the branches of {groups} cross on the way from the sketch. "
-        'Stop before it, start from a sketch on the other side, or ask with unreachable="nan".',
-        point=named[int(numbers[0]) - 1][0], mask=crossed, motion=motion,
-    )  # fmt: skip
+def out_of_reach(motion: MotionLike) -> AssemblyError:
+    """Return the error for the poses of a motion that are not reached: out of reach, or behind a change point."""
+    plan, missing, crossed = motion.plan, ~motion.reached, np.asarray(motion._grid.crossed > 0.0)
+    if crossed.any():
+        numbers = np.unique(motion._grid.crossed[crossed])
+        named = list(plan.groups.items())
+        groups = ", ".join(f"{name} = {group}" for name, group in (named[int(number) - 1] for number in numbers))
+        what = f"{plan.title} passes a change point before the poses {where_words(plan, crossed, motion.strokes)}"
+        why = f"the branches of {groups} cross on the way from the sketch"
+        remedy = 'Stop before it, start from a sketch on the other side, or ask with unreachable="nan".'
+        return SingularError(f"{what}: {why}. {remedy}", point=named[int(numbers[0]) - 1][0], mask=crossed, motion=motion)
+    stop = ""
+    if len(motion.strokes) == 1 and not motion._design_shape and motion.reached.any() and motion.reached.ndim == 1:
+        ((name, values),) = motion.strokes.items()
+        order = np.argsort(values, kind="stable")
+        found = StrokeLine(motion, name, {}).ranges_among(values[order], motion.reached[order])
+        stop = spans_words(name, stroke_unit(plan, name), [(each.low, each.high) for each in found])
+    return assembly_error(plan, motion._grid.read_at(missing), missing, motion.strokes, stop)

@@ -9,10 +9,11 @@ from typing import Any
 import numpy as np
 
 from ..checks import require_whole
-from ..errors import DefinitionError, cited, known_name, one_word, unknown
+from ..errors import DefinitionError, cited, known_name, one_word
 from ..plan import Plan, require_kinds
 from ..program import FloatArray
-from ..quantities import Member, Stroke, as_mapping, is_number, keywords, real
+from ..quantities import Member, Stroke, as_mapping, is_number, is_whole, keywords, real
+from .grid import MotionLike
 from .limits import stroke_unit
 
 TURN = 2.0 * pi
@@ -25,8 +26,7 @@ FAR = 40.0
 def known_strokes(given: Mapping[str, object], strokes: Mapping[str, Stroke], title: str) -> None:
     """Raise DefinitionError for a stroke that is not there or not given."""
     for name in given:
-        if name not in strokes:
-            raise unknown("Stroke", name, strokes, where=title)
+        known_name("Stroke", name, strokes, where=title)
     missing = [name for name in strokes if name not in given]
     if missing:
         raise DefinitionError(f"{title}: the stroke {', '.join(missing)} is not given; say {', '.join(f'{name}=...' for name in missing)}.")
@@ -82,12 +82,8 @@ def check_magnitude(name: str, values: tuple[float, ...], plan: Plan) -> None:
 
 def is_in_degrees(value: float, beyond: float) -> bool:
     """Return whether an angle lies so far [rad] beyond where it may be that degrees were meant."""
-    return beyond / TURN > (FEW if is_round(value) else MANY)
-
-
-def is_round(value: float) -> bool:
-    """Return whether a number has one decimal at the most."""
-    return abs(10.0 * value - round(10.0 * value)) < 1e-9 * abs(value)
+    is_round = abs(10.0 * value - round(10.0 * value)) < 1e-9 * abs(value)  # it has one decimal at the most
+    return beyond / TURN > (FEW if is_round else MANY)
 
 
 def float_array(value: object) -> FloatArray:
@@ -104,21 +100,20 @@ def sweep_values(count: int | None, given: Mapping[str, object], plan: Plan) -> 
         if len(strokes) != 1 or given:
             each = keywords(dict.fromkeys(strokes, "..."))
             raise DefinitionError(f"{title} has {len(strokes)} strokes: say sweep({each}), an int for a count and a float for a value.")
-        if not isinstance(count, (int, np.integer)) or isinstance(count, bool):
+        if not is_whole(count):
             remedy = f"for a value write at({keywords({next(iter(strokes)): repr(count)})})"
             raise DefinitionError(f"{title}: sweep({count!r}): a whole number of poses is expected; {remedy}.")
         given = {next(iter(strokes)): count}
     known_strokes(given, strokes, title)
-    axes = [_axis(name, given[name], plan) for name in strokes]
-    counted = [axis for axis in axes if axis.ndim]
-    grids = iter(np.meshgrid(*counted, indexing="ij")) if counted else iter(())
-    full = [next(grids) if axis.ndim else axis for axis in axes]
-    return dict(zip(strokes, np.broadcast_arrays(*full), strict=True))
+    axes = {name: _axis(name, given[name], plan) for name in strokes}
+    counted = {name: axis for name, axis in axes.items() if axis.ndim}
+    grids = dict(zip(counted, np.meshgrid(*counted.values(), indexing="ij"), strict=True)) if counted else {}
+    return dict(zip(strokes, np.broadcast_arrays(*(axes | grids).values()), strict=True))
 
 
 def _axis(name: str, given: object, plan: Plan) -> FloatArray:
     stroke, title = plan.strokes[name], plan.title
-    if isinstance(given, (int, np.integer)) and not isinstance(given, bool):
+    if is_whole(given):
         if given < 1:
             raise DefinitionError(f"{title}: sweep({name}={given}): a count of at least 1 is expected; for a value write {float(given)}.")
         try:
@@ -140,17 +135,14 @@ def checked_name(kind: str, target: object, known: Collection[str], title: str) 
     return known_name(kind, target.name if isinstance(target, Member) else target, known, where=title)
 
 
-def rates_of(
-    what: str, given: object, strokes: Mapping[str, FloatArray], shape: tuple[int, ...], title: str, *, gaps: bool = False
-) -> dict[str, FloatArray]:
+def rates_of(what: str, given: object, motion: MotionLike, *, gaps: bool = False) -> dict[str, FloatArray]:
     """Return the stroke rates by name, a float or an array over the poses, NaN where there may be `gaps`; DefinitionError for others."""
+    title = motion.plan.title
     if not isinstance(given, Mapping):
-        example = f"{what}={as_mapping({next(iter(strokes), 'S'): 0.05})}"
+        example = f"{what}={as_mapping({next(iter(motion.strokes), 'S'): 0.05})}"
         raise DefinitionError(f"{title}: {what}={given!r}: a value for each stroke is expected, such as {example}.")
-    return {
-        checked_name("Stroke", name, strokes, title): checked_rate(f"{what}: {name}", value, shape, title, gaps=gaps)
-        for name, value in given.items()
-    }
+    known = {checked_name("Stroke", name, motion.strokes, title): value for name, value in given.items()}
+    return {name: checked_rate(f"{what}: {name}", value, motion.shape, title, gaps=gaps) for name, value in known.items()}
 
 
 def checked_rate(what: str, value: object, shape: tuple[int, ...], title: str, *, gaps: bool = False) -> FloatArray:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from importlib import import_module
 from typing import ClassVar, TypeVar
@@ -48,7 +49,12 @@ class Column:
     def __post_init__(self) -> None:
         if not isinstance(self.name, str) or not self.name:
             raise DefinitionError(f'Column({cited(self.name)}): its name is expected first, Column("pressure", values, "bar").')
-        if not are_numbers(self.values):
+        is_known = False
+        with suppress(ValueError):  # real numbers or truth values, or one that is traced
+            array = np.asarray(self.values)
+            one = array.flat[0] if array.dtype.kind == "O" and array.size == 1 else None
+            is_known = is_traced(one) or (array.dtype.kind in "fiub" and not np.ma.is_masked(self.values))
+        if not is_known:
             what = f"Column {self.name}: {cited(self.values)} holds no numbers"
             raise DefinitionError(f"{what}; give one for each pose, NaN where it has none.")
         unit_or_none(self.unit, where=f"the column {self.name}")
@@ -98,26 +104,14 @@ class Column:
         return f"{name}, {unit_sign(self.unit)}" if self.unit else name
 
 
-def are_numbers(values: object) -> bool:
-    """Return whether values are real numbers or truth values, all of them known."""
-    try:
-        array = np.asarray(values)
-        one = array.flat[0] if array.dtype.kind == "O" and array.size == 1 else None
-        return is_traced(one) or (array.dtype.kind in "fiub" and not np.ma.is_masked(values))
-    except ValueError:
-        return False
-
-
 def columns_of(motion: Motion) -> list[Column]:
     """Return the strokes, the coordinates of the points that move, and the named outputs of a motion, a column each."""
     require_motion(motion)
     plan = motion.plan
     table = [Column(name, value, stroke_display_unit(plan, name), request=name) for name, value in motion.strokes.items()]
-    table += [
-        Column(f"{point}_{axis}", getattr(motion, axis)(point), "m", request=Coordinate(point, axis))
-        for point in plan.moving
-        for axis in "xy"
-    ]
+    for point in plan.moving:
+        for axis, values in zip("xy", motion[point], strict=True):
+            table.append(Column(f"{point}_{axis}", values, "m", request=Coordinate(point, axis)))
     outputs = {name: member for name, member in plan.of_kind(Quantity).items() if not isinstance(member, (Stroke, Dimension))}
     return table + [Column(name, motion[name], display_unit(member.measures), request=name) for name, member in outputs.items()]
 
@@ -129,16 +123,15 @@ Kind = TypeVar("Kind", bound=Member)
 
 def speakers(plan: Plan, kind: type[Kind]) -> dict[str, Kind]:
     """Return the members of a plan that show or judge themselves, `Tabled` or `HasVerdicts`, and what does so for others, by name."""
-    each_of = ((name, member if isinstance(member, kind) else speaker(member, plan)) for name, member in plan.members.items())
-    return {name: each for name, each in each_of if isinstance(each, kind)}
-
-
-def speaker(member: Member, plan: Plan) -> object:
-    """Return what shows and judges a member whose own room is below that: of the class that it names; None where nothing is said."""
-    if not isinstance(member, ForceElement) or not member.shown_by:
-        return None
-    module, name = member.shown_by.split(":")
-    return getattr(import_module(module), name).of(member, plan)
+    found: dict[str, Kind] = {}
+    for name, member in plan.members.items():
+        speaker: object = member
+        if isinstance(member, ForceElement) and member.shown_by and not isinstance(member, kind):  # by a class above its own room
+            module, shown_by = member.shown_by.split(":")
+            speaker = getattr(import_module(module), shown_by).of(member, plan)
+        if isinstance(speaker, kind):
+            found[name] = speaker
+    return found
 
 
 class Tabled(Member):

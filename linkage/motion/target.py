@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import NoReturn, final
 
 import numpy as np
@@ -35,7 +35,14 @@ class Target:
             require_number(f"{what}: within", within, "how far off it may be [SI], a number above zero, is expected", above=0.0)
         if not all(map(is_one, strokes.values())):
             raise DefinitionError(f"{what}: one number is expected for each stroke, in SI.")
-        known = float(value) if is_one(value) else values_along(what, value)
+        known: float | FloatArray
+        if is_one(value):
+            known = float(value)
+        else:  # the values of a path, shape (places,)
+            known = read_only(numbers_in(value))
+            if known.ndim != 1 or not known.size or not np.isfinite(known).all():
+                said = "one number is expected for the value, in SI. Along a path it is an array, a number a place"
+                raise DefinitionError(f"{what}: {said}.")
         pose = FrozenDict({name: amount_or_float(each) for name, each in strokes.items()})
         parts = {"quantity": quantity, "value": known, "within": within, "strokes": pose}
         vars(self).update(parts, unit=unit_or_none(unit, where="Target(unit=...)"), given=value)
@@ -84,14 +91,13 @@ def quantity_cited(quantity: object) -> str:
     return str(quantity) if isinstance(quantity, (Quantity, Request)) else cited(quantity)
 
 
+def targets_given(given: object, title: str, example: str) -> Sequence[Target]:
+    """Return what is a list of targets, one at least; DefinitionError for anything else."""
+    if not isinstance(given, (list, tuple)) or not given or not all(isinstance(each, Target) for each in given):
+        raise DefinitionError(f"{title}: {cited(given)}: a list of targets is expected, {example}.")
+    return given
+
+
 def is_one(value: object) -> bool:
     """Return whether a value is one finite number."""
     return is_number(value.item() if isinstance(value, np.ndarray) and value.ndim == 0 and not np.ma.is_masked(value) else value)
-
-
-def values_along(what: str, value: object) -> FloatArray:
-    """Return the values of a path, shape (places,), a copy; DefinitionError for anything but finite numbers in a row."""
-    found = numbers_in(value)
-    if found.ndim != 1 or not found.size or not np.isfinite(found).all():
-        raise DefinitionError(f"{what}: one number is expected for the value, in SI. Along a path it is an array, a number a place.")
-    return read_only(found)

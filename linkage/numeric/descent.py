@@ -22,6 +22,11 @@ PROBE = 0.1
 MOST_BENT = 0.75
 """A bend counts where twice its length is at most this part of the step's."""
 
+MOST_POSES = 1 << 19
+"""Places of a grid at the most that is looked at first."""
+NEAR = 1e-2
+"""Of a side of the box: solutions that are so near are one where what lies between them is a solution too, as at a double root."""
+
 Look: TypeAlias = Callable[[FloatArray, Index], FloatArray]
 """What is seen at unit coordinates (m, k) of the starts with these numbers (m,): misses (m, targets), or their slopes (m, targets, k)."""
 
@@ -136,3 +141,27 @@ def refined(state: FloatArray, step: Callable[[FloatArray], FloatArray]) -> Floa
         if abs(change).max() < 1e-15 * max(abs(state).max(), 1.0):
             break
     return state
+
+
+# What searches for all solutions in a box share: the grid that is looked at first, and which solutions are one.
+
+
+def grid_axes(out: FloatArray, counts: FloatArray) -> list[FloatArray]:
+    """Return values of each coordinate from -out to 1 + out (k,), about so many (k,), fewer where the grid would have too many places."""
+    shrink = max(1.0, float((np.prod(counts) / MOST_POSES) ** (1.0 / len(counts))))
+    return [np.linspace(-each, 1.0 + each, max(int(count / shrink), 4)) for each, count in zip(out, counts, strict=True)]
+
+
+def without_repeats(order: Index, is_same: Callable[[int, int], bool], most: int) -> list[int]:
+    """Return the solutions of an order (n,) by their numbers, without those that are the same as one before; so many at the most."""
+    kept: list[int] = []
+    for each in order.tolist():
+        if len(kept) < most and not any(is_same(known, each) for known in kept):
+            kept.append(each)
+    return kept
+
+
+def is_one_solution(apart: FloatArray, same: float, is_between: Callable[[], bool]) -> bool:
+    """Return whether two solutions so far apart (k,) are one: to rounding, or, at a double one, as what lies between is a solution too."""
+    far = float(np.abs(apart).max(initial=0.0))
+    return far <= same or (far <= NEAR and is_between())

@@ -66,7 +66,7 @@ class Overlays:
         """Return what is laid over a motion's pose, a flat index, on a sheet that shows a box [m]."""
         layers, notes = [], []
         if self.rates is not None:
-            rates_of("velocities", self.rates, motion.strokes, motion.shape, motion.plan.title)
+            rates_of("velocities", self.rates, motion)
         if not motion.reached.ravel()[pose]:
             return Overlay((), (), (why_no_forces(motion, pose, ForceQuestion()),), box)
         if self.forces is not None:

@@ -246,7 +246,7 @@ def rates_in(motion: Motion, acting: Acting, drive: str | None = None) -> Rates:
     require_motion(motion)
     direction, drive, sense = acting.movement, acting.drive if drive is None else drive, SENSES[acting.movement]
     if acting.rates is not None:
-        given = rates_of("rates", acting.rates, motion.strokes, motion.shape, motion.plan.title)
+        given = rates_of("rates", acting.rates, motion)
         named = [drive] if drive is not None else [*given] if len(given) == 1 else []
         wrong = next((name for name in named if sense and np.any(sense * np.asarray(given.get(name, 0.0)) < 0.0)), None)
         if wrong is not None:

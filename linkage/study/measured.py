@@ -17,8 +17,8 @@ from ..mechanism import Mechanism
 from ..motion import Grid, Motion, Request, at_values, each_at_its_stroke, evaluate_grid, stroke_display_unit
 from ..motion.grid import JoinedTo
 from ..motion.measures import At, Integral, Leaf, Measure, strokes_behind, traced, words_of
-from ..motion.quadrature import PANELS, gauss, quadrature
 from ..numeric.line import Index
+from ..numeric.quadrature import PANELS, gauss, quadrature
 from ..plan import Mask, Plan
 from ..program import FloatArray, RunOptions
 from ..quantities import Quantity
@@ -255,7 +255,7 @@ def quantity_values(motion: Motion, quantity: QuantityLike, *, endless: bool = F
 
 def motion_of(grid: Grid) -> Motion:
     """Return the motion over a grid, NaN out of reach."""
-    joining = grid._joining if isinstance(grid._joining, JoinedTo) else None
+    joining = grid.joining if isinstance(grid.joining, JoinedTo) else None
     return Motion(grid.plan, grid.designs, grid.strokes, "nan", per_design=grid.per_design, joining=joining)
 
 

@@ -38,8 +38,8 @@ from ..motion.measures import (
     traced,
     words_of,
 )
-from ..motion.quadrature import PANELS, Quadrature, gauss, quadrature
 from ..motion.strokes import check_magnitude
+from ..numeric.quadrature import PANELS, Quadrature, gauss, quadrature
 from ..plan import Mask, Plan, require_kind
 from ..program import Enclosure, FloatArray, Node, enclosures
 from ..quantities import Quantity, is_number

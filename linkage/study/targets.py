@@ -9,12 +9,13 @@ from typing import Any, final
 import numpy as np
 
 from ..checks import require_whole
-from ..errors import DefinitionError, cited, unwarned
+from ..errors import DefinitionError, unwarned
 from ..frozen import FrozenDict, refuses_changes
 from ..mechanism import Mechanism
 from ..motion import Motion, Request, Target, stroke_display_unit
 from ..motion.requests import dimensions_of, slopes_of
-from ..numeric.descent import descended
+from ..motion.target import targets_given
+from ..numeric.descent import NEAR, descended, is_one_solution, without_repeats
 from ..numeric.line import Index
 from ..plan import Mask
 from ..program import FloatArray, RunOptions
@@ -63,19 +64,16 @@ def solutions_for(machine: Mechanism, vary: Mapping[str, object], targets: Seque
         raise DefinitionError(f"{plan.title}: {what}; hold {k - len(targets)} of {', '.join(box.ranges)}, or give as many targets more.")
     search = Search(machine, box, aim)
     with unwarned(), np.errstate(all="ignore"):
-        start, choice = search.starts(grid_size(k, points))
+        size = (1 << min(8 + 2 * k, 14) if k else 1) if points is None else points
+        require_whole("points", size, "a whole number of points of the box is expected, such as 4096", least=1, most=1 << 20)
+        start, choice = search.starts(size if k else 1)
         if not len(start):
-            return Solutions(machine, (), False, (), False, nowhere(box, aim))
+            where = ", ".join(dict.fromkeys(aim.words(place).partition(" at ")[2] for place in range(len(aim.targets))))
+            names = ", ".join([*box.ranges, *box.choices[0]])
+            nowhere = f"No setting of {names} that was looked at can be assembled at {where}. Look farther."
+            return Solutions(machine, (), False, (), False, nowhere)
         unit, off = search.descend(start, choice)
         return search.settled(unit, choice, off)
-
-
-def grid_size(k: int, points: int | None) -> int:
-    """Return how many points of a box of k ranges are looked at first; DefinitionError for anything but a whole number from 1 to 2^20."""
-    if points is None:
-        return 1 << min(8 + 2 * k, 14) if k else 1
-    require_whole("points", points, "a whole number of points of the box is expected, such as 4096", least=1, most=1 << 20)
-    return points if k else 1
 
 
 # The targets, bound to a machine, and how far off settings are.
@@ -97,10 +95,7 @@ class Aim:
     def of(cls, machine: Mechanism, targets: Any) -> Aim:
         """Return targets bound to a machine; DefinitionError for anything else, and for a pose that is not said."""
         plan = machine.plan
-        if not isinstance(targets, (list, tuple)) or not targets or not all(isinstance(each, Target) for each in targets):
-            said = 'a list of targets is expected, such as [Target("tilt", 0.0, S=0.1)]'
-            raise DefinitionError(f"{plan.title}: {cited(targets)}: {said}.")
-        for each in targets:
+        for each in targets_given(targets, plan.title, 'such as [Target("tilt", 0.0, S=0.1)]'):
             if each.is_path:
                 said = "one number is expected for the value, in SI. An array is a path, of follow(...)"
                 raise DefinitionError(f"{plan.title}: {each!r}: {said}.")
@@ -138,17 +133,8 @@ class Aim:
         """Return a target in words, or a value of it: `tilt = 5 deg at S = 100 mm`."""
         each, request, plan = self.targets[place], self.bound[place], self.machine.plan
         at = ", ".join(f"{name} = {show(float(v), stroke_display_unit(plan, name, 'mm'))}" for name, v in each.strokes.items())
-        return f"{request} = {show(float(each.value) if value is None else value, self.unit_of_target(place))} at {at}"
+        return f"{request} = {show(float(each.value) if value is None else value, each.shown_in(plan))} at {at}"
 
-    def unit_of_target(self, place: int) -> str:
-        """Return the unit that a target is shown in."""
-        return self.targets[place].shown_in(self.machine.plan)
-
-
-def nowhere(box: Box, aim: Aim) -> str:
-    """Return that no setting of a box has a value of every target."""
-    where = ", ".join(dict.fromkeys(aim.words(place).partition(" at ")[2] for place in range(len(aim.targets))))
-    return f"No setting of {', '.join([*box.ranges, *box.choices[0]])} that was looked at can be assembled at {where}. Look farther."
 
 
 # The search: a grid of the box at once, then steps of Levenberg and Marquardt from all good starts together.
@@ -160,8 +146,6 @@ MET = 1e-7
 """Of a target's own units: a miss that is smaller is rounding."""
 SAME = 1e-6
 """Of a side of the box: solutions that are nearer to each other are one."""
-NEAR = 1e-2
-"""Of a side of the box: how far solutions of a double root may lie apart, and how far aside another one of a family is looked for."""
 FLAT = 1e-5
 """Of the largest singular value: where the least one is smaller, settings may change together without effect on any target."""
 TOLD = 1e-3
@@ -212,10 +196,15 @@ class Search:
         size = np.abs(off).max(axis=1)
         met = np.flatnonzero(size <= MET)
         order = met[np.argsort(size[met], kind="stable")] if len(met) else np.argsort(np.sum(off**2, axis=1), kind="stable")[:1]
-        kept: list[int] = []
-        for each in order.tolist():
-            if not any(self._is_same(unit[other], unit[each], choice[each]) for other in kept if choice[other] == choice[each]):
-                kept.append(each)
+
+        def is_same(one: int, other: int) -> bool:
+            def is_between() -> bool:
+                between = self.aim.misses(self.at(0.5 * (unit[one] + unit[other])[None], choice[[other]]))
+                return bool(np.abs(between).max() <= MET)
+
+            return bool(choice[one] == choice[other]) and is_one_solution(unit[one] - unit[other], SAME, is_between)
+
+        kept = without_repeats(order, is_same, len(order))
         family = self._of_families(unit, choice, kept) if len(met) else {}
         kept = [each for each in kept if family.get(each, each) == each]
         kept.sort(key=lambda each: (int(choice[each]), *unit[each]))
@@ -231,14 +220,6 @@ class Search:
         else:
             sentence = self._met_words(words, bool(family)) if is_met else self._near_words(words[0], off[kept[0]])
         return Solutions(self.machine, settings, is_met, misses, bool(family), sentence)
-
-    def _is_same(self, one: FloatArray, other: FloatArray, choice: int) -> bool:
-        """Return whether two solutions are one: to rounding, or, at a double one, as near as what lies between is a solution too."""
-        apart = np.abs(one - other).max(initial=0.0)
-        if apart <= SAME or apart > NEAR:
-            return bool(apart <= SAME)
-        between = self.aim.misses(self.at(0.5 * (one + other)[None], np.array([choice])))
-        return bool(np.abs(between).max() <= MET)
 
     def _of_families(self, unit: FloatArray, choice: Index, kept: Sequence[int]) -> dict[int, int]:
         """Return the solutions from which settings can change together without effect, each with the first one of its choice."""
@@ -259,7 +240,7 @@ class Search:
         return None if sizes[-1] > FLAT * sizes[0] else ways[-1]
 
     def _goes_on(self, unit: FloatArray, choice: int, way: FloatArray) -> bool:
-        """Return whether another solution stands a step aside."""
+        """Return whether another solution stands a step aside, as far as those of a double root may lie apart."""
         aside = np.clip(unit + NEAR * np.array([[1.0], [-1.0]]) * way, 0.0, 1.0)
         found, off = self.descend(aside, np.array([choice, choice]))
         return bool(np.any((np.abs(off).max(axis=1) <= MET) & (np.abs(found - unit).max(axis=1) > 0.3 * NEAR)))
@@ -275,7 +256,7 @@ class Search:
         said = []
         for place, miss in enumerate(off * self.aim.scale):
             name = self.aim.words(place, float(self.aim.targets[place].value) + float(miss))
-            gap = show(abs(float(miss)), self.aim.unit_of_target(place), 4)
+            gap = show(abs(float(miss)), self.aim.targets[place].shown_in(self.machine.plan), 4)
             side = "more" if miss > 0.0 else "less"
             said.append(f"{name}, {gap} {side} than wanted" if abs(off[place]) > TOLD else f"{name} as wanted")
         return f"No setting that was found gives all of it. The nearest is {words}: {'; '.join(said)}."

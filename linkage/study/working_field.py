@@ -25,12 +25,13 @@ from ..loads import Case, ForceElement, Weight
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, Over, Target
 from ..motion.judge import Domain
-from ..motion.many_places import EDGE, ManyPlaces, PlacePoses, solved_systems
+from ..motion.many_places import EDGE, ManyPlaces, PlacePoses
 from ..motion.measures import words_of
 from ..motion.places import DECLARED, StrokeRanges
 from ..motion.planes import Planes, clearance, pairs_of
 from ..numeric.descent import descended
 from ..numeric.line import Index
+from ..numeric.linear import solved_systems
 from ..plan import Mask, Plan
 from ..program import FloatArray
 from ..quantities import PoseCondition, Quantity, Reference, is_number, name_of, quantity, real

@@ -29,8 +29,7 @@ from linkage import (
     x,
 )
 from linkage.files import load, to_toml
-from linkage.motion.cuts import triangles
-from linkage.motion.gaps import nearest_places
+from linkage.motion.gaps import nearest_places, triangles
 from linkage.motion.planes import pairs_of
 from linkage.numeric import convex_pieces, crosses_itself
 from linkage.vectors import Vec, pick

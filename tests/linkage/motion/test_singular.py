@@ -30,7 +30,7 @@ from linkage import (
     y,
 )
 from linkage.motion import conditions
-from linkage.motion import differences as numeric
+from linkage.numeric import differences as numeric
 
 
 class Lever(Mechanism):

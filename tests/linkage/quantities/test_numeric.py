@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from linkage import LEFT, Dyad, Ground, Mechanism, SingularError, SingularWarning, Stroke
-from linkage.motion import differences as numeric
+from linkage.numeric import differences as numeric
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.for_all import for_all
 from tests.linkage.random_mechanisms import random_mechanism

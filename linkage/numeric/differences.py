@@ -7,12 +7,11 @@ extrapolated estimates (Richardson), and what is lost is reported.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from ..program import FloatArray
+from ..vectors import FloatArray
 
 RATIO = 4.0
 STEPS = 14
@@ -41,7 +40,11 @@ def derivative(
     zero, two, one = differences(values, steps, order)
     still = STILL[order] * float(np.max(np.abs(zero), initial=least, where=np.isfinite(zero))) / span**order
     floor = ROUNDING * np.abs(zero) / steps[2:] ** order
-    found, error = _best(np.concatenate([_extrapolated(two, floor), _extrapolated(one, floor)], axis=-1))
+    estimates, spread = np.concatenate([_extrapolated(two, floor), _extrapolated(one, floor)], axis=-1)
+    spread = np.where(np.isfinite(spread), spread, np.inf)
+    place = np.argmin(spread, axis=-1)[..., None]  # of least error
+    error = np.take_along_axis(spread, place, axis=-1)[..., 0]
+    found = np.where(np.isfinite(error), np.take_along_axis(estimates, place, axis=-1)[..., 0], np.nan)
     if step is None:
         return found, error, still
     _, two, one = differences(values, np.array([step]), order)
@@ -64,7 +67,7 @@ def differences(values: Callable[[FloatArray], FloatArray], steps: FloatArray, o
         return zero, two / steps**2, np.where(np.isfinite(ahead3), forth, rear) / steps**2
 
 
-def _extrapolated(estimate: FloatArray, floor: FloatArray) -> Any:
+def _extrapolated(estimate: FloatArray, floor: FloatArray) -> FloatArray:
     """Return estimates of second order, extrapolated to the fourth (two-sided) or third (one-sided), each with its error.
 
     The error is the larger change to the steps on either side, one of which may be small by chance, and not below
@@ -82,15 +85,6 @@ def _extrapolated(estimate: FloatArray, floor: FloatArray) -> Any:
     return np.stack([better[..., 1:], np.where(shrinks, error, np.maximum(error, np.abs(better[..., 1:])))])
 
 
-def _best(table: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return, at every pose, the estimate of least error."""
-    values, spread = table
-    spread = np.where(np.isfinite(spread), spread, np.inf)
-    place = np.argmin(spread, axis=-1)[..., None]
-    error = np.take_along_axis(spread, place, axis=-1)[..., 0]
-    return np.where(np.isfinite(error), np.take_along_axis(values, place, axis=-1)[..., 0], np.nan), error
-
-
 def losses(found: FloatArray, error: FloatArray, still: float, axes: int, most: float = USELESS) -> tuple[npt.NDArray[np.bool_], float]:
     """Return the poses where a derivative is as uncertain as it is large, and the worst error of the others.
 
@@ -104,11 +98,3 @@ def losses(found: FloatArray, error: FloatArray, still: float, axes: int, most: 
     useless = np.isfinite(local) & (off > 0.1 * local) & (off > most * size)
     kept = np.where(np.isfinite(local) & ~useless, off, 0.0)
     return useless, float(np.max(kept, initial=0.0)) / size if size else 0.0
-
-
-def why_refused(step: float | None) -> str:
-    """Return why a numerical derivative is refused, and what to ask for: with the step chosen at every pose, or one given."""
-    if step is None:
-        return 'differences do not settle so near a dead point. Ask for method="exact".'
-    why = "the difference is rounding, or goes too far or out of reach, or stands too near a dead point"
-    return f'{why}. Leave the step out, which is then chosen at every pose, or ask for method="exact".'

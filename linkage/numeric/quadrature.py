@@ -8,7 +8,7 @@ from typing import Any, final
 
 import numpy as np
 
-from ..program import FloatArray
+from ..vectors import FloatArray
 
 PANELS, NODES = 24, 5
 """Panels to begin with, and the Gauss points of each."""

@@ -136,13 +136,13 @@ class Conditioning:
     def refused(self) -> Mask:
         """The poses where the result is refused."""
         steep = [~(cond <= REFUSE) for name, cond in self.conditions.items() if name in self.steep]
-        return np.logical_or.reduce([~(self.error <= LOST), *steep])
+        return np.asarray(np.logical_or.reduce([~(self.error <= LOST), *steep]))
 
     @property
     def doubtful(self) -> Mask:
         """The poses where the result holds, with an error that is reported."""
         steep = [cond > WARN for name, cond in self.conditions.items() if name in self.steep]
-        return np.logical_or.reduce([self.error > self.doubt, *steep]) & ~self.refused
+        return np.asarray(np.logical_or.reduce([self.error > self.doubt, *steep]) & ~self.refused)
 
     def at(self, mask: Mask) -> Conditioning:
         """Return the same of some poses."""

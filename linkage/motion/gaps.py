@@ -134,8 +134,8 @@ def gap_of(plan: Plan, a: str, b: str) -> Scalar:
     """Return the gap of two bodies or outlines in a plan's trace [m]."""
     shapes, pick = two_shapes(plan, a, b), plan.trace.graph.pick
     gaps = list[Scalar]()
-    for pair in product(*(each.pieces(plan, plan.trace, pick) for each in shapes)):
-        found, counts = signed_gap(*pair, pick), [each.counts for each in pair if each.counts is not None]
+    for one, other in product(*(each.pieces(plan, plan.trace, pick) for each in shapes)):
+        found, counts = signed_gap(one, other, pick), [each.counts for each in (one, other) if each.counts is not None]
         gaps.append(pick(0.0, least_number(counts), found, FAR) if counts else found)  # more than any gap where one is none in a design
     least = least_number(gaps)
     follow = any(each.outline is not None and follows_dimensions(each.outline) for each in shapes)
@@ -201,9 +201,9 @@ def two_shapes(plan: Plan, a: str, b: str) -> tuple[BodyShape, BodyShape]:
         shared = [name for name in one.points if name in other.points]
         if shared:
             what = f"{plan.title}: gap({a}, {b}): both have {', '.join(shared)}, so that there is no gap between them"
-            first, body, rest = (b, a, other.points) if b == plan.links[0].name else (a, b, one.points)
+            first, second, rest = (b, a, other.points) if b == plan.links[0].name else (a, b, one.points)
             free = next((each for each in rest if each not in shared), first)
-            raise DefinitionError(f"{what}; ask for that of a point, such as gap({free}, {body}), or of outlines on both.")
+            raise DefinitionError(f"{what}; ask for that of a point, such as gap({free}, {second}), or of outlines on both.")
     elif one == other:
         raise DefinitionError(f"{plan.title}: gap({a}, {b}): this is one outline; name two.")
     elif one.outline is None or other.outline is None:

@@ -51,12 +51,12 @@ class Grid:
             shapes = ", ".join(map(str, arrays))
             raise DefinitionError(f"{plan.title}: the shapes of the design arrays do not fit each other: {shapes}.") from None
         if per_design:  # arrays begin with the shape of the designs
-            designs = self.design_shape
+            own = self.design_shape
             try:
-                full = {name: np.broadcast_to(value, (*designs, *value.shape[len(designs) :])) for name, value in strokes.items()}
+                full = {name: np.broadcast_to(value, (*own, *value.shape[len(own) :])) for name, value in strokes.items()}
             except ValueError:
                 name, value = next(iter(strokes.items()))
-                what = f"the strokes of each design begin with the shape of the designs, {designs}; {name} has the shape {value.shape}"
+                what = f"the strokes of each design begin with the shape of the designs, {own}; {name} has the shape {value.shape}"
                 remedy = "Strokes that all designs share are given without per_design=True"
                 raise DefinitionError(f"{plan.title}: {what}. {remedy}.") from None
             self.strokes = FrozenDict({name: read_only(value) for name, value in full.items()})

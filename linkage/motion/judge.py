@@ -25,7 +25,7 @@ from ..plan import Mask, Plan
 from ..program import QUICKEST, FloatArray, Kernel
 from ..quantities import PoseCondition, Quantity, Ref, is_whole, keywords
 from ..vectors import Numbers
-from .answer import LOST, LOST_SHARE, NONE_LOST, NOTHING_LEFT, OF_VALUE, PER_DESIGN, UNBOUNDED, Answer, Lost
+from .answer import LOST, LOST_SHARE, NONE_LOST, NOTHING_LEFT, OF_VALUE, PER_DESIGN, UNBOUNDED, Answer, Lost, PerDesign
 from .evaluation import Evaluation
 from .grid import Grid, recalled
 from .kinds import check_condition, check_kinds
@@ -141,8 +141,8 @@ class WorstPiece:
     value: FloatArray
     strokes: Mapping[str, FloatArray]
     unbounded: Mask
-    lawless: Numbers = 0.0
-    unlimited: Numbers = 0.0
+    lawless: PerDesign = 0.0
+    unlimited: PerDesign = 0.0
 
     @property
     def mover(self) -> Hashable:
@@ -366,11 +366,11 @@ class Coverage:
     Shares are arrays over the designs, of rows (rows, ...).
     """
 
-    lost_share: Numbers = 0.0
-    outside: Numbers = 0.0
-    deepest: Mapping[str, Any] = field(default_factory=dict)
-    lawless: Numbers = 0.0
-    unlimited: Numbers = 0.0
+    lost_share: PerDesign = 0.0
+    outside: PerDesign = 0.0
+    deepest: Mapping[str, PerDesign] = field(default_factory=dict)
+    lawless: PerDesign = 0.0
+    unlimited: PerDesign = 0.0
     count: int = 0
     design: tuple[int, ...] = ()
 
@@ -859,7 +859,7 @@ class Judge:
 def of_batch(each_of: Sequence[Answer], shape: tuple[int, ...]) -> Answer:
     """Return the answers of the designs of a batch as one, arrays of their shape."""
 
-    own = {name: np.array([getattr(each, name) for each in each_of]).reshape(shape) for name in PER_DESIGN}
+    own: dict[str, PerDesign] = {name: np.array([getattr(each, name) for each in each_of]).reshape(shape) for name in PER_DESIGN}
     own["value"] = own["value"].astype(float)
     names = dict.fromkeys(name for each in each_of for name in each.strokes)
     strokes = {name: np.array([float(each.strokes.get(name, np.nan)) for each in each_of]).reshape(shape) for name in names}

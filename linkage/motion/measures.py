@@ -427,7 +427,7 @@ def in_case(measure: Measure, case: Case) -> Measure:
     if isinstance(measure, CombinedMeasure):
         left, right = in_case(measure.left, case), in_case(measure.right, case)
         return measure if left is measure.left and right is measure.right else replace(measure, left=left, right=right)
-    quantity = measure.quantity if isinstance(measure, Leaf) else None
+    quantity: Any = measure.quantity if isinstance(measure, Leaf) else None
     inner = quantity.quantity if isinstance(quantity, Worst) else quantity
     situated = inner.under(Acting(case=case), keep=True) if isinstance(inner, Request) else inner
     if situated is inner or not isinstance(measure, Leaf):

@@ -345,14 +345,14 @@ class Motion(Shown):
         if not isinstance(velocities, Mapping) or not velocities:
             raise DefinitionError(f'{title}: {cited(velocities)}: rates by name are expected, such as {{"px": 0.2, "py": 0.0}}.')
         names, slopes, wanted, sizes = list[str](), list[FloatArray](), list[FloatArray](), list[FloatArray]()
-        for quantity, rate in velocities.items():
+        for quantity, rate in dict[Any, object](velocities).items():
             what = bound(plan, quantity)
             parts: Sequence[object] = [rate]
             if what.rows > 1:
                 if not isinstance(rate, (tuple, list, np.ndarray)) or len(rate) != what.rows:
                     two = "is a point or a vector: its two parts are expected, (0.2, 0.0)"
                     raise DefinitionError(f"{title}: {what} {two}, not {cited(rate)}.")
-                parts = rate
+                parts = [*rate]
             names += [str(what)] * what.rows
             wanted += [np.broadcast_to(checked_rate(f"rates_for: {what}", part, self.shape, plan.title), self.shape) for part in parts]
             along = [np.broadcast_to(self.ratio(quantity, wrt=stroke), (what.rows, *self.shape)) for stroke in self.strokes]
@@ -373,7 +373,7 @@ class Motion(Shown):
         sizes, known = np.moveaxis(sizes, 0, -1), np.isfinite(matrix).all(axis=(-2, -1))
         scaled = np.where(known[..., None, None], matrix, np.eye(len(wanted))) * spans / np.where(sizes > 0.0, sizes, 1.0)[..., None]
         found = np.linalg.svd(scaled, compute_uv=False)
-        dead = known & ~(found[..., -1] * conditions.REFUSE > np.maximum(found[..., 0], 1.0))
+        dead: Mask = np.asarray(known & ~(found[..., -1] * conditions.REFUSE > np.maximum(found[..., 0], 1.0)))
         if dead.any() and self.unreachable == "raise":
             where = where_words(self.plan, dead, self.strokes)
             text = f"{title}: no stroke rates give {', '.join(dict.fromkeys(names))} {where}, at a dead point of the drive"

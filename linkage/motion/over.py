@@ -322,4 +322,5 @@ def over_of(strokes: Mapping[str, FloatArray], per_design: bool) -> Over:
     if several and not per_design and all(value.ndim == 1 for value in strokes.values()):
         return Over.path(**{name: value.tolist() for name, value in strokes.items()})
     ends = {name: (float(np.min(value)), float(np.max(value))) for name, value in strokes.items()}
-    return Over(**{name: (low, high) if low < high else low for name, (low, high) in ends.items()})
+    given: dict[str, Any] = {name: (low, high) if low < high else low for name, (low, high) in ends.items()}
+    return Over(**given)

@@ -629,7 +629,7 @@ class Combined(Request):
                 size = np.ones_like(sizes[0])
             else:
                 size = reduce(np.maximum, sizes) if self.function in LIKE_ITS_PARTS else np.full(sizes[0].shape, SMALL)
-            return np.nan_to_num(np.maximum(size, SMALL), nan=SMALL)
+            return np.asarray(np.nan_to_num(np.maximum(size, SMALL), nan=SMALL))
 
 
 NUMPY: Mapping[str, Callable[..., Any]] = MappingProxyType({name: getattr(np, name) for name in TAKEN})

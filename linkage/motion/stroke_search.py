@@ -112,7 +112,7 @@ class StrokeLine:
         if known:
             last, beyond = known[0], at[int(np.argmin(seen.reached))]
         else:
-            last, beyond = last_holding(lambda at: np.array(self.at(at).reached), inside, outside)
+            last, beyond = map(float, last_holding(lambda at: np.array(self.at(at).reached), inside, outside))
         there, plan = self.at(np.array([beyond])), self.motion.plan
         failing = (name_or_pins(plan, name) for name, mask in failures(plan, there._reading, there.shape) if mask.any())
         return float(last), next(failing, "")
@@ -136,7 +136,7 @@ class StrokeLine:
             wide = self.at(stroke(leg, t).ravel())
             return -np.array([[transmission(joint).of(wide)] for joint in moving]), wide.reached[None]
 
-        wide = self.at(stroke(*samples(counts)))
+        wide = self.at(np.asarray(stroke(*samples(counts)), float))
         angles = {joint: wide.transmission_angle(joint) for joint in wide._joints}
         moving = [joint for joint, angle in angles.items() if np.nanmax(angle) - np.nanmin(angle) > UNCHANGED]
         if not moving:

@@ -247,14 +247,13 @@ def page_data(requests: PageRequests, live: LiveText) -> PageData:
     columns = [column_data(name, each, live, requests.motion) for name, each in requests.columns.items()]
     rows, index = {name: each[0] for name, each in live.rows.items()}, {name: place for place, name in enumerate(plan.points)}
     lines = {track.name: [rows[f"track {track.name} {k}"] for k in range(4)] for track in requests.scene.tracks}
-    run, used = requests.run, {*(each[3] for each in dims), *(str(each[1]) for each in columns)}
+    run = requests.run
     depth = {index[name]: name.count(".") for name in plan.moving if name in index}
     with language("ru"):
         russian_title = plan.heading
     return {
         "count": requests.count,
         "dims": dims,
-        "units": {typeset(unit): factor(unit) for unit in ("", *UNITS) if typeset(unit) in used},
         "shown": [names.index(name) for name in shown_first(requests, names)],
         "strokes": stroke_data(requests),
         "run": len(machine.strokes) if run.is_path else list(machine.strokes).index(run.stroke),
@@ -264,10 +263,7 @@ def page_data(requests: PageRequests, live: LiveText) -> PageData:
         "rows": {"points": [[rows[f"point {name}"] + axis for axis in (0, 1)] for name in plan.points]},
         "scene": scene_data(requests.scene, lines),
         "cylinders": cylinder_data(requests.scene, rows),
-        "pressureUnit": unit_data("bar"),
-        "length": unit_data("mm"),
-        "force": unit_data("kN"),
-        "signs": signs({*used, *map(shown_in, ("bar", "mm", "kN"))}),
+        **unit_tables({*(each[3] for each in dims), *(str(each[1]) for each in columns)}),
         "joints": [{"point": name, "row": rows[key]} for name in requests.motion._joints if (key := f"joint {name}") in rows],
         "arrows": [
             {"point": index[point], "x": rows[f"arrow {k} x"], "y": rows[f"arrow {k} y"]} | ({"load": 1} if is_load else {})
@@ -284,9 +280,6 @@ def page_data(requests: PageRequests, live: LiveText) -> PageData:
         "titleRu": russian_title,
         "defaults": {name: plan.defaults[name] for name, value, *_ in dims if value != plan.defaults[name]},
         "beside": {name: value for name, value in machine.dimensions.items() if name not in names and value != plan.defaults[name]},
-        "measures": {typeset(unit): [factor(unit), measure] for unit, (_, measure) in UNITS.items()},
-        "systems": {name: {measure: typeset(unit) for measure, unit in units.items()} for name, units in SYSTEMS.items()},
-        "systemNames": SYSTEM_NAMES,
         "steps": {name: opening(plan, name) for name in plan.points},
         **verdicts_shown(requests),
         "judge": requests.questions.data(live),
@@ -297,6 +290,20 @@ def machine_text(requests: PageRequests, live: LiveText, data: PageData, parts: 
     """Return the HTML of a page of a machine, with the program that works it out and the parts that a kind of page adds."""
     most, text = max(requests.scene.colours, default=0), f"{live.text}\n{page_part('judge.js')}"
     return page_text(requests.plan.heading, data, (*MACHINE, *parts, START), language=language, most=most, text=text)
+
+
+def unit_tables(used: set[str]) -> PageData:
+    """Return what the page's script knows of units: the factors of those that are used, of all in each system, and their signs."""
+    return {
+        "units": {typeset(unit): factor(unit) for unit in ("", *UNITS) if typeset(unit) in used},
+        "pressureUnit": unit_data("bar"),
+        "length": unit_data("mm"),
+        "force": unit_data("kN"),
+        "signs": signs({*used, *map(shown_in, ("bar", "mm", "kN"))}),
+        "measures": {typeset(unit): [factor(unit), measure] for unit, (_, measure) in UNITS.items()},
+        "systems": {name: {measure: typeset(unit) for measure, unit in units.items()} for name, units in SYSTEMS.items()},
+        "systemNames": SYSTEM_NAMES,
+    }
 
 
 def unit_data(unit: str) -> PageData:

@@ -8,7 +8,6 @@ from itertools import pairwise
 import numpy as np
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 from matplotlib.patches import Polygon
 
 from ..errors import DefinitionError
@@ -20,7 +19,7 @@ from . import style
 from .drawing import Drawing
 from .layout import cloud
 from .overlays import sheet_note
-from .paper import empty_page, legend_row, write_title
+from .paper import empty_page, legend_row, look_keys, write_title
 from .pose_choice import telling_angles
 from .poses import motions, named_points, trace
 from .scene import Scene
@@ -52,8 +51,7 @@ def draw_designs(machines: Sequence[Mechanism], at: object, path: Sequence[str],
         turns = is_turn(first, Run({moving: ends}, {}))
         at = middles | ({moving: float(telling_angles(first, moving, middles)[-1])} if turns else {})
     path = named_points(first, path, "path")
-    moved = [motions(machine, at, count) for machine in designs]
-    shown, swept = [each for _, each, _ in moved], [each for _, _, each in moved]
+    _, shown, swept = zip(*(motions(machine, at, count) for machine in designs), strict=True)
     scenes = [Scene(motion, over) for motion, over in zip(shown, swept, strict=True)]
     box = joined_box([(Scene(over) if path else scene).box() for over, scene in zip(swept, scenes, strict=True)])
     texts = what_differs(designs)
@@ -74,8 +72,7 @@ def draw_designs(machines: Sequence[Mechanism], at: object, path: Sequence[str],
                 drawing.look = FAINT if look is FAINT else STRONG
                 drawing.ground()
             covered.append(cloud(scene, scene.at(pose))[::2])
-    keys = [Line2D([], [], color=look.colour(style.INK), linewidth=4.0, solid_capstyle="round") for look in looks]
-    legend_row(ax, keys, texts, columns)
+    legend_row(ax, look_keys(looks), texts, columns)
     words = []
     for name, value in shown[0].strokes.items():
         values = np.unique(np.ravel(value))

@@ -88,14 +88,12 @@ def animate(
     played = playback(machine, poses, column, at=at)
     if limit is None:
         limit = machine.featured().limits.get(played.column.name)
+    stage = Stage(played, trace, limit, GIF_DPI if kind == ".gif" else MP4_DPI)
     if kind == ".gif":  # a pose that comes twice is drawn once
-        stage = Stage(played, trace, limit, GIF_DPI)
         sample = np.concatenate([stage.frame(pose) for pose in (played.order[0], played.order[len(played.order) // 2])])
         write_gif(target, drawn_frames(stage, list(dict.fromkeys(played.order)), report), played.order, sample)
     else:
-        stage = Stage(played, trace, limit, MP4_DPI)
-        width, height = stage.canvas.get_width_height()
-        write_mp4(target, drawn_frames(stage, played.order, report), (width, height))
+        write_mp4(target, drawn_frames(stage, played.order, report), stage.canvas.get_width_height())
     return target
 
 

@@ -12,8 +12,7 @@ from matplotlib.lines import Line2D
 from ..checks import require, require_type
 from ..errors import unwarned
 from ..language import said
-from ..mechanism import Mechanism
-from ..motion import Motion, Request, clearance, gap, least, nearest_places, pair_at
+from ..motion import Motion, Request, clearance, gap, nearest_places, pair_at
 from ..motion.planes import depth_words
 from ..plan import Plan
 from ..program import FloatArray
@@ -80,12 +79,6 @@ def worst_pose(motion: Motion, given: object, shown: int) -> int:
     values = np.where(np.isfinite(values), values, np.inf)
     worst = int(np.argmin(values))
     return worst if values[worst] < values[shown] else shown
-
-
-def worst_strokes(machine: Mechanism, given: object) -> dict[str, float]:
-    """Return the strokes at which the gap is least wherever the machine runs."""
-    (answer,) = machine.answers([least(gap_request(given, machine.plan))])
-    return {name: float(value) for name, value in answer.strokes.items()}
 
 
 def gap_mark(at: Motion, given: object, place: str = "") -> GapMark:

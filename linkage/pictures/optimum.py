@@ -27,7 +27,7 @@ from .curves import WIDEST, axis_range, leaf_bound, limit_on, mark_limit, panel_
 from .drawing import draw_scene
 from .labels import offsets
 from .layout import label_free
-from .paper import legend_row, sheets_beside, write_title
+from .paper import legend_row, look_keys, sheets_beside, write_title
 from .scene import Places, Scene
 from .sheet import haloed, joined_box, points_a_metre
 from .strokes import StrokeAxis, stroke_words
@@ -60,8 +60,7 @@ def draw_optimum(optimum: Optimum, count: int = POSES) -> Figure:
         overlaid(ax, before, after, pose)
         ax.set_title(stroke_words(after.plan, name, float(after.strokes[name][pose])), fontsize=style.TEXT, color=style.MUTED, loc="right")
     write_title(figure, after.plan.heading)
-    keys = [Line2D([], [], color=look.colour(style.INK), linewidth=4.0, solid_capstyle="round") for look in (FAINT, STRONG)]
-    legend_row(axes[0], [*keys, Line2D([], [], color=style.ACCENT, linewidth=1.4)], ["before", "after", "moved, mm"])
+    legend_row(axes[0], [*look_keys([FAINT, STRONG]), Line2D([], [], color=style.ACCENT, linewidth=1.4)], ["before", "after", "moved, mm"])
     return figure
 
 

@@ -8,10 +8,12 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from . import style
 from .scene import Bounds
 from .sheet import empty_figure, figure_of, joined_box, renderer_of, sheet
+from .style import Look
 
 WIDTH = 9.0
 LEAST, MOST = 3.0, 10.0
@@ -74,6 +76,11 @@ def remark(figure: Figure, ax: Axes, text: str) -> None:
 def footnote(figure: Figure, text: str) -> None:
     """Write in small letters, below the sheet's right end, how to read the picture."""
     at_right(figure, 0.11 / float(figure.get_figheight()), text, style.SMALL, style.MUTED)
+
+
+def look_keys(looks: Sequence[Look]) -> list[Line2D]:
+    """Return a thick line for each look, for a legend."""
+    return [Line2D([], [], color=look.colour(style.INK), linewidth=4.0, solid_capstyle="round") for look in looks]
 
 
 def legend_row(ax: Axes, keys: Sequence[Any], texts: Sequence[str], columns: int = 6) -> None:

@@ -8,13 +8,12 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
 from ..checks import require, require_type, require_whole
 from ..errors import DefinitionError, known_name
 from ..language import said, said_of
 from ..mechanism import Mechanism, require_mechanism
-from ..motion import Motion
+from ..motion import Motion, least
 from ..plan import require_kinds
 from ..program import FloatArray
 from ..quantities import is_whole, numbers_in
@@ -22,10 +21,10 @@ from ..reports import Run, first_stroke, reached_motion, stroke_middles
 from . import style
 from .drawing import Drawing, draw_scene, mechanism
 from .free_body import draw_free_body
-from .gap_marks import worst_strokes
+from .gap_marks import gap_request
 from .layout import cloud, surrounding_points
 from .overlays import Overlays
-from .paper import empty_page, legend_row, remark, write_title
+from .paper import empty_page, legend_row, look_keys, remark, write_title
 from .pose_choice import telling_angles
 from .scene import Pose, Scene
 from .sheet import grown
@@ -64,11 +63,18 @@ def draw_pose(motion: Motion, pose: Pose, overlays: Overlays, faint: bool) -> Fi
     index = scene.index(pose)
     if overlays.forces is not None and overlays.forces.body:
         return draw_free_body(motion, index, overlays.forces)
-    if overlays:
-        figure = draw_laid_over(motion, index, overlays)
+    laid = overlays.over(motion, index, scene.box()) if overlays else None
+    figure, ax = empty_page(laid.box(scene.size) if laid else scene.box())
+    if laid is None:
+        mechanism(ax, motion, pose, faint=faint)
     else:
-        figure, own = empty_page(scene.box())
-        mechanism(own, motion, pose, faint=faint)
+        worst, at = overlays.worst(motion, index), scene.at(index)
+        if worst is not None:
+            Drawing(ax, scene, FAINT).update(worst)
+        draw_scene(ax, scene, index, [laid.covered(scene.size)])
+        overlays.centrodes(ax, motion)
+        laid.draw(ax, scene.size, np.concatenate([cloud(scene, at), surrounding_points(scene, at)]))
+        legend_row(ax, *ax.get_legend_handles_labels())
     write_title(figure, motion.plan.heading, pose_words(motion, index))
     return figure
 
@@ -77,7 +83,8 @@ def draw_strokes(machine: Mechanism, at: object, path: Sequence[str], count: int
     """Return a figure of a mechanism at chosen strokes: the last one bold, the others faint, what is laid over it at that one."""
     path = named_points(machine, path, "path")
     if overlays.has_gap and at is None:
-        at = worst_strokes(machine, overlays.clearance)  # no others: what it runs may be less than its strokes
+        (answer,) = machine.answers([least(gap_request(overlays.clearance, machine.plan))])
+        at = {name: float(value) for name, value in answer.strokes.items()}  # no others: what it runs may be less than its strokes
     require_whole("count", count, "a path is drawn through 2 poses or more; give a whole number such as 101", least=2, most=MANY)
     moving, shown, swept = motions(machine, at, count)
     whole, last = Scene(swept), Scene(shown).reached[-1]
@@ -107,22 +114,6 @@ def draw_strokes(machine: Mechanism, at: object, path: Sequence[str], count: int
         remark(figure, ax, unreached_words(swept, moving[0]))
     elif lost:
         remark(figure, ax, said("not reached at {lost} of {all} poses on the way", lost=lost, all=swept.reached.size))
-    return figure
-
-
-def draw_laid_over(motion: Motion, pose: int, overlays: Overlays) -> Figure:
-    """Return a figure of a motion at a pose, a flat index, with what is laid over it and what its colours mean."""
-    scene = Scene(motion)
-    laid = overlays.over(motion, pose, scene.box())
-    figure, ax = empty_page(laid.box(scene.size))
-    worst = overlays.worst(motion, pose)
-    if worst is not None:
-        Drawing(ax, scene, FAINT).update(worst)
-    draw_scene(ax, scene, pose, [laid.covered(scene.size)])
-    overlays.centrodes(ax, motion)
-    at = scene.at(pose)
-    laid.draw(ax, scene.size, np.concatenate([cloud(scene, at), surrounding_points(scene, at)]))
-    legend_row(ax, *ax.get_legend_handles_labels())
     return figure
 
 
@@ -180,8 +171,7 @@ def write_heading(figure: Figure, ax: Axes, shown: Motion, moving: Sequence[str]
     scene = Scene(shown)
     held = [name for name in shown.strokes if name not in moving]
     write_title(figure, shown.plan.heading, said("at {place}", place=pose_words(shown, 0, held)) if held else "")
-    looks = [FAINT] * (len(scene.reached) - 1) + [STRONG]
-    keys = [Line2D([], [], color=look.colour(style.INK), linewidth=4.0, solid_capstyle="round") for look in looks]
+    keys = look_keys([FAINT] * (len(scene.reached) - 1) + [STRONG])
     texts = [pose_words(shown, pose, moving) for pose in scene.reached]
     lines, names = ax.get_legend_handles_labels()
     legend_row(ax, [*keys, *lines], [*texts, *names])

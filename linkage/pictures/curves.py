@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from ..checks import require, require_type
-from ..errors import DefinitionError, cited, known_name, unknown
+from ..errors import DefinitionError, cited, known_name
 from ..language import said, translated
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, Request, RequestLike, columns_of
@@ -43,8 +43,7 @@ def plot_motion(motion: Motion, columns: Sequence[Column | RequestLike], limits:
     given = dict(limits or {})
     shown = [column for column in columns if column.name not in motion.strokes]
     for name in given:
-        if name not in [column.name for column in columns]:
-            raise unknown("Column", name, [column.name for column in columns], where="limits")
+        known_name("Column", name, [column.name for column in columns], where="limits")
     if not shown:
         raise DefinitionError(f"{motion.plan.title}: there is no column to draw over {along.name}; name a result, not a stroke.")
     figure, cells = panel_grid(len(shown), motion.plan.heading, along.held)

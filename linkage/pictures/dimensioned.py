@@ -144,7 +144,10 @@ def placed_dimensions(scene: Scene, at: Places, pose: int, scale: float, box: Bo
         places = line_choices(text, *ends, letter) if corner is None else arc_choices(text, corner, *ends, letter)
         choices: list[LengthLine | AngleArc] = [each for each in places if np.all((each.covered > low) & (each.covered < high))]
         points = np.concatenate(taken)
-        costs = [covering(each, points) + 1.2 * (rank // 2) for rank, each in enumerate(choices)]
+        costs = []
+        for rank, each in enumerate(choices):  # how many of the points that it would cover lie within a letter of one that is taken
+            near = (np.abs(each.covered[:, None] - points) < 0.7 * each.letter).all(axis=2)
+            costs.append(float(np.count_nonzero(near.any(axis=1))) + 1.2 * (rank // 2))
         if costs and min(costs) < MOST:
             best = choices[int(np.argmin(costs))]
             taken.append(best.covered)
@@ -202,10 +205,3 @@ def arc_choices(text: str, corner: FloatArray, P: FloatArray, Q: FloatArray, let
     for radius in RADII:
         if sweep > 1e-6 and least > 0.7 * radius * letter:
             yield AngleArc(text, corner, start, start + sweep, radius * letter, letter)
-
-
-def covering(each: LengthLine | AngleArc, taken: FloatArray) -> float:
-    """Return how many of the points that a dimension would cover lie within a letter of one that is taken."""
-    off_x, off_y = (np.abs(each.covered[:, axis, None] - taken[:, axis]) for axis in (0, 1))
-    near = (off_x < 0.7 * each.letter) & (off_y < 0.7 * each.letter)
-    return float(np.count_nonzero(near.any(axis=1)))

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from types import MappingProxyType
-from typing import final
+from typing import Any, final
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.patheffects import withStroke
 
 from ..plan import Mask
 from ..program import FloatArray
 from . import style
 from .scene import Bounds, Places
 from .shapes import polar
+from .sheet import haloed_beside
 from .style import Look
 from .symbols import MovingPart
 
@@ -47,13 +47,11 @@ class LabelPart(MovingPart):
         font = font * (MINOR if minor else 1.0)
         leader = {"arrowstyle": "-", "color": look.colour(style.MUTED), "linewidth": 0.8, "shrinkA": 0.0, "shrinkB": 0.6 * gap}
         self.is_led = bool(distance_to_box(offset, half_of(text, font)) > LED * gap)
-        self.text = ax.annotate(
-            text, (0, 0), xytext=(float(offset[0]), float(offset[1])), textcoords="offset points", ha="center", va="center_baseline",
-            fontsize=font, fontstyle="italic", color=look.colour(style.MUTED if minor else style.INK), zorder=look.level + 1.0,
-            annotation_clip=False,
-            path_effects=[withStroke(linewidth=2.5, foreground=style.PAPER)], arrowprops=leader if self.is_led else None,
-            bbox={"boxstyle": "square,pad=0.05", "facecolor": "none", "edgecolor": "none"},
-        )  # fmt: skip
+        colour = look.colour(style.MUTED if minor else style.INK)
+        more: dict[str, Any] = {"ha": "center", "fontstyle": "italic", "zorder": look.level + 1.0}
+        more["bbox"] = {"boxstyle": "square,pad=0.05", "facecolor": "none", "edgecolor": "none"}
+        more["arrowprops"] = leader if self.is_led else None
+        self.text = haloed_beside(ax, text, np.zeros(2), offset, font, colour, **more)
         self.artists = (self.text,)
 
     def move(self, at: Places) -> None:

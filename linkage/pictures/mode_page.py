@@ -41,7 +41,10 @@ def draw_modes(modes: Sequence[Assembly]) -> Figure:
     extent = float(np.max(boxes[:, 1] - boxes[:, 0])), float(np.max(boxes[:, 3] - boxes[:, 2]))  # what any of them takes [m]
     across = min(ACROSS, len(shown))
     rows = -(-len(shown) // across)
-    texts = [code_lines(mode) for mode in shown]
+    wide, texts = int(PANEL * 72.0 / (0.602 * CODE)), []
+    for mode in shown:  # its code, wrapped; of the declared one that it is that
+        code = [line for each in mode.code.splitlines() for line in textwrap.wrap(each, wide, subsequent_indent="    ")]
+        texts.append([said("as declared"), *([f"# {mode}"] if str(mode) else [])] if mode.is_declared else code)
     high = PANEL * float(np.clip(extent[1] / extent[0], 0.5, 1.3))
     code_room = LINE * max(map(len, texts)) + 0.12
     width, height = max(2, across) * (PANEL + GAP) + GAP, HEAD_ROOM + rows * (high + code_room + GAP) + 0.3
@@ -91,11 +94,3 @@ def draw_mode(ax: Axes, mode: Assembly, scene: Scene, extent: tuple[float, float
         )
         return
     draw_scene(ax, scene, scene.reached[0], (), all_points=False, font=NAMES)
-
-
-def code_lines(mode: Assembly) -> list[str]:
-    """Return what is written below a mode: its code, wrapped; for the declared one that it is that."""
-    if mode.is_declared:
-        return [said("as declared"), *([f"# {mode}"] if str(mode) else [])]
-    wide = int(PANEL * 72.0 / (0.602 * CODE))
-    return [line for each in mode.code.splitlines() for line in textwrap.wrap(each, wide, subsequent_indent="    ")]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from functools import partial
 from textwrap import fill
 from typing import TypeAlias
 
@@ -29,7 +28,7 @@ from .labels import offsets
 from .layout import label_free
 from .paper import legend_row, look_keys, sheets_beside, write_title
 from .scene import Places, Scene
-from .sheet import haloed, joined_box, points_a_metre
+from .sheet import haloed_beside, joined_box, points_a_metre
 from .strokes import StrokeAxis, stroke_words
 from .style import FAINT, STRONG
 from .symbols import arrow_between
@@ -93,10 +92,10 @@ def name_points(ax: Axes, scene: Scene, at: Places, moves: Mapping[str, float], 
         split = middle - 0.5 * CHARACTER * font * len(text) + CHARACTER * font * (len(name) + 0.6)
         side, level = "right" if name in moves else "center", STRONG.level + 1.0
         here = np.array([split, height])
-        haloed(ax, name, at[name], font, style.INK, 2.5, here, ha=side, fontstyle="italic", zorder=level)
+        haloed_beside(ax, name, at[name], here, font, style.INK, ha=side, fontstyle="italic", zorder=level)
         if name in moves:
-            beside = np.array([split + 0.25 * font, height])
-            haloed(ax, text.removeprefix(name).strip(), at[name], style.SMALL, style.ACCENT, 2.5, beside, ha="left", zorder=level)
+            far, beside = text.removeprefix(name).strip(), np.array([split + 0.25 * font, height])
+            haloed_beside(ax, far, at[name], beside, style.SMALL, style.ACCENT, ha="left", zorder=level)
 
 
 CHARACTER = 0.6
@@ -143,16 +142,14 @@ MARKS = {"==": "x", ">=": "^", "<=": "v"}
 BEFORE, AFTER = (style.MUTED, 1.4), (style.CURVE, style.BOLD)
 
 
-def is_one_of(leaves: Sequence[Leaf], leaf: Leaf) -> bool:
-    """Return whether a leaf is one of some, itself: that two are equal would be a condition."""
-    return any(leaf is each for each in leaves)
-
-
 def course_panel(ax: Axes, problem: Problem, leaves: Sequence[Leaf], before: Course, after: Course) -> None:
     """Draw one quantity over its stroke before and after, with its limits and the values that are prescribed at one pose."""
     stroke, *old = before
     _, *new = after
-    is_shown = partial(is_one_of, leaves)
+
+    def is_shown(leaf: Leaf) -> bool:
+        return any(leaf is each for each in leaves)  # itself: that two are equal would be a condition
+
     limits = [limit for each in problem.constraints if (limit := limit_on(each, is_shown)) is not None]
     unit, name = shown_in(stroke_display_unit(problem.plan, stroke, "mm")), typeset(words_of(leaves[0].quantity))
     both, column, shadow = (

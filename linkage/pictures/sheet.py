@@ -14,7 +14,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
-from matplotlib.text import Text
+from matplotlib.text import Annotation, Text
 from matplotlib.ticker import FuncFormatter, MaxNLocator, ScalarFormatter
 
 from ..disk import check_place, replacing
@@ -129,16 +129,20 @@ def points_a_metre(ax: Axes) -> float:
     return float(np.hypot(*(ends[1] - ends[0]))) * 72.0 / figure_of(ax).dpi
 
 
-def haloed(
-    ax: Axes, text: str, at: FloatArray, size: float, colour: str, halo: float = 2.2, offset: FloatArray | None = None, **look: Any
-) -> Text:
-    """Write a text with a rim of paper around its letters, at a place [m], or at an offset [points] from it, shape (2,) each."""
-    look |= {"fontsize": size, "color": colour, "path_effects": [withStroke(linewidth=halo, foreground=style.PAPER)]}
+def haloed(ax: Axes, text: str, at: FloatArray, size: float, colour: str, halo: float = 2.2, **look: Any) -> Text:
+    """Write a text at a place [m], shape (2,), with a rim of paper around its letters."""
     x, y = np.asarray(at, float).tolist()
-    if offset is None:
-        return ax.text(x, y, text, **look)
-    beside = tuple(np.asarray(offset, float).tolist())
-    return ax.annotate(text, (x, y), beside, textcoords="offset points", va="center_baseline", annotation_clip=False, **look)
+    rim = [withStroke(linewidth=halo, foreground=style.PAPER)]
+    return ax.text(x, y, text, fontsize=size, color=colour, path_effects=rim, **look)
+
+
+def haloed_beside(
+    ax: Axes, text: str, at: FloatArray, offset: FloatArray, size: float, colour: str, halo: float = 2.5, **look: Any
+) -> Annotation:
+    """Write a text at an offset [points] from a place [m], shape (2,) each, with a rim of paper around its letters."""
+    (x, y), (across, up) = np.asarray(at, float).tolist(), np.asarray(offset, float).tolist()
+    look |= {"fontsize": size, "color": colour, "path_effects": [withStroke(linewidth=halo, foreground=style.PAPER)]}
+    return ax.annotate(text, (x, y), (across, up), textcoords="offset points", va="center_baseline", annotation_clip=False, **look)
 
 
 def figure_of(ax: Axes) -> Figure:

@@ -29,7 +29,7 @@ from .paper import LEFT, sheets_beside, write_title
 from .poses import trace
 from .scene import Bounds, Scene
 from .shapes import polar
-from .sheet import figure_of, grown, haloed, points_a_metre
+from .sheet import figure_of, grown, haloed_beside, points_a_metre
 from .strokes import StrokeAxis, stroke_words
 from .style import FAINT
 
@@ -213,7 +213,7 @@ def number_points(ax: Axes, shown: ShownAnswer, ends: FloatArray) -> FloatArray:
     taken = np.concatenate([cloud(shown.scene, shown.scene.at(0))[::2], path[np.isfinite(path).all(axis=1)], wanted, ends])
     covered = []
     for number, spot in offsets([*at], [at], [taken], scale, 5.0, style.SMALL).items():
-        haloed(ax, number, at[number], style.SMALL, style.CURVE, offset=spot, ha="center", fontweight="bold", zorder=12.6)
+        haloed_beside(ax, number, at[number], spot, style.SMALL, style.CURVE, 2.2, ha="center", fontweight="bold", zorder=12.6)
         covered += [at[number] + (spot + 0.3 * style.SMALL * np.array(corner)) / scale for corner in CORNERS]
     return np.array(covered)
 

@@ -263,7 +263,7 @@ def drawing_of(job: ExportJob) -> tuple[list[DrawnPose], tuple[Part, ...], str]:
     indices = [int(each) for each in np.flatnonzero(np.broadcast_to(motion.reached, motion.shape).ravel())] if motion.shape else [0]
     if len(indices) > MOST_POSES:
         raise DefinitionError(f"{motion.plan.title}: {len(indices)} poses do not go into one drawing; choose up to {MOST_POSES}.")
-    poses = [(pose_words(motion, index), tuple(pose_parts(motion, index))) for index in indices]
+    poses: list[DrawnPose] = [(pose_words(motion, index), tuple(pose_parts(motion, index))) for index in indices]
     return poses, path_parts(path, job.trace), motion.plan.heading
 
 

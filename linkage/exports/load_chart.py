@@ -60,24 +60,19 @@ def chart_workbook(field: WorkingField, name: str) -> bytes:
         looks: tuple[dict[str, object], ...] = ({"bold": True}, {"num_format": "0.00"}, {"bold": True, "num_format": "0.00"})
         bold, number, length = map(book.add_format, looks)
         chart, letters, cells = (book.add_worksheet(each) for each in ("Chart", "Limiters", "Cells"))
-        across, down = text.across.tolist(), text.down.tolist()
-        for sheet, title in ((chart, text.title), (letters, text.title)):
-            sheet.write_string(0, 0, title, bold)
-            for column, n in enumerate(across):
-                sheet.write_number(1, 1 + column, float(field.x[n]) / factor(shown_in("m")), length)
-            for row, k in enumerate(down):
-                sheet.write_number(2 + row, 0, float(field.y[k]) / factor(shown_in("m")), length)
-        for row, k in enumerate(down):
-            for column, n in enumerate(across):
+        for sheet in (chart, letters):
+            sheet.write_string(0, 0, text.title, bold)
+            sheet.write_row(1, 1, (field.x[text.across] / factor(shown_in("m"))).tolist(), length)
+            sheet.write_column(2, 0, (field.y[text.down] / factor(shown_in("m"))).tolist(), length)
+        for row, k in enumerate(text.down.tolist()):
+            for column, n in enumerate(text.across.tolist()):
                 load, limiter = float(field.load[k, n]), str(field.limiter[k, n])
                 if np.isfinite(load):
                     chart.write_number(2 + row, 1 + column, load / text.load_size, number)
                 if limiter != OUT_OF_REACH:
                     letters.write_string(2 + row, 1 + column, text.letters.get(limiter, ""))
-        for row, line in enumerate(text.legend()):
-            chart.write_string(3 + len(down) + row, 0, line)
+        chart.write_column(3 + len(text.down), 0, text.legend())
         for row, values in enumerate(cell_table(field)):
-            for column, value in enumerate(values):
-                cells.write(row, column, value, None if row else bold)
+            cells.write_row(row, 0, values, None if row else bold)
         cells.freeze_panes(1, 0)
     return stream.getvalue()

@@ -124,8 +124,7 @@ class Sheets:
         sheet.write_string(1, 0, about[0] if about else "", self.muted)
         sheet.write_string(2, 0, "Type over a number on yellow; all sheets follow. SI and radians in the calculation.", self.muted)
         row = 4
-        for column, text in enumerate(("Dimension", "Value", "Unit", "SI value", "Name in formulas", "Note")):
-            sheet.write_string(row, column, text, self.head)
+        sheet.write_row(row, 0, ("Dimension", "Value", "Unit", "SI value", "Name in formulas", "Note"), self.head)
         owner, titles = None, self.calculation.equations.part_titles
         owners = list(dict.fromkeys(["", *map(self.calculation.owner, design.dimensions)]))
         for name in sorted(design.dimensions, key=lambda each: owners.index(self.calculation.owner(each))):
@@ -186,11 +185,9 @@ class Sheets:
 
     def _strokes(self, sheet: Worksheet) -> None:
         """Write the ends of the stroke that runs and the others' values, then all strokes at every pose."""
-        calculation, strokes = self.calculation, self.strokes
-        plan, run = self.design.plan, calculation.run
+        strokes, plan, run = self.strokes, self.design.plan, self.calculation.run
         sheet.set_column(0, 6, 15)
-        for column, text in enumerate(("Stroke", "From", "To", "Unit", "From, SI", "To, SI", "Note")):
-            sheet.write_string(0, column, text, self.head)
+        sheet.write_row(0, 0, ("Stroke", "From", "To", "Unit", "From, SI", "To, SI", "Note"), self.head)
         for row, name in enumerate(strokes, 1):
             unit, runs = stroke_display_unit(plan, name, "mm"), name in run.ways
             sheet.write_string(row, 0, name, self.text)
@@ -202,16 +199,18 @@ class Sheets:
             sheet.write_string(row, 3, unit, self.muted)
             sheet.write_string(row, 6, f"{self.count} poses from one end to the other" if runs else "held", self.muted)
         top = self._stroke_head
-        for column, (name, unit) in enumerate((("pose", ""), *((name, stroke_unit(plan, name)) for name in strokes))):
-            sheet.write_string(top - 1, column, f"{name}, {unit}" if unit else name, self.head)
+        sheet.write_row(top - 1, 0, ("pose", *(f"{name}, {stroke_unit(plan, name)}" for name in strokes)), self.head)
         for pose in range(self.count):
             sheet.write_number(top + pose, 0, pose, self.plain)
             for column, name in enumerate(strokes, 1):
-                value = float(np.broadcast_to(calculation.stroke_values[name], (self.count,))[pose])
                 text = start = self.defined_names[name, "from"]
                 if name in run.ways:
                     text += f"+({self.defined_names[name, 'to']}-{start})*A{top + pose + 1}/{self.count - 1}"
-                sheet.write_formula(top + pose, column, f"={text}", self.plain, value)
+                sheet.write_formula(top + pose, column, f"={text}", self.plain, self._stroke_value(name, pose))
+
+    def _stroke_value(self, name: str, pose: int) -> float:
+        """Return a stroke's value at a pose [SI]."""
+        return float(np.broadcast_to(self.calculation.stroke_values[name], (self.count,))[pose])
 
     @property
     def _stroke_head(self) -> int:
@@ -256,9 +255,8 @@ class Sheets:
             row = self.above + pose
             sheet.write_formula(row, 0, f"=Strokes!A{self._stroke_head + pose + 1}", self.plain, pose)
             for column, name in enumerate(strokes, 1):
-                value = float(np.broadcast_to(self.calculation.stroke_values[name], (self.count,))[pose])
                 text = f"=Strokes!{column_letters(column)}{self._stroke_head + pose + 1}"
-                sheet.write_formula(row, column, text, self._format(1.0, False), value)
+                sheet.write_formula(row, column, text, self._format(1.0, False), self._stroke_value(name, pose))
         for place, text in self.calculation.headings.items():
             sheet.write_string(0, self._sheet_column(place), text, self.part)
         for place, each in enumerate(self.calculation.columns):

@@ -282,7 +282,7 @@ def place_wordings(ax: Axes, texts: Sequence[Wording], covered: FloatArray) -> N
     renderer = renderer_of(figure_of(ax))
     ax.apply_aspect()
     inside = ax.get_window_extent(renderer)
-    boxes = [each.extents for each in text_boxes(ax)]
+    boxes = [np.array(each.extents) for each in text_boxes(ax)]
     points = ax.transData.transform(covered) if covered.size else np.empty((0, 2))
     chosen: list[PlacedWording] = []
     near = [np.count_nonzero(np.hypot(*(points - ax.transData.transform(each.at)).T) < 40.0) for each in texts]
@@ -318,7 +318,7 @@ def scale_bar(ax: Axes, layer: ArrowLayer, scale: float, covered: FloatArray) ->
     if not scale > 0.0:
         return np.empty((0, 2))
     most = 0.8 * layer.largest / layer.factor
-    power = 10.0 ** float(np.floor(np.log10(most)))
+    power = float(10.0 ** np.floor(np.log10(most)))
     value = max(each * power for each in (1.0, 2.0, 5.0) if each * power <= most * (1.0 + 1e-12))
     length = value * layer.factor * scale
     (x0, x1), (y0, y1) = ax.get_xlim(), ax.get_ylim()

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from functools import reduce
-from typing import TypeAlias, final
+from typing import Any, TypeAlias, final
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from ..errors import DefinitionError, LawError, LinkageError, UntracedError, unw
 from ..language import heading_of, language
 from ..loads import PLAIN_CASE
 from ..mechanism import Mechanism
-from ..motion import Condition, HasVerdicts, LiveText, Motion, Over, Request, RequestLike, least, most, speakers
+from ..motion import Column, Condition, HasVerdicts, LiveText, Motion, Over, Request, RequestLike, least, most, speakers
 from ..motion.judge import Sought, measures_of
 from ..motion.measures import At, CombinedMeasure, Constraint, Given, Integral, Leaf, Measure, conditions_of, dimension_value
 from ..motion.over import ALLOWED
@@ -22,7 +22,7 @@ from ..motion.requests import NodeRequest, bound
 from ..plan import Plan
 from ..program import Node
 from ..quantities import is_number, quantity
-from ..reports import LiveColumn, is_column
+from ..reports import is_column
 from ..units import display_unit, factor, shown_in
 from .browser_file import PageData
 from .curves import limit_of, typeset
@@ -51,7 +51,9 @@ def where_true(request: Request, which: str) -> NodeRequest:
 class LiveQuestions:
     """The questions of a page, and the rows that they ask the program for, by names of their own."""
 
-    def __init__(self, machine: Mechanism, limits: Mapping[str, Sequence[object]], columns: Mapping[str, LiveColumn], over: object) -> None:
+    def __init__(
+        self, machine: Mechanism, limits: Mapping[str, Sequence[object]], columns: Mapping[str, tuple[Column, Any, str]], over: object
+    ) -> None:
         self.machine, self.judge = machine, machine.judge(over)
         self.by_name: dict[str, RequestLike] = {}
         self.only = [[self.new_row(each.margin, " only") for each in place.over.only] for place in self.judge.places]

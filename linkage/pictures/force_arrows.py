@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from typing import TypeAlias, final
+from typing import Any, TypeAlias, final
 
 import numpy as np
 
@@ -25,7 +25,7 @@ PIN, LOAD, MEMBER, GROUND = "#0072b2", "#d55e00", "#007f5c", "#000000"
 """The colours of pin forces, loads, the ends of cylinders and springs, and of the ground under supports: Okabe and Ito's, one darker."""
 
 FRAME = "frame"
-Rates: TypeAlias = Mapping[str, object] | None
+Rates: TypeAlias = Mapping[str, Any] | None
 
 SENSE = noted("A pin force is drawn as it acts on the body named; where none is named, from the frame on what it holds.")
 

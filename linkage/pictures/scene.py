@@ -540,7 +540,7 @@ class Scene:
     def contours(self) -> tuple[DrawnMark, ...]:
         """What steps draw of themselves, behind the bodies."""
         found = [each for step in self.motion.plan.points.values() for each in step.outline(self.motion._reading)]
-        forms = [(each.P, each.Q, shapes.keeping(np.column_stack(each.corners), fill="ROD", closed=True)) for each in found]
+        forms = [(each.P, each.Q, shapes.keeping(each.corners.T, fill="ROD", closed=True)) for each in found]
         return tuple(DrawnMark(joined_names(P, Q), (P, Q), (form,), -0.1) for P, Q, form in forms)
 
     def _lengths(self, P: str, Q: str) -> tuple[float, float]:
@@ -581,7 +581,7 @@ class Scene:
     @cached_property
     def rims(self) -> Places:
         """The two ends of every track at every pose, shape (2, n) each [m]."""
-        found, pad = {}, MARGIN * self.size
+        found, pad = dict[str, FloatArray](), MARGIN * self.size
         for track, other in zip(self.tracks, self._whole.tracks, strict=True):
             lows, highs = zip(track.travel(self.places), other.travel(self._whole.places), strict=True)
             low, high = (min(lows), max(highs)) if min(lows) <= max(highs) else (0.0, 0.0)

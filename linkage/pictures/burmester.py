@@ -27,7 +27,8 @@ ARM = 0.09
 
 def draw_burmester(found: Burmester) -> Figure:
     """Return a figure of the two curves and the links in the first pose, those of the best machine bold with its coupler."""
-    box = shown_box(found)
+    chosen = best_pins(found)
+    box = shown_box(found, chosen)
     figure, ax = empty_page(box)
     side = max(box[1] - box[0], box[3] - box[2])
     keys: list[Line2D] = []
@@ -45,7 +46,6 @@ def draw_burmester(found: Burmester) -> Figure:
             ax.plot(*broken_line(branch, 4.0 * side), color=colour, linewidth=1.6, zorder=3.0)
         keys.append(Line2D([], [], color=colour, linewidth=1.6 if branches else 0.0, marker=marker, markeredgecolor=style.INK))
         texts.append(text)
-    chosen = best_pins(found)
     if len(chosen):
         ax.fill(*np.concatenate([chosen, found.poses[:1, :2]]).T, facecolor=style.BODIES[0], edgecolor=style.INK, alpha=0.35, zorder=1.5)
     for link in found.links:
@@ -59,14 +59,13 @@ def draw_burmester(found: Burmester) -> Figure:
     return figure
 
 
-def shown_box(found: Burmester) -> Bounds:
-    """Return the box that is shown [m]: about poses, region, and the best machine's pins."""
+def shown_box(found: Burmester, pins: FloatArray) -> Bounds:
+    """Return the box that is shown [m]: about poses, region, and the best machine's pins (2, 2) [m]."""
     shapes = found.region.within if found.region is not None else ()
     parts = [found.poses[:, :2], *(shape.box for shape in shapes)]
-    pins = best_pins(found)
     places = [link.places for link in found.links if any(np.allclose(link.point, pin) for pin in pins) or len(found.poses) == 5]
     centres = [link.centre[None] for link in found.links if len(found.poses) == 5 and not link.slides]
-    cloud = np.concatenate([*parts, *places, *centres, *([pins] if len(pins) else [])])
+    cloud = np.concatenate([*parts, *places, *centres, pins])
     cloud = cloud[np.isfinite(cloud).all(axis=1)]
     near = np.abs(cloud - np.median(cloud, axis=0)).max(axis=1) <= 12.0 * max(float(np.ptp(parts[0], axis=0).max()), 1e-9)
     low, high = cloud[near].min(axis=0), cloud[near].max(axis=0)

@@ -17,7 +17,7 @@ from .force_arrows import FRAME, ForceQuestion, drawn_body, force_layer, forces_
 from .labels import LabelPart, offsets
 from .overlays import sheet_note
 from .paper import BOTTOM, LEFT, RIGHT, TOP, footnote, legend_row, write_title
-from .scene import Bounds, Places, Plate, Scene
+from .scene import Places, Plate, Scene
 from .shapes import hull, segment
 from .sheet import empty_figure, fitted_to, grown, points_a_metre, sheet
 from .strokes import pose_words
@@ -46,7 +46,7 @@ def draw_free_body(motion: Motion, pose: int, question: ForceQuestion) -> Figure
     figure = empty_figure(FREE_WIDTH, FREE_HEIGHT)
     low, high, wide = BOTTOM / FREE_HEIGHT, (FREE_HEIGHT - BOTTOM - TOP) / FREE_HEIGHT, FREE_WIDTH - POLYGON - LEFT - 2.0 * RIGHT
     ax = figure.add_axes((LEFT / FREE_WIDTH, low, wide / FREE_WIDTH, high))
-    sheet(ax, free.box())
+    sheet(ax, free.box)
     beside = figure.add_axes((1.0 - (POLYGON + RIGHT) / FREE_WIDTH, low, POLYGON / FREE_WIDTH, high))
     beside.set_axis_off()
     free.draw(ax)
@@ -78,26 +78,21 @@ def closing_words(layer: ArrowLayer, body: str) -> str:
 
 @final
 class FreeBodyPicture:
-    """One body at a pose with the forces on it."""
+    """One body at a pose with the forces on it; `box` is the sheet's, with room for all arrows [m]."""
 
     def __init__(self, body: str, points: tuple[str, ...], scene: Scene, at: Places, layer: ArrowLayer) -> None:
         self.body, self.points, self.scene, self.at, self.layer = body, points, scene, at, layer
         places = np.array([at[name] for name in points] + [each.at for each in layer.arrows])
-        self.places = places[np.isfinite(places).all(axis=1)].reshape(-1, 2)
-        low, high = self.places.min(axis=0, initial=np.inf), self.places.max(axis=0, initial=-np.inf)
-        long = float(np.max(high - low, initial=0.0)) if self.places.size else 0.0
-        self.extent = long if long > 0.0 else 20.0 * scene.size
-        self.size = 0.02 * self.extent
-        middle = 0.5 * (low + high) if self.places.size else np.zeros(2)
-        half = 0.5 * np.maximum(high - low, 0.45 * self.extent) if self.places.size else np.full(2, 0.5 * self.extent)
-        self.bare: Bounds = (middle[0] - half[0], middle[0] + half[0], middle[1] - half[1], middle[1] + half[1])
-        self.scale = layer.scale((0.0, self.extent, 0.0, self.extent), FREE_SHARE)
-
-    def box(self) -> Bounds:
-        """Return the sheet's box with room for all arrows [m]."""
+        places = places[np.isfinite(places).all(axis=1)].reshape(-1, 2)
+        low, high = places.min(axis=0, initial=np.inf), places.max(axis=0, initial=-np.inf)
+        long = float(np.max(high - low, initial=0.0)) if places.size else 0.0
+        extent = long if long > 0.0 else 20.0 * scene.size
+        self.size, self.scale = 0.02 * extent, layer.scale((0.0, extent, 0.0, extent), FREE_SHARE)
+        middle = 0.5 * (low + high) if places.size else np.zeros(2)
+        half = 0.5 * np.maximum(high - low, 0.45 * extent) if places.size else np.full(2, 0.5 * extent)
         pad = 5.0 * self.size
-        left, right, bottom, top = self.bare
-        return grown((left - pad, right + pad, bottom - pad, top + pad), self.layer.tips(self.scale), pad)
+        (left, bottom), (right, top) = (middle - half - pad).tolist(), (middle + half + pad).tolist()
+        self.box = grown((left, right, bottom, top), layer.tips(self.scale), pad)
 
     def draw(self, ax: Axes) -> None:
         """Draw it."""
@@ -119,12 +114,10 @@ class FreeBodyPicture:
     def parts(self, ax: Axes) -> list[MovingPart]:
         """Return the body's own parts: a plate or a bar, a cylinder, a spring, a block, and its pins."""
         own, parts = set(self.points), list[MovingPart]()
-        cylinders = [each for each in self.scene.cylinders if {each.P, each.Q} == own]
-        straights = [each for each in self.scene.straights if set(each.on) == own]
-        if cylinders:
-            parts += [MarkPart(ax, each.mark(self.size), STRONG) for each in cylinders]
-        elif straights:
-            parts += [MarkPart(ax, each, STRONG) for each in straights]
+        marks = [each.mark(self.size) for each in self.scene.cylinders if {each.P, each.Q} == own]
+        marks = marks or [each for each in self.scene.straights if set(each.on) == own]
+        if marks:
+            parts += [MarkPart(ax, each, STRONG) for each in marks]
         elif len(self.points) == 1:
             x, y = self.at[self.points[0]]
             half = 1.6 * self.size

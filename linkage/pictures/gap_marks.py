@@ -56,14 +56,19 @@ class GapMark:
         return arm / length if length > 0.0 else np.array([1.0, 0.0])
 
 
+def body_pair(what: str, given: object, expected: str) -> tuple[str, str]:
+    """Return two bodies by their names; DefinitionError, in the words of `require`, for anything but such a pair."""
+    pair = require_type(what, given, (list, tuple), expected, of=str)
+    require(len(pair) == 2, what, given, expected)
+    return str(pair[0]), str(pair[1])
+
+
 def asked_pair(given: object, plan: Plan) -> tuple[str, str] | None:
     """Return the two bodies that `draw(clearance=...)` names, None for those that come nearest; DefinitionError for what is neither."""
     if given is True:
         return None
     expected = 'say clearance=True for what the machine\'s Planes keep apart, or two bodies, clearance=("OBC", "MK")'
-    pair = require_type(f"{plan.title}: clearance", given, (list, tuple), expected, of=str)
-    require(len(pair) == 2, f"{plan.title}: clearance", given, expected)
-    return str(pair[0]), str(pair[1])
+    return body_pair(f"{plan.title}: clearance", given, expected)
 
 
 def gap_request(given: object, plan: Plan) -> Request:

@@ -10,7 +10,6 @@ from typing import Any, final
 import numpy as np
 from matplotlib.axes import Axes
 
-from ..checks import require, require_type
 from ..errors import DefinitionError, SingularError, unwarned
 from ..language import said, translated
 from ..motion import Motion, rates_of, whole_body
@@ -21,7 +20,7 @@ from ..units import factor, mm, show, shown_in
 from . import arrows, style
 from .arrows import ArrowLayer, VectorArrow, Wording
 from .force_arrows import ForceQuestion, force_layer, forces_at_pose, why_no_forces
-from .gap_marks import GapMark, draw_gap, gap_mark, worst_pose
+from .gap_marks import GapMark, body_pair, draw_gap, gap_mark, worst_pose
 from .paper import footnote
 from .scene import Bounds
 from .sheet import figure_of, grown
@@ -266,10 +265,8 @@ def asked_poles(motion: Motion, asked: object) -> Iterator[tuple[str, str]]:
     elif isinstance(asked, str):
         yield asked, "frame"
     else:
-        what, expected = f"{motion.plan.title}: pole", 'a body, pole="EDF", two of them, pole=("EDF", "FKG"), or True is expected'
-        pair = require_type(what, asked, (list, tuple), expected, of=str)
-        require(len(pair) == 2, what, asked, expected)
-        yield str(pair[0]), str(pair[1])
+        expected = 'a body, pole="EDF", two of them, pole=("EDF", "FKG"), or True is expected'
+        yield body_pair(f"{motion.plan.title}: pole", asked, expected)
 
 
 def mark_of(at: Motion, body: str, other: str, rates: Mapping[str, object] | None, ends: tuple[FloatArray, ...]) -> PoleMark:

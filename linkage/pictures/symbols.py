@@ -62,25 +62,14 @@ HATCH = 0.9
 
 
 def ground(ax: Axes, pin: FloatArray, way: float, size: float, look: Look) -> None:
-    """Draw the frame under a pin, on the side of a direction [rad]. It never moves."""
-    corners, lines = support(pin, way, size)
-    ink, level = look.colour(style.INK), look.level - 0.5
-    fill = look.colour(style.ROD)
+    """Draw the frame under a pin, on the side of a direction [rad]: a triangle, its base line and hatches. It never moves."""
+    hatches = [((HEIGHT, aside + HATCH), (HEIGHT + HATCH, aside)) for aside in np.linspace(-1.4 * BASE, 1.4 * BASE - HATCH, 6)]
+    axes = size * np.array([polar(way), left_of(polar(way))])
+    lines = pin + np.array([((HEIGHT, -1.4 * BASE), (HEIGHT, 1.4 * BASE)), *hatches]) @ axes
+    corners = pin + np.array([(0.0, 0.0), (HEIGHT, BASE), (HEIGHT, -BASE)]) @ axes
+    ink, fill, level = look.colour(style.INK), look.colour(style.ROD), look.level - 0.5
     ax.add_patch(Polygon(corners, facecolor=fill, edgecolor=ink, linewidth=style.OUTLINE, joinstyle="round", zorder=level))
     ax.add_collection(LineCollection(list(lines), colors=ink, linewidths=style.THIN, zorder=level), autolim=False)
-
-
-def support(pin: FloatArray, way: float, size: float) -> tuple[FloatArray, FloatArray]:
-    """Return the triangle, shape (3, 2), and the base line with its hatches, shape (n, 2, 2) [m]."""
-    down, across = polar(way), left_of(polar(way))
-
-    def place(along: float, aside: float) -> FloatArray:
-        return np.asarray(pin + size * (along * down + aside * across))
-
-    lines = [(place(HEIGHT, -1.4 * BASE), place(HEIGHT, 1.4 * BASE))]
-    for aside in np.linspace(-1.4 * BASE, 1.4 * BASE - HATCH, 6):
-        lines.append((place(HEIGHT, aside + HATCH), place(HEIGHT + HATCH, aside)))
-    return np.array([pin, place(HEIGHT, BASE), place(HEIGHT, -BASE)]), np.array(lines)
 
 
 # Sliding: slots on moving bodies, and fixed rails with their hatching.

@@ -146,8 +146,8 @@ def placed_dimensions(scene: Scene, at: Places, pose: int, scale: float, box: Bo
         points = np.concatenate(taken)
         costs = []
         for rank, each in enumerate(choices):  # how many of the points that it would cover lie within a letter of one that is taken
-            near = (np.abs(each.covered[:, None] - points) < 0.7 * each.letter).all(axis=2)
-            costs.append(float(np.count_nonzero(near.any(axis=1))) + 1.2 * (rank // 2))
+            near = np.all(np.abs(each.covered[:, None] - points) < 0.7 * each.letter, axis=2)
+            costs.append(float(np.count_nonzero(np.any(near, axis=1))) + 1.2 * (rank // 2))
         if costs and min(costs) < MOST:
             best = choices[int(np.argmin(costs))]
             taken.append(best.covered)

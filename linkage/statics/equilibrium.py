@@ -361,13 +361,13 @@ def consistent_frictions(pressing: PressingForces, coefficient: FloatArray) -> t
         hard = ~(np.max(growth, axis=0, initial=0.0) < CONTRACTS)
         if not hard.all():
             with np.errstate(over="ignore", invalid="ignore"):  # of poses that do not contract
-                q[:, block] = frictions_iterated(pressing.parts, mu, here.forces)
+                q[:, block] = by_iteration(pressing.parts, mu, here.forces)
         if hard.any():
             q[:, block][:, hard], locked[block][hard] = continued(here.at(hard), mu[:, hard])
     return q, locked
 
 
-def frictions_iterated(parts: Sequence[int], coefficient: FloatArray, forces: Callable[[FloatArray], FloatArray]) -> FloatArray:
+def by_iteration(parts: Sequence[int], coefficient: FloatArray, forces: Callable[[FloatArray], FloatArray]) -> FloatArray:
     """Return the frictions (frictions, n) to which plain iteration comes, where it contracts, with the pressing forces at frictions."""
     first, last, share = pressing_rows(parts)
     q, factor = np.zeros(coefficient.shape), share * coefficient

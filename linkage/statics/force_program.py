@@ -27,8 +27,8 @@ from .equilibrium import (
     JointFriction,
     PressingForces,
     System,
+    by_iteration,
     consistent_frictions,
-    frictions_iterated,
     joint_frictions,
     unit_friction,
 )
@@ -227,7 +227,7 @@ def frictions_of_piece(
 
     growth, forces, by_each = kernels
     if np.max(values(growth, "lever", np.abs(lever)) * coefficient, initial=0.0) < CONTRACTS:
-        q = frictions_iterated(parts, coefficient, lambda q: values(forces, "friction", q * lever))
+        q = by_iteration(parts, coefficient, lambda q: values(forces, "friction", q * lever))
         return q, np.zeros(q.shape[1], bool)
     found, count = values(by_each, "friction", np.zeros(lever.shape)), sum(parts)
     by_unit = found[count:].reshape(count, len(lever), -1)

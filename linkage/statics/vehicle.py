@@ -280,9 +280,7 @@ def balance_of(
     return Balance(force, moment, [*across.values()], levers)
 
 
-def by_stiffness(
-    poses: FlatPoses, supports: Mapping[str, Support], balance: Balance
-) -> tuple[FloatArray, list[FloatArray | None]]:
+def by_stiffness(poses: FlatPoses, supports: Mapping[str, Support], balance: Balance) -> tuple[FloatArray, list[FloatArray | None]]:
     """Return the reactions of three or more supports that give way, (supports, n), and those of the two outermost, were they alone.
 
     A rigid frame sinks and turns; one by one the last support of the side that rises lifts off, and the others are asked again.

@@ -6,7 +6,6 @@ second; on one point, `on="T"`, the axes keep the frame's directions; on nothing
 
 from __future__ import annotations
 
-from abc import abstractmethod
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -231,9 +230,6 @@ class PlacedFile(Outline):
         at = [] if all(isinstance(each, Number) and each.number == 0.0 for each in self.at) else [f"at={corner_text(self.at)}"]
         turned = not (isinstance(self.angle, Number) and self.angle.number == 0.0)
         return at + ([f"angle={spelled(self.angle, measures='angle')}"] if turned else [])
-
-    @abstractmethod
-    def __str__(self) -> str: ...
 
 
 @final

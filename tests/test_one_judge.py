@@ -89,7 +89,7 @@ LISTED = {
     "linkage/mechanism.py": "names of load cases, which may not be a word of the framework",
     "linkage/cli/settings.py": "names of load cases, for the error of an unknown one",
     "linkage/motion/requests.py": "the order of directions",
-    "hydraulics/standing.py": "names of load cases, for those that shut a line",
+    "hydraulics/shut.py": "names of load cases, for those that shut a line",
 }
 """Files that go through load cases or directions without judging any."""
 

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from linkage import Column, FileError, Motion, animate, draw, plot
+from linkage import FileError, Motion, animate, draw, plot
 from linkage.disk import in_words
 from linkage.reports import rich_tables, text_table
 from linkage.units import kgf_cm2
@@ -32,7 +32,15 @@ def main(argv: Sequence[str] | None = None) -> int:
     folder: Path = parser.parse_args(argv).out
     machine = MowerLift()
     motion = machine.sweep(101)
-    show_table(machine.columns(machine.at(S=TABLE_AT)))
+    columns = machine.columns(machine.at(S=TABLE_AT))
+    if sys.stdout.isatty():
+        from rich.console import Console
+
+        console = Console()
+        for table in rich_tables(columns, console.width):
+            console.print(table)
+    else:
+        print(*text_table(columns, WIDTH), sep="\n")
     print()
     for verdict in machine.verdicts(motion):
         print(verdict.replace(". ", ".\n     "))
@@ -46,19 +54,6 @@ def main(argv: Sequence[str] | None = None) -> int:
         print(f"{error} Choose another folder with --out.", file=sys.stderr)
         return 2
     return 0
-
-
-def show_table(columns: Sequence[Column]) -> None:
-    """Print the results with their units: a table on a terminal, aligned text in a pipe."""
-    if sys.stdout.isatty():
-        from rich.console import Console
-
-        console = Console()
-        for table in rich_tables(columns, console.width):
-            console.print(table)
-    else:
-        for line in text_table(columns, WIDTH):
-            print(line)
 
 
 def pictures(machine: MowerLift, motion: Motion, folder: Path) -> list[Path]:

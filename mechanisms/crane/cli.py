@@ -69,7 +69,14 @@ class DesignedCrane(Command):
         if options.skeleton or options.cab:
             for name in ("pictures", "pins", "csv", "scheme"):
                 refuse(getattr(options, name), f"--{name} is of a whole crane; leave --skeleton and --cab out.")
-            skeleton = bare_skeleton(options)
+            refuse(options.machine, f"{options.machine} has its skeleton already; leave its name out to search one.")
+            cab = si_value(options.cab, "length", "--cab") if options.cab else None
+            with progress_bar("skeleton") as progress:
+                duty = duty_set(Duty, options, "L=8.5m", KINDS)
+                found = design_skeleton(duty, reading=options.reading, cab=cab, progress=progress or False)
+            print(f"{found}\n")
+            skeleton = found.machine
+            assert isinstance(skeleton, CraneSkeleton)
             print_skeleton(skeleton)
             return print_verdicts(skeleton.verdicts(over=overs_of(skeleton, options.over)), options)
         folder = Path(options.pictures) if options.pictures else None
@@ -95,18 +102,6 @@ class DesignedCrane(Command):
             drawing().savefig(path)
             print(path)
         return code
-
-
-def bare_skeleton(options: Namespace) -> CraneSkeleton:
-    """Return the skeleton of the options, and report its search."""
-    refuse(options.machine, f"{options.machine} has its skeleton already; leave its name out to search one.")
-    cab = si_value(options.cab, "length", "--cab") if options.cab else None
-    with progress_bar("skeleton") as progress:
-        duty = duty_set(Duty, options, "L=8.5m", KINDS)
-        found = design_skeleton(duty, reading=options.reading, cab=cab, progress=progress or False)
-    print(f"{found}\n")
-    assert isinstance(found.machine, CraneSkeleton)
-    return found.machine
 
 
 def crane_or_drive(options: Namespace) -> Crane | BoomDrive | DrivenArm:

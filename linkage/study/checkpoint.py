@@ -49,8 +49,8 @@ class Checkpoint:
         """Return the checkpoint of a study; DefinitionError where the folder holds another one, with what differs."""
         place = folder_given(folder)
         note = place / NOTE
-        there = read_note(note)
-        if there is None:
+        known = read_note(note)
+        if known is None:
             try:
                 with in_words(place):
                     place.mkdir(parents=True, exist_ok=True)
@@ -58,7 +58,7 @@ class Checkpoint:
                     stream.write(json.dumps(facts, indent=2).encode())
             except FileError as error:
                 raise FileError(f"{error} Finished batches cannot be kept here; name a folder that can be written.") from error
-            there = facts
+        there = facts if known is None else known
         differing = [name for name in dict.fromkeys([*facts, *there]) if facts.get(name) != there.get(name)]
         if differing:
             said = ", ".join(f"{name} ({fact_words(there, name)} there, {fact_words(facts, name)} here)" for name in differing[:4])

@@ -16,7 +16,7 @@ from ..errors import DefinitionError
 from ..loads import TwoPoint
 from ..mechanism import Mechanism, declared
 from ..plan import Plan, Reading
-from ..quantities import Dimension, Member, Quantity, Stroke, Variable, is_number, name_of, quantity, signed_terms
+from ..quantities import Dimension, Member, Stroke, Variable, is_number, name_of, quantity, signed_terms
 from ..steps import Drawn
 from ..vectors import Numbers
 from .sides import class_like
@@ -29,11 +29,11 @@ Pairs: TypeAlias = Mapping[str, tuple[float, float]]
 class Range(NamedTuple):
     """The part of a stroke that is looked at, from low to high: numbers [SI], or quantities that follow the design."""
 
-    low: float | Quantity
-    high: float | Quantity
+    low: Any
+    high: Any
 
     @property
-    def follows(self) -> tuple[Quantity, ...]:
+    def follows(self) -> tuple[object, ...]:
         """The ends that follow the design."""
         return tuple(end for end in (self.low, self.high) if not is_number(end))
 

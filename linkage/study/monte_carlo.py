@@ -297,7 +297,8 @@ class MonteCarloRun:
     def _take(self, keys: Sequence[Hashable], store: FloatArray, first: int, found: Mapping[Hashable, list[FloatArray]]) -> None:
         """Take in the results of some quantities from a pose on, shape (quantities, poses, designs), which are used up."""
         for key, rows in zip(keys, store, strict=True):
-            free, part = None, slice(first, first + len(rows))
+            free: Mask | None = None
+            part = slice(first, first + len(rows))
             if np.isnan(rows).any():
                 every = np.zeros((self.poses.pose_count, self.count))
                 every[part] = rows

@@ -236,7 +236,7 @@ def where_searched(machine: Mechanism, over: object) -> tuple[Any, list[Any]]:
     return dict(over.strokes), occurring
 
 
-def cases_searched(machine: Mechanism, case: object, occurring: Sequence[Any]) -> tuple[list[Any], dict[str, float]]:
+def cases_searched(machine: Mechanism, case: Any, occurring: Sequence[Any]) -> tuple[list[Any], dict[str, float]]:
     """Return the load cases that a search looks at, None for the plain loads, and their shares where they are given with their hours.
 
     DefinitionError for one that is unknown, and for none.
@@ -265,18 +265,18 @@ def objectives_of(machine: Mechanism, minimise: object, maximise: object) -> tup
 
     DefinitionError for none, and for what has a value at every pose.
     """
-    title, groups = machine.plan.title, []
-    for given in (minimise, maximise):
-        groups.append([])
+    title = machine.plan.title
+    groups: tuple[list[Measure], list[Measure]] = ([], [])
+    for given, group in zip((minimise, maximise), groups, strict=True):
         for each in [] if given is None else given if isinstance(given, (list, tuple)) else [given]:
             if isinstance(each, Measure):
-                groups[-1].append(each)
+                group.append(each)
                 continue
             quantity = require_quantity(each, "minimise")
             if isinstance(quantity, Worst) or strokes_behind(machine.plan, quantity):
                 remedy = "say which is meant, least(...), most(...)"
                 raise DefinitionError(f"{title}: {words_of(quantity)} has a value at every pose: {remedy}.")
-            groups[-1].append(At(quantity, {}))
+            group.append(At(quantity, {}))
     least, most = groups
     if not least and not most:
         raise DefinitionError(f"{title}: say minimise= or maximise=, one measure such as least(...), or a list of several.")
@@ -412,7 +412,7 @@ class Journal:
         with in_words(path):
             path.parent.mkdir(parents=True, exist_ok=True)
             text = path.read_text(encoding="utf-8", errors="replace") if path.exists() else ""
-        entries = []
+        entries: list[dict[str, Any]] = []
         for line in text.splitlines():
             with suppress(ValueError):  # a torn line holds nothing
                 found = json.loads(line)
@@ -479,7 +479,7 @@ class Screened:
     @property
     def begins(self) -> Mask:
         """At which of them a local search may begin: they are reached, and the objective has a value."""
-        return (self.reached == 1.0) & np.isfinite(self.value)
+        return np.asarray((self.reached == 1.0) & np.isfinite(self.value))
 
     @property
     def order(self) -> Index:

@@ -511,7 +511,7 @@ class Problem:
         return self._samplings[poses]
 
     @cached_property
-    def _samplings_of_ends(self) -> dict[Quantity, Sampling]:
+    def _samplings_of_ends(self) -> dict[object, Sampling]:
         ends = dict.fromkeys(end for one in self.ranges.values() for end in one.follows)
         return {end: Sampling(self.plan, [end], self.owners) for end in ends}
 
@@ -670,13 +670,15 @@ class Problem:
         ends, count = self.ends(machine.dimensions), 101 if len(self.ranges) == 1 else 25
         axes = {name: np.linspace(low, high, count) for name, (low, high) in ends.items() if low != high}
         grids = dict(zip(axes, np.meshgrid(*axes.values(), indexing="ij"), strict=True))
-        return machine.at(**{name: grids.get(name, low) for name, (low, _) in ends.items()})
+        at: dict[str, Any] = {name: grids.get(name, low) for name, (low, _) in ends.items()}
+        return machine.at(**at)
 
     def along(self, machine: Mechanism, name: str, count: int) -> Motion:
         """Return a machine's motion along one stroke's range, the others in the middle of theirs, NaN where it is not reached."""
         ends = self.ends(machine.dimensions)
-        middle = {stroke: 0.5 * (low + high) for stroke, (low, high) in ends.items()}
-        return machine.at(unreachable="nan", **{**middle, name: np.linspace(*ends[name], count)})
+        at: dict[str, Any] = {stroke: 0.5 * (low + high) for stroke, (low, high) in ends.items()}
+        at[name] = np.linspace(*ends[name], count)
+        return machine.at(unreachable="nan", **at)
 
     def over_stroke(self, leaf: Leaf, design: Mapping[str, Numbers], count: int) -> tuple[str, FloatArray, FloatArray] | None:
         """Return a stroke that a leaf's quantity depends on, its values (n,) and the quantity's (n,) of a design [SI]; None for a constant.

@@ -104,7 +104,7 @@ def drawn_inside(title: str, regions: Sequence[PointRegion], variables: Sequence
     """
     found = np.array(values)
     for number, each in enumerate(regions):
-        out = np.flatnonzero(each.region.depths(each.of(found)) < 0.0) if each.varies else ()
+        out = np.flatnonzero(each.region.depths(each.of(found)) < 0.0) if each.varies else np.zeros(0, int)
         if len(out):
             places = places_inside(title, each, variables, len(out), seed + number)
             each.put(found, out, places[np.arange(len(out)) % len(places)])

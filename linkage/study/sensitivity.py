@@ -215,4 +215,5 @@ def sobol(
     for indices in (found.first_order, found.total_order):
         rows = np.reshape(indices, (2, -1, len(named)))[0].T  # twice the poses times the dimensions
         shares.append(FrozenDict({name: poses.shaped(row) for name, row in zip(named, rows, strict=True)}))
-    return SobolIndices(title, FrozenDict(poses.base.strokes), *shares, poses.shaped(sigmas[0]))
+    first, total = shares
+    return SobolIndices(title, FrozenDict(poses.base.strokes), first, total, poses.shaped(sigmas[0]))

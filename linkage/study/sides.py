@@ -74,10 +74,10 @@ def made_on_sides(kind: type[Mechanism], sides: Mapping[str, Side]) -> type[Mech
             part = next(each for each in written if name.startswith(f"{each}.") and isinstance(written[each], Part))
             parts.setdefault(part, {})[name.removeprefix(f"{part}.")] = side
     for name, inner in parts.items():  # these sides are those in the whole: of a mirrored part each is the other one in itself
-        part: Any = written[name]
-        seen = {each: sided_now(part.plan.members[each]) is sided_now(plan.members[f"{name}.{each}"]) for each in inner}
-        other = class_on_sides(part.machine, {each: side if seen[each] else Side(-side) for each, side in inner.items()})
-        own[name] = part.renewed(machine=other, plan=other.plan)
+        inside: Any = written[name]
+        seen = {each: sided_now(inside.plan.members[each]) is sided_now(plan.members[f"{name}.{each}"]) for each in inner}
+        other = class_on_sides(inside.machine, {each: side if seen[each] else Side(-side) for each, side in inner.items()})
+        own[name] = inside.renewed(machine=other, plan=other.plan)
     made = class_like(kind, {**own, BASE: (kind, dict(sides))}, sent_on_sides)
     lost = [name for name, side in sides.items() if sided_now(made.plan.members[name]) is not side]
     if lost:

@@ -12,7 +12,7 @@ from typing import Any, final
 
 import numpy as np
 
-from ..checks import require, require_type
+from ..checks import require
 from ..errors import DefinitionError, cited, unknown
 from ..loads import ForceElement
 from ..mechanism import Mechanism
@@ -257,8 +257,8 @@ def rows_of(title: str, names: Sequence[str], given: object, owners: Sequence[tu
     """Return the rows of choices, a side as its number; DefinitionError for anything else."""
     width, what = len(owners), f"{title}: {', '.join(names)}"
     said = "write a range (low, high), a list of choices such as [0.28, 0.30], or for several names at once a list of rows"
-    listed = require_type(what, given, (list, tuple, range, np.ndarray), said)
-    require(len(listed), what, given, said)
+    listed: Any = given
+    require(isinstance(given, (list, tuple, range, np.ndarray)) and len(given) > 0, what, given, said)
     rows = []
     for each in listed:
         row = list(each) if isinstance(each, (list, tuple, np.ndarray)) else [each]

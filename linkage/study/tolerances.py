@@ -56,12 +56,12 @@ class Tolerance:
     @property
     def low(self) -> float:
         """The least deviation [SI]; of a normal law three sigmas below the middle."""
-        return -float(self.limits) if is_number(self.limits) else float(self.limits[0])
+        return float(self.limits[0]) if isinstance(self.limits, (tuple, list)) else -float(self.limits)
 
     @property
     def high(self) -> float:
         """The greatest deviation [SI]; of a normal law three sigmas above the middle."""
-        return float(self.limits) if is_number(self.limits) else float(self.limits[1])
+        return float(self.limits[1] if isinstance(self.limits, (tuple, list)) else self.limits)
 
     @property
     def sigma(self) -> float:
@@ -120,7 +120,7 @@ def check_size(plan: Plan, name: str, tolerance: Tolerance) -> None:
     """Raise DefinitionError for a tolerance of another kind than its dimension, or larger than that itself."""
     owner = plan.table.spellings[name][0]
     unit, kind = plan.table.entries[owner].unit, plan_measure(plan, owner)
-    limits = (tolerance.limits,) if is_number(tolerance.limits) else tolerance.limits
+    limits = tolerance.limits if isinstance(tolerance.limits, tuple) else (tolerance.limits,)
     for limit in limits:
         require_measure(limit, unit or SI.get(kind, ""), f"{plan.title}: tolerance of {name}")
     sizes = {each: abs(float(plan.defaults[each])) for each in plan.defaults if plan_measure(plan, each) == "length"}

@@ -77,7 +77,7 @@ class SampleProgram:
         is_told = bool(np.all(found.guards > 0.0)) and not (self.may_fail and not np.isfinite(found.values[: self.rows]).all())
         if is_told and self.angles.angles:  # none goes on past half a turn
             angles = grid.full(self.angles.kernel(grid.flat, size=grid.size).values)
-            is_told = bool(np.isfinite(angles).all()) and np.array_equal(grid.joined(angles, self.angles.kernel), angles)
+            is_told = bool(np.isfinite(angles).all()) and np.array_equal(grid.joining(grid, angles, self.angles.kernel), angles)
         if is_told:
             values = grid.full(found.values)
             return values[: self.rows], values[self.rows :]

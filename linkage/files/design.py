@@ -133,7 +133,8 @@ def without_sketch(name: str, member: Member, machine: Mechanism) -> Member:
             found.near = found.drawn_at = None
             return found  # type: ignore[no-any-return]
         case Pin():
-            x, y = machine.at(**machine.plan.sketch_strokes)[name]
+            strokes: dict[str, Any] = dict(machine.plan.sketch_strokes)
+            x, y = machine.at(**strokes)[name]
             return Pin(near=(float(x), float(y)))
     return member
 

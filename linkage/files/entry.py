@@ -137,7 +137,7 @@ def read_table(given: Mapping[Any, object], names: Names, arguments: Iterable[Ar
     return found
 
 
-def check_keys(given: Iterable[object], known: Iterable[str], mistakes: Mistakes) -> None:
+def check_keys(given: Iterable[Any], known: Iterable[str], mistakes: Mistakes) -> None:
     """Note the keys that are none."""
     for key in given:
         if key not in known:
@@ -300,7 +300,7 @@ class FileEntry:
         with told(f"{self.describes.__name__}(...)"):
             return self.make(*parents, **options)
 
-    def _labels(self, given: Iterable[object]) -> Keywords:
+    def _labels(self, given: Iterable[Any]) -> Keywords:
         """Return the keys that are lengths and angles of points; DefinitionError for one that cannot be."""
         labels = [key for key in given if key not in self.keys] if self.has_labels else []
         ensure(len(labels) <= LABELS, f"{len(labels)} labels are too many; up to {LABELS} are read.")

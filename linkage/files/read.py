@@ -8,6 +8,7 @@ from copy import copy
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 
@@ -155,12 +156,13 @@ def machines_read(
 
 def names_of(sections: Mapping[str, Mapping[str, object]], faults: Faults) -> dict[str, str]:
     """Return all names with their sections; bad and double ones are noted. FileError for more members than any machine has."""
-    entries = [entry for table in sections.values() for entry in table.values()]
-    sketched = [entry for entry in entries if isinstance(entry, Mapping) and not {"near", "at"}.isdisjoint(entry)]
-    links = sections.get("links", {})
-    for each, limit, what in ((entries, MEMBERS, "members"), (sketched, SKETCHED, "sketch positions"), (links, LINKS, "links")):
-        if len(each) > limit:
-            raise FileError(f"{faults.source}: {len(each)} {what} are too many; up to {limit} are read.")
+    members = [entry for table in sections.values() for entry in table.values()]
+    sketched = sum(isinstance(entry, Mapping) and not {"near", "at"}.isdisjoint(entry) for entry in members)
+    counts = {"members": (len(members), MEMBERS), "sketch positions": (sketched, SKETCHED)}
+    counts["links"] = len(sections.get("links", {})), LINKS
+    for what, (count, limit) in counts.items():
+        if count > limit:
+            raise FileError(f"{faults.source}: {count} {what} are too many; up to {limit} are read.")
     found: dict[str, str] = {}
     for section, entries in sections.items():
         for name in entries:
@@ -176,7 +178,7 @@ def names_of(sections: Mapping[str, Mapping[str, object]], faults: Faults) -> di
 def ordered(data: FileTable, names: Names, faults: Faults) -> list[str]:
     """Return the names in the order that the file says; those it does not mention stand behind."""
     order = data.get("order", [])
-    given: list[object] = order if isinstance(order, list) and all(isinstance(each, str) for each in order) else [None]
+    given: list[Any] = order if isinstance(order, list) and all(isinstance(each, str) for each in order) else [None]
     anywhere = {name for table in data.values() if isinstance(table, Mapping) for name in table}
     unknown = [shortened(each) for each in given if each not in anywhere]
     if unknown or len(set(given)) < len(given):

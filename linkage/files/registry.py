@@ -69,7 +69,7 @@ def stroke_value(value: float, stroke: str, design: Design) -> float | str:
     return degrees_text(value) if stroke_unit(design.plan, stroke) == "rad" else value
 
 
-def dimension_of(given: object, names: Names) -> Dimension:
+def dimension_of(given: Any, names: Names) -> Dimension:
     """Return a dimension with the unit it is shown in: a number [SI], `500 mm`, or { value = 0.5, unit = "mm" }."""
     match given:
         case {"value": value, **others} if not others.keys() - {"unit"} and isinstance(others.get("unit", ""), str):
@@ -99,8 +99,9 @@ def output_of(given: object, names: Names) -> Quantity:
 
 def vector_of(given: object, names: Names) -> steps.Arrow:
     """Return the vector that a text says; DefinitionError for the name of one."""
-    found: Any = arrow_of(given, names)
-    ensure(not isinstance(found, str), f"{found} is a vector already; use that name.")
+    found = arrow_of(given, names)
+    if isinstance(found, str):
+        raise DefinitionError(f"{found} is a vector already; use that name.")
     return found
 
 

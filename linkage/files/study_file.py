@@ -85,7 +85,7 @@ class StudyHead:
             if key not in known:
                 faults.add((str(key),), str(unknown("Key", key, known)))
         given = data.get("machine")
-        texts = given if several and isinstance(given, list) and given else [given]
+        texts: list[Any] = given if several and isinstance(given, list) and given else [given]
         machines: list[Mechanism] = []
         for text in texts:
             kind = None

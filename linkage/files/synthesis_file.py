@@ -71,7 +71,7 @@ def by_class(read: Read, *, is_of_points: bool = False) -> Read:
     What is read by points is one thing where another name than a machine's stands in the table.
     """
 
-    def read_each(head: StudyHead, given: object) -> Any:
+    def read_each(head: StudyHead, given: Any) -> Any:
         if not head.machines:
             return read(head, given)
         is_table = isinstance(given, Mapping) and not (is_of_points and not set(given) <= set(head.machines))

@@ -9,6 +9,7 @@ from collections.abc import Iterator, Mapping
 from inspect import cleandoc
 from pathlib import Path
 from textwrap import fill
+from typing import Any
 
 from ..disk import replacing_text
 from ..errors import DefinitionError, FileError
@@ -73,7 +74,7 @@ def head_table(machine: Machine, order: list[str]) -> Keywords:
 
 def left_out(machine: Machine) -> tuple[str, ...]:
     """Return the names of what a class has beside its members, which a file does not hold: functions, checks, values of its own."""
-    cls = type(machine) if isinstance(machine, Mechanism) else machine
+    cls: Any = type(machine) if isinstance(machine, Mechanism) else machine
     if not (isinstance(cls, type) and issubclass(cls, Mechanism)):
         require_mechanism(cls)
     own = [base for base in cls.__mro__ if issubclass(base, Mechanism) and base is not Mechanism]

@@ -232,7 +232,8 @@ class Synthesis(Shown):
 
         It is that of this answer and of machines near it: an untimed point counts by its distance from the path there.
         """
-        return sum_of_parts(self.point_measures(place))
+        total: Measure = sum_of_parts(self.point_measures(place))
+        return total
 
     def point_measures(self, place: int = 0) -> tuple[Measure, ...]:
         """Return the square of what an answer misses at each point as a measure [SI^2]; `each**0.5 <= 0.5 * mm` is a condition."""
@@ -365,7 +366,7 @@ def synthesised_classes(
     given = shipped_machines() if machines is None else machines
     if not given:
         raise DefinitionError(f"synthesise({cited(machines)}): a design or a list of classes is expected, such as [FourBar, SliderCrank].")
-    designs = [each() if isinstance(each, type) and issubclass(each, Mechanism) else each for each in given]
+    designs: list[Any] = [each() if isinstance(each, type) and issubclass(each, Mechanism) else each for each in given]
     for each in designs:
         check_one_design(each)
     check_counts("synthesise", 1 if starts == "catalogue" else starts, seed, limit)
@@ -554,8 +555,8 @@ def machine_words(fit: Fit, machine: Mechanism, at: FloatArray, base: FloatArray
     if np.isfinite(angle):
         parts.append(said("least transmission angle {angle}, of {joint}", angle=show(angle, "deg", 3), joint=joint))
     parts += change_point_words(angle, four_bars)
-    unit = at[: fit.n]
-    settings = zip(fit.space.variables, fit.space.values(unit), np.minimum(unit, 1.0 - unit), strict=True)
+    share = at[: fit.n]
+    settings = zip(fit.space.variables, fit.space.values(share), np.minimum(share, 1.0 - share), strict=True)
     ends = [f"{each.name} = {each.show(value)}" for each, value, left in settings if left <= END]
     if ends and error > exact_error(fit.rows):
         named = ", ".join(ends)

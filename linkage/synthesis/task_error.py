@@ -36,7 +36,8 @@ def task_error(
     counts by its distance from the path there, as studies of tolerances take it. `timed=True`: it counts at these strokes. `over` holds
     other strokes. Raises DefinitionError where several strokes move.
     """
-    return sum_of_parts(point_errors(machine, task, strokes, timed=timed, over=over))
+    total: Measure = sum_of_parts(point_errors(machine, task, strokes, timed=timed, over=over))
+    return total
 
 
 def point_errors(

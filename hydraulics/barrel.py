@@ -21,7 +21,7 @@ from linkage.steps import Link, Point
 from linkage.units import mm
 from linkage.vectors import Vec
 
-from .inputs import number_written
+from .inputs import variable_written
 
 GLAND, PISTON = "gland", "piston"
 """The points at which a barrel and a rod end in the cylinder, as `lift.gland`."""
@@ -82,7 +82,7 @@ class BarrelAndRod(TwoPoint):
         if self.closed is None:
             what = f"{self.name} is a barrel and a rod here, which are as long as it is closed, and its closed length is not given"
             raise DefinitionError(f"{what}; add closed=... in m.", member=self.name)
-        return number_written(self, "closed")
+        return variable_written(self, "closed")
 
     @property
     def scales(self) -> bool:

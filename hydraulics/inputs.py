@@ -213,7 +213,7 @@ def number_set(element: ForceElement, motion: Poses, name: str) -> Array:
     return all_finite(setting_of_designs(motion, given, name.capitalize()), name.capitalize())
 
 
-def number_written(element: ForceElement, name: str) -> Quantity:
+def variable_written(element: ForceElement, name: str) -> Quantity:
     """Return a number of a force element as a quantity of its class: what it follows, else its design variable."""
     given = quantity(element.given(name))
     return Variable(f"{element.name}.{name}") if isinstance(given, Number) else given

@@ -53,7 +53,7 @@ from linkage.verdict import Remark, Verdict
 from .barrel import HELD, MASSES, BarrelAndRod
 from .buckling import Buckling, never_pushed
 from .cylinder import SAME_SIZE, CylinderSize, RamSize, Works, chosen_series, series_of, standard_rods
-from .inputs import Array, follows, number_set, number_written, one_number, only_where, positive, stroke_in_metres
+from .inputs import Array, follows, number_set, one_number, only_where, positive, stroke_in_metres, variable_written
 from .names import names_behind
 from .remedy import Sizes, can_be_set, show_enough, smallest
 
@@ -674,8 +674,8 @@ class Cylinder(BarrelAndRod, Ram):
 
     def _square_written(self, side: Side) -> Quantity:
         """Return the signed area of a chamber over that of a circle of diameter 1, as a quantity of its class."""
-        square = number_written(self, "bore") ** 2
-        square = square if side == PISTON else number_written(self, "rod") ** 2 - square
+        square = variable_written(self, "bore") ** 2
+        square = square if side == PISTON else variable_written(self, "rod") ** 2 - square
         return square if self.count == 1 else square * float(self.count)
 
     def taken(self, motion: Poses, low: Array, high: Array) -> Array:

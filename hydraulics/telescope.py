@@ -38,7 +38,7 @@ from linkage.verdict import Verdict
 
 from .buckling import Buckling
 from .cylinder import MOST, RamSize, Works, chosen_series
-from .inputs import Array, follows, in_metres, number_set, number_written, one_number, positive, stroke_in_metres
+from .inputs import Array, follows, in_metres, number_set, one_number, positive, stroke_in_metres, variable_written
 from .member import LENGTHS, PISTON, TOLERANCE, Ram, Side
 from .remedy import Sizes, show_enough
 
@@ -221,8 +221,8 @@ class Telescope(Ram):
     def _written(self) -> tuple[list[Quantity], list[Quantity]]:
         """Return the squares of its bores, times the count, and the lengths at which its stages end, as quantities of its class."""
         stages = range(1, self.stages + 1)
-        squares = [number_written(self, f"bore_{stage}") ** 2 for stage in stages]
-        ends = accumulate(number_written(self, name) for name in ("closed", *(f"stroke_{stage}" for stage in stages)))
+        squares = [variable_written(self, f"bore_{stage}") ** 2 for stage in stages]
+        ends = accumulate(variable_written(self, name) for name in ("closed", *(f"stroke_{stage}" for stage in stages)))
         return [each if self.count == 1 else each * float(self.count) for each in squares], list(ends)
 
     def filled_written(self, side: Side, start: Quantity, end: Quantity) -> Quantity:

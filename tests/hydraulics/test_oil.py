@@ -287,8 +287,16 @@ def test_halves_on_one_line_and_joined_lines_of_one_pressure_change_nothing(seed
 def test_what_several_laws_read_of_a_closed_line_is_traced_once_and_counts_for_each(monkeypatch):
     """In either order, alone or together the values are the same, and each law keeps what it rests on."""
     counted = []
-    known = work.needed_of
-    monkeypatch.setattr(work, "needed_of", lambda poses, *rest: counted.append(type(poses.motion).__name__) or known(poses, *rest))
+    known = work.kept
+
+    def counting(motion, acting, rates, what, make):
+        def made():
+            counted.append(type(motion).__name__ if what[0] == "needs" else "other")
+            return make()
+
+        return known(motion, acting, rates, what, made)
+
+    monkeypatch.setattr(work, "kept", counting)
 
     def asked(*names):
         class Fresh(Levelled):

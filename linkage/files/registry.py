@@ -73,7 +73,7 @@ def dimension_of(given: Any, names: Names) -> Dimension:
     """Return a dimension with the unit it is shown in: a number [SI], `500 mm`, or { value = 0.5, unit = "mm" }."""
     match given:
         case {"value": value, **others} if not others.keys() - {"unit"} and isinstance(others.get("unit", ""), str):
-            return Dimension(number_of(value, names), others.get("unit", ""))
+            return Dimension(number_of(value, names), str(others.get("unit", "")))
         case Mapping():
             raise DefinitionError(f'{shortened(dict(given))}: a dimension is a number, "500 mm", or {{ value = 0.5, unit = "mm" }}.')
     return Dimension(number_of(given, names), one_unit(given) if isinstance(given, str) else "")

@@ -315,4 +315,4 @@ def test_what_several_laws_read_of_a_closed_line_is_traced_once_and_counts_for_e
         for name, (values, rests) in alone.items():
             assert_allclose(together[name][0], values, rtol=1e-14)
             assert together[name][1] == rests
-    assert 0 < counted.count("TracedMotion") <= 2 * 3  # the twin that knows laws apart, the program, and the same read here; not by cylinder
+    assert 0 < counted.count("TracedMotion") <= 2 * 3  # the twin that knows laws apart, the program, and what is read here; not by cylinder

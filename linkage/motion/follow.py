@@ -102,7 +102,7 @@ class Route:
     goals: FloatArray
 
     @cached_property
-    def pose(self) -> Pose:
+    def pose_at(self) -> Pose:
         """The targets and their slopes in floats, next to dead points too, where they are rough."""
         places, t, k = self.places, len(self.places.targets), len(self.places.free)
         kernel = places.program.together
@@ -153,7 +153,7 @@ class Route:
         """Return the strokes of each place from the first one on, from some strokes near those of it; NaN from where it ends."""
         goals: list[list[float]] = self.goals.tolist()
         strokes = np.full((len(goals), len(self.places.free)), np.nan)
-        begun = self.pose(start.tolist())
+        begun = self.pose_at(start.tolist())
         if begun is None:
             return Track(self, strokes, first, first, TrackedPose(start.tolist(), [np.nan] * len(goals[0]), [], 0.0))
         step = solved(begun[1], begun[0])
@@ -202,7 +202,7 @@ class Route:
         most = share * max(abs(b - a) / span for a, b, span in zip(here.strokes, guess, spans, strict=True)) + 1e-9
         near, determinant = 0.1 * most, 0.0
         for _ in range(ITERATIONS):
-            found = self.pose(guess)
+            found = self.pose_at(guess)
             if found is None:
                 return None
             missing = self.off(found[0], goal)

@@ -65,7 +65,7 @@ def gap(a: Reference, b: Reference, *, width: float = 0.0) -> NodeRequest:
     return NodeRequest(
         text=f"gap({one}, {other}{f', width={width:g}' if width else ''})", sentence=f"the gap between {one} and {other}",
         key=("gap", one, other, float(width)), measures="length", may_fail=True,
-        nodes_of=nodes, names_of=lambda plan: plan.reaches(*(name for shape in two_shapes(plan, one, other) for name in shape.behind)),
+        nodes_of=nodes, names_of=lambda plan: plan.reaches(*(name for shape in two_shapes(plan, one, other) for name in shape.parts_behind)),
         refused_by=lambda motion: check_forms(motion, (one, other)),
     )  # fmt: skip
 
@@ -117,7 +117,7 @@ class BodyShape:
     outline: Outline | None = None
 
     @property
-    def behind(self) -> tuple[Member | str, ...]:
+    def parts_behind(self) -> tuple[Member | str, ...]:
         """What it is built from."""
         return self.points if self.outline is None else (self.outline, *self.points)
 

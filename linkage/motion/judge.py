@@ -114,7 +114,7 @@ class Sought:
         """Whether what is looked for goes on below zero, where the request does not."""
         return self.piece.below is not None and isinstance(self.leaf, Most)
 
-    def identity(self, plan: Plan) -> Hashable:
+    def search_key(self, plan: Plan) -> Hashable:
         """Return what tells what is looked for from anything else, whoever asks; None where that may change, as a function does."""
         found = "nothing" if self.request is nothing else plain_identity(plan, self.request)
         return None if found is None else (found, self.sense, self.is_reciprocal, self.stays_at_zero)
@@ -274,7 +274,7 @@ class Domain:
 
     def extremes(self, rows: Sequence[Sought]) -> tuple[list[WorstPiece], Coverage]:
         """Return the worst of every row, and what was seen on the way; of equal designs it is looked for once."""
-        identities = [row.identity(self.plan) for row in rows]
+        identities = [row.search_key(self.plan) for row in rows]
         if self.over.only or None in identities:
             return self.searched(rows)
         found, seen = recalled(self.motion, ("extremes", self.over.shape, *identities), lambda: self.searched(rows))
@@ -409,7 +409,7 @@ class Asked:
         kept = self.asks_for(motion)
         values, unlimited = self.values(motion)
         if not self.seen.count:
-            self.note(motion, kept, values, unlimited)
+            self.cover(motion, kept, values, unlimited)
         self.seen.count += motion.reached.size
         for k, row in enumerate(self.rows):
             values[k] *= row.sought
@@ -445,7 +445,7 @@ class Asked:
             mask = request.unlimited(motion)
         return np.zeros(motion.shape, bool) if mask is None else np.asarray(np.broadcast_to(mask, motion.shape))
 
-    def note(self, motion: Motion, kept: Mask, values: FloatArray, unlimited: Mask) -> None:
+    def cover(self, motion: Motion, kept: Mask, values: FloatArray, unlimited: Mask) -> None:
         """Note the shares of the places that have no value, and one of those that cannot be assembled."""
         asked = kept | ~motion.reached if not self.place.over.only else kept
         lost, good = asked & ~motion.reached, kept & motion.reached

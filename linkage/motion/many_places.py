@@ -108,7 +108,7 @@ class ManyPlaces:
 
     def seen(self, unit: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the values of the targets (n, t) and their derivatives (n, t, k) by unit coordinates (n, k); NaN out of reach."""
-        found, t = self.places.run(self.places.program.together, unit), len(self.places.targets)
+        found, t = self.places.kernel_values(self.places.program.together, unit), len(self.places.targets)
         return found[:t].T, self.places.by_unit(found[t:])
 
     # -- the first look ----------------------------------------------------------------------------------
@@ -129,7 +129,7 @@ class ManyPlaces:
         order = [*range(k, len(axes)), *range(k)]
         grid = np.stack([each.ravel() for each in np.meshgrid(*(axes[at] for at in order), indexing="ij")], axis=1)
         unit = grid[:, [order.index(at) for at in range(len(axes))]]
-        return PlaceGrid(self, outs, axes[:k], axes[k:], unit, places.run(places.program.values, unit))
+        return PlaceGrid(self, outs, axes[:k], axes[k:], unit, places.kernel_values(places.program.values, unit))
 
     # -- steps -------------------------------------------------------------------------------------------
 

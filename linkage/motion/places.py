@@ -157,7 +157,7 @@ class Places:
         return PlaceProgram.of(self.plan, self.bound, self.free)
 
     @cached_property
-    def ends(self) -> FloatArray:
+    def free_ends(self) -> FloatArray:
         """The ends of the strokes that are looked for [m or rad], as they are declared unless `ranges` say, shape (k, 2)."""
         declared = {name: (each.start, each.end) for name, each in self.plan.strokes.items()}
         return np.array([self.ranges.get(name, declared[name]) for name in self.free], float).reshape(-1, 2)
@@ -165,12 +165,12 @@ class Places:
     @cached_property
     def low(self) -> FloatArray:
         """The least values of these strokes [m or rad], shape (k,)."""
-        return np.asarray(self.ends.min(axis=1))
+        return np.asarray(self.free_ends.min(axis=1))
 
     @cached_property
     def span(self) -> FloatArray:
         """The ranges of these strokes [m or rad], shape (k,)."""
-        return np.abs(self.ends[:, 1] - self.ends[:, 0])
+        return np.abs(self.free_ends[:, 1] - self.free_ends[:, 0])
 
     @cached_property
     def turning(self) -> Mask:
@@ -217,17 +217,17 @@ class Places:
         every |= {name: np.full(len(unit), value) for name, value in self.held.items()}
         return {name: every[name] for name in self.plan.strokes}
 
-    def run(self, kernel: Kernel, unit: FloatArray) -> FloatArray:
+    def kernel_values(self, kernel: Kernel, unit: FloatArray) -> FloatArray:
         """Return what a kernel gives at unit coordinates (n, k), shape (outputs, n); NaN out of reach."""
         return kernel(self.inputs((self.low + unit * self.span).T), way=way_of(len(unit)), size=(1, len(unit))).values[:, 0]
 
     def values(self, unit: FloatArray) -> FloatArray:
         """Return the values of the targets [SI], shape (n, t), at unit coordinates (n, k); NaN out of reach."""
-        return self.run(self.program.values, unit).T
+        return self.kernel_values(self.program.values, unit).T
 
     def slopes(self, unit: FloatArray) -> FloatArray:
         """Return their derivatives by unit coordinates, shape (n, t, k)."""
-        return self.by_unit(self.run(self.program.slopes, unit))
+        return self.by_unit(self.kernel_values(self.program.slopes, unit))
 
     def by_unit(self, slopes: FloatArray) -> FloatArray:
         """Return derivatives by the strokes, shape (t k, n), as those by unit coordinates, shape (n, t, k)."""
@@ -439,7 +439,7 @@ class BranchSearch:
         return np.stack([each.ravel() for each in np.meshgrid(*self.axes, indexing="ij")], axis=1)
 
     @cached_property
-    def seen(self) -> FloatArray:
+    def misses_seen(self) -> FloatArray:
         """By how much the targets are missed on the grid, shape (t, *counts)."""
         off = self.places.off(self.places.values(self.grid), self.wanted)
         return off.T.reshape(-1, *map(len, self.axes))
@@ -447,7 +447,7 @@ class BranchSearch:
     @cached_property
     def changes(self) -> FloatArray:
         """By how much each target changes over the grid [SI], shape (t,)."""
-        known = [each[np.isfinite(each)] for each in self.seen]
+        known = [each[np.isfinite(each)] for each in self.misses_seen]
         return np.array([max(float(np.ptp(each)), 1e-300) if each.size else 1.0 for each in known])
 
     # in coordinates of the box, 0 to 1
@@ -475,8 +475,8 @@ class BranchSearch:
         """Return where to start, unit coordinates (n, k): in the cells where every target may be met, the nearest first."""
         k = len(self.axes)
         cells = tuple(len(axis) - 1 for axis in self.axes)
-        low, high, bend = extremes_of_cells(self.seen)
-        wide, whole = high - low, corners_all(np.asarray(np.isfinite(self.seen).all(axis=0)))
+        low, high, bend = extremes_of_cells(self.misses_seen)
+        wide, whole = high - low, corners_all(np.asarray(np.isfinite(self.misses_seen).all(axis=0)))
         room = np.where(whole, 0.1, 1.0) * wide + 0.5 * bend
         angles = self.places.angles.reshape(-1, *[1] * k)
         with np.errstate(invalid="ignore", divide="ignore"):
@@ -488,7 +488,7 @@ class BranchSearch:
         starts = np.stack([0.5 * (axis[at] + axis[at + 1]) for axis, at in zip(self.axes, index.T, strict=True)], axis=1)
         whole = whole.ravel()[place]
         if not whole.all():  # at the border of what is assembled from the best corner
-            size = np.max(np.abs(self.seen) / self.places.sizes.reshape(-1, *[1] * k), axis=0)
+            size = np.max(np.abs(self.misses_seen) / self.places.sizes.reshape(-1, *[1] * k), axis=0)
             size = np.where(np.isfinite(size), size, np.inf)
             for row in np.flatnonzero(~whole):
                 corners = [tuple(index[row] + step) for step in product((0, 1), repeat=k)]
@@ -501,7 +501,7 @@ class BranchSearch:
 
         There values change as roots do, and steps go well from the border inwards, not towards it.
         """
-        known, places = np.asarray(np.isfinite(self.seen).all(axis=0)), self.places
+        known, places = np.asarray(np.isfinite(self.misses_seen).all(axis=0)), self.places
         inside, outside = [np.empty((0, known.ndim))], [np.empty((0, known.ndim))]
         for axis in range(known.ndim):
             before, behind = (along(axis, known.ndim, part) for part in (slice(None, -1), slice(1, None)))
@@ -601,7 +601,7 @@ class BranchSearch:
 
         It starts where least is missed on the grid: from the best, and those that no neighbour improves on.
         """
-        size = np.sum((self.seen / self.places.within.reshape(-1, *[1] * len(self.axes))) ** 2, axis=0)
+        size = np.sum((self.misses_seen / self.places.within.reshape(-1, *[1] * len(self.axes))) ** 2, axis=0)
         low = size = np.where(np.isfinite(size), size, np.inf)
         for axis in range(size.ndim):
             moved = np.moveaxis(low, axis, 0)

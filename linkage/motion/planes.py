@@ -118,7 +118,7 @@ def clearance() -> NodeRequest:
 
     def behind(plan: Plan) -> set[str]:
         shapes = [shape_named(plan, name) for pair in pairs_of(plan) for name in pair]
-        return plan.reaches(*(name for shape in shapes for name in shape.behind), width_of(plan))
+        return plan.reaches(*(name for shape in shapes for name in shape.parts_behind), width_of(plan))
 
     return NodeRequest(
         text="clearance()", sentence="the least gap of what lies in one plane", key=("clearance",), measures="length", may_fail=True,

@@ -51,7 +51,7 @@ def limits(motion: MotionLike) -> Limits:
     check_any(motion.strokes, motion.plan)
     held = {name: float(np.ravel(value)[0]) for name, value in motion.strokes.items()}
     lines = {name: StrokeLine(motion, name, held) for name in motion.strokes}
-    return Limits({name: recalled(motion, ("limits", name), line.limits) for name, line in lines.items()})
+    return Limits({name: recalled(motion, ("limits", name), line.stroke_limits) for name, line in lines.items()})
 
 
 @final
@@ -67,7 +67,7 @@ class StrokeLine:
         """Return the motion at values of the stroke, unreachable poses as NaN."""
         return self.motion.moved({**self.held, self.name: values})
 
-    def limits(self) -> StrokeLimits:
+    def stroke_limits(self) -> StrokeLimits:
         """Return the limits, looked for one span beyond the declared range, a crank over a full turn."""
         plan, name = self.motion.plan, self.name
         stroke, unit = plan.strokes[name], stroke_unit(plan, name)

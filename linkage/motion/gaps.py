@@ -62,10 +62,13 @@ def gap(a: Reference, b: Reference, *, width: float = 0.0) -> NodeRequest:
     def nodes(plan: Plan) -> tuple[Node, ...]:
         return (plan.trace.graph.node(gap_of(plan, one, other) - float(width)),)
 
+    def names(plan: Plan) -> set[str]:
+        return plan.reaches(*(name for shape in two_shapes(plan, one, other) for name in shape.parts_behind))
+
     return NodeRequest(
         text=f"gap({one}, {other}{f', width={width:g}' if width else ''})", sentence=f"the gap between {one} and {other}",
         key=("gap", one, other, float(width)), measures="length", may_fail=True,
-        nodes_of=nodes, names_of=lambda plan: plan.reaches(*(name for shape in two_shapes(plan, one, other) for name in shape.parts_behind)),
+        nodes_of=nodes, names_of=names,
         refused_by=lambda motion: check_forms(motion, (one, other)),
     )  # fmt: skip
 

@@ -370,7 +370,7 @@ class Motion(Shown):
         """Return the rates by slopes (n, n, ...) of n values by the strokes, what is wanted of them and their sizes (n, ...)."""
         matrix, right = np.moveaxis(slopes, (0, 1), (-2, -1)), np.moveaxis(wanted, 0, -1)[..., None]
         spans = np.array([abs(stroke.end - stroke.start) for stroke in self.plan.strokes.values()])
-        sizes, known = np.moveaxis(sizes, 0, -1), np.isfinite(matrix).all(axis=(-2, -1))
+        sizes, known = np.moveaxis(sizes, 0, -1), np.asarray(np.isfinite(matrix).all(axis=(-2, -1)))
         scaled = np.where(known[..., None, None], matrix, np.eye(len(wanted))) * spans / np.where(sizes > 0.0, sizes, 1.0)[..., None]
         found = np.linalg.svd(scaled, compute_uv=False)
         dead: Mask = np.asarray(known & ~(found[..., -1] * conditions.REFUSE > np.maximum(found[..., 0], 1.0)))

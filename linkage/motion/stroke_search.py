@@ -136,7 +136,7 @@ class StrokeLine:
             wide = self.at(stroke(leg, t).ravel())
             return -np.array([[transmission(joint).of(wide)] for joint in moving]), wide.reached[None]
 
-        wide = self.at(np.asarray(stroke(*samples(counts)), float))
+        wide = self.at(stroke(*samples(counts)))
         angles = {joint: wide.transmission_angle(joint) for joint in wide._joints}
         moving = [joint for joint, angle in angles.items() if np.nanmax(angle) - np.nanmin(angle) > UNCHANGED]
         if not moving:
@@ -157,7 +157,7 @@ class StrokeLine:
         whole = next((each for each in found if each.high - each.low > TURN * (1.0 - 1e-9)), None)
         if not pins or whole is None:
             return None
-        turned = self.at(whole.low + TURN * np.arange(MOST + 1))
+        turned = self.at(np.asarray(whole.low + TURN * np.arange(MOST + 1), float))
         every = np.array([turned[point][:, 0] for point in plan.points])
         gaps = {pin: np.hypot(*(turned[pin] - turned[pin][:, :1])) / np.ptp(every, axis=0).max() for pin in pins}
         away = tuple(pin for pin, gap in gaps.items() if gap[1] > CLOSED)

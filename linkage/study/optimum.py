@@ -228,7 +228,7 @@ class Optimum(Shown):
             rows.append(ResultRow("variable", name, unit_of(plan, name), before, after, last, gain=gain, by=by))
         last, unit = rounded.value if rounded else nan, unit_of_measure(plan, problem.objectives[0])
         rows.append(ResultRow("objective", str(problem.objectives[0]), unit, self.start_value, self.value, last))
-        known = [values_of(problem, each) for each in machines]
+        known = [leaf_numbers(problem, each) for each in machines]
         for kept in self.conditions:
             side = kept.constraint.left
             before, after, last = [*(nan if each is None else float(side.of(each.__getitem__)) for each in known), nan][:3]
@@ -319,7 +319,7 @@ def as_kept(problem: Problem, constraint: Constraint, now: Mapping[Leaf, float],
     return Kept(constraint, left, right, spare, by, price * by if price * by > SHOWN else 0.0, unit_of_constraint(problem.plan, constraint))
 
 
-def values_of(problem: Problem, machine: Mechanism) -> LeafNumbers | None:
+def leaf_numbers(problem: Problem, machine: Mechanism) -> LeafNumbers | None:
     """Return the leaves' numbers of a machine, between the poses too; None where it cannot be assembled over the whole stroke."""
     try:
         problem.assembled(machine)
@@ -330,7 +330,7 @@ def values_of(problem: Problem, machine: Mechanism) -> LeafNumbers | None:
 
 def worth_of(problem: Problem, machine: Mechanism) -> tuple[float, float]:
     """Return the objective of a machine and what it misses in parts of the conditions' sizes; NaN where it cannot be assembled."""
-    values = values_of(problem, machine)
+    values = leaf_numbers(problem, machine)
     if values is None:
         return float("nan"), float("inf")
     scales = scales_of(problem, problem.evaluated(machine.dimensions, slopes=True))

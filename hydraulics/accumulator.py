@@ -22,8 +22,8 @@ from typing import Any, ClassVar, final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from linkage.checks import refuse, require_type
-from linkage.errors import DefinitionError, cited
+from linkage.checks import require_type
+from linkage.errors import DefinitionError, cited, ensure
 from linkage.frozen import keep_own, refuses_changes
 from linkage.language import said
 from linkage.loads import Poses
@@ -191,7 +191,7 @@ class AccumulatorBlock:
         require_type("", self.accumulators, (list, tuple), "is no list of accumulators; write AccumulatorBlock([Accumulator(...)])")
         object.__setattr__(self, "accumulators", tuple(self.accumulators))
         keep_own(self)
-        refuse(not self.accumulators, "The accumulator block is empty; give it at least one Accumulator(volume, charge).")
+        ensure(self.accumulators, "The accumulator block is empty; give it at least one Accumulator(volume, charge).")
         for one in self.accumulators:
             require_type("", one, Accumulator, "is no Accumulator; write Accumulator(volume, charge)")
         if not isinstance(self.gas, Gas):
@@ -317,7 +317,7 @@ class AccumulatorBlock:
         given = (one_number(pressure, "Pressure") for pressure in (p_min, p_max, allowed))
         low, high, limit = (float(self._absolute(pressure)) - self.atmosphere for pressure in given)
         text = partial(show, unit=unit or self._unit, digits=4)
-        refuse(low > high, f"p_min = {text(low)} is above p_max = {text(high)}; exchange them.")
+        ensure(not low > high, f"p_min = {text(low)} is above p_max = {text(high)}; exchange them.")
         charges = {number: there(charge, vessel) for number, (charge, vessel) in enumerate(self._bank, 1) if np.any(vessel > 0.0)}
         worst = {"charge": (low + self.atmosphere, np.max), "compression": (high + self.atmosphere, np.min)}
         found = []
@@ -445,7 +445,7 @@ def there(charge: Array, vessel: Array) -> Array:
 
 def one_atmosphere(atmosphere: ArrayLike) -> Array:
     """Return the atmosphere [Pa]; DefinitionError where a batch gives several."""
-    refuse(np.ndim(atmosphere), "atmosphere is one number for all designs of a batch; give a float.")
+    ensure(not np.ndim(atmosphere), "atmosphere is one number for all designs of a batch; give a float.")
     return all_finite(atmosphere, "Atmosphere")
 
 

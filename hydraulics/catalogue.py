@@ -17,8 +17,7 @@ from collections.abc import Sequence
 from itertools import product
 from typing import NamedTuple
 
-from linkage.checks import refuse
-from linkage.errors import DefinitionError, cited
+from linkage.errors import DefinitionError, cited, ensure
 from linkage.units import inch, mm, shown_in, shown_number
 
 from .cylinder import INCH, chosen_series, series_of
@@ -101,6 +100,6 @@ def series_values(given: Sequence[float] | None, standard: Sequence[float], what
     if given is None:
         return [*standard]
     sizes = positive(given, what)
-    refuse(sizes.ndim != 1, f"{what} = {cited(given)}: a list is expected, such as [{standard[-4] / mm:.6g} * mm].")
+    ensure(sizes.ndim == 1, f"{what} = {cited(given)}: a list is expected, such as [{standard[-4] / mm:.6g} * mm].")
     in_metres(sizes, what) if what != "Stroke" else stroke_in_metres(sizes, what)
     return sorted({float(each) for each in sizes})

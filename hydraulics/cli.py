@@ -7,12 +7,11 @@ from typing import final
 
 import numpy as np
 
-from linkage.checks import refuse
 from linkage.cli.command import Command, every_argument, machine_arguments, motion_arguments
 from linkage.cli.machines import find
 from linkage.cli.settings import check_argument, design, judged_over, motion_at, over_argument, print_verdicts, si_value
 from linkage.cli.table import csv_argument, write_table
-from linkage.errors import DefinitionError, known_name
+from linkage.errors import DefinitionError, ensure, known_name
 from linkage.language import noted, said
 from linkage.loads import Acting, ForceElement, LoadCase
 from linkage.mechanism import Mechanism
@@ -95,7 +94,7 @@ def cylinder_of(machine: Mechanism, name: str | None) -> Ram:
     lifting = {key: each for key, each in plan.of_kind(Ram).items() if not any(same(each, ram) for ram in fed)}
     if len(lifting) == 1:
         return next(iter(lifting.values()))
-    refuse(lifting, f"{plan.title} has the cylinders {', '.join(lifting)}; say --cylinder one of them.")
+    ensure(not lifting, f"{plan.title} has the cylinders {', '.join(lifting)}; say --cylinder one of them.")
     remedy = "declare one, lift = Cylinder(A, B, bore=0.08, rod=0.045)"
     raise DefinitionError(f"{plan.title} has no cylinder {'but those that gas feeds' if fed else 'that could lift'}; {remedy}.")
 
@@ -104,16 +103,16 @@ def circuit_of(machine: Mechanism, ram: Ram, options: Namespace) -> LiftCircuit:
     """Return what feeds a cylinder: a pressure that is given, the circuit named, else its only one."""
     plan = machine.plan
     if options.pressure is not None:
-        refuse(options.circuit is not None, "--pressure and --circuit both say what feeds the cylinder; give one of them.")
+        ensure(options.circuit is None, "--pressure and --circuit both say what feeds the cylinder; give one of them.")
         pressure = si_value(options.pressure, "pressure", "--pressure")
-        refuse(pressure < 0.0, f"--pressure {options.pressure}: it is negative; give zero or more.")
+        ensure(not pressure < 0.0, f"--pressure {options.pressure}: it is negative; give zero or more.")
         return LiftCircuit(ram.name, pressure=pressure)
     circuits = {name: each for name, each in plan.of_kind(LiftCircuit).items() if any(same(ram, one) for one in each.members(plan.members))}
     if options.circuit is not None:
         return circuits[known_name("LiftCircuit", options.circuit, circuits, f"{plan.title} with {ram.name}")]
     if len(circuits) == 1:
         return next(iter(circuits.values()))
-    refuse(circuits, f"{plan.title}: {ram.name} is on {len(circuits)} circuits; say --circuit one of {', '.join(circuits)}.")
+    ensure(not circuits, f"{plan.title}: {ram.name} is on {len(circuits)} circuits; say --circuit one of {', '.join(circuits)}.")
     raise DefinitionError(f"{plan.title}: no LiftCircuit has {ram.name}, whose pump counts; declare one, or say --pressure 180bar.")
 
 

@@ -24,8 +24,7 @@ from typing import Literal, NamedTuple, TypeAlias, final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from linkage.checks import refuse
-from linkage.errors import DefinitionError, cited, known_name
+from linkage.errors import DefinitionError, cited, ensure, known_name
 from linkage.frozen import keep_own, refuses_changes
 from linkage.units import inch, mm, show, shown_in, shown_number
 
@@ -260,7 +259,7 @@ class CylinderSize(RamSize):
             rods, bores = f"Rod {show(rod[thick][0], 'mm')}", f"bore {show(bore[thick][0], 'mm')}"
             raise DefinitionError(f"{rods} is not smaller than {bores}; exchange them or take a thinner rod.")
         count = one_number(self.count, "Count of cylinders")
-        refuse(not 1.0 <= count <= MOST or count != int(count), f"Count of cylinders = {cited(self.count)}; give a whole number from 1 on.")
+        ensure(1.0 <= count <= MOST and count == int(count), f"Count of cylinders = {cited(self.count)}; give a whole number from 1 on.")
         known_name("Side", self.works, SIDES, where="works")
 
     def __str__(self) -> str:

@@ -6,8 +6,8 @@ from collections.abc import Callable, Mapping
 from functools import singledispatch
 from typing import Any, final
 
-from linkage.checks import refuse, require
-from linkage.errors import DefinitionError, cited, known_name, unknown
+from linkage.checks import require
+from linkage.errors import DefinitionError, cited, ensure, known_name, unknown
 from linkage.quantities import Number, is_number
 from linkage.quantities.quantity import plain
 
@@ -50,7 +50,7 @@ def temperature(gas: Gas) -> dict[str, object]:
 
 def gas_number(value: object) -> object:
     """Return a number of a gas law; DefinitionError where there are several."""
-    refuse(not is_number(plain(value)), f"the gas law has several values, {value!r}; a file holds one design.")
+    ensure(is_number(plain(value)), f"the gas law has several values, {value!r}; a file holds one design.")
     return plain(value)
 
 
@@ -71,7 +71,7 @@ class GasLaw:
         for key in table:
             if key not in ("law", *keys):
                 raise unknown(f"Key of {name}", key, keys)
-        refuse("n" in keys and "n" not in table, f"the exponent n of {name} is missing; write {EXAMPLE}.")
+        ensure(not ("n" in keys and "n" not in table), f"the exponent n of {name} is missing; write {EXAMPLE}.")
         return make(**{key: number(table[key]) for key in keys if key in table})
 
 

@@ -18,8 +18,8 @@ from typing import Any, ClassVar, Self, TypeAlias, cast, final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from linkage.checks import refuse, require_type
-from linkage.errors import DefinitionError, cited
+from linkage.checks import require_type
+from linkage.errors import DefinitionError, cited, ensure
 from linkage.frozen import refuses_changes
 from linkage.language import said
 from linkage.loads import AT_REST, Acting, ForceElement, Glyph, Load, Parameter, Poses, Push, Rate, Rates, require_poses
@@ -271,7 +271,7 @@ class FloatCircuit(GasLine):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        refuse(not self.references, "FloatCircuit: [] stands where a cylinder or its name is expected.")
+        ensure(self.references, "FloatCircuit: [] stands where a cylinder or its name is expected.")
         for name in ("charge_pressure", "seal_friction"):
             if not follows(getattr(self, name)):
                 in_pascals(getattr(self, name), name.replace("_", " ").capitalize())

@@ -12,8 +12,7 @@ from typing import final
 
 import numpy as np
 
-from linkage.checks import refuse
-from linkage.errors import known_name, unknown
+from linkage.errors import ensure, known_name, unknown
 from linkage.language import said, said_of, with_and
 from linkage.loads import FRICTIONLESS, Acting, Case, Loads, situation_of
 from linkage.motion import Answer, Condition, Judge, Motion, Question, Span, at, below_zero, least, most, reached, require_motion
@@ -50,7 +49,7 @@ def lift_verdicts(
     not_negative(one_number(resistance, "Return resistance"), "Return resistance")
     known_name("Unit", unit, UNITS, where="lift_verdicts(unit=...)")
     judge = judge_of(motion, "A lift", given)
-    refuse(not motion.reached.any(), f"{motion.plan.title}: no pose of this motion can be assembled, so that there is nothing to judge.")
+    ensure(motion.reached.any(), f"{motion.plan.title}: no pose of this motion can be assembled, so that there is nothing to judge.")
     return line_verdicts(line, judge, resistance, unit)
 
 

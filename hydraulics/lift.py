@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import ClassVar, final
 
-from linkage.checks import refuse
-from linkage.errors import DefinitionError
+from linkage.errors import DefinitionError, ensure
 from linkage.frozen import refuses_changes
 from linkage.language import with_and
 from linkage.loads import ForceElement, Parameter
@@ -80,7 +79,7 @@ class LiftCircuit(PumpLine):
         check_pressures(self, "circuit")
 
     def examine(self, members: Mapping[str, Member], title: str) -> None:
-        refuse(not self.references, f"{title}.{self.name}: the circuit has no cylinder; name one, LiftCircuit(lift, pressure=...).")
+        ensure(self.references, f"{title}.{self.name}: the circuit has no cylinder; name one, LiftCircuit(lift, pressure=...).")
         super().examine(members, title)
         own = self.members(members)
         for place, ram in enumerate(own):

@@ -182,7 +182,7 @@ class LiftLine(Circuit):
         found = self.says(name, motion.plan.members)
         return np.zeros(()) if found is None else number_set(found[0], motion, found[1])
 
-    def written(self, written: Formulas, name: str) -> Array:
+    def number_written(self, written: Formulas, name: str) -> Array:
         """Return the same for the equations."""
         found = self.says(name, written.plan.members)
         return np.zeros(()) if found is None else ForceElement.number(found[0], written, found[1])
@@ -211,7 +211,7 @@ class LiftLine(Circuit):
 
         Efficiencies of one and a back pressure of none are left out.
         """
-        number, members = partial(self.written, written), written.plan.members
+        number, members = partial(self.number_written, written), written.plan.members
         for ram in self.members(members):
             thrust = written.thrust(ram)
             if thrust is None:
@@ -221,7 +221,7 @@ class LiftLine(Circuit):
             area, other = ram.sides_written(written, thrust)
             pipes = [line for line, _ in lines_of(ram, members) if isinstance(line, LiftLine)]
             drained = [line for line in pipes if line.kind_in(members) == "given" and line.is_drained]
-            back = drained[0].written(written, "back_pressure") if drained else number("back_pressure")
+            back = drained[0].number_written(written, "back_pressure") if drained else number("back_pressure")
             against: Array | float = 0.0 if written.equals(back, 0.0) else back * other
             supply = np.minimum(number("pressure"), number("relief")) if self.relieves(written.plan) else number("pressure")
             force = written.line(f"F_{ram.name}", thrust_along(ram, thrust) / k_m, "kN")

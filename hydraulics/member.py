@@ -20,8 +20,7 @@ from typing import Any, ClassVar, Literal, Self, TypeAlias, TypeVar, Unpack, cas
 import numpy as np
 from numpy.typing import ArrayLike
 
-from linkage.checks import refuse
-from linkage.errors import DefinitionError, cited, known_name, unknown, unwarned
+from linkage.errors import DefinitionError, cited, ensure, known_name, unknown, unwarned
 from linkage.frozen import refuses_changes
 from linkage.language import noted, said, with_and
 from linkage.loads import Acting, ActingKeywords, Case, DrawnAs, Loads, TwoPoint, situation_of, takes_situation
@@ -1031,7 +1030,7 @@ class Circuit(OnLines, HasVerdicts):
             return rams[0]
         names = ", ".join(each.name or str(each) for each in rams)
         named = [each for each in rams if cylinder is not None and (each is cylinder or (each.name and each.name == name_of(cylinder)))]
-        refuse(not named, f"{self.name or 'The circuit'} has the cylinders {names}; say cylinder= one of them.")
+        ensure(named, f"{self.name or 'The circuit'} has the cylinders {names}; say cylinder= one of them.")
         return named[0]
 
     def parts(self) -> tuple[Reference, ...]:
@@ -1287,7 +1286,7 @@ def carries_loads(judge: Judge) -> bool:
 def judge_of(motion: Motion, what: str, acting: Acting | None = None) -> Judge:
     """Return the judge of a motion of one design, of which what is out of reach is left out; DefinitionError for several designs."""
     require_motion(motion)
-    refuse(motion._design_shape, f"{what} is judged for one design at a time; this motion has {motion._design_shape}. Take one.")
+    ensure(not motion._design_shape, f"{what} is judged for one design at a time; this motion has {motion._design_shape}. Take one.")
     return Judge(motion.plan, motion.designs, [motion], acting).lost_allowed()
 
 

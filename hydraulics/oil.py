@@ -21,8 +21,8 @@ from typing import Any, ClassVar, TypeAlias, Unpack, cast, final
 
 import numpy as np
 
-from linkage.checks import refuse, require_type
-from linkage.errors import DefinitionError, cited, unknown
+from linkage.checks import require_type
+from linkage.errors import DefinitionError, cited, ensure, unknown
 from linkage.frozen import FrozenDict, refuses_changes
 from linkage.language import said
 from linkage.loads import Acting, ActingKeywords, Declared, ForceElement, Loads, Parameter, Poses, Tie, situation_of, takes_situation
@@ -340,8 +340,8 @@ class OilLine(PumpLine, GasLine):
         for ram, chamber in filling:
             if not isinstance(ram, Ram):
                 raise DefinitionError(f"{opening}: {chamber} is no chamber, as {ram} is no Cylinder.")
-            refuse(chamber.side not in SIDES, f"{opening}: {ram.name} works with both sides; say which, {ram.name}.piston_side.")
-        refuse(not filling, f"{opening}: no chamber is on it; name one, lift.piston_side.")
+            ensure(chamber.side in SIDES, f"{opening}: {ram.name} works with both sides; say which, {ram.name}.piston_side.")
+        ensure(filling, f"{opening}: no chamber is on it; name one, lift.piston_side.")
         self._examine_supplies(members, opening)
         self._examine_others(members, filling, title)
         kind = self.kind_in(members)
@@ -364,9 +364,9 @@ class OilLine(PumpLine, GasLine):
         if pumps and tanks:
             what = f"{opening}: a pump and a tank are on one line, whose pressure would be given twice"
             raise DefinitionError(f"{what}; put the other side on the tank, OilLine(lift.rod_side, {tanks[0].name or 'Tank()'}).")
-        refuse(tanks and blocks, f"{opening}: accumulators and a tank give its pressure both; take one out.")
+        ensure(not (tanks and blocks), f"{opening}: accumulators and a tank give its pressure both; take one out.")
         for found, what in ((pumps, "pumps"), (tanks, "tanks"), (valves, "relief valves"), (blocks, "blocks of accumulators")):
-            refuse(len(found) > 1, f"{opening}: {len(found)} {what} are on one line; leave one.")
+            ensure(len(found) <= 1, f"{opening}: {len(found)} {what} are on one line; leave one.")
 
     def _examine_others(self, members: Mapping[str, Member], filling: Sequence[tuple[Ram, Chamber]], title: str) -> None:
         """Raise DefinitionError for what stands on this line and on another one, or twice on this."""

@@ -13,8 +13,7 @@ from typing import Any, TypeAlias, final
 
 import numpy as np
 
-from linkage.checks import refuse
-from linkage.errors import DefinitionError, known_name
+from linkage.errors import DefinitionError, ensure, known_name
 from linkage.loads import DIRECTIONS, Acting, Case, situation_of
 from linkage.mechanism import Mechanism
 from linkage.motion import Condition, Constraint, SmoothPiece, at, least, most
@@ -77,7 +76,7 @@ def circuit_with(plan: Plan, ram: Ram, circuit: Circuits, word: str) -> LiftLine
     feeding = pumped if pumped and not circuit else feeding  # a tank or gas on the other side lifts nothing
     if circuit or len(feeding) == 1:
         return feeding[circuit or next(iter(feeding))]
-    refuse(feeding, f"{plan.title}: {ram.name} is on {len(feeding)} circuits; say circuit= one of {', '.join(feeding)}.")
+    ensure(not feeding, f"{plan.title}: {ram.name} is on {len(feeding)} circuits; say circuit= one of {', '.join(feeding)}.")
     remedy = f"declare one, circuit = LiftCircuit({ram.name}, pressure=...)"
     raise DefinitionError(f"{plan.title}: {word}({ram.name}): no LiftCircuit has it, whose pump and relief count; {remedy}.")
 
@@ -373,7 +372,7 @@ class Fits(Condition):
         ram = found_in(plan.members, self.cylinder, plan.title)
         length, name = distance(ram.A, ram.B), ram.name
         strokes, closed = ([at(each) for each in ram.lengths_named(said)] for said in ("stroke", "closed"))
-        refuse(not strokes, f"{plan.title}: fits({name}): {name} says no stroke; declare it, Cylinder(..., closed=0.5, stroke=0.25).")
+        ensure(strokes, f"{plan.title}: fits({name}): {name} says no stroke; declare it, Cylinder(..., closed=0.5, stroke=0.25).")
         if not closed:
             return (most(length) - least(length) <= strokes[0],)
         opened = reduce(lambda a, b: a + b, [closed[0], *strokes])

@@ -25,8 +25,7 @@ from typing import Any, ClassVar, cast, final
 
 import numpy as np
 
-from linkage.checks import refuse
-from linkage.errors import DefinitionError, cited
+from linkage.errors import DefinitionError, cited, ensure
 from linkage.frozen import keep_own, refuses_changes
 from linkage.language import noted, said
 from linkage.loads import Case, Glyph, Parameter, Poses
@@ -104,13 +103,13 @@ class Telescope(Ram):
                 raise DefinitionError(f"Telescope: {name}={cited(given)}: a list is expected, one a stage, {name}=[0.145, 0.125].")
             for each in given:
                 require_measure(each, "mm", f"Telescope: {name}")
-            refuse(len(given) > STAGES, f"Telescope: {len(given)} {name}: at most {STAGES} stages are known; give one a moving stage.")
+            ensure(len(given) <= STAGES, f"Telescope: {len(given)} {name}: at most {STAGES} stages are known; give one a moving stage.")
         if len(self.bores) != len(self.strokes):
             what = f"Telescope: {len(self.bores)} bores and {len(self.strokes)} strokes"
             raise DefinitionError(f"{what}; give each moving stage one of both, the outermost first.")
         super().__post_init__()
         many = one_number(self.count, "Count of telescopes")
-        refuse(not 1.0 <= many <= MOST or many != int(many), f"Count of telescopes = {cited(self.count)}; give a whole number from 1 on.")
+        ensure(1.0 <= many <= MOST and many == int(many), f"Count of telescopes = {cited(self.count)}; give a whole number from 1 on.")
         Buckling(1.0, self.mounting, self.safety)
         for number, bore in enumerate(self.bores, 1):
             if not follows(bore):

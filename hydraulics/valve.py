@@ -15,8 +15,7 @@ from typing import ClassVar, Unpack, cast, final
 
 import numpy as np
 
-from linkage.checks import refuse
-from linkage.errors import DefinitionError, cited, known_name, unknown
+from linkage.errors import DefinitionError, cited, ensure, known_name, unknown
 from linkage.frozen import refuses_changes
 from linkage.language import said
 from linkage.loads import Acting, ActingKeywords, Case, Loads, Parameter, Poses, situation_of, takes_situation
@@ -91,7 +90,7 @@ class HoldingValve(LineValve):
             if name_of(each) not in known:
                 raise unknown("Line", name_of(each), known, where=f"{title}.{self.name}")
         line, pilot = self.lines(members)
-        refuse(same(line, pilot), f"{opening}: {line.name} cannot be its own pilot; name the line of the other side, pilot=other.")
+        ensure(not same(line, pilot), f"{opening}: {line.name} cannot be its own pilot; name the line of the other side, pilot=other.")
         for ram, chamber in line.filling(members):
             others = [each.side for one, each in pilot.filling(members) if same(one, ram)]
             if not others or chamber.side in others:

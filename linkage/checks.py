@@ -40,12 +40,6 @@ def require(holds: object, what: str, value: object, expected: str) -> None:
         raise unfit(what, value, expected)
 
 
-def refuse(fault: object, text: str) -> None:
-    """Raise DefinitionError with a text where there is a fault."""
-    if fault:
-        raise DefinitionError(text)
-
-
 def require_one_design(designs: Mapping[str, object], said: str) -> None:
     """Refuse a batch of designs by their dimensions: `Crane: a figure shows one design, this is a batch; choose one of them.`"""
     if any(np.ndim(cast(float, value)) for value in designs.values()):

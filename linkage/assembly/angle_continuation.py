@@ -256,7 +256,7 @@ class AnglePath:
         begin = np.flatnonzero(left.place == 0.0)
         piece = np.cumsum(left.place == 0.0) - 1
         gone = np.cumsum(np.where(good, turn, 0.0)) - np.where(good, turn, 0.0)
-        missed = np.cumsum(~good) - ~good
+        missed: Index = np.cumsum(~good) - ~good
         angle = first[piece] + gone - gone[begin][piece]
         lost = missed - missed[begin][piece] > 0
         angle = np.where(lost, np.nan, angle)

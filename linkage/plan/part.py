@@ -163,7 +163,8 @@ class Part(Member):
         if len(names) == 1:
             what = f"{self.name} = {self}: {names[0]} is one point, and gives a part no directions"
             raise DefinitionError(f"{what}; name two points of the body that carries it, on=({names[0]}, ...), or a link.")
-        found = Axes(*(names[:2] or (None, None)), self.at, self.angle, self.mirrored)
+        P, Q = names[:2] if names else (None, None)
+        found = Axes(P, Q, self.at, self.angle, self.mirrored)
         return None if found.is_frame else found
 
     def brought(self, members: Mapping[str, Member]) -> dict[str, Member]:

@@ -405,7 +405,7 @@ def shipped_machines() -> list[Mechanism]:
     """Return the designs of the installed machines that name a point of a coupler and need no iteration, those of few links first."""
     found: dict[type[Mechanism], Mechanism] = {}
     for kind in REGISTERED.loaded()[0].values():  # one that cannot be loaded hides no other
-        if "featured" in vars(kind):
+        if {"about", "featured"} & vars(kind).keys():  # of its own, so that a machine and what is built on it are not both there
             machine = kind()
             if machine.featured().coupler and not machine.plan.groups:
                 found[kind] = machine

@@ -9,13 +9,13 @@ from pathlib import Path
 import numpy as np
 
 from linkage import Column, DefinitionError, max_table
-from linkage.checks import refuse
 from linkage.cli.chart import print_chart
 from linkage.cli.command import Command, progress_bar
 from linkage.cli.machines import find
 from linkage.cli.settings import check_argument, design, over_argument, overs_of, print_verdicts, si_value
 from linkage.cli.table import csv_argument, write_table
 from linkage.disk import check_place, in_words
+from linkage.errors import ensure
 from linkage.statics import table_text
 
 from ..paper import duty_set
@@ -68,8 +68,8 @@ class DesignedCrane(Command):
     def run(self, options: Namespace) -> int:
         if options.skeleton or options.cab:
             for name in ("pictures", "pins", "csv", "scheme"):
-                refuse(getattr(options, name), f"--{name} is of a whole crane; leave --skeleton and --cab out.")
-            refuse(options.machine, f"{options.machine} has its skeleton already; leave its name out to search one.")
+                ensure(not getattr(options, name), f"--{name} is of a whole crane; leave --skeleton and --cab out.")
+            ensure(not options.machine, f"{options.machine} has its skeleton already; leave its name out to search one.")
             cab = si_value(options.cab, "length", "--cab") if options.cab else None
             with progress_bar("skeleton") as progress:
                 duty = duty_set(Duty, options, "L=8.5m", KINDS)
@@ -115,12 +115,12 @@ def crane_or_drive(options: Namespace) -> Crane | BoomDrive | DrivenArm:
             found = design_crane(duty, scheme=scheme, reading=options.reading, progress=progress or False)
         print(*(f"{each}\n" for each in (found.skeleton, found.boom, found.arm)), sep="\n")
         return found.crane
-    refuse(options.scheme, f"--scheme {options.scheme} is of a crane to design; {options.machine} has its arm's drive.")
+    ensure(not options.scheme, f"--scheme {options.scheme} is of a crane to design; {options.machine} has its arm's drive.")
     machine = design(find(options.machine), options.settings)
     if not isinstance(machine, (Crane, BoomDrive, DrivenArm)):
         raise DefinitionError(f"{options.machine} is no crane with its cylinders; take crane, or a subclass of mechanisms.crane.Crane.")
     is_drive, forces = not isinstance(machine, Crane), f"`forces {options.machine}` has what the pins of a drive carry"
-    refuse(options.pins and is_drive, f"--pins are those of a whole crane; {forces}.")
+    ensure(not (options.pins and is_drive), f"--pins are those of a whole crane; {forces}.")
     return machine
 
 

@@ -14,8 +14,8 @@ from typing import Any, NamedTuple, final
 import numpy as np
 
 from linkage import DefinitionError, Mechanism, StudyError, at, integral, least, most, optimise, ratio, ref, x, y
-from linkage.checks import refuse, require_number
-from linkage.errors import cited, one_word
+from linkage.checks import require_number
+from linkage.errors import cited, ensure, one_word
 from linkage.motion.measures import Measure
 from linkage.quantities import is_number
 from linkage.study import InfeasibleError, Optimum
@@ -399,7 +399,7 @@ def arm_drive_front(
 
     `options` are those of `design_arm_drive`. DefinitionError where the cylinder does not serve at all.
     """
-    refuse(count < 2, f"count={count}: a front has two ends at least.")
+    ensure(count >= 2, f"count={count}: a front has two ends at least.")
     one = replace(cylinders or DriveCylinders(), sizes=((bore, rod),))
 
     def compromise(objective: str, most_area: float | None) -> Compromise:

@@ -15,7 +15,7 @@ import numpy as np
 from hydraulics import CylinderSize
 from hydraulics.inputs import efficient, in_pascals, not_negative, one_number, positive
 from linkage import DefinitionError, MPa, mm
-from linkage.checks import refuse
+from linkage.errors import ensure
 from linkage.quantities import Function, Operand, Quantity, quantity
 from linkage.units import deg, kN
 
@@ -137,7 +137,7 @@ class DriveCylinders:
     longest: float = 10.0
 
     def __post_init__(self) -> None:
-        refuse(not self.sizes, "DriveCylinders: sizes= names no cylinder; give pairs of bore and rod, [(125 * mm, 70 * mm)].")
+        ensure(self.sizes, "DriveCylinders: sizes= names no cylinder; give pairs of bore and rod, [(125 * mm, 70 * mm)].")
         for bore, rod in self.sizes:
             CylinderSize(bore, rod)
         object.__setattr__(self, "sizes", tuple((float(bore), float(rod)) for bore, rod in self.sizes))

@@ -12,7 +12,7 @@ from typing import final
 import numpy as np
 
 from linkage import Column, DefinitionError, Featured, Motion, least, most, ratio
-from linkage.checks import refuse
+from linkage.errors import ensure
 from linkage.language import noted, said, translated
 from linkage.motion import Answer, MotionFunction
 from linkage.program import FloatArray
@@ -117,7 +117,7 @@ class WorstMovement:
 
 def worst_movements(motion: Motion) -> list[WorstMovement]:
     """Return the worst of every movement over a motion of one design, looked for between its poses too."""
-    refuse(motion._design_shape, f"A drive is judged for one design at a time; this motion has {motion._design_shape}. Take one.")
+    ensure(not motion._design_shape, f"A drive is judged for one design at a time; this motion has {motion._design_shape}. Take one.")
     judged = [(each, answers_over(motion, [least(each.surplus), most(each.surplus), most(each.asked)])) for each in movements_of(motion)]
     return [WorstMovement(each, low, high, float(asked.value)) for each, (low, high, asked) in judged]
 

@@ -11,7 +11,7 @@ from typing import final
 
 from hydraulics.inputs import not_negative, one_number, positive
 from linkage import DefinitionError
-from linkage.checks import refuse
+from linkage.errors import ensure
 from linkage.units import deg, kN, mm
 
 LEAST_MOMENT, GREATEST_MOMENT = 23.5 * kN, 185.0 * kN
@@ -63,9 +63,9 @@ class Duty:
         if not LEAST_MOMENT <= self.M <= GREATEST_MOMENT:
             said = f"M = {self.M / kN:.4g} kN m lies outside the {LEAST_MOMENT / kN:.4g} to {GREATEST_MOMENT / kN:.4g} kN m"
             raise DefinitionError(f"{said} of the cranes that the regressions (2.5)-(2.9) are made of; give a moment among them, in N m.")
-        refuse(not LOOSEST <= self.k_d <= DENSEST, f"k_d = {self.k_d:.4g}: the share of a stack that is wood is {LOOSEST} to {DENSEST}.")
+        ensure(LOOSEST <= self.k_d <= DENSEST, f"k_d = {self.k_d:.4g}: the share of a stack that is wood is {LOOSEST} to {DENSEST}.")
         legal = f"the legal height, {self.H_max / mm:.0f} mm"
-        refuse(self.H_k > self.H_max, f"The cab, H_k = {self.H_k / mm:.0f} mm, is higher than {legal}; lower the cab or raise H_max.")
+        ensure(not self.H_k > self.H_max, f"The cab, H_k = {self.H_k / mm:.0f} mm, is higher than {legal}; lower the cab or raise H_max.")
         if self.h_s > self.H_max:
             remedy = "carry less, or widen the stack: larger A, B or k_d"
             raise DefinitionError(f"The stacked load alone, h_s = {self.h_s / mm:.0f} mm (2.12), is higher than {legal}; {remedy}.")
@@ -89,4 +89,4 @@ class Duty:
 def check_metres(lengths: Mapping[str, float]) -> None:
     """Raise DefinitionError for a length by name [m] that was given in millimetres."""
     for name, given in lengths.items():
-        refuse(given > LONGEST_REACH, f"{name} = {given:.6g} m; no crane is so large, write {given:.6g} * mm if these are millimetres.")
+        ensure(not given > LONGEST_REACH, f"{name} = {given:.6g} m; no crane is so large, write {given:.6g} * mm if these are millimetres.")

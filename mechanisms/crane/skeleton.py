@@ -30,8 +30,8 @@ from linkage import (
     angle,
     ref,
 )
-from linkage.checks import refuse, require
-from linkage.errors import cited
+from linkage.checks import require
+from linkage.errors import cited, ensure
 from linkage.language import noted, said, translated
 from linkage.program import FloatArray
 from linkage.units import deg, kN, mm, show
@@ -216,7 +216,7 @@ class CraneSkeleton(Mechanism):
 
     def position(self, number: int) -> Motion:
         """Return one of the positions that the skeleton is laid out by: 1 reaching, 2 over the stakes, 3 over the guard, 4 in transport."""
-        refuse(number not in POSITIONS, f"Position {cited(number)} is unknown; the skeleton has {', '.join(map(str, POSITIONS))}.")
+        ensure(number in POSITIONS, f"Position {cited(number)} is unknown; the skeleton has {', '.join(map(str, POSITIONS))}.")
         (phi_0, phi_k), (psi_0, psi_k), (t_0, t_k) = self.limits_of().values()
         poses = {1: (phi_k, psi_k, t_k), 2: (phi_0, max(phi_0, psi_0), t_0), 3: (phi_0, psi_0, t_0), 4: (90 * deg, psi_0, t_0)}
         phi, psi, t = poses[number]

@@ -7,11 +7,11 @@ from argparse import ArgumentParser, Namespace
 import numpy as np
 
 from linkage import Mechanism
-from linkage.checks import refuse
 from linkage.cli.command import Command, figure_path, machine_arguments
 from linkage.cli.machines import find_like
 from linkage.cli.settings import design, judged_over, motion_at, print_verdicts
 from linkage.cli.table import write_table
+from linkage.errors import ensure
 from linkage.language import said
 from linkage.units import show, shown_number, unit_sign
 
@@ -64,7 +64,7 @@ class Gripping(Command):
 
 def designed(options: Namespace) -> Mechanism:
     """Return the grapple designed for the duty of the options, and report its search."""
-    refuse(options.machine != "grapple", f"{options.machine} is designed already; leave --design out, or the name.")
+    ensure(options.machine == "grapple", f"{options.machine} is designed already; leave --design out, or the name.")
     found = design_for(duty_set(Duty, options, "D_0=600mm", KINDS), options.design)
     print(f"{found}\n")
     return found.machine

@@ -9,7 +9,8 @@ import numpy as np
 
 from hydraulics import LiftCircuit
 from linkage import Column, DefinitionError, Force, Motion, least, most, pin_force, ref
-from linkage.checks import refuse, require_whole
+from linkage.checks import require_whole
+from linkage.errors import ensure
 from linkage.language import said
 from linkage.motion import Answer, MotionFunction, require_motion
 from linkage.program import FloatArray
@@ -76,7 +77,7 @@ def unplaced_words(motion: Motion) -> str:
 def require_placed(motion: Motion) -> Motion:
     """Return a motion of grapples whose cylinders have a place for the pin E; DefinitionError, with what gives one, for others."""
     words = unplaced_words(require_grapple(motion))
-    refuse(words, f"{motion.plan.title}: {words}")
+    ensure(not words, f"{motion.plan.title}: {words}")
     return motion
 
 

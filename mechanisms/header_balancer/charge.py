@@ -12,7 +12,8 @@ import numpy as np
 from hydraulics import adiabatic, isothermal
 from hydraulics.gas import Gas
 from linkage import DefinitionError, Motion, least
-from linkage.checks import refuse, require_number
+from linkage.checks import require_number
+from linkage.errors import ensure
 from linkage.language import noted
 from linkage.motion import Judge, last_holding, require_motion
 from linkage.plan import Mask
@@ -67,7 +68,7 @@ def charge_for(motion: Motion, wanted: float) -> float:
     DefinitionError where it is below zero: so much reaction the weights do not give.
     """
     require_number("wanted", wanted, "one reaction of all shoes is expected, in N")
-    refuse(wanted < 0.0, f"A reaction of {show(wanted, 'kgf', 4)} would pull at the ground; ask for zero or more.")
+    ensure(not wanted < 0.0, f"A reaction of {show(wanted, 'kgf', 4)} would pull at the ground; ask for zero or more.")
     balance = HeaderState(at_horizon(motion))
     pressure = float(balance.cylinder.sized(balance.motion).pressure_for(balance.thrust_without_line(pressed=wanted))[0])
     if pressure < 0.0:

@@ -5,11 +5,11 @@ from __future__ import annotations
 from argparse import ArgumentParser, Namespace
 
 from linkage import DefinitionError, Motion
-from linkage.checks import refuse
 from linkage.cli.command import Command, figure_path, machine_arguments, picture_argument, whole_number
 from linkage.cli.machines import find_like
 from linkage.cli.settings import check_argument, over_argument, overs_of, parsed_setting, print_verdicts
 from linkage.cli.table import csv_argument, write_table
+from linkage.errors import ensure
 from linkage.plan import Plan
 from linkage.units import kgf, parse, show
 
@@ -89,7 +89,7 @@ def header_of(options: Namespace) -> HeaderBalancer:
     given |= changes(found.plan, options)
     if options.table and found is not HeaderBalancer:
         raise DefinitionError(f"--table goes with header_balancer and its headers; {options.machine} has dimensions of its own.")
-    refuse(options.pressure and options.reaction, "--pressure and --reaction both choose the charge; give one of them.")
+    ensure(not (options.pressure and options.reaction), "--pressure and --reaction both choose the charge; give one of them.")
     if options.pressure:
         given["charge"] = value(options.pressure, "pressure", "--pressure")
     if options.reaction:

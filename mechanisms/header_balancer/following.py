@@ -10,7 +10,8 @@ import numpy as np
 
 from hydraulics import Cylinder, FloatCircuit, pressure
 from linkage import Column, DefinitionError, ForceElement, GuideFriction, Motion, drive_force, most, ratio, ref
-from linkage.checks import refuse, require_number, require_whole
+from linkage.checks import require_number, require_whole
+from linkage.errors import ensure
 from linkage.language import noted
 from linkage.loads import SENSES, PinFriction, Support
 from linkage.loads.element import Formulas
@@ -47,7 +48,7 @@ def stroke_of(motion: Motion, height: float) -> float:
     """Return the stroke [m] at which the shoe of one design stands at a height [m]; DefinitionError where it never does."""
     require_header(motion)
     require_number("height", height, "one number in m is expected, above the horizon")
-    refuse(motion._design_shape, "The following range is found for one design at a time; this motion has a batch of them.")
+    ensure(not motion._design_shape, "The following range is found for one design at a time; this motion has a batch of them.")
     given = motion.inputs
     with np.errstate(all="ignore"):
         x, y = given["A.x"] - given["O.x"], given["A.y"] - given["O.y"]

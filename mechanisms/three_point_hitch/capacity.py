@@ -13,8 +13,8 @@ import numpy as np
 from hydraulics import LiftCircuit
 from hydraulics.member import found_in
 from linkage import DefinitionError, Force, ForceElement, Motion, angle, least, most
-from linkage.checks import refuse, require_number
-from linkage.errors import unwarned
+from linkage.checks import require_number
+from linkage.errors import ensure, unwarned
 from linkage.language import noted, said, translated
 from linkage.loads.element import Formulas
 from linkage.motion import Judge, MotionFunction, Over, require_motion
@@ -70,7 +70,7 @@ def lifted(point: str = "G", share: float = 1.0) -> LawRequest:
 def lifting_circuit(plan: Plan) -> LiftCircuit:
     """Return the circuit of a hitch that lifts; DefinitionError where there is none."""
     circuits = plan.of_kind(LiftCircuit)
-    refuse("circuit" not in circuits, f"{plan.title} has no lift circuit of the name circuit, whose pump lifts.")
+    ensure("circuit" in circuits, f"{plan.title} has no lift circuit of the name circuit, whose pump lifts.")
     return circuits["circuit"]
 
 

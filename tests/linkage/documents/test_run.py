@@ -97,7 +97,7 @@ def test_the_axis_of_strokes_that_run_together_is_one_that_goes_on_else_the_way(
 
 def test_a_film_of_strokes_that_run_together_says_where_each_is():
     stage = Stage(playback(FrontLoader(), 3, at=dict(lift=(0.1, 0.3), tilt=(0.2, 0.1))), [], None, 50)
-    stage.update(2)
+    stage.frame(2)
     assert stage.stroke.get_text() == "lift = 300 mm, tilt = 100 mm"
 
 

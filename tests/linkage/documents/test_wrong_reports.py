@@ -5,7 +5,7 @@ import random
 import numpy as np
 import pytest
 
-from linkage import LEFT, Acting, Column, Dyad, Ground, LinkageError, LoadCase, Mechanism, Stroke, Weight, angle, equations, export, report
+from linkage import LEFT, Acting, Dyad, Ground, LinkageError, LoadCase, Mechanism, Stroke, Weight, angle, equations, export, report
 
 
 class Arm(Mechanism):
@@ -56,7 +56,7 @@ USES = {
 @pytest.mark.parametrize("use", USES)
 def test_what_is_wrong_is_said(use, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("linkage.documents.reporting.composed", lambda looked, columns, trace, limits, *_: checked(limits))
+    monkeypatch.setattr("linkage.documents.reporting.calculated", this_far)
     for odd in random.Random(use).sample(ODD, 12):
         try:
             USES[use](odd)
@@ -64,10 +64,6 @@ def test_what_is_wrong_is_said(use, tmp_path, monkeypatch):
             assert str(error).strip() and "Traceback" not in str(error)
 
 
-def checked(limits):
-    """Stand for the composing of a report, which costs most of it: look at the limits only."""
-    from linkage.documents.reporting import checked_limits
-
-    if limits is not None:
-        checked_limits(limits, {"tilt": Column("tilt", [0.0], "deg")}, "Arm")
+def this_far(*_):
+    """Stand for the calculation of a report, which costs most of it: what is given is checked before."""
     raise LinkageError("this far")

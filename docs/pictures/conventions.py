@@ -18,7 +18,7 @@ from matplotlib.patches import Circle, FancyArrowPatch, FancyBboxPatch, Polygon
 from matplotlib.patheffects import withStroke
 
 from linkage.pictures import style
-from linkage.pictures.drawing import BodyPart, MarkPart, dot, pin
+from linkage.pictures.drawing import MarkPart, body_part, dot, pin
 from linkage.pictures.scene import DrawnCylinder, DrawnMark, Plate
 from linkage.pictures.shapes import BLOCK, LONG, tube
 from linkage.pictures.style import STRONG
@@ -99,7 +99,7 @@ def line(ax: Axes, *places: Place, colour: str = style.MUTED, width: float = sty
 def body(ax: Axes, colour: str, *places: Place) -> None:
     """Draw a rigid body: a bar, or a plate with its corners counter-clockwise."""
     named = {str(i): np.array(each) for i, each in enumerate(places)}
-    BodyPart(ax, Plate(tuple(named), np.eye(len(named))), SIZE, colour, STRONG).update(named)
+    body_part(ax, Plate(tuple(named), np.eye(len(named))), SIZE, colour, STRONG).update(named)
 
 
 def pins(ax: Axes, *places: Place) -> None:

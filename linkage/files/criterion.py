@@ -173,7 +173,7 @@ class CriterionParser(Grammar):
         return Amount(number, units[0]) if is_multiple else number
 
     def kind_of(self, part: object) -> MeasureKind | None:
-        """Return what a part of a sum measures; None of what may be added to anything."""
+        """Return what a part of a sum measures; None for a number, which may be added to anything."""
         if isinstance(part, Amount):
             return MeasureKind(KINDS[part.measures]) if part.measures in KINDS else None
         return kind_of_quantity(self.plan, part) if isinstance(part, (Quantity, Request)) else None

@@ -96,7 +96,7 @@ def is_list(given: object) -> bool:
 
 
 def listed(given: Any) -> Sequence[Any]:
-    """Return the items of a list, or what is no list as the only one."""
+    """Return the items of a list, or anything but a list as the only one."""
     return given if isinstance(given, (list, tuple)) else [given]
 
 

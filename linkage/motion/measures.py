@@ -170,7 +170,7 @@ class CombinedMeasure(Measure):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Leaf(Measure):
-    """What is taken of one quantity over the stroke; `sense` is 1.0 of the greatest value, -1.0 of the least, 0.0 of what is no extreme."""
+    """What is taken of one quantity over the stroke; `sense` is 1.0 of the greatest value, -1.0 of the least, else 0.0."""
 
     quantity: MeasuredQuantity
     word: ClassVar[str] = ""
@@ -303,7 +303,7 @@ def worst(quantity: MeasuredQuantity, over: str, by: Callable[..., Any] = most) 
 
 
 def is_quantity(value: object) -> TypeGuard[str | Quantity | Request]:
-    """Return whether a value is a named output, a quantity or a request: what is told from others by what it is."""
+    """Return whether a value is a named output, a quantity or a request."""
     return isinstance(value, (str, Quantity, Request))
 
 

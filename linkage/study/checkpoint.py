@@ -107,7 +107,7 @@ class Checkpoint:
 
 
 def folder_given(folder: str | os.PathLike[str]) -> Path:
-    """Return a folder; DefinitionError for what is no path."""
+    """Return a folder; DefinitionError for anything but a path."""
     require(isinstance(folder, (str, os.PathLike)) and folder != "", "folder", folder, "the path of a folder is expected")
     return Path(folder)
 

@@ -154,13 +154,14 @@ class StrokeClearance:
         places, values = divided(self.seen, x, seen, bends, noise, ~still)
         found: list[Interruption] = []
         for row in np.flatnonzero(~still).tolist():
-            known = np.isfinite(values[row])
-            found += self._of_loop(row, places[known], values[row][known], float(level[row, 0]), float(noise[row, 0]))
+            found += self._of_loop(row, places, values[row], float(level[row, 0]), float(noise[row, 0]))
         return tuple(sorted(found, key=lambda each: each.low))
 
     def _of_loop(self, row: int, x: FloatArray, seen: FloatArray, level: float, noise: float) -> list[Interruption]:
         """Return where one loop interrupts the way: runs of values that have come to zero."""
         found, loop = [], self.loops[row]
+        low_end, high_end, known = x[0], x[-1], np.isfinite(seen)  # the ends of the way: where the loop has values it may begin within
+        x, seen = x[known], seen[known]
         edges = np.flatnonzero(np.diff(np.concatenate([[False], seen <= level, [False]]).astype(int)))
         for first, last in zip(edges[::2], edges[1::2] - 1, strict=True):
             run = slice(first, last + 1)
@@ -170,7 +171,7 @@ class StrokeClearance:
                 low = self._border(row, x, int(under[0]), -1, noise)
                 high = self._border(row, x, int(under[-1]), 1, noise)
                 found.append(Interruption(self.name, self.unit, loop.step, low, high, deepest, loop.kind))
-            elif loop.kind != "length" and min(deepest - x[0], x[-1] - deepest) > END * (x[-1] - x[0]):
+            elif loop.kind != "length" and min(deepest - low_end, high_end - deepest) > END * (high_end - low_end):
                 found.append(Interruption(self.name, self.unit, loop.step, deepest, deepest, deepest, loop.kind))
         return found
 

@@ -201,6 +201,18 @@ def test_a_dead_point_at_the_end_of_a_sweep_is_no_crossing():
     assert_allclose(motion.distance("O", "B"), 0.3, rtol=1e-12)
 
 
+def test_a_change_point_at_which_another_loop_comes_apart_is_named_too():
+    class Twice(Mechanism):
+        S = Stroke(1.1, 1.5)
+        A, B, F = Ground(-1, 0), Ground(1, 0), Ground(2, 0)
+        C = Dyad(A, B, AC=S, BC=S, side=LEFT)
+        D = Dyad(C, F, CD=3, FD=1, side=LEFT)  # CF^2 = 3 + S^2: its links are folded at S = 1, below which there is no C
+
+    ((place, step),) = Twice().at(S=1.2).limits()["S"].change_points
+    assert step == "D"
+    assert_allclose(place, 1.0, atol=1e-9)
+
+
 # -- assembly modes --------------------------------------------------------------------------------------
 
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from functools import reduce
 from typing import Any, TypeAlias, final
 
-from ..errors import DefinitionError
+from ..errors import DefinitionError, article
 from ..plan import Plan, plan_measure, require_kind
 from ..quantities import PoseCondition, Quantity, Ref
 from ..quantities.quantity import Function, Negative, Number, Operation, Sum
@@ -190,7 +190,7 @@ def common_kind(plan: Plan, what: str, left: MeasureKind | None, right: MeasureK
         return left or right
     kinds = left.name, right.name
     if left.is_sure and right.is_sure and kinds[0] != kinds[1] and all(each in APART for each in kinds):
-        both = " and ".join(f"{'an' if each[0] in 'aeiou' else 'a'} {each}" for each in kinds)
+        both = " and ".join(f"{article(each)} {each}" for each in kinds)
         raise DefinitionError(f"{plan.title}: {what}: {both} neither add nor compare; write both sides in one kind.")
     return left if left.is_sure else right
 

@@ -116,7 +116,7 @@ def check_once(machine: Mechanism, names: Mapping[str, object]) -> None:
     """Raise DefinitionError where two names stand for one dimension."""
     seen, spellings = dict[str, str](), machine.plan.table.spellings
     for name in names:
-        for owner in {spellings[each][0] for each in (name, f"{name}.x", f"{name}.y") if each in spellings}:
+        for owner in dict.fromkeys(spellings[each][0] for each in (name, f"{name}.x", f"{name}.y") if each in spellings):
             if owner in seen:
                 raise DefinitionError(f"{machine.plan.title}: {seen[owner]} and {name} both set {owner}; leave one of them out.")
             seen[owner] = name

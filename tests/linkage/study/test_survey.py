@@ -180,6 +180,7 @@ ARRAY = np.linspace(0.29, 0.31, 5)
         ({"M": (np.nan, ARRAY)}, "M of design 0 is nan"),
         ({"OB": np.array([0.3, -0.1])}, r"Designs 0 to 1: .*OB=-0\.1 m is negative; give a positive one"),
         ({"M": (ARRAY, ARRAY), "M.y": ARRAY}, r"M and M\.y both set M\.y; leave one of them out"),
+        ({"M.y": ARRAY, "M.x": ARRAY, "M": (ARRAY, ARRAY)}, r"M\.x and M both set M\.x; leave one of them out"),
         ({"OB": ARRAY, "BO": ARRAY}, "OB and BO both set OB"),
         ({"OB": np.array([])}, "there are no designs"),
         ({}, "there are no designs"),

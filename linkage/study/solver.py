@@ -56,14 +56,19 @@ class Graded(NamedTuple):
     slope: FloatArray
 
 
-@np.errstate(all="ignore")
 def graded(measure: Measure, of_leaf: Callable[[Leaf], Graded]) -> Graded:
     """Return what a measure makes of its leaves' numbers, with its derivatives by the chain rule."""
+    with np.errstate(all="ignore"):  # once: as a decorator of what calls itself NumPy 1.26 does not take it back
+        return chained(measure, of_leaf)
+
+
+def chained(measure: Measure, of_leaf: Callable[[Leaf], Graded]) -> Graded:
+    """Return the same as `graded`, which takes care of NumPy's warnings."""
     if isinstance(measure, Leaf):
         return of_leaf(measure)
     if not isinstance(measure, CombinedMeasure):
         return Graded(float(measure.of(of_leaf)), np.zeros(1))
-    (a, by_a), (b, by_b) = graded(measure.left, of_leaf), graded(measure.right, of_leaf)
+    (a, by_a), (b, by_b) = chained(measure.left, of_leaf), chained(measure.right, of_leaf)
     match measure.symbol:
         case "+":
             return Graded(a + b, by_a + by_b)

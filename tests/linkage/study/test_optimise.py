@@ -46,7 +46,7 @@ from linkage import (
 from linkage.motion.measures import conditions_of
 from linkage.study import InfeasibleError
 from linkage.study.problem import Problem
-from linkage.study.solver import Local
+from linkage.study.solver import Local, graded, graded_leaf
 from linkage.study.space import Space
 from linkage.units import bar, kN
 from mechanisms.classics.four_bar import FourBar
@@ -411,6 +411,15 @@ def test_a_measure_raised_to_a_measure_has_both_derivatives():
     place = [column for column in range(1, len(found.slope)) if found.slope[column]]  # the leaf is a variable of its own
     through = sum(found.slope[column] * slope for column, slope in zip(place, leaf_slopes(problem), strict=True))
     assert_allclose(found.slope[0] + through, by_hand, rtol=1e-6)
+
+
+def test_derivatives_of_a_sum_of_sums_leave_the_warnings_of_numpy_as_they_are():
+    tilt = most("tilt")
+    look = Problem(Boom(), [tilt], [], Space.of(Boom(), {"OB": (0.28, 0.32)})).evaluated(Boom().dimensions, slopes=True)
+    with np.errstate(divide="raise", invalid="warn"):
+        before = np.geterr()
+        graded((tilt + 1.0) * tilt / (tilt - 2.0), lambda leaf: graded_leaf(leaf, look))
+        assert np.geterr() == before
 
 
 def leaf_slopes(problem):

@@ -219,7 +219,8 @@ def ranged(machine: Mechanism, names: Sequence[str], given: Around | tuple[Any, 
             raise DefinitionError(f"{plan.title}: {names[0]}={cited(given)}: {names[0]} is a point; {said}, or a list of positions.")
         else:
             low, high, step = (*given, None)[:3]
-        are_numbers, what = all(map(is_number, (low, high, step or 0.0))), f"{plan.title}: {name}"
+        ends, what = (low, high) if step is None else (low, high, step), f"{plan.title}: {name}"
+        are_numbers = all(map(is_number, ends))
         is_wide = not are_numbers or high - low > max(NARROWEST * max(abs(low), abs(high)), 1e-30)
         require(is_wide, what, given, "is no range; a range goes from its lower to its higher end; for one value set it")
         said = "write (low, high) or (low, high, step) in SI, the step above zero and within them, a list of choices, or around(...)"

@@ -527,6 +527,7 @@ WRONG = {
     "an unknown dimension": (dict(minimise=most("tilt"), vary={"OX": (0, 1)}), "OX"),
     "a stroke": (dict(minimise=most("tilt"), vary={"S": (0, 0.1)}), "S is a stroke and no dimension"),
     "a range the wrong way": (dict(minimise=most("tilt"), vary={"OB": (0.3, 0.2)}), "is no range"),
+    "a step that is a text": (dict(minimise=most("tilt"), vary={"OB": (0.2, 0.3, "")}), "is no range; write"),
     "a point as a range": (dict(minimise=most("tilt"), vary={"A": (0.1, 0.2)}), "A is a point; write around"),
     "twice the same": (dict(minimise=most("tilt"), vary={"A": around(0.01), "A.x": (0, 0.1)}), "both set"),
     "no condition": (dict(minimise=most("tilt"), vary=VARY, subject_to=[most("tilt")]), "says no limit"),

@@ -87,9 +87,10 @@ def path_targets(machine: Mechanism, file: str) -> dict[str, Target]:
     delimiter = max(";\t,", key=first.count)
     rows = [row for row in csv.reader(io.StringIO(text), delimiter=delimiter) if any(cell.strip() for cell in row)]
     headings, *places = rows or [[]]
-    if not 0 < len(places) <= MOST_PLACES:
-        example = "a first line such as M_x [mm];M_y [mm] and a row for each place are expected"
-        raise FileError(f"{file}: {f'{len(places)} places are too many; up to {MOST_PLACES} are followed' if places else example}.")
+    if not places:
+        raise FileError(f"{file}: a first line such as M_x [mm];M_y [mm] and a row for each place are expected.")
+    if len(places) > MOST_PLACES:
+        raise FileError(f"{file}: {len(places)} places are too many; up to {MOST_PLACES} are followed.")
     asked = [heading_quantity(machine, file, heading) for heading in headings]
     kinds = [measure_of(machine.plan, quantity) for _, quantity, _ in asked]
     values = np.empty((len(headings), len(places)))

@@ -188,9 +188,9 @@ def list_of(part: type[Any]) -> Kind:
     arguments = arguments_of(part)
 
     def read(given: object, names: Names) -> list[Keywords]:
-        if not isinstance(given, (list, tuple)) or len(given) > VALUES:
-            many = f"{len(given)} are too many; at most {VALUES} items are read." if isinstance(given, (list, tuple)) else ""
-            raise DefinitionError(many or "is not a list [...].")
+        if not isinstance(given, (list, tuple)):
+            raise DefinitionError("is not a list [...].")
+        ensure(len(given) <= VALUES, f"{len(given)} are too many; at most {VALUES} items are read.")
 
         def read_one(place: int, each: Any) -> Keywords:
             ensure(isinstance(each, Mapping), "is not a table { key = value }.")

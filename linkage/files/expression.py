@@ -21,7 +21,7 @@ from typing import Any, ClassVar, final
 
 import numpy as np
 
-from ..errors import DefinitionError, unknown
+from ..errors import DefinitionError, ensure, unknown
 from ..quantities import Function, Length, Member, Number, Quantity, angle, distance, x, y
 from ..quantities.quantity import FUNCTIONS
 from ..steps import Arrow, CosineAngle, Turn, Vector
@@ -288,9 +288,9 @@ class Parser(Grammar):
         if name not in CALLS:
             raise DefinitionError(f"{self.text!r}: {unknown('Function', name, CALLS)}")
         call = CALLS[name]
-        if call.kind != kind or len(node.args) != len(call.kinds):
-            what = f"is not a {kind}" if call.kind != kind else f"takes {len(call.kinds)} arguments, not {len(node.args)}"
-            raise DefinitionError(f"{self.text!r}: {name}(...) {what}.")
+        said = f"{self.text!r}: {name}(...)"
+        ensure(call.kind == kind, f"{said} is not a {kind}.")
+        ensure(len(node.args) == len(call.kinds), f"{said} takes {len(call.kinds)} arguments, not {len(node.args)}.")
         found = [self.argument(each, kind, depth) for each, kind in zip(node.args, call.kinds, strict=True)]
         keywords: Keywords = {}
         for each in node.keywords:

@@ -110,10 +110,10 @@ class SurveyRun:
         try:
             dimensions = self.designs.dimensions(start, stop)
             future = self.executor.submit(measure_batch, self.task, start, stop, dimensions, attempt)
+        except PICKLING_ERRORS as error:
+            raise self._error(f"{self.task.what} {CANNOT_SEND}", error) from error
         except Exception as error:
-            cannot_send = f"{self.task.what} {CANNOT_SEND}"
-            is_pickling = isinstance(error, PICKLING_ERRORS)
-            raise self._error(cannot_send if is_pickling else "The executor takes no more work and has to be made anew", error) from error
+            raise self._error("The executor takes no more work and has to be made anew", error) from error
         self._under_way[future] = start, stop, attempt, left
         future.add_done_callback(lambda done: self._back.put((done, perf_counter())))
 

@@ -64,11 +64,11 @@ def point_errors(
 def moving_stroke(plan: Plan, ranges: Mapping[str, Range]) -> str:
     """Return the one stroke that moves, of the ranges of all; DefinitionError where several move."""
     moving = [name for name, one in ranges.items() if not is_still(one)]
-    if len(moving) != 1:
-        held = ", ".join(f'"{name}": value' for name in moving[1:])
-        all_held = f", and over={{...}} holds all of them; leave one of {', '.join(ranges)} out"
-        what = f"; hold the others, over={{{held}}}" if moving else all_held
-        raise DefinitionError(f"{plan.title}: a task runs along one stroke{what}.")
+    if not moving:
+        known = ", ".join(ranges)
+        raise DefinitionError(f"{plan.title}: a task runs along one stroke, and over={{...}} holds all of them; leave one of {known} out.")
+    held = ", ".join(f'"{name}": value' for name in moving[1:])
+    ensure(len(moving) == 1, f"{plan.title}: a task runs along one stroke; hold the others, over={{{held}}}.")
     return moving[0]
 
 

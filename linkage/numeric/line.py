@@ -126,6 +126,9 @@ def at_own_legs(look: Look, leg: Index, t: FloatArray) -> tuple[FloatArray, Mask
     K, D = t.shape[:2]
     legs = np.moveaxis(np.broadcast_to(leg[..., None], t.shape), 0, 1).reshape(D, -1)
     places = np.moveaxis(t, 0, 1).reshape(D, -1)
+    if K == 1:  # nothing is shared
+        values, reached = look(legs, places)
+        return values.reshape(t.shape), reached.reshape(t.shape)
     _, first, back = np.unique(np.concatenate([legs, places]), axis=1, return_index=True, return_inverse=True)
     values, reached = look(legs[:, first], places[:, first])
     own = back.reshape(K, -1)  # of each function its columns among those looked at

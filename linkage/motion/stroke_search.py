@@ -178,19 +178,20 @@ class StrokeLine:
         driven = {frozenset((bar.P, bar.Q)) for bar in plan.cylinders}
         ties = [tie for tie in (each.tie(plan.members) for each in plan.of_kind(ForceElement).values()) if tie is not None]
         shut, held = ({share.member.name for tie in ties if tie.held is way for share in tie.shares} for way in (False, True))
+        known = {name: each for name, each in plan.of_kind(TwoPoint).items() if each.holds and name not in shut - held}
+        moved = {name: each for name, each in known.items() if any(wrt in plan.reaches(end) for end in each.ends)}
+        elements = {name: each for name, each in moved.items() if frozenset(each.ends) not in driven}
+        if not elements:
+            return []
+        looked = self.at(np.concatenate([np.linspace(low, high, LOOKS) for low, high in ranges]))
         found: list[tuple[float, str]] = []
-        for name, element in plan.of_kind(TwoPoint).items():
-            if not element.holds or frozenset(element.ends) in driven or name in shut - held:
-                continue
-            if not any(wrt in plan.reaches(end) for end in element.ends):
-                continue
+        for name, element in elements.items():
             length = Distance(*element.ends)
 
             def rate(at: FloatArray, length: Distance = length) -> FloatArray:
                 with unwarned(), np.errstate(all="ignore"):
                     return self.at(at).ratio(length, wrt=wrt)
 
-            looked = self.at(np.concatenate([np.linspace(low, high, LOOKS) for low, high in ranges]))
             with unwarned(), np.errstate(all="ignore"):
                 way = sum(np.hypot(*looked.ratio(end, wrt=wrt)) for end in element.ends)
                 follows = np.abs(looked.ratio(length, wrt=wrt)) > STILL * way  # that between two points of a body does not

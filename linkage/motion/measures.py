@@ -427,10 +427,10 @@ def in_case(measure: Measure, case: Case) -> Measure:
     if isinstance(measure, CombinedMeasure):
         left, right = in_case(measure.left, case), in_case(measure.right, case)
         return measure if left is measure.left and right is measure.right else replace(measure, left=left, right=right)
-    quantity: Any = measure.quantity if isinstance(measure, Leaf) else None
-    inner = quantity.quantity if isinstance(quantity, Worst) else quantity
-    situated = inner.under(Acting(case=case), keep=True) if isinstance(inner, Request) else inner
-    if situated is inner or not isinstance(measure, Leaf):
+    if not (isinstance(measure, Leaf) and isinstance(measure.bare_quantity, Request)):
+        return measure
+    quantity, situated = measure.quantity, measure.bare_quantity.under(Acting(case=case), keep=True)
+    if situated is measure.bare_quantity:
         return measure
     return replace(measure, quantity=replace(quantity, quantity=situated) if isinstance(quantity, Worst) else situated)
 
@@ -456,8 +456,7 @@ def in_duty(leaf: Leaf, case: object) -> Measure:
     if not isinstance(case, (str, LoadCase, Mapping)):
         said = 'a load case, its name, or load cases with their hours are expected, case={"empty": 700, "full": 300}'
         raise DefinitionError(f"{leaf}: case={cited(case)}: {said}.")
-    inner = leaf.quantity.quantity if isinstance(leaf.quantity, Worst) else leaf.quantity
-    if not is_quantity(inner):
+    if not is_quantity(leaf.bare_quantity):
         raise DefinitionError(f"{leaf}: case={cited(case)}: a function of a motion says its load case itself; leave case= out.")
     return mean_in_cases(leaf, shares_of(case)) if isinstance(case, Mapping) else in_case(leaf, case)
 

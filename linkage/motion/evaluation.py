@@ -479,11 +479,12 @@ class PoseFunction:
         values = [*strokes, *(named[name] for name in names[len(strokes) :])]
         if len(values) != len(names):
             raise DefinitionError(f"{plan.title}: one value for each stroke is expected: {', '.join(names)}.")
-        require_kinds(plan, dict(zip(names, values, strict=True)))
-        given = {name: numbers_in(value) for name, value in zip(names, values, strict=True)}
+        at = dict(zip(names, values, strict=True))
+        require_kinds(plan, at)
+        given = {name: numbers_in(value) for name, value in at.items()}
         for name, found in given.items():
             if found.size != 1 or not np.isfinite(found).all():
-                what = f"{plan.title}: the stroke {name}={values[names.index(name)]!r:.60}"
+                what = f"{plan.title}: the stroke {name}={at[name]!r:.60}"
                 raise DefinitionError(f"{what}: one finite number is expected; evaluate takes arrays.")
         grid = Grid(plan, self._designs, {name: found.reshape(()) for name, found in given.items()})
         return tuple(float(part) for found in evaluate_grid(grid, self._requests, None, QUICKEST, "raise") for part in np.ravel(found))

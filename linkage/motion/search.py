@@ -1,8 +1,8 @@
 """The greatest and the lowest value over a motion, looked for between its poses, whatever their number.
 
 The search covers the range of the poses. Of a single stroke that is from its least to its greatest value. Of several strokes in arrays of
-one axis it is the path through the poses in their order. Of a grid it is the box from the least to the greatest value of each. See `line`
-for how and how closely it is looked at along a way, and `box` for boxes of several strokes.
+one axis it is the path through the poses in their order. Of a grid it is the box from the least to the greatest value of each. See
+`numeric.line` for how and how closely it is looked at along a way, and `numeric.box` for boxes of several strokes.
 """
 
 from __future__ import annotations

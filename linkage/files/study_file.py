@@ -15,7 +15,6 @@ import os
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import partial
 from inspect import Parameter, signature
 from pathlib import Path
 from typing import Any, TypeAlias, final, get_type_hints
@@ -96,8 +95,7 @@ class StudyHead:
                 kind = find(text, base)
             if kind is not None:
                 with faults.at("set"):
-                    values = by_dimensions(data.get("set", {}), "set", partial(value_said, kind.plan))
-                    machines.append(kind(**values).replaced(**settings(kind)))
+                    machines.append(kind(**settings_said(kind.plan, data.get("set", {}), faults)).replaced(**settings(kind)))
         faults.check()
         return cls(data, faults, machines[0], base, dict(zip(texts, machines, strict=True)) if isinstance(given, list) else {})
 
@@ -153,6 +151,18 @@ def by_dimensions(given: object, what: str, read: Callable[[str, Any], Any], wor
     if not isinstance(given, Mapping):
         raise DefinitionError(f"{what} = {shortened(given)}: a table by the names of dimensions is expected, such as [{what}] OB = ...")
     return dict(each_of(by_whole_names(given, words), lambda name, value: (name, read(name, value))))
+
+
+def settings_said(plan: Plan, given: object, faults: Faults) -> Keywords:
+    """Return dimensions [SI] by name; mistakes are noted, so that those of the names that are left are told too."""
+    found: Keywords = {}
+
+    def read(name: str, value: object) -> None:
+        with faults.at("set", name):
+            found[name] = value_said(plan, name, value)
+
+    by_dimensions(given, "set", read)
+    return found
 
 
 def measure_of_name(plan: Plan, name: str) -> str:

@@ -332,6 +332,12 @@ def test_several_mistakes_are_told_at_once(here, said):
     assert [line.split(",")[0].strip() for line in err.splitlines()[1:]] == ["line 4", "line 5", "line 11"]
 
 
+def test_a_wrong_value_of_a_setting_hides_no_unknown_name(here, said):
+    code, _, err = said("optimise", written(here, 'machine = "boom.toml"\nset = { OB = "big", OX = "1 m" }\n'))
+    assert code == 2
+    assert "'big' is not a value" in err and "Dimension 'OX' is unknown" in err
+
+
 def test_a_file_that_is_not_there(here, said):
     assert said("optimise", "nowhere.toml")[0] == 2
     assert said("study", "nowhere.toml")[0] == 2

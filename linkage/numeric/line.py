@@ -129,7 +129,9 @@ def at_own_legs(look: Look, leg: Index, t: FloatArray) -> tuple[FloatArray, Mask
     if K == 1:  # nothing is shared
         values, reached = look(legs, places)
         return values.reshape(t.shape), reached.reshape(t.shape)
-    _, first, back = np.unique(np.concatenate([legs, places]), axis=1, return_index=True, return_inverse=True)
+    columns = np.ascontiguousarray(np.concatenate([legs, places]).T)
+    as_bytes = columns.view(np.dtype((np.void, columns.strides[0])))[:, 0]  # whole columns are told apart, several times as fast as by axis
+    _, first, back = np.unique(as_bytes, return_index=True, return_inverse=True)
     values, reached = look(legs[:, first], places[:, first])
     own = back.reshape(K, -1)  # of each function its columns among those looked at
     values_of_each = values.reshape(K, D, -1)[np.arange(K)[:, None, None], np.arange(D)[:, None], own[:, None]]

@@ -22,6 +22,7 @@ from ..motion import (
     Answer,
     Column,
     Constraint,
+    Leaf,
     Motion,
     MotionFunction,
     Request,
@@ -362,8 +363,13 @@ def used(answer: Answer) -> float:
     question = answer.question
     if not isinstance(question, Constraint) or question.right.leaves:
         return 0.0
-    value, limit = float(answer.value), float(question.right.of(lambda leaf: np.nan))
+    value, limit = float(answer.value), float(question.right.of(nothing_asked))
     if limit == 0.0:
         return np.inf if answer.ok is False else 0.0
     of, by = map(abs, (value, limit) if question.symbol == "<=" else (limit, value))
     return np.inf if of > 0.0 and by == 0.0 else of / by if np.isfinite(by) else 0.0
+
+
+def nothing_asked(leaf: Leaf) -> float:
+    """Return nothing: a limit is a number, which has no leaves."""
+    raise AssertionError(leaf)

@@ -62,15 +62,14 @@ def in_words(path: Place) -> Iterator[None]:
 
 def check_name(path: Place) -> None:
     """Raise FileError for anything but a name, and for a name that no file can have."""
-    fault = "" if isinstance(path, (str, os.PathLike)) else f"{cited(path)} is no path of a file; give its name as text, or a pathlib.Path"
+    if not isinstance(path, (str, os.PathLike)):
+        raise FileError(f"{cited(path)} is no path of a file; give its name as text, or a pathlib.Path.")
     try:
-        is_none = not fault and b"\0" in os.fsencode(path)
+        is_none = b"\0" in os.fsencode(path)
     except UnicodeEncodeError:
         is_none = True
     if is_none:
-        fault = f"{spoken(path)}: the name holds characters that no file's name can have; choose another one"
-    if fault:
-        raise FileError(f"{fault}.")
+        raise FileError(f"{spoken(path)}: the name holds characters that no file's name can have; choose another one.")
 
 
 def read(path: Place, most: int = -1) -> bytes:

@@ -235,10 +235,10 @@ def parse(text: str, kind: str = "") -> float:
     if not isinstance(text, str) or not isinstance(kind, str):
         raise DefinitionError(f"{cited(text if isinstance(kind, str) else kind)} is no text; write a number and a unit in quotes, '180mm'.")
     match = _QUANTITY.match(text)
-    if match is None or _COMMA.match(text):
-        decimal = f": decimals are written with a point, {text.replace(',', '.')!r}"
-        other = " is not a value; write a number and a unit, such as 180mm or -75deg"
-        raise DefinitionError(f"{text!r}{decimal if _COMMA.match(text) else other}.")
+    if _COMMA.match(text):
+        raise DefinitionError(f"{text!r}: decimals are written with a point, {text.replace(',', '.')!r}.")
+    if match is None:
+        raise DefinitionError(f"{text!r} is not a value; write a number and a unit, such as 180mm or -75deg.")
     number, unit = match.groups()
     if unit is not None and unit not in UNITS:
         raise unknown("Unit", unit, UNITS, where=repr(text))

@@ -192,7 +192,7 @@ class ArrayReading(Reading):
     def copied(self) -> ArrayReading:
         """Return the same reading, to go on from: what is worked out and noted there stays there."""
         found = copy(self)
-        vars(found).update({name: value.copy() for name, value in vars(self).items() if isinstance(value, (dict, list))})
+        vars(found).update({name: value.copy() for name, value in vars(self).items() if type(value) in (dict, list)})
         return found
 
     def curve(self, curve: Tabulated, x: Scalar, order: int = 0) -> Scalar:

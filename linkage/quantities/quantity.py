@@ -226,9 +226,11 @@ class Expression(Quantity):
     @property
     def identity(self) -> Hashable:
         """Its name, else that of its parts; itself where one of them has no other."""
+        if self.name:
+            return self.name
         identities = [(part, part.identity) for part in self.parts() if isinstance(part, Quantity)]
         is_itself = any(part is identity for part, identity in identities)
-        return self.name or (self if is_itself else (self.symbol, *(identity for _, identity in identities)))
+        return self if is_itself else (self.symbol, *(identity for _, identity in identities))
 
     def __str__(self) -> str:
         return self.text()

@@ -27,9 +27,10 @@ class Pin(Point):
 
     def __init__(self, *place: object, near: Position | None = None, at: Position | None = None) -> None:
         self.near, self.drawn_at = position(near, "Pin(near=...)"), position(at, "Pin(at=...)")
-        if place or (near is None) == (at is None):
-            of_place = f"({', '.join(map(repr, place))}): say near=(x, y) for a place in a sketch or at=(x, y) in a drawing"
-            raise DefinitionError(f"Pin{of_place if place else ': give its place, near=(x, y) in a sketch or at=(x, y) in a drawing'}.")
+        if place:
+            raise DefinitionError(f"Pin({', '.join(map(repr, place))}): say near=(x, y) for a place in a sketch or at=(x, y) in a drawing.")
+        if (near is None) == (at is None):
+            raise DefinitionError("Pin: give its place, near=(x, y) in a sketch or at=(x, y) in a drawing.")
         self.group: Group | None = None
 
     @property

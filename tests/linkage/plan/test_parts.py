@@ -600,3 +600,22 @@ def test_what_a_part_says_of_its_own_fixed_points_follows_nothing_that_carries_i
     forces = pin_forces(Hung().at(**{"q": 0.0, "lever.turn": 0.7}))
     assert_allclose(forces.thrusts["lever.ram"], pin_forces(Lever().at(turn=0.7)).thrusts["ram"], rtol=1e-12)
     assert np.max(forces.residual) < 1e-12
+
+
+def test_a_point_that_two_parts_share_is_known_by_both_names_next_to_a_dead_point():
+    class Lever(Mechanism):
+        """A lever whose cylinder comes into line with it."""
+
+        S = Stroke(0.3, 0.5)
+        O, A = Ground(0.0, 0.0), Ground(0.5, 0.0)
+        B = Dyad(A, O, AB=S, OB=0.2, side=RIGHT)
+        T = OnLink(O, B, OT=0.6, BOT=10 * deg)
+
+    class Two(Mechanism):
+        """Two levers on one pin."""
+
+        S = Stroke(0.3, 0.5)
+        first = Part(Lever, S=S)
+        other = Part(Lever, S=S, O=first.O)
+
+    assert_allclose(Two().evaluate([distance("other.O", "other.T")], S=[0.3000001, 0.4])[0], 0.6, rtol=1e-9)

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
-from linkage import DefinitionError, Dimension, Ground, Mechanism, SingularError, Stroke, ref
+from linkage import Crank, DefinitionError, Dimension, Ground, Mechanism, SingularError, Stroke, ref
 from tests.for_all import for_all
 
 POSITIVE = st.floats(0.1, 3.0)
@@ -161,3 +161,12 @@ def test_output_without_a_value_is_refused_or_nan_as_asked(name):
     found = Poles().sweep(5, unreachable="nan")[name]
     assert np.isnan(found).any()
     assert not np.isinf(found).any()
+
+
+def test_what_named_quantities_are_built_on_is_known_by_their_names():
+    """Forty doublings, each of the one before twice over: 2^40 parts, were they not known by name."""
+    quantities = {"q0": ref("S") + 1.0} | {f"q{k + 1}": (ref(f"q{k}") + ref(f"q{k}")) * 0.5 for k in range(40)}
+    points = {"S": Stroke(0.0, 1.0), "O": Ground(0.0, 0.0), "A": Crank("O", OA=0.3, angle="S")}
+    machine = type("Chained", (Mechanism,), quantities | points)()
+    assert machine.evaluate(["q40"], S=0.25)[0] == 1.25
+    assert machine.evaluate([machine.plan.members["q40"]], S=0.25)[0] == 1.25

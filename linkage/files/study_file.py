@@ -154,7 +154,7 @@ def by_dimensions(given: object, what: str, read: Callable[[str, Any], Any], wor
 
 
 def settings_said(plan: Plan, given: object, faults: Faults) -> Keywords:
-    """Return dimensions [SI] by name; mistakes are noted, so that those of the names that are left are told too."""
+    """Return dimensions [SI] by name; each mistake is noted, and the other names are read."""
     found: Keywords = {}
 
     def read(name: str, value: object) -> None:

@@ -12,7 +12,7 @@ from typing import final
 
 import numpy as np
 
-from linkage.errors import ensure, known_name, unknown
+from linkage.errors import known_name, unknown
 from linkage.language import said, said_of, with_and
 from linkage.loads import FRICTIONLESS, Acting, Case, Loads, situation_of
 from linkage.motion import Answer, Condition, Judge, Motion, Question, Span, at, below_zero, least, most, reached, require_motion
@@ -48,9 +48,8 @@ def lift_verdicts(
         raise unknown("LiftCircuit", str(circuit), circuits, where=motion.plan.title)
     not_negative(one_number(resistance, "Return resistance"), "Return resistance")
     known_name("Unit", unit, UNITS, where="lift_verdicts(unit=...)")
-    judge = judge_of(motion, "A lift", given)
-    ensure(motion.reached.any(), f"{motion.plan.title}: no pose of this motion can be assembled, so that there is nothing to judge.")
-    return line_verdicts(line, judge, resistance, unit)
+    unreached = f"{motion.plan.title}: no pose of this motion can be assembled, so that there is nothing to judge."
+    return line_verdicts(line, judge_of(motion, "A lift", given, unreached=unreached), resistance, unit)
 
 
 def line_verdicts(circuit: LiftLine, judge: Judge, resistance: float = 0.0, unit: str = "bar") -> list[Verdict]:

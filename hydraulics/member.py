@@ -415,10 +415,8 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
 
         With the stroke alone it is compared with the travel: largest less least distance of its pins.
         """
-        judge = judge_of(motion, str(self))
-        if not motion.reached.any():
-            raise DefinitionError(f"{self}: no pose of this motion can be assembled, so that there is no length to check.")
-        return self.length_verdicts(judge)
+        unreached = f"{self}: no pose of this motion can be assembled, so that there is no length to check."
+        return self.length_verdicts(judge_of(motion, str(self), unreached=unreached))
 
     def length_verdicts(self, judge: Judge) -> list[Verdict]:
         """Return the same over all that a judge looks at."""
@@ -1283,10 +1281,14 @@ def carries_loads(judge: Judge) -> bool:
     return any(each.loads(motion) or each.pushes(motion, AT_REST) for _, each in elements_of(motion.plan, judge.acting.loads))
 
 
-def judge_of(motion: Motion, what: str, acting: Acting | None = None) -> Judge:
-    """Return the judge of a motion of one design, of which what is out of reach is left out; DefinitionError for several designs."""
+def judge_of(motion: Motion, what: str, acting: Acting | None = None, *, unreached: str = "") -> Judge:
+    """Return the judge of a motion of one design, of which what is out of reach is left out.
+
+    DefinitionError for several designs, and where no pose is reached if `unreached` says what is wrong then.
+    """
     require_motion(motion)
     ensure(not motion._design_shape, f"{what} is judged for one design at a time; this motion has {motion._design_shape}. Take one.")
+    ensure(not unreached or motion.reached.any(), unreached)
     return Judge(motion.plan, motion.designs, [motion], acting).lost_allowed()
 
 

@@ -221,13 +221,14 @@ def test_remedy_is_one_that_helps(closed, stroke, remedy):
     assert remedy in verdict.sentence
 
 
-def test_nothing_is_judged_where_no_pose_is_reached():
-    lost = Arm().at(S=np.array([3.0, 4.0]), unreachable="nan")
+@pytest.mark.parametrize("strokes", [[3.0, 4.0], []])
+def test_nothing_is_judged_where_no_pose_is_reached(strokes):
+    lost = Arm().at(S=np.array(strokes), unreachable="nan")
     with pytest.raises(DefinitionError, match="no length to check"):
         Arm.lift.fits(lost)
     machine = type("Lifted", (Arm,), {"circuit": LiftCircuit("lift", pressure=160 * bar), "load": Weight("B", mass=500.0)})
     with pytest.raises(DefinitionError, match="nothing to judge"):
-        lift_verdicts("circuit", machine().at(S=np.array([3.0, 4.0]), unreachable="nan"))
+        lift_verdicts("circuit", machine().at(S=np.array(strokes), unreachable="nan"))
     for wrong in ("lift", "circus", None):
         with pytest.raises(DefinitionError, match="LiftCircuit"):
             lift_verdicts(wrong, machine().sweep(3))

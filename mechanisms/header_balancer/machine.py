@@ -27,7 +27,6 @@ from linkage import (
     distance,
     y,
 )
-from linkage.errors import ensure
 from linkage.language import said
 from linkage.loads import PinFriction, Support, Weight
 from linkage.loads.element import Formulas
@@ -105,7 +104,8 @@ class HeaderBalancer(Mechanism):
         for name in ("L_min", "L_OB", "L_OR", "m1", "charge", "follows", "shoes", "pump", "valve"):
             positive(self[name], name)
         for name in ("m2", "seals", "atmosphere", "V_I", "V_II"):
-            ensure(not np.any(np.asarray(self[name]) < 0.0), f"{name} = {np.min(self[name]):.6g} is negative; give zero or more.")
+            if np.any(np.asarray(self[name]) < 0.0):
+                raise DefinitionError(f"{name} = {np.min(self[name]):.6g} is negative; give zero or more.")
         for volume, charge in (("V_I", "P_I"), ("V_II", "P_II")):
             there = np.asarray(self[volume]) > 0.0
             in_pascals(positive(self[charge] if np.all(there) else np.where(there, self[charge], self["pump"]), charge), charge)

@@ -7,7 +7,7 @@ stems of 100 to 550 mm, 4 bores from 50 mm, 10 strokes from 100 mm
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields
 from math import inf
 from typing import Any, ClassVar, TypeAlias, final
@@ -71,7 +71,10 @@ class Duty:
         self._check_stems()
         in_pascals(positive(self.pressure, "pressure"), "pressure")
         efficient(self.efficiency, "efficiency")
-        rows = [numbers_of(row) for row in (self.cylinders if isinstance(self.cylinders, Iterable) else ())]
+        try:
+            rows = [numbers_of(row) for row in self.cylinders]
+        except TypeError:  # nothing that has rows
+            rows = []
         expected = "rows of bore and rod [m] are expected, such as [(0.05, 0.028)]"
         require(rows and all(len(row) == 2 for row in rows), "Duty: cylinders", self.cylinders, expected)
         for bore, rod in rows:

@@ -419,6 +419,8 @@ def test_breast_height():
         ({"efficiency": 1.2}, "efficiency"),
         ({"cylinders": [(0.05, 0.06)]}, "Rod 60 mm is not smaller"),
         ({"cylinders": []}, "rows of bore and rod"),
+        ({"cylinders": 0.05}, "rows of bore and rod"),
+        ({"cylinders": np.array(0.05)}, "rows of bore and rod"),
         ({"strokes": [0.0]}, "standard strokes"),
         ({"box": (0.1, -0.1, 0.3, 0.6)}, "left, right, low and high"),
         ({"moment": 3.0}, "a function of the diameter and the arm"),

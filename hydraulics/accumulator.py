@@ -214,16 +214,18 @@ class AccumulatorBlock:
         """Return the block as a motion's designs have it; charges and volumes broadcast against the motion."""
         if not self.following:
             return self
-        charges = following(*(one.charge for one in self.accumulators))
-        names = {name for charge in charges for name in motion.plan.reaches(charge.name or charge)}
-        dimensions = [member for name, member in motion.plan.of_kind(Dimension).items() if name in names]
-        units = [each.unit for each in dimensions if each.unit in units_of("pressure")]
+        unit = self.unit
+        if not unit:  # that of the first dimension which a charge follows
+            charges = following(*(one.charge for one in self.accumulators))
+            names = {name for charge in charges for name in motion.plan.reaches(charge.name or charge)}
+            units = [member.unit for name, member in motion.plan.of_kind(Dimension).items() if name in names]
+            unit = next((each for each in units if each in units_of("pressure")), "")
         filled = [
             Accumulator(setting_of_designs(motion, each.volume, VOLUME), setting_of_designs(motion, each.charge, CHARGE))
             for each in self.accumulators
         ]
         atmosphere = one_atmosphere(setting_of_designs(motion, self.atmosphere, "Atmosphere"))[()]
-        return replace(self, accumulators=filled, atmosphere=atmosphere, unit=self.unit or next(iter(units), ""))
+        return replace(self, accumulators=filled, atmosphere=atmosphere, unit=unit)
 
     def __str__(self) -> str:
         vessels = ", ".join(map(str, self.accumulators))

@@ -334,7 +334,7 @@ def capacity_request(
 
     def pieces(request: LawRequest, plan: Plan) -> tuple[SmoothPiece, ...]:
         count = len(member_limits(plan, request.situation.case))
-        if limit is not None or not count:
+        if not count:
             return whole_in_stages(cylinder, request, plan)
         alone = [capacity_request(cylinder, request.situation, circuit, point, along, share, number) for number in range(count + 1)]
         return (*whole_in_stages(cylinder, alone[count], plan), *map(SmoothPiece, alone[:count]))

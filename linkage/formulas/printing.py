@@ -173,7 +173,8 @@ class Latex(LatexPrinter):  # type: ignore[misc]
         return self._print(vector) if over == 1 else f"{self.parenthesize(over, PRECEDENCE['Mul'])}{self.times}{self._print(vector)}"
 
     def _print_TurnV(self, expr: TurnV | Tcos | Direction, exp: str | None = None) -> str:
-        return rf"{HEADS[type(expr)]}\left({', '.join(map(self._print, expr.args))}\right)"
+        call = rf"{HEADS[type(expr)]}\left({', '.join(map(self._print, expr.args))}\right)"
+        return call if exp is None else f"{call}^{{{exp}}}"
 
     _print_TurnVL = _print_Tcos = _print_Direction = _print_TurnV
 

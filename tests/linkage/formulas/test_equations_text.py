@@ -5,10 +5,12 @@ import sys
 
 import numpy as np
 import pytest
+import sympy
 from numpy.testing import assert_allclose
 
 from linkage import LEFT, RIGHT, Crank, Dimension, Dyad, Ground, Mechanism, OnLink, Stroke, x
-from linkage.formulas import equations
+from linkage.formulas import Tcos, equations
+from linkage.formulas.printing import Latex
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.for_all import for_all
@@ -159,6 +161,12 @@ def test_indexed_points_and_greek_strokes():
     assert r"\overrightarrow{O_{1} A_{1}} &= \operatorname{TurnV}_{L}\left(\vec{\imath}, \phi, L_{O_{1} A_{1}}\right)" in listed.latex()
     assert r"I_{A_{1}} &= \frac{dA_{1,y}}{d\phi}" in listed.latex()
     assert str(listed[-1]) == "I_A1 = dA1_y/dphi"
+
+
+def test_a_word_keeps_its_exponent():
+    word = Tcos(*sympy.symbols("a b c", real=True))
+    assert Latex({}).doprint(word) == r"\operatorname{Tcos}\left(a, b, c\right)"
+    assert Latex({}).doprint(word**2) == r"\operatorname{Tcos}\left(a, b, c\right)^{2}"
 
 
 # -- names -------------------------------------------------------------------------------------------------

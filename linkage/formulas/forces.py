@@ -101,7 +101,7 @@ class ForceLines:
         try:
             pushes, loads = element.pushes(self, Rates()), []
             loads = [] if pushes else element.loads(self)
-            terms = [[term(part) for part in np.asarray(each.force, object)] for each in loads]
+            terms = [(term(x), term(y)) for x, y in (np.asarray(each.force, object) for each in loads)]
             thrusts = [scalar(each.thrust) for each in pushes]
         except Exception:  # whatever a law of a user's own stumbles on: it has numbers all the same
             yield from self._numbers(name)

@@ -42,7 +42,7 @@ def mechanism(ax: Axes, motion: Motion, pose: Pose = 0, *, faint: bool = False) 
     index = scene.index(pose)
     if not ax.has_data():
         sheet(ax, scene.box())
-    return draw_scene(ax, scene, index, None, FAINT) if faint else draw_scene(ax, scene, index, ())
+    return draw_scene(ax, scene, index, None if faint else (), FAINT if faint else STRONG)
 
 
 def draw_scene(ax: Axes, scene: Scene, pose: int, keep_clear: Sequence[FloatArray] | None, look: Look = STRONG, **names: Any) -> Drawing:

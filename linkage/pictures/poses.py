@@ -66,7 +66,7 @@ def draw_pose(motion: Motion, pose: Pose, overlays: Overlays, faint: bool) -> Fi
     laid = overlays.over(motion, index, scene.box()) if overlays else None
     figure, ax = empty_page(laid.box(scene.size) if laid else scene.box())
     if laid is None:
-        mechanism(ax, motion, pose, faint=faint)
+        draw_scene(ax, scene, index, None if faint else (), FAINT if faint else STRONG)
     else:
         worst, at = overlays.worst(motion, index), scene.at(index)
         if worst is not None:

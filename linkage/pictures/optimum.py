@@ -162,8 +162,7 @@ def course_panel(ax: Axes, problem: Problem, leaves: Sequence[Leaf], before: Cou
     stroke_panel(ax, both_ways, fill(column.heading, WIDEST), axis_range(both, limits))
     for limit in limits:
         mark_limit(ax, along, column, limit)
-    for each in problem.constraints:
-        leaf, value, sign = leaf_bound(each, is_shown) or (leaves[0], 0.0, "")
-        if sign and isinstance(leaf, At) and stroke in leaf.strokes:
+    for leaf, value, sign in (side for each in problem.constraints if (side := leaf_bound(each, is_shown)) is not None):
+        if isinstance(leaf, At) and stroke in leaf.strokes:
             spot = [float(leaf.strokes[stroke]) / factor(unit)], [value / factor(column.shown_unit)]
             ax.plot(*spot, MARKS[sign], clip_on=False, color=style.ACCENT, markersize=6, markeredgewidth=1.5, zorder=6.0)

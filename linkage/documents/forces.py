@@ -57,7 +57,7 @@ def forces_section(subject: ReportSubject) -> Section | None:
     ends = said("least"), said("situation and place"), said("greatest"), said("situation and place")
     drives = (said("drive or member"), said("unit"), *ends)
     forces = TableBlock(said("Driving forces and thrusts, over all that the machine runs"), drives, ranges, "llrmrm")
-    remarks = [each for each in dict.fromkeys(remark for one in found for remark in one.remarks)]
+    remarks = dict.fromkeys(remark for one in found for remark in one.remarks)
     return Section(title, (forces, looks, table, *case_tables(subject), *blocked_blocks(subject), *remarks))
 
 
@@ -163,11 +163,11 @@ def blocked_blocks(subject: ReportSubject) -> Iterator[Block]:
     count = sum(int(place.sampled.reached.sum()) for place in subject.judge.places)
     pressures = ", ".join(f"{name} {' … '.join(shown_number(end, 'kN', '.1f') for end in ends)}" for name, ends in held.items())
     yield said(
-            "At the relief pressure: a stop holds {point} in either direction. One cylinder after the other presses and the others hold, "
-            "until the first relief valve opens. Where no relief valve is declared, the pump's pressure is the highest. The machine's own "
-            "loads act too. Greatest thrusts, {unit}: {thrusts}. This table looks at {count} poses over all that the machine runs.",
-            point=point, unit=unit_sign("kN"), thrusts=pressures, count=count,
-        )  # fmt: skip
+        "At the relief pressure: a stop holds {point} in either direction. One cylinder after the other presses and the others hold, "
+        "until the first relief valve opens. Where no relief valve is declared, the pump's pressure is the highest. The machine's own "
+        "loads act too. Greatest thrusts, {unit}: {thrusts}. This table looks at {count} poses over all that the machine runs.",
+        point=point, unit=unit_sign("kN"), thrusts=pressures, count=count,
+    )  # fmt: skip
     units = {name: stroke_display_unit(subject.machine.plan, name, "m") for name in subject.machine.strokes}
     plain_units = {name: "rad" if unit == "deg" else unit for name, unit in units.items()}
     cells = []
@@ -200,7 +200,7 @@ def worst_blocked(subject: ReportSubject, point: str, held: Iterable[str]) -> li
     cylinder's own, or that of another one that holds. Forces are affine in it, so that the machine's own loads and two unit forces tell it.
     """
     worst: dict[tuple[str, ...], Blocked] = {}
-    for motion in [place.sampled for place in subject.judge.places]:
+    for motion in (each.sampled for each in subject.judge.places):
         stop = Stop.of(subject, motion.moved(motion.strokes), point, held)
         for cylinder, pushes in product(stop.bounds, (True, False)):
             force, way, opens = stop.until_open(cylinder, pushes)

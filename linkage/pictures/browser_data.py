@@ -273,7 +273,7 @@ def page_data(requests: PageRequests, live: LiveText) -> PageData:
         "paths": [index[name] for name in requests.trace],
         "grips": grip_data(requests, names, index),
         # a joint of a part lies over what it carries
-        "moving": sorted(sorted(depth), key=depth.__getitem__, reverse=True),
+        "moving": sorted(depth, key=lambda place: (-depth[place], place)),
         "meets": meeting_data(plan, names, index),
         "class": type(machine).__name__,
         "title": plan.heading,

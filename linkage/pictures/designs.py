@@ -105,8 +105,8 @@ def separated(machines: Sequence[Mechanism]) -> list[Mechanism]:
         shape = np.broadcast_shapes(*(np.shape(value) for value in machine.dimensions.values()))
         number = int(np.prod(shape, dtype=int))
         if number > MOST_DESIGNS:
-            said = f"{machine.plan.title}: {number} designs do not fit into one picture, {MOST_DESIGNS} do"
-            raise DefinitionError(f"{said}; choose some of them, draw([machine.replaced(...), ...]).")
+            crowd = f"{machine.plan.title}: {number} designs do not fit into one picture, {MOST_DESIGNS} do"
+            raise DefinitionError(f"{crowd}; choose some of them, draw([machine.replaced(...), ...]).")
         changed = {name: np.broadcast_to(value, shape).ravel() for name, value in machine.dimensions.items() if np.ndim(value)}
         one = [machine.replaced(**{name: float(values[index]) for name, values in changed.items()}) for index in range(number)]
         found += one if changed else [machine]

@@ -158,7 +158,7 @@ class Overlay:
             covered.append(np.repeat(arrows.draw_arrows(ax, layer, scale, size), arrows.ARROW, axis=0))
             texts += arrows.wordings(layer, scale, size)
         for mark in self.marks:
-            texts += draw_pole(ax, mark, self.sheet, size)
+            texts += draw_pole(ax, mark, self.sheet)
             covered.append(np.repeat(mark.at[None], 12 * mark.is_near(self.sheet), axis=0))
         for gap in self.gaps:
             texts += draw_gap(ax, gap, size)
@@ -285,7 +285,7 @@ def mark_of(at: Motion, body: str, other: str, rates: Mapping[str, object] | Non
     return PoleMark(name, place, ends)
 
 
-def draw_pole(ax: Axes, mark: PoleMark, sheet: Bounds, size: float) -> list[Wording]:
+def draw_pole(ax: Axes, mark: PoleMark, sheet: Bounds) -> list[Wording]:
     """Draw a pole, with thin lines to its body's points, and return the name to write beside it."""
     if mark.words:
         return []

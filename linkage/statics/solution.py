@@ -247,13 +247,19 @@ class Equilibrium:
         one_word("split", self.split, SPLITS)
         if self.lacks:
             raise NotHeldError(self.loose_words())
-        if self.split == "refuse" and rank_of(self.sample) < self.A.shape[2]:
-            raise DefinitionError(self.redundant_words(self.A.shape[2] - rank_of(self.sample)))
+        columns = self.A.shape[2]
+        if self.split == "refuse" and self.rank < columns:
+            raise DefinitionError(self.redundant_words(columns - self.rank))
 
     @cached_property
+    def rank(self) -> int:
+        """The rank of the equations."""
+        return rank_of(self.sample)
+
+    @property
     def lacks(self) -> int:
         """In how many ways bodies can still move."""
-        return int(self.A.shape[1]) - rank_of(self.sample)
+        return int(self.A.shape[1]) - self.rank
 
     @cached_property
     def sample(self) -> FloatArray:

@@ -293,8 +293,6 @@ def over_sampled(nodes: Sequence[Node], sampled: Motion) -> FloatArray:
     return np.reshape(rows, (len(rows), int(np.prod(sampled._grid.size))))[:, sampled.reached.ravel()]
 
 
-
-
 # Requests by a formula of a motion: read on arrays it gives values, on the nodes of a program their derivatives as well.
 
 
@@ -460,12 +458,16 @@ class LawRequest(Request):
     def traced_with(self) -> Hashable:
         return self.key if self.in_plan is None else self.in_plan.traced_with
 
+    def _in(self, plan: Plan) -> LawInPlan:
+        """Return what it is in the plan that it is bound to."""
+        assert self.in_plan is not None, f"{self} is not bound to {plan.title}"
+        return self.in_plan
+
     def _traced(self, plan: Plan) -> TracedLaw:
         """Return the formula on a plan's program, traced there once."""
-        assert self.in_plan is not None, f"{self} is not bound to {plan.title}"
         kept = cast(dict[Hashable, TracedLaw], plan.trace.kept)
         if self.key not in kept:
-            kept[self.key] = self.in_plan.trace(TracedMotion(plan, plan.trace))
+            kept[self.key] = self._in(plan).trace(TracedMotion(plan, plan.trace))
         return kept[self.key]
 
     def nodes(self, plan: Plan) -> tuple[Node, ...]:
@@ -478,10 +480,10 @@ class LawRequest(Request):
         return tuple(self.notes(plan).gaps)
 
     def names(self, plan: Plan) -> set[str]:
-        return set(() if self.in_plan is None else self.in_plan.read)
+        return set(self._in(plan).read)
 
     def differentiated(self, plan: Plan) -> set[str]:
-        return set(() if self.in_plan is None else self.in_plan.through)
+        return set(self._in(plan).through)
 
     @property
     def order(self) -> int:

@@ -217,6 +217,13 @@ def test_several_strokes_ask_which_drives():
         Platform().evaluate([drive_force(loads=[])], S1=0.0, S2=0.0, S3=0.0)
 
 
+def test_a_request_that_is_bound_to_no_plan_does_not_say_that_it_reads_nothing():
+    request = drive_force("W")
+    for read in (request.names, request.differentiated, request.nodes):
+        with pytest.raises(AssertionError, match=r"drive_force\(W\) is not bound to"):
+            read(FourBar.plan)
+
+
 def test_a_mechanism_that_is_held_twice_is_refused_by_name():
     class Rails(Mechanism):
         phi = Stroke(30 * deg, 150 * deg)

@@ -419,10 +419,10 @@ class ForceElement(Jointed):
         """Raise DefinitionError where something else is given for a point, or one point is given twice."""
         names = [name_of(getattr(self, place)) for place in self.places]
         for name in names:
-            wrong = "" if names.count(name) < 2 else f" begins and ends at {name}; name two different points"
-            wrong = wrong if isinstance(members[name], Point) else f": {name} is not a point"
-            if wrong:
-                raise DefinitionError(f"{title}: {self.name} = {self}{wrong}.")
+            if not isinstance(members[name], Point):
+                raise DefinitionError(f"{title}: {self.name} = {self}: {name} is not a point.")
+            if names.count(name) > 1:
+                raise DefinitionError(f"{title}: {self.name} = {self} begins and ends at {name}; name two different points.")
 
     def variables(self) -> tuple[tuple[str, float, str, str], ...]:
         """Return the design variables this element brings: name, default, kind and unit."""
@@ -443,16 +443,15 @@ class ForceElement(Jointed):
             return motion.inputs[key]
         if not isinstance(given, (str, Quantity)):
             return np.asarray(given, float)
-        follows, wrong = quantity(given), ""
+        follows = quantity(given)
         untracked = motion.plan.untracked(follows)
-        found = None if untracked else motion.value(follows)
-        if found is None:
-            what = f"depends on the whole turns of {untracked[0]}, which are followed for the loads of a class only"
-            wrong = f"{what}; declare it in the class, or use sines and cosines"
-        elif name in self.not_negative and np.any(found < 0.0):
-            wrong = f"is negative, {np.nanmin(found):.6g}; let it follow what stays at or above zero"
-        if found is None or wrong:
-            raise DefinitionError(f"{self.name or self}: {name} = {value_text(given)} {wrong}.")
+        if untracked:
+            what = f"{self.name or self}: {name} = {value_text(given)} depends on the whole turns of {untracked[0]}, which are followed"
+            raise DefinitionError(f"{what} for the loads of a class only; declare it in the class, or use sines and cosines.")
+        found = motion.value(follows)
+        if name in self.not_negative and np.any(found < 0.0):
+            what = f"{self.name or self}: {name} = {value_text(given)} is negative, {np.nanmin(found):.6g}"
+            raise DefinitionError(f"{what}; let it follow what stays at or above zero.")
         return found
 
     def position(self, motion: Poses, place: str) -> Array:
@@ -466,20 +465,18 @@ class ForceElement(Jointed):
             self._check_number(name)
 
     def _check_number(self, name: str) -> None:
-        given, wrong = self.given(name), ""
+        given = self.given(name)
         if isinstance(given, (str, Quantity)):
             quantity(given)
             return
         try:
             value = real(given)
-            if not value.size or not np.all(np.isfinite(value)):
-                wrong = "not a finite number; give it in SI"
-            elif name in self.not_negative and np.any(value < 0.0):
-                wrong = "negative; give zero or more"
         except ValueError:
-            wrong = "not a number; give it in SI"
-        if wrong:
-            raise DefinitionError(f"{self._opening()}: {name}={cited(given)} is {wrong}.")
+            raise DefinitionError(f"{self._opening()}: {name}={cited(given)} is not a number; give it in SI.") from None
+        if not value.size or not np.all(np.isfinite(value)):
+            raise DefinitionError(f"{self._opening()}: {name}={cited(given)} is not a finite number; give it in SI.")
+        if name in self.not_negative and np.any(value < 0.0):
+            raise DefinitionError(f"{self._opening()}: {name}={cited(given)} is negative; give zero or more.")
 
     def _opening(self) -> str:
         """Return the element as it is written; its kind alone where its points have no names yet, as in a class."""

@@ -167,13 +167,11 @@ class Support(Directed):
             size = np.hypot(real(x), real(y))
         except ValueError:
             size = np.zeros(())
-        wrong = ""
         if not (np.all(np.isfinite(size)) and np.all(size > 0.0)):
-            wrong = f"the direction {cited(self.direction)} has no finite length above zero; write one such as (0, 1)"
-        elif is_number(self.stiffness) and not plain(self.stiffness) > 0.0:
-            wrong = "stiffness=0 carries nothing; give one above zero in N/m, or leave it out"
-        if wrong:
-            raise DefinitionError(f"Support: {wrong}.")
+            said = f"the direction {cited(self.direction)} has no finite length above zero"
+            raise DefinitionError(f"Support: {said}; write one such as (0, 1).")
+        if is_number(self.stiffness) and not plain(self.stiffness) > 0.0:
+            raise DefinitionError("Support: stiffness=0 carries nothing; give one above zero in N/m, or leave it out.")
 
     def glyphs(self, members: Mapping[str, Member]) -> tuple[Glyph, ...]:
         return (Glyph("support", (name_of(self.point),), way=float(np.arctan2(self.unit[1], self.unit[0]))),)

@@ -163,8 +163,11 @@ def two_point_members(
             hosts.setdefault(strut.name, link)
     for place, strut in enumerate(struts):
         host = hosts.get(strut.name)
-        name = "" if host is None else strut.name if strut.quantity is None else host.name
-        struts[place] = replace(strut, far=frozenset({strut.Q}) if host is None else far_points(plan, strut, host), host=name)
+        if host is None:
+            struts[place] = replace(strut, far=frozenset({strut.Q}))
+        else:
+            name = strut.name if strut.quantity is None else host.name
+            struts[place] = replace(strut, far=far_points(plan, strut, host), host=name)
     return tuple(struts), hosts
 
 
@@ -227,8 +230,11 @@ def known_struts(thrusts: Sequence[Push]) -> list[Strut]:
     """Return the members whose thrust is known, each once: what several laws put on one adds up; those without names are counted."""
     found: list[Push] = []
     for each in thrusts:
-        place = next((k for k, other in enumerate(found) if each.member.name and same(each.member, other.member)), len(found))
-        found[place : place + 1] = [replace(one, thrust=one.thrust + each.thrust) for one in found[place : place + 1]] or [each]
+        place = next((k for k, other in enumerate(found) if each.member.name and same(each.member, other.member)), None)
+        if place is None:
+            found.append(each)
+        else:
+            found[place] = replace(found[place], thrust=found[place].thrust + each.thrust)
     unnamed = Counter(each.name for each in found if not each.name.isidentifier())
     counts = Counter[str]()
     struts = []
@@ -465,26 +471,28 @@ class Structure:
     def side(self, side: JointSide, joint: Joint, owner: str) -> int:
         """Return the body that one side of a joint names."""
         guide = self.plan.guide_of(side)
-        sliders = {body.points[0]: index for index, body in reversed(list(enumerate(self.bodies))) if body.slides}
         if guide is not None:
             if guide.angle is not None:
                 refuse_driven(self.plan, ((guide.angle, f"{guide.name} = {guide}: its angle"),))
             if len(guide.points) == 2:
                 return self.carrier(guide.points[0], guide.points[1], f"{guide.name} = {guide}")
-            return next((sliders[point] for point in guide.points if point not in self.fixed), FRAME)
+            return next((self.sliding_at(point) for point in guide.points if point not in self.fixed), FRAME)
+        if side.role == "slider":
+            return self.sliding_at(side.points[0])
+        if side.role == "runner":  # a body that runs on the line with two points, else the carrier of the pin
+            point, line = side.points[0], self.plan.track(joint)
+            others, owners = {other for other, its in self.running if its == line} - {point}, self.owners(point)
+            both = [index for index in owners if index != FRAME and others & set(self.bodies[index].points)]
+            return both[0] if both and FRAME not in owners else self.holder(point)
         if not side.points:
             return FRAME
-        if side.role == "slider":
-            return sliders[side.points[0]]
         if joint.arm and side is joint.on:
             return next(index for index, body in enumerate(self.bodies) if owner in body.points)
-        if len(side.points) > 1:
-            return self.carrier(side.points[0], side.points[1], owner)
-        (point,), line = side.points, self.plan.track(joint)
-        others = {other for other, its in self.running if its == line} - {point} if side.role == "runner" else set()
-        owners = self.owners(point)  # of a runner one that runs on the line with two points, else the carrier of the pin
-        both = [index for index in owners if index != FRAME and others & set(self.bodies[index].points)]
-        return both[0] if both and FRAME not in owners else self.holder(point)
+        return self.holder(side.points[0]) if len(side.points) == 1 else self.carrier(side.points[0], side.points[1], owner)
+
+    def sliding_at(self, point: str) -> int:
+        """Return the body of its own that slides at a point without turning."""
+        return next(index for index, body in enumerate(self.bodies) if body.slides and body.points == (point,))
 
     @cached_property
     def running(self) -> set[tuple[str, tuple[str, ...]]]:

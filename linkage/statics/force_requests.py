@@ -108,8 +108,6 @@ def drive_force_in_plan(drive: str | None, request: LawRequest, motion: TracedMo
 # The force at a joint.
 
 
-
-
 COMPONENTS: Mapping[str, Callable[[Scalar, Scalar], Scalar]] = MappingProxyType(
     {"x": lambda x, y: x, "y": lambda x, y: y, "size": np.hypot}
 )

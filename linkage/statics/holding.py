@@ -36,6 +36,7 @@ POSES = 7
 SLOWEST = 1e-9
 """A length that changes by less than this part of its end's way does not follow a stroke."""
 
+
 @final
 @dataclass(frozen=True)
 class PressureLine:

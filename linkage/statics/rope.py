@@ -27,9 +27,6 @@ from .law_requests import LawRequest, request_text
 from .poses import AnyMotion, plan_of
 from .work import closed_force
 
-SLACK = 1e-9
-"""A push that is less than this part of the greatest pull is none."""
-
 
 @final
 class Rope(ForceElement, Tabled, HasVerdicts):

@@ -510,20 +510,19 @@ def check_together(elements: Mapping[str, object] | Sequence[tuple[str, object]]
 
     `elements` are the loads with their names, `members` those of the class.
     """
-    found, owners, wrong = list(elements.items() if isinstance(elements, Mapping) else elements), dict[Hashable, str](), list[str]()
+    found, owners = list(elements.items() if isinstance(elements, Mapping) else elements), dict[Hashable, str]()
     for place, (name, element) in enumerate(found):
         for other, earlier in found[:place]:
             if element is earlier:
                 what = f"{name} stands twice among the loads" if name == other else f"{other} and {name} are one and the same load"
                 remedy = f'give it once, and scale it by a load case, LoadCase(scale={{"{other}": 2.0}})'
-                wrong.append(f"{what} and would count double; {remedy}.")
-            elif name == other and isinstance(element, Member) and element.name:
-                wrong.append(f"two of these loads are called {name}, {earlier} and {element}; give one another name.")
-        claims = element.claims(members) if isinstance(element, ForceElement) else {}
-        firsts = {key: owners.setdefault(key, name) for key in claims}
-        wrong += [f"{firsts[key]} and {name} both {words}" for key, words in claims.items() if firsts[key] != name]
-        if wrong:
-            raise DefinitionError(f"{title}: {wrong[0]}")
+                raise DefinitionError(f"{title}: {what} and would count double; {remedy}.")
+            if name == other and isinstance(element, Member) and element.name:
+                raise DefinitionError(f"{title}: two of these loads are called {name}, {earlier} and {element}; give one another name.")
+        for key, words in element.claims(members).items() if isinstance(element, ForceElement) else ():
+            first = owners.setdefault(key, name)
+            if first != name:
+                raise DefinitionError(f"{title}: {first} and {name} both {words}")
 
 
 def value_text(value: object) -> str:

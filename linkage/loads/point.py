@@ -11,7 +11,7 @@ from typing import ClassVar, Self, TypeAlias, final
 import numpy as np
 
 from ..checks import require, require_type
-from ..errors import DefinitionError, cited, known_name
+from ..errors import DefinitionError, cited, unknown
 from ..frozen import refuses_changes, unmasked
 from ..quantities import Axes, Member, Reference, is_number, label, name_of, real
 from ..quantities.quantity import plain
@@ -240,9 +240,10 @@ class OnBody(ForceElement):
     def points(self, members: Mapping[str, Member], title: str) -> tuple[str, ...]:
         """Return the body's points; DefinitionError for what names no body."""
         names = tuple(name_of(each) for each in self.named())
-        if not all(name in members for name in names):
-            known = [each for each, member in members.items() if isinstance(member, (Link, Point))]
-            known_name("Link or point", next(name for name in names if name not in members), known, where=title)
+        for name in names:
+            if name not in members:
+                known = [each for each, member in members.items() if isinstance(member, (Link, Point))]
+                raise unknown("Link or point", name, known, where=title)
         found = tuple(members[name] for name in names)
         if len(found) == 1 and isinstance(found[0], Link):
             return found[0].point_names

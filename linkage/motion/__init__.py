@@ -9,6 +9,7 @@ from .follow import followed
 from .gaps import gap, nearest_places
 from .grid import Grid
 from .judge import Judge, Question, case_named
+from .judged_poses import judged_poses
 from .judging import HasVerdicts, geometry_verdicts, judge_verdicts, limits_over
 from .limits import stroke_display_unit, stroke_measure, stroke_unit
 from .live import LiveText, live_text

@@ -1,0 +1,71 @@
+"""Which poses a judge looks at: in boxes, near legs and poses, where conditions hold; against many places on each leg."""
+
+import numpy as np
+from numpy.testing import assert_array_equal
+
+from linkage import Crank, Ground, Mechanism, Over, Stroke, deg, x
+from linkage.motion import judged_poses
+from tests.for_all import for_all
+
+
+class Reach(Mechanism):
+    """Two cranks, one on the other, and a mast that slides."""
+
+    alpha, beta, slide = Stroke(0.0, 90 * deg), Stroke(-60 * deg, 60 * deg), Stroke(0.0, 2.0)
+    O = Ground(0, 0)
+    P = Crank(O, OP=1.0 + 0.1 * slide, angle=alpha)
+    T = Crank(P, PT=0.9, angle=alpha + beta)
+
+
+TRAVEL = np.array([90 * deg, 120 * deg, 2.0])
+LEGS = {"alpha": [0.1, 1.2, 1.2, 1.2, 0.3], "beta": [0.0, 0.5, 0.5, -0.4, -0.4], "slide": [0.0, 1.0, 1.7, 1.7, 0.2]}
+
+
+def poses(seed, count=400):
+    """Return random strokes, half of them near the legs."""
+    random = np.random.default_rng(seed)
+    share = random.uniform(0.0, 4.0, count)
+    on = np.array([np.interp(share, np.arange(5), each) for each in LEGS.values()])
+    off = random.uniform(-0.03, 0.03, on.shape) * TRAVEL[:, None]
+    wide = random.uniform([[0.0], [-60 * deg], [0.0]], [[90 * deg], [60 * deg], [2.0]], on.shape)
+    return np.where(np.arange(count) % 2, on + off, wide)
+
+
+def nearest(values, legs, fine=4001):
+    """Return how far poses are from the nearest of many places on the legs, the farthest stroke's way as a part of its travel."""
+    along = np.array([np.interp(np.linspace(0, 4, fine), np.arange(5), each) for each in legs.values()])
+    apart = np.abs(values[:, :, None] - along[:, None, :]) / TRAVEL[:, None, None]
+    return apart.max(axis=0).min(axis=-1)
+
+
+@for_all("seed", range(3))
+def test_near_a_leg_is_within_two_percent_of_every_strokes_travel(seed):
+    machine, values = Reach(), poses(seed)
+    motion = machine.at(**dict(zip(LEGS, values, strict=True)))
+    found, far = judged_poses(machine.judge(Over.path(**LEGS)), motion), nearest(values, LEGS)
+    clear = np.abs(far - 0.02) > 2e-3  # the places on the legs are apart
+    assert_array_equal(found[clear], (far < 0.02)[clear])
+    assert found[clear].any() and not found[clear].all()
+
+
+def test_poses_boxes_and_conditions():
+    machine = Reach()
+    grid = machine.at(alpha=np.linspace(0.0, 1.5, 7)[:, None, None], beta=np.linspace(-1.0, 1.0, 9)[:, None], slide=[0.0, 0.03, 0.05, 1.0])
+    alpha, _, slide = np.broadcast_arrays(*grid.strokes.values())
+    assert judged_poses(machine.judge(), grid).all()
+    box = judged_poses(machine.judge(Over(alpha=(0.5, 1.0), slide=0.0)), grid)
+    assert_array_equal(box, (alpha >= 0.5) & (alpha <= 1.0) & (slide <= 0.04))
+    low = judged_poses(machine.judge(Over(only=[x("T") <= 1.0])), grid)
+    assert_array_equal(low, grid["T"][0] <= 1.0)
+    some = judged_poses(machine.judge(Over.poses(alpha=[0.0, 1.5], beta=[-1.0, 1.0], slide=0.0)), grid)
+    assert some.sum() == 4 and some[0, 0, :2].all() and some[-1, -1, :2].all()
+    several = judged_poses(machine.judge([Over(alpha=(0.5, 1.0), slide=0.0), Over(slide=(0.9, 1.1))]), grid)
+    assert_array_equal(several, box | (slide == 1.0))
+
+
+def test_designs_of_a_batch_have_the_same_poses_judged():
+    machine = Reach(PT=[0.9, 1.1])
+    motion = machine.at(alpha=np.linspace(0.0, 1.5, 7), beta=0.0, slide=0.0)
+    only = judged_poses(machine.judge(Over(only=[x("T") <= 1.5])), motion)
+    assert only.shape == (2, 7)
+    assert_array_equal(only, motion["T"][0] <= 1.5)

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from argparse import ArgumentParser, Namespace
-from typing import final
+from argparse import Namespace
 
 import numpy as np
 
-from linkage.cli.command import Command, every_argument, machine_arguments, motion_arguments
+from linkage.cli.command import CSV, EVERY, Command, machine_options, option, pose_options
 from linkage.cli.machines import find
-from linkage.cli.settings import check_argument, design, judged_over, motion_at, over_argument, print_verdicts, si_value
-from linkage.cli.table import csv_argument, write_table
+from linkage.cli.settings import CHECK, OVER, design, judged_over, motion_at, print_verdicts, si_value
+from linkage.cli.table import write_table
 from linkage.errors import DefinitionError, ensure, known_name
 from linkage.language import noted, said
 from linkage.loads import Acting, ForceElement, LoadCase
@@ -30,59 +29,58 @@ FURTHER = noted("further load")
 """What is lifted beside the machine's own loads: not what a machine calls its lifting capacity, in which these count."""
 
 
-@final
-class CapacityCommand(Command):
-    """Prints what a machine lifts at a point, and what limits it."""
+CapacityCommand = Command(
+    "capacity",
+    "the largest load that the pump lifts at a point of a machine, beside its own, and what limits it",
+    *machine_options(),
+    option("--at-point", metavar="G", help="where the load hangs (default: where the machine's own load does)"),
+    option("--along", metavar="0,1", default="0,1", help="the direction it is lifted in, x and y (default 0,1, upwards)"),
+    option("--cylinder", metavar="LIFT", help="the cylinder that lifts, where there are several"),
+    option("--circuit", metavar="CIRCUIT", help="the circuit that feeds it, where several do"),
+    option("--pressure", metavar="180bar", help="this pressure without losses instead of a circuit's, gauge"),
+    option("--share", metavar="0.9", type=float, default=1.0, help="share of the pressure (default 1)"),
+    option("--case", metavar="CASE", help="the machine's own load in this load case"),
+    CSV,
+    *pose_options(11),
+    EVERY,
+    OVER,
+    CHECK,
+)
 
-    name = "capacity"
-    help = "the largest load that the pump lifts at a point of a machine, beside its own, and what limits it"
 
-    def add(self, parser: ArgumentParser) -> None:
-        machine_arguments(parser)
-        parser.add_argument("--at-point", metavar="G", help="where the load hangs (default: where the machine's own load does)")
-        parser.add_argument("--along", metavar="0,1", default="0,1", help="the direction it is lifted in, x and y (default 0,1, upwards)")
-        parser.add_argument("--cylinder", metavar="LIFT", help="the cylinder that lifts, where there are several")
-        parser.add_argument("--circuit", metavar="CIRCUIT", help="the circuit that feeds it, where several do")
-        parser.add_argument("--pressure", metavar="180bar", help="this pressure without losses instead of a circuit's, gauge")
-        parser.add_argument("--share", metavar="0.9", type=float, default=1.0, help="share of the pressure (default 1)")
-        parser.add_argument("--case", metavar="CASE", help="the machine's own load in this load case")
-        csv_argument(parser)
-        motion_arguments(parser, 11)
-        every_argument(parser)
-        over_argument(parser)
-        check_argument(parser)
+@CapacityCommand
+def print_capacity(options: Namespace) -> int:
+    """Print what a machine lifts at a point, and what limits it."""
+    machine = design(find(options.machine), options.settings)
+    ram = cylinder_of(machine, options.cylinder)
+    circuit, point = circuit_of(machine, ram, options), point_of(machine, options.at_point)
+    share = options.share
+    proper_share(share)
+    try:
+        x, y = (float(each) for each in options.along.split(","))
+    except ValueError:
+        raise DefinitionError(f"--along {options.along}: two numbers are expected, x and y, such as 0,1 for upwards.") from None
+    along = x, y
+    unit = pull_direction(along, "--")
+    case = None if options.case is None else known_name("Load case", options.case, machine.plan.of_kind(LoadCase), machine.plan.title)
+    over = motion_at(machine, options)
 
-    def run(self, options: Namespace) -> int:
-        machine = design(find(options.machine), options.settings)
-        ram = cylinder_of(machine, options.cylinder)
-        circuit, point = circuit_of(machine, ram, options), point_of(machine, options.at_point)
-        share = options.share
-        proper_share(share)
-        try:
-            x, y = (float(each) for each in options.along.split(","))
-        except ValueError:
-            raise DefinitionError(f"--along {options.along}: two numbers are expected, x and y, such as 0,1 for upwards.") from None
-        along = x, y
-        unit = pull_direction(along, "--")
-        case = None if options.case is None else known_name("Load case", options.case, machine.plan.of_kind(LoadCase), machine.plan.title)
-        over = motion_at(machine, options)
+    def capacity(motion: Motion) -> Array:
+        """Return it along the stroke."""
+        return circuit.lifted(motion, point, along=along, share=share, cylinder=ram, case=case)
 
-        def capacity(motion: Motion) -> Array:
-            """Return it along the stroke."""
-            return circuit.lifted(motion, point, along=along, share=share, cylinder=ram, case=case)
-
-        whole = over.moved(over.strokes)
-        places = (*over.strokes, f"{point}_x", f"{point}_y")
-        shown = [each for each in columns_of(over) if each.name in places]
-        columns = [*shown, *ram.columns_in(whole, case), Column(FURTHER, capacity(whole), "kN", 3)]
-        if options.csv != "-":
-            supply = show(float(np.ravel(circuit.supply(over))[0]), "bar", 4)
-            way = f"along ({x:g}, {y:g}) at {f'{share:g} of ' if share != 1.0 else ''}{supply}"
-            print(f"{machine.plan.title}: {ram.name} lifts at {point} {way}, beside the machine's own loads. Pressures are gauge.\n")
-        write_table(columns, over.reached.size, options.csv)
-        judge = machine.judge(judged_over(machine, options), Acting(case=case))
-        asked = capacity_request(ram, Acting(), circuit, point, unit, share)
-        return print_verdicts([capacity_verdict(judge, asked, point), *line_verdicts(circuit, judge), *ram.verdicts(judge)], options)
+    whole = over.moved(over.strokes)
+    places = (*over.strokes, f"{point}_x", f"{point}_y")
+    shown = [each for each in columns_of(over) if each.name in places]
+    columns = [*shown, *ram.columns_in(whole, case), Column(FURTHER, capacity(whole), "kN", 3)]
+    if options.csv != "-":
+        supply = show(float(np.ravel(circuit.supply(over))[0]), "bar", 4)
+        way = f"along ({x:g}, {y:g}) at {f'{share:g} of ' if share != 1.0 else ''}{supply}"
+        print(f"{machine.plan.title}: {ram.name} lifts at {point} {way}, beside the machine's own loads. Pressures are gauge.\n")
+    write_table(columns, over.reached.size, options.csv)
+    judge = machine.judge(judged_over(machine, options), Acting(case=case))
+    asked = capacity_request(ram, Acting(), circuit, point, unit, share)
+    return print_verdicts([capacity_verdict(judge, asked, point), *line_verdicts(circuit, judge), *ram.verdicts(judge)], options)
 
 
 def cylinder_of(machine: Mechanism, name: str | None) -> Ram:

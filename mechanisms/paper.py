@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import fields
 from typing import TYPE_CHECKING, TypeVar
 
 from linkage import Mechanism, Motion
 from linkage.checks import require_one_design
-from linkage.cli.command import motion_arguments, picture_argument
-from linkage.cli.settings import check_argument, over_argument, pair, si_value
-from linkage.cli.table import csv_argument
+from linkage.cli.command import CSV, Option, option, picture_option, pose_options
+from linkage.cli.settings import CHECK, OVER, pair, si_value
 from linkage.errors import known_name
 from linkage.motion import Answer, Judge, Question
 
@@ -22,14 +21,10 @@ Machine = TypeVar("Machine", bound=Mechanism)
 Duty = TypeVar("Duty")
 
 
-def figure_arguments(parser: ArgumentParser, figures: Sequence[str], default: str) -> None:
-    """Declare what a command on one machine takes that prints its table and its verdicts and draws one of its figures."""
-    csv_argument(parser)
-    picture_argument(parser, "the figure")
-    parser.add_argument("--figure", choices=figures, help=f"which figure (default: {default})")
-    motion_arguments(parser, 11)
-    over_argument(parser)
-    check_argument(parser)
+def figure_options(figures: Sequence[str], default: str) -> tuple[Option, ...]:
+    """Return what a command on one machine takes that prints its table and its verdicts and draws one of its figures."""
+    figure = option("--figure", choices=figures, help=f"which figure (default: {default})")
+    return CSV, picture_option("the figure"), figure, *pose_options(11), OVER, CHECK
 
 
 def duty_set(duty: type[Duty], options: Namespace, example: str, kinds: Mapping[str, str]) -> Duty:

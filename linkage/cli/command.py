@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import sys
-from abc import ABC, abstractmethod
-from argparse import Action, ArgumentParser, ArgumentTypeError, Namespace, _ActionsContainer
+from argparse import Action, ArgumentParser, ArgumentTypeError, Namespace
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from functools import partial
+from operator import methodcaller
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeAlias, final
+from typing import TYPE_CHECKING, Any, TypeAlias, final
 from urllib.parse import parse_qsl
 
 from ..disk import check_place
@@ -20,43 +21,50 @@ if TYPE_CHECKING:
 
 MOST = 100_000_000
 """Poses of a command."""
+Option: TypeAlias = Callable[[Any], object]
+"""What declares an option, or a group of them, with a parser."""
+option = partial(methodcaller, "add_argument")
+"""Return an option from what argparse's `add_argument` takes."""
 
 
-class Command(ABC):
-    """A command of `hydrolinkage`: its words for the help, its arguments, and what it does."""
+class Command:
+    """A command of `hydrolinkage`: its name, its words for the help, its options, and the function that does it, which it decorates.
+
+    The function takes the options' values and returns the exit code; a LinkageError ends it with one line and exit code 2.
+    """
 
     name: str
     help: str
+    run: Callable[[Namespace], int]
 
-    @abstractmethod
+    def __init__(self, name: str, help: str, *options: Option) -> None:
+        self.name, self.help, self.options = name, help, options
+
+    def __call__(self, run: Callable[[Namespace], int]) -> Command:
+        """Take the function that does it."""
+        self.run = run
+        return self
+
     def add(self, parser: ArgumentParser) -> None:
-        """Declare the command's arguments."""
-
-    @abstractmethod
-    def run(self, options: Namespace) -> int:
-        """Do it and return the exit code; a LinkageError ends it with one line and exit code 2."""
+        """Declare the options with a parser."""
+        for each in self.options:
+            each(parser)
 
 
-def repeatable(parser: _ActionsContainer, option: str, metavar: str, help: str, dest: str | None = None) -> None:
-    """Declare an argument that may be given several times: a list of texts."""
-    parser.add_argument(option, metavar=metavar, action="append", default=[], help=help, dest=dest)
+def group(title: str, *options: Option, about: str | None = None) -> Option:
+    """Return options that stand together under a title in the help."""
+
+    def declare(parser: ArgumentParser) -> None:
+        made = parser.add_argument_group(title, about)
+        for each in options:
+            each(made)
+
+    return declare
 
 
-def machine_arguments(parser: ArgumentParser, default: str | None = None) -> None:
-    """Declare the arguments that every command on a machine has; with a `default` the machine need not be named."""
-    what = "a machine of `list`, package.module:Class, file.py, file.py:Class or file.toml"
-    if default is None:
-        parser.add_argument("machine", metavar="NAME", help=what)
-    else:
-        parser.add_argument("machine", metavar="NAME", nargs="?", default=default, help=f"{what} (default {default})")
-    what = "change a design variable, with its unit (without: SI); a point: M=0.22,0.95 or M.x=220mm; repeatable"
-    repeatable(parser, "--set", "OB=180mm", what, "settings")
-    link_argument(parser)
-
-
-def link_argument(parser: ArgumentParser) -> None:
-    """Declare the argument that takes a design from a live page."""
-    parser.add_argument("--from", dest="settings", metavar="LINK", action=FromLink, help="the design of a live page, by its link's text")
+def repeatable(name: str, metavar: str, help: str, dest: str | None = None) -> Option:
+    """Return an option that may be given several times: a list of texts."""
+    return option(name, metavar=metavar, action="append", default=[], help=help, dest=dest)
 
 
 @final
@@ -72,31 +80,39 @@ class FromLink(Action):
         namespace.settings = [*namespace.settings, *found]
 
 
-def path_argument(parser: ArgumentParser) -> None:
-    """Declare the argument that chooses whose paths are drawn."""
-    parser.add_argument("--path", metavar="G", action="append", help="draw this point's path (default: what it is about); repeatable")
+LINK = option("--from", dest="settings", metavar="LINK", action=FromLink, help="the design of a live page, by its link's text")
+PATH = option("--path", metavar="G", action="append", help="draw this point's path (default: what it is about); repeatable")
+EVERY = option("--every", metavar="25mm", help="a row every so much of the stroke that runs, instead of --count rows")
+CSV = option("--csv", metavar="FILE", help="write the table as CSV in full precision instead; - for stdout")
+COLUMNS = "only these columns (default: all), or what is asked for in words: 'pressure(lift)', 'ratio(G.y)'"
 
 
-def run_arguments(parser: ArgumentParser, count: int, what: str) -> None:
-    """Declare the arguments that choose what runs, and at how many poses."""
-    parser.add_argument("--count", metavar="N", type=whole_number, default=count, help=f"{what} (default {count})")
-    what = "hold a stroke at a value, or run between two: S=0.1,650mm; without it the first runs, the others are held at mid-stroke"
-    repeatable(parser, "--at", "S=0.6", what, "strokes")
+def machine_options(default: str | None = None) -> tuple[Option, ...]:
+    """Return what every command on a machine takes; with a `default` the machine need not be named."""
+    what = "a machine of `list`, package.module:Class, file.py, file.py:Class or file.toml"
+    named = dict[str, Any](help=what) if default is None else {"nargs": "?", "default": default, "help": f"{what} (default {default})"}
+    change = "change a design variable, with its unit (without: SI); a point: M=0.22,0.95 or M.x=220mm; repeatable"
+    return option("machine", metavar="NAME", **named), repeatable("--set", "OB=180mm", change, "settings"), LINK
 
 
-def motion_arguments(parser: ArgumentParser, count: int) -> None:
-    """Declare the arguments that choose the poses."""
-    parser.add_argument("--count", metavar="N", type=whole_number, default=count, help=f"poses over the stroke (default {count})")
-    what = (
+def count_option(count: int, what: str) -> Option:
+    """Return the option that says how many poses there are."""
+    return option("--count", metavar="N", type=whole_number, default=count, help=f"{what} (default {count})")
+
+
+def run_options(count: int, what: str) -> tuple[Option, ...]:
+    """Return the options that choose what runs, and at how many poses."""
+    at = "hold a stroke at a value, or run between two: S=0.1,650mm; without it the first runs, the others are held at mid-stroke"
+    return count_option(count, what), repeatable("--at", "S=0.6", at, "strokes")
+
+
+def pose_options(count: int) -> tuple[Option, ...]:
+    """Return the options that choose the poses."""
+    at = (
         "these values of a stroke instead; repeatable. Without it the machine's path runs, else the first stroke; others are held at "
         "mid-stroke"
     )
-    repeatable(parser, "--at", "S=0.6,650mm", what, "strokes")
-
-
-def every_argument(parser: ArgumentParser) -> None:
-    """Declare the argument that says how far apart the rows of a table are."""
-    parser.add_argument("--every", metavar="25mm", help="a row every so much of the stroke that runs, instead of --count rows")
+    return count_option(count, "poses over the stroke"), repeatable("--at", "S=0.6,650mm", at, "strokes")
 
 
 def whole_number(text: str) -> int:
@@ -124,9 +140,9 @@ def lined_up(rows: Sequence[Sequence[str]]) -> Iterator[str]:
 PICTURES = (".png", ".svg", ".pdf")
 
 
-def picture_argument(parser: _ActionsContainer, what: str) -> None:
-    """Declare the argument that names a picture's file."""
-    parser.add_argument("-o", "--output", metavar="FILE", help=f"{', '.join(PICTURES)} ({what})")
+def picture_option(what: str) -> Option:
+    """Return the option that names a picture's file."""
+    return option("-o", "--output", metavar="FILE", help=f"{', '.join(PICTURES)} ({what})")
 
 
 def picture(options: Namespace, machine: Mechanism, suffixes: Sequence[str] = PICTURES, name: str = "") -> Path:

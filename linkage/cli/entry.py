@@ -22,26 +22,14 @@ from .command import Command
 # The commands there are: the built-in ones, and those of other packages by entry point.
 
 HOMES = {
-    "list": "listing:ListCommand",
-    "show": "show:ShowCommand",
-    "table": "table:TableCommand",
-    "follow": "follow:FollowCommand",
-    "chart": "chart:ChartCommand",
-    "limits": "forces:LimitsCommand",
-    "forces": "forces:ForcesCommand",
-    "draw": "plot:DrawCommand",
-    "plot": "plot:PlotCommand",
-    "animate": "plot:AnimateCommand",
-    "page": "page:PageCommand",
-    "report": "report:ReportCommand",
-    "export": "export:ExportCommand",
-    "save": "show:SaveCommand",
-    "optimise": "optimise:OptimiseCommand",
-    "synthesise": "synthesise:SynthesiseCommand",
-    "study": "study:StudyCommand",
-    "new": "new:NewCommand",
+    "list": "listing:machines", "show": "show", "table": "table", "follow": "follow", "chart": "follow",
+    "limits": "table", "forces": "table", "draw": "plot", "plot": "plot", "animate": "plot", "page": "report", "report": "report",
+    "export": "export", "save": "export", "optimise": "optimise", "synthesise": "optimise", "study": "optimise", "new": "export",
+}  # fmt: skip
+"""The built-in commands, in the order of the help, each with the file where it stands, by its name there."""
+BUILT_IN = {
+    name: EntryPoint(name, f"{__package__}.{home if ':' in home else f'{home}:{name}'}", plugins.COMMANDS) for name, home in HOMES.items()
 }
-BUILT_IN = {name: EntryPoint(name, f"{__package__}.{home}", plugins.COMMANDS) for name, home in HOMES.items()}
 
 
 def commands_for(arguments: Sequence[str]) -> list[Command]:
@@ -67,12 +55,16 @@ def commands_for(arguments: Sequence[str]) -> list[Command]:
 
 
 def load_command(entry: EntryPoint) -> Command:
-    """Return another package's command; DefinitionError where it cannot be loaded or is none."""
+    """Return a command; DefinitionError where it cannot be loaded or is none. A subclass, as there were, is taken with a warning."""
     title = f"The command {entry.name} ({entry.value})"
     found = plugins.guarded(entry.load, title)
-    if not (isinstance(found, type) and issubclass(found, Command)):
-        raise DefinitionError(f"{title} is no subclass of linkage.cli.Command.")
-    return found()
+    if isinstance(found, type) and issubclass(found, Command):
+        what = f"{title} is a subclass; write a function under @Command(name, help, *options)."
+        warnings.warn(what, FutureWarning, stacklevel=2)
+        found = found.__new__(found)
+    if not isinstance(found, Command):
+        raise DefinitionError(f"{title} is no linkage.cli.Command.")
+    return found
 
 
 PROGRAM = "hydrolinkage"

@@ -1,54 +1,112 @@
-"""`hydrolinkage export NAME -o FILE`: a machine as a workbook, a table or a drawing for another program."""
+"""`hydrolinkage export`, `save`, `new`: a machine for another program, as a mechanism file, and a template to begin with."""
 
 from __future__ import annotations
 
+import re
 from argparse import ArgumentParser, Namespace
 from pathlib import Path
-from typing import final
+from string import Template
 
 import numpy as np
 
 from .. import plugins
-from ..disk import check_place
-from .command import Command, default_name, machine_arguments, repeatable, whole_number
+from ..disk import check_place, replacing_text
+from ..errors import DefinitionError, FileError, ensure
+from .command import Command, count_option, default_name, machine_options, option, repeatable, whole_number
 from .settings import machine_of, strokes_given, tell_gaps
 
 OWN_FORMATS = ("xlsx", "csv", "dxf", "svg")
 
 
-@final
-class ExportCommand(Command):
-    """Writes a file for another program."""
+def declare_format(parser: ArgumentParser) -> None:
+    """Declare the option that names a format, those that packages bring among them."""
+    formats = ", ".join([*OWN_FORMATS, *plugins.entry_points(plugins.EXPORTERS)])
+    parser.add_argument("--format", metavar="NAME", help=f"{formats}: one of them, whatever the file's name ends in")
 
-    name = "export"
-    help = "a workbook with live formulas (.xlsx), a table (.csv), or a true-size drawing (.dxf, .svg)"
 
-    def add(self, parser: ArgumentParser) -> None:
-        machine_arguments(parser)
-        parser.add_argument("-o", "--output", metavar="FILE", help=f"{', '.join(f'.{name}' for name in OWN_FORMATS)} (default: NAME.xlsx)")
-        formats = ", ".join([*OWN_FORMATS, *plugins.entry_points(plugins.EXPORTERS)])
-        parser.add_argument("--format", metavar="NAME", help=f"{formats}: one of them, whatever the file's name ends in")
-        parser.add_argument("--count", metavar="N", type=whole_number, default=101, help="poses over the stroke (default 101)")
-        what = (
-            "hold a stroke at a value; in a workbook the one with two values runs between them: S=0.1,650mm; in a drawing each value "
-            "is a pose on layers of its own; repeatable"
-        )
-        repeatable(parser, "--at", "S=0.6", what, "strokes")
-        parser.add_argument("--poses", metavar="N", type=whole_number, help="a drawing of so many poses over the first stroke")
-        repeatable(parser, "--path", "G", "draw this point's path; repeatable")
+@Command(
+    "export",
+    "a workbook with live formulas (.xlsx), a table (.csv), or a true-size drawing (.dxf, .svg)",
+    *machine_options(),
+    option("-o", "--output", metavar="FILE", help=f"{', '.join(f'.{name}' for name in OWN_FORMATS)} (default: NAME.xlsx)"),
+    declare_format,
+    count_option(101, "poses over the stroke"),
+    repeatable(
+        "--at",
+        "S=0.6",
+        "hold a stroke at a value; in a workbook the one with two values runs between them: S=0.1,650mm; in a drawing each value "
+        "is a pose on layers of its own; repeatable",
+        "strokes",
+    ),
+    option("--poses", metavar="N", type=whole_number, help="a drawing of so many poses over the first stroke"),
+    repeatable("--path", "G", "draw this point's path; repeatable"),
+)
+def export(options: Namespace) -> int:
+    """Write a file for another program."""
+    machine = machine_of(options)
+    from ..exports import ExportJob, export, exporter_of
 
-    def run(self, options: Namespace) -> int:
-        machine = machine_of(options)
-        from ..exports import ExportJob, export, exporter_of
+    exporter = exporter_of(Path(options.output or "x.xlsx"), options.format)
+    path = Path(default_name(options, machine) + exporter.suffix if options.output is None else options.output)
+    check_place(path)
+    at = strokes_given(machine, options)
+    if options.poses is not None:
+        first = next((name for name in machine.strokes if name not in at), None)
+        if first is not None:
+            at[first] = np.linspace(machine.strokes[first].start, machine.strokes[first].end, options.poses)
+    tell_gaps(exporter.poses(ExportJob(machine, path.name, at, options.count, options.path, ())))
+    print(export(machine, path, format=options.format, at=at, count=options.count, trace=options.path))
+    return 0
 
-        exporter = exporter_of(Path(options.output or "x.xlsx"), options.format)
-        path = Path(default_name(options, machine) + exporter.suffix if options.output is None else options.output)
-        check_place(path)
-        at = strokes_given(machine, options)
-        if options.poses is not None:
-            first = next((name for name in machine.strokes if name not in at), None)
-            if first is not None:
-                at[first] = np.linspace(machine.strokes[first].start, machine.strokes[first].end, options.poses)
-        tell_gaps(exporter.poses(ExportJob(machine, path.name, at, options.count, options.path, ())))
-        print(export(machine, path, format=options.format, at=at, count=options.count, trace=options.path))
-        return 0
+
+@Command(
+    "save",
+    "a machine, as it is set, as a file in TOML or JSON",
+    *machine_options(),
+    option("file", metavar="FILE", help="the file, named .toml or .json"),
+)
+def save(options: Namespace) -> int:
+    """Write a machine into a file, and say what such a file does not hold."""
+    from ..files import left_out, save
+
+    machine = machine_of(options)
+    save(machine, options.file)
+    lost = ", ".join(left_out(machine))
+    print(f"{options.file}: the linkage with {len(machine.plan.members)} members.")
+    if lost:
+        print(f"Not in it, since a file holds no functions of a class: {lost}.")
+    return 0
+
+
+TEMPLATES = (".py", ".toml")
+"""Each stands beside this file."""
+
+
+@Command(
+    "new",
+    "a commented machine to begin with, as .py or .toml, which runs at once",
+    option("name", metavar="NAME", help="the machine's name, such as loader, or its file, loader.toml"),
+    option("-o", "--output", metavar="FILE", help=".py or .toml (default: NAME.py)"),
+)
+def new(options: Namespace) -> int:
+    """Write a template."""
+    given = Path(options.name)
+    is_file = given.suffix.lower() in TEMPLATES
+    words = re.findall(r"[^\W_]+", given.stem if is_file else options.name)
+    name = "".join(word[:1].upper() + word[1:] for word in words)
+    ensure(name.isidentifier(), f"{options.name!r} gives no name of a class; take letters and digits, no digit first, such as loader.")
+    own = given if is_file else Path(f"{'_'.join(words).lower()}.py")
+    path = own if options.output is None else Path(options.output)
+    if given.suffix and not is_file:
+        raise DefinitionError(f"{given}: a machine's file ends in one of {', '.join(TEMPLATES)}, which chooses the form.")
+    if path.suffix.lower() not in TEMPLATES:
+        raise DefinitionError(f"-o {path}: the file's name ends in one of {', '.join(TEMPLATES)}, which chooses the form.")
+    check_place(path)
+    if path.exists():
+        raise FileError(f"{path} is there already and stays as it is; choose another name, -o FILE.")
+    template = Template((Path(__file__).parent / f"new_machine{path.suffix.lower()}.txt").read_text(encoding="utf-8"))
+    text = template.substitute(words=" ".join(words), name=name, file=path, stem=path.stem)
+    with replacing_text(path) as stream:
+        stream.write(text)
+    print(f"{path}: {name}, a lift arm on a cylinder to begin with. Look at it by: hydrolinkage show {path}")
+    return 0

@@ -1,14 +1,14 @@
-"""`hydrolinkage follow NAME --path FILE.csv`: the strokes along a path of places, as a table, a picture or an animation."""
+"""`hydrolinkage follow NAME` and `chart NAME`: the strokes along a path of places; what is lifted at every place of a field."""
 
 from __future__ import annotations
 
 import csv
 import io
 import re
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, final
+from typing import Any
 
 import numpy as np
 
@@ -19,14 +19,15 @@ from ..mechanism import Mechanism
 from ..motion import Column, Motion, RequestLike, Target, stroke_measure
 from ..motion.kinds import measure_of
 from ..quantities import x, y
-from ..units import UNITS, parse, units_of
-from .command import Command, machine_arguments, picture, progress_bar, repeatable
-from .settings import acting_of, columns_picked, force_arguments, machine_of, pair, plain_value, si_value
-from .table import COLUMNS, csv_argument, write_table
+from ..units import UNITS, parse, parse_span, units_of
+from .command import COLUMNS, CSV, PICTURES, Command, lined_up, machine_options, option, picture, progress_bar, repeatable
+from .settings import FORCES, acting_of, columns_picked, machine_of, pair, parsed_over, plain_value, si_value
+from .table import write_table
 
 FILMS = (".gif", ".mp4")
 PAGE = ".html"
-PICTURES = (".png", ".svg", ".pdf", *FILMS, PAGE)
+ALONG = (*PICTURES, *FILMS, PAGE)
+"""What may show a path."""
 MOST_PLACES = 100_000
 SIZE = 1 << 26
 """Bytes of a path's file."""
@@ -36,48 +37,43 @@ HEADING = re.compile(r"\s*(?P<name>.*?)\s*(?:,\s*(?P<unit>[^,\[\]()]+?)|\[\s*(?P
 """A heading as tables have it, `M_x, mm`, or with its unit in square brackets."""
 
 
-@final
-class FollowCommand(Command):
-    """Follows a path of places."""
-
-    name = "follow"
-    help = "the strokes along a path of places that a CSV file gives, on one branch"
-
-    def add(self, parser: ArgumentParser) -> None:
-        machine_arguments(parser)
-        parser.add_argument("columns", metavar="COLUMN", nargs="*", default=[], help=f"{COLUMNS}; without it the strokes and the path")
-        parser.add_argument(
-            "--path", metavar="FILE.csv", required=True,
-            help="the places, a row each; the first line names what is wanted, with its unit: 'x(M) [mm]', M_y, 'tilt [deg]'",
-        )  # fmt: skip
-        held = "hold a stroke there; repeatable, or several with commas"
-        repeatable(parser, "--hold", "S=1.1m", held)
-        begun = "begin on the branch near these strokes (default: the first one that goes all the way)"
-        repeatable(parser, "--start", "S=1.1m,T=0.2m", begun)
-        parser.add_argument("--gaps", action="store_true", help="leave places empty that are not reached, instead of saying why")
-        csv_argument(parser)
-        shown = f"a picture, an animation along the path, its live page: {', '.join(PICTURES)}"
-        parser.add_argument("-o", "--output", metavar="FILE", help=shown)
-        force_arguments(parser)
-
-    def run(self, options: Namespace) -> int:
-        machine = machine_of(options)
-        path = None if options.output is None else picture(options, machine, PICTURES)
-        acting = acting_of(machine, options)
-        targets = path_targets(machine, options.path)
-        held, begun = (strokes_said(machine, option, texts) for option, texts in (("--hold", options.hold), ("--start", options.start)))
-        motion = machine.follow(list(targets.values()), hold=held, start=begun, unreachable="nan" if options.gaps else "raise")
-        if options.columns:
-            columns = columns_picked(machine, motion, options.columns, list(motion.strokes), plain_value(acting))
-        else:
-            columns = columns_picked(machine, motion, list(motion.strokes), [])
-            asked = {name: each for name, each in targets.items() if name not in motion.strokes}
-            columns += [Column.of(motion, each.quantity, each.shown_in(motion.plan) or None, name) for name, each in asked.items()]
-        write_table(columns, motion.reached.size, options.csv)
-        if path is not None:
-            draw_along(machine, motion, path, options.language)
-            print(path)
-        return 0
+@Command(
+    "follow",
+    "the strokes along a path of places that a CSV file gives, on one branch",
+    *machine_options(),
+    option("columns", metavar="COLUMN", nargs="*", default=[], help=f"{COLUMNS}; without it the strokes and the path"),
+    option(
+        "--path",
+        metavar="FILE.csv",
+        required=True,
+        help="the places, a row each; the first line names what is wanted, with its unit: 'x(M) [mm]', M_y, 'tilt [deg]'",
+    ),
+    repeatable("--hold", "S=1.1m", "hold a stroke there; repeatable, or several with commas"),
+    repeatable("--start", "S=1.1m,T=0.2m", "begin on the branch near these strokes (default: the first one that goes all the way)"),
+    option("--gaps", action="store_true", help="leave places empty that are not reached, instead of saying why"),
+    CSV,
+    option("-o", "--output", metavar="FILE", help=f"a picture, an animation along the path, its live page: {', '.join(ALONG)}"),
+    *FORCES,
+)
+def follow(options: Namespace) -> int:
+    """Print the strokes along a path of places, and draw them."""
+    machine = machine_of(options)
+    path = None if options.output is None else picture(options, machine, ALONG)
+    acting = acting_of(machine, options)
+    targets = path_targets(machine, options.path)
+    held, begun = (strokes_said(machine, option, texts) for option, texts in (("--hold", options.hold), ("--start", options.start)))
+    motion = machine.follow(list(targets.values()), hold=held, start=begun, unreachable="nan" if options.gaps else "raise")
+    if options.columns:
+        columns = columns_picked(machine, motion, options.columns, list(motion.strokes), plain_value(acting))
+    else:
+        columns = columns_picked(machine, motion, list(motion.strokes), [])
+        asked = {name: each for name, each in targets.items() if name not in motion.strokes}
+        columns += [Column.of(motion, each.quantity, each.shown_in(motion.plan) or None, name) for name, each in asked.items()]
+    write_table(columns, motion.reached.size, options.csv)
+    if path is not None:
+        draw_along(machine, motion, path, options.language)
+        print(path)
+    return 0
 
 
 def path_targets(machine: Mechanism, file: str) -> dict[str, Target]:
@@ -153,3 +149,106 @@ def draw_along(machine: Mechanism, motion: Motion, path: Path, language: str) ->
         reached[name] = float(known[0]) if stays else known
     with progress_bar(f"drawing {path.name}") as progress:
         animate(machine, path, count=int(motion.reached.sum()), at=reached, progress=progress)
+
+
+# The load chart.
+
+CHARTS = (*PICTURES, ".csv", ".xlsx", PAGE)
+COUNT = 11
+"""Places of an axis whose step is not said."""
+AXIS = "0:6m:0.5m from, to and step, without a step 11 places; or each, 1m,1.5m,2m; lengths without a unit are in m"
+
+
+@Command(
+    "chart",
+    "what a machine lifts at a point over radii and heights, and what limits it: a load chart",
+    *machine_options(),
+    option("--point", metavar="G", required=True, help="the point that the load hangs on"),
+    option("--x", metavar="FROM:TO:STEP", required=True, help=f"the radii: {AXIS}"),
+    option("--y", metavar="FROM:TO:STEP", required=True, help="the heights, in the same way"),
+    option("--along", metavar="X,Y", default="0,1", help="the direction against which the load pulls (default 0,1: it hangs)"),
+    repeatable("--hold", "S=1.1m", "hold a stroke there; repeatable"),
+    option(
+        "--over",
+        metavar='"t=0:2m"',
+        help="how far strokes run, two ends of each, or a declared Over by its name (default: as far as declared)",
+    ),
+    repeatable("--keep", "tilt=0deg", "a value kept at every place; repeatable"),
+    repeatable("--lift", "RAM", "this cylinder lifts, those not named hold; repeatable (default: all lift)"),
+    option("--rule", metavar="RULE", help="the rule whose factors count: ISO 10567, ISO 14397-1, OECD Code 2"),
+    option("--case", metavar="CASE", help="the load case of this name"),
+    repeatable("--without", "LOAD", "leave a declared load out; repeatable"),
+    repeatable("--limit", '"rated load=20kN"', "a load that is not exceeded; repeatable", "limits"),
+    option("-o", "--output", metavar="FILE", help=f"write it: {', '.join(CHARTS)}"),
+)
+def chart(options: Namespace) -> int:
+    """Print or write a load chart."""
+    from ..study import working_field
+
+    machine = machine_of(options)
+    path = None if options.output is None else picture(options, machine, CHARTS)
+    along: Any = tuple(si_value(part, "", "--along") for part in options.along.split(","))
+    limits = {}
+    for text in options.limits:
+        name, value = pair(text, "--limit", '"rated load=20kN"')
+        limits[name] = si_value(value, "force", f"--limit {name}")
+    keep = []
+    for text in options.keep:
+        name, value = pair(text, "--keep", "tilt=0deg")
+        asked = quantity_said(name, machine)
+        keep.append(Target(asked, parse(value, measure_of(machine.plan, asked))))
+    field = working_field(
+        machine, options.point, axis_said("--x", options.x), axis_said("--y", options.y), along=along,
+        hold=strokes_said(machine, "--hold", options.hold), over=parsed_over(machine, options.over) if options.over else None,
+        keep=keep, lifts=options.lift or None, rule=options.rule, case=options.case, without=options.without, limits=limits,
+    )  # fmt: skip
+    if path is None:
+        print_chart(field)
+        return 0
+    if path.suffix.lower() == PAGE:
+        from ..pictures import page
+
+        page(field, path, language=options.language)  # in the language that it begins with
+    elif path.suffix.lower() in PICTURES:
+        from ..pictures import plot
+
+        plot(field).savefig(path)
+    else:
+        from ..exports.export import export
+
+        export(field, path)
+    print(path)
+    return 0
+
+
+def axis_said(option: str, text: str) -> Any:
+    """Return the places along an axis [m]; DefinitionError for what says none."""
+    span = parse_span(text, "length")
+    parts = [part.strip() for part in text.split(":")]
+    if span is None and len(parts) == 1:
+        return np.array([si_value(part, "length", option) for part in text.split(",") if part.strip()])
+    if span is None and len(parts) > 3:
+        raise DefinitionError(f"{option} {text}: from, to and step are expected, such as {option} 0:6m:0.5m.")
+    first, last, *step = span if span is not None else [si_value(part, "length", option) for part in parts]
+    if not step:
+        return np.linspace(first, last, COUNT)
+    if not step[0] * (last - first) > 0.0:
+        raise DefinitionError(f"{option} {text}: no step of {step[0]:g} m leads from {first:g} to {last:g} m; give another step.")
+    count = (last - first) / step[0]
+    if count > 1e6:
+        raise DefinitionError(f"{option} {text}: these are {count:.3g} places; give a longer step.")
+    return first + step[0] * np.arange(int(count + 1e-9) + 1)
+
+
+def print_chart(field: Any) -> None:
+    """Print a chart as text: heights from above, radii across, a letter for each limiter."""
+    from ..pictures.load_chart import ChartText
+
+    text = ChartText(field)
+    across, down = np.argsort(field.x, kind="stable"), np.argsort(-field.y, kind="stable")
+    rows = [["", *(text.length_text(float(field.x[n])) for n in across)]]
+    for k in down:
+        cells = (f"{text.load_text(float(field.load[k, n]))} {text.letters.get(str(field.limiter[k, n]), '')}".strip() for n in across)
+        rows.append([text.length_text(float(field.y[k])), *(cell or "-" for cell in cells)])
+    print(text.title)
+    print(*lined_up(rows), *text.legend(), sep="\n")

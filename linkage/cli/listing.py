@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 import re
 import sys
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from collections import Counter
 from collections.abc import Mapping
 from functools import lru_cache
@@ -16,7 +16,6 @@ from inspect import cleandoc
 from pathlib import Path
 from shutil import get_terminal_size
 from textwrap import wrap
-from typing import final
 
 from .. import plugins
 from ..errors import DefinitionError, ensure
@@ -32,39 +31,31 @@ def registered() -> Mapping[str, EntryPoint]:
     return plugins.entry_points(plugins.MACHINES)
 
 
-@final
-class ListCommand(Command):
-    """Prints every installed machine with its first line, kind by kind, and the commands."""
-
-    name = "list"
-    help = "the machines and the commands there are"
-
-    def add(self, parser: ArgumentParser) -> None:
-        """Declare nothing."""
-
-    def run(self, options: Namespace) -> int:
-        entries = registered()
-        packages = {name: package_of(entry) for name, entry in entries.items()}
-        count = Counter(packages.values())
-        groups: dict[str, list[tuple[str, str]]] = {}
-        titles: dict[str, str] = {}
-        for name, entry in entries.items():
-            package = packages[name] if count[packages[name]] >= KIND else packages[name].partition(".")[0]
-            try:
-                row = name, first_line(entry)
-            except DefinitionError as error:
-                print(f"hydrolinkage: warning: {error}", file=sys.stderr)
-            else:
-                title = titles[package] = titles.get(package) or group_title(entry, package)
-                groups.setdefault(title, []).append(row)
-        ensure(groups, f"No machine is installed; install the package (pip install -e .). {OWN}")
-        commands = {**BUILT_IN, **plugins.entry_points(plugins.COMMANDS)}
-        says = {name: attribute(entry.module, entry.attr, "help") or "" for name, entry in commands.items()}  # none of them is loaded
-        for title, rows in (groups | {"Commands": [*says.items()]}).items():
-            size = max(len(name) for name, _ in rows)
-            print(title, *(line for name, text in rows for line in wrapped(text, f"  {name.ljust(size)}  ")), "", sep="\n")
-        print(*wrapped(OWN, ""), sep="\n")
-        return 0
+@Command("list", "the machines and the commands there are")
+def machines(options: Namespace) -> int:
+    """Print every installed machine with its first line, kind by kind, and the commands."""
+    entries = registered()
+    packages = {name: package_of(entry) for name, entry in entries.items()}
+    count = Counter(packages.values())
+    groups: dict[str, list[tuple[str, str]]] = {}
+    titles: dict[str, str] = {}
+    for name, entry in entries.items():
+        package = packages[name] if count[packages[name]] >= KIND else packages[name].partition(".")[0]
+        try:
+            row = name, first_line(entry)
+        except DefinitionError as error:
+            print(f"hydrolinkage: warning: {error}", file=sys.stderr)
+        else:
+            title = titles[package] = titles.get(package) or group_title(entry, package)
+            groups.setdefault(title, []).append(row)
+    ensure(groups, f"No machine is installed; install the package (pip install -e .). {OWN}")
+    commands = {**BUILT_IN, **plugins.entry_points(plugins.COMMANDS)}
+    says = {name: command_help(entry) for name, entry in commands.items()}  # none of them is loaded
+    for title, rows in (groups | {"Commands": [*says.items()]}).items():
+        size = max(len(name) for name, _ in rows)
+        print(title, *(line for name, text in rows for line in wrapped(text, f"  {name.ljust(size)}  ")), "", sep="\n")
+    print(*wrapped(OWN, ""), sep="\n")
+    return 0
 
 
 KIND = 3
@@ -110,14 +101,12 @@ def docstring(module: str, name: str) -> str | None:
     return None if node is None else cleandoc(ast.get_docstring(node) or "")
 
 
-def attribute(module: str, name: str, key: str) -> str | None:
-    """Return the text that a class binds to a name in its source; None where it does not."""
-    node = class_node(module, name)
-    for line in node.body if node is not None else ():
-        match line:
-            case ast.Assign(targets=[ast.Name(id=found)], value=ast.Constant(value=str(text))) if found == key:
-                return text
-    return None
+def command_help(entry: EntryPoint) -> str:
+    """Return what a command says of itself, out of its source, `Command("name", "help", ...)`; "" where that says nothing."""
+    path = source_file(entry.module)
+    text = path.read_text(encoding="utf-8") if path is not None else ""
+    found = re.search(rf"""\bCommand\(\s*"{entry.name}",\s*("(?:[^"\\\n]|\\.)*")""", text)
+    return "" if found is None else str(ast.literal_eval(found[1]))
 
 
 def class_node(module: str, name: str) -> ast.ClassDef | None:

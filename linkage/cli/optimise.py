@@ -1,30 +1,34 @@
-"""`hydrolinkage optimise FILE`: the search that a study file asks for, and its results as text, tables and pictures."""
+"""`hydrolinkage optimise FILE`, `synthesise FILE`, `study FILE`: what a study file asks for, as text, tables, pictures, a live page."""
 
 from __future__ import annotations
 
 import sys
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
-from typing import final
+from typing import Any
 
 import numpy as np
 
-from ..errors import DefinitionError, StudyError, unknown
+from ..disk import check_place, in_words
+from ..errors import DefinitionError, StudyError, ensure, unknown
 from ..files import save
 from ..files.read import load
 from ..files.search_file import SearchFile, read_search
 from ..files.study_file import FindMachine, Settings
+from ..files.study_tasks import TaskResult, read_study
+from ..files.synthesis_file import read_synthesis
 from ..mechanism import Mechanism
 from ..motion import Column
-from ..study import Front
+from ..study import Front, Tornado, Zone
 from ..study.checks import unit_of
 from ..study.result_tables import tried_names
 from ..study.space import Space
 from ..study.survey import Progress as ProgressLike
-from .command import Command, link_argument, progress_bar, repeatable
+from ..units import deg, mm
+from .command import LINK, Command, option, progress_bar, repeatable, whole_number
 from .listing import OWN, registered
 from .machines import find, machine, split
 from .settings import parsed_setting
@@ -32,17 +36,17 @@ from .table import write_columns
 
 NOT_FEASIBLE = 1
 """The exit code where the study came to its end and found no design."""
-
-
-def study_arguments(parser: ArgumentParser) -> None:
-    """Declare the arguments that every command on a study file has."""
-    parser.add_argument("file", metavar="FILE", help="a study file, .toml or .json")
-    repeatable(parser, "--set", "OB=180mm", "change a design variable, above the file's own `set`; repeatable", "settings")
-    link_argument(parser)
-    what = "a package, or a .py file, that the study file may name as its machine and that is run for it; repeatable"
-    repeatable(parser, "--trust", "PACKAGE", what)
-    parser.add_argument("--folder", metavar="DIR", help="keep what is done there, and go on from it (default: the file's own `folder`)")
-    parser.add_argument("--progress", action="store_true", help="say how far it is where stderr is no terminal, too")
+STUDY = (
+    option("file", metavar="FILE", help="a study file, .toml or .json"),
+    repeatable("--set", "OB=180mm", "change a design variable, above the file's own `set`; repeatable", "settings"),
+    LINK,
+    repeatable(
+        "--trust", "PACKAGE", "a package, or a .py file, that the study file may name as its machine and that is run for it; repeatable"
+    ),
+    option("--folder", metavar="DIR", help="keep what is done there, and go on from it (default: the file's own `folder`)"),
+    option("--progress", action="store_true", help="say how far it is where stderr is no terminal, too"),
+)
+"""What every command on a study file takes."""
 
 
 def finder(trust: list[str]) -> FindMachine:
@@ -82,43 +86,35 @@ def say_progress(done: int, total: int) -> None:
     print(f"{done} of {total}", file=sys.stderr, flush=True)
 
 
-@final
-class OptimiseCommand(Command):
-    """Searches the best design."""
-
-    name = "optimise"
-    help = "the best dimensions: the search that a file asks for"
-
-    def add(self, parser: ArgumentParser) -> None:
-        study_arguments(parser)
-
-    def run(self, options: Namespace) -> int:
-        search = read_search(options.file, finder(options.trust), settings_of(options.settings))
-        try:
-            with study_progress(f"searching {Path(options.file).stem}", asked=options.progress) as progress:
-                found = search.run(options.folder, progress)
-        except StudyError as error:
-            print(f"hydrolinkage: {' '.join(str(error).split())}", file=sys.stderr)
-            return NOT_FEASIBLE
-        print(found)
-        if isinstance(found, Front):
-            write_results(search.outputs, {"designs": partial(write_columns, front_columns(search, found))})
-            return 0
-        rounded = None if search.rounding is None else found.rounded(**search.rounding)
-        if rounded is not None:
-            print(f"Rounded: {rounded}")
-        best = rounded.machine if rounded is not None and rounded.feasible else found.machine
-        from ..pictures import draw, plot
-
-        writers: dict[str, Callable[[Path], object]] = {
-            "table": lambda path: found.csv(path, rounded),
-            "designs": lambda path: found.designs_csv(path) if path.suffix.lower() == ".csv" else found.designs_jsonl(path),
-            "drawing": lambda path: draw(found).savefig(path),
-            "curves": lambda path: plot(found).savefig(path),
-            "machine": lambda path: save(best, path),
-        }
-        write_results(search.outputs, writers)
+@Command("optimise", "the best dimensions: the search that a file asks for", *STUDY)
+def optimise(options: Namespace) -> int:
+    """Search the best design."""
+    search = read_search(options.file, finder(options.trust), settings_of(options.settings))
+    try:
+        with study_progress(f"searching {Path(options.file).stem}", asked=options.progress) as progress:
+            found = search.run(options.folder, progress)
+    except StudyError as error:
+        print(f"hydrolinkage: {' '.join(str(error).split())}", file=sys.stderr)
+        return NOT_FEASIBLE
+    print(found)
+    if isinstance(found, Front):
+        write_results(search.outputs, {"designs": partial(write_columns, front_columns(search, found))})
         return 0
+    rounded = None if search.rounding is None else found.rounded(**search.rounding)
+    if rounded is not None:
+        print(f"Rounded: {rounded}")
+    best = rounded.machine if rounded is not None and rounded.feasible else found.machine
+    from ..pictures import draw, plot
+
+    writers: dict[str, Callable[[Path], object]] = {
+        "table": lambda path: found.csv(path, rounded),
+        "designs": lambda path: found.designs_csv(path) if path.suffix.lower() == ".csv" else found.designs_jsonl(path),
+        "drawing": lambda path: draw(found).savefig(path),
+        "curves": lambda path: plot(found).savefig(path),
+        "machine": lambda path: save(best, path),
+    }
+    write_results(search.outputs, writers)
+    return 0
 
 
 def write_results(outputs: Mapping[str, Sequence[Path]], writers: Mapping[str, Callable[[Path], object]]) -> None:
@@ -138,3 +134,100 @@ def front_columns(search: SearchFile, found: Front) -> list[Column]:
         owner, sign = plan.table.spellings[name]
         columns.append(Column(name, np.array([sign * float(each.machine.dimensions[owner]) for each in found.points]), unit_of(plan, name)))
     return columns
+
+
+# A synthesis.
+
+ANSWERS = 3
+"""The answers of a picture."""
+STEP, TURN = 1.0 * mm, 0.1 * deg
+"""The steps of a drawing where the file says one of them."""
+
+
+@Command(
+    "synthesise",
+    "the machines whose point goes along a path, whose output follows a function, or whose body takes poses",
+    *STUDY,
+    option("--csv", metavar="FILE", help="write a row for each machine found"),
+    option("--pictures", metavar="FOLDER", help="write a picture of the best machines beside the task there"),
+    option("--page", metavar="FILE.html", help="write the live page of the best machine"),
+    option("--answers", metavar="N", type=whole_number, default=ANSWERS, help=f"machines drawn (default {ANSWERS})"),
+)
+def synthesise(options: Namespace) -> int:
+    """Search machines for a path, a function or poses."""
+    asked = read_synthesis(options.file, finder(options.trust), settings_of(options.settings))
+    outputs = {name: [*paths] for name, paths in asked.outputs.items()}
+    for name, path in outputs_asked(options).items():
+        outputs.setdefault(name, []).append(path)
+    with study_progress(f"searching {Path(options.file).stem}", asked=options.progress) as progress:
+        found = asked.run(options.folder, progress)
+    print(found)
+    if not found.solutions:
+        return NOT_FEASIBLE
+    rounded = None if asked.rounding is None else found.rounded(asked.rounding.get("to", STEP), asked.rounding.get("angle", TURN))
+    if rounded is not None:
+        print(f"Rounded: {rounded}")
+    best = found.machine if rounded is None else rounded.machine
+    from ..pictures import draw, page
+
+    writers: dict[str, Callable[[Path], object]] = {
+        "table": found.csv,
+        "drawing": lambda path: draw(found, answers=options.answers).savefig(path),
+        "page": lambda path: page(found, path),
+        "machine": lambda path: save(best, path),
+    }
+    write_results(outputs, writers)
+    return 0
+
+
+def outputs_asked(options: Namespace) -> dict[str, Path]:
+    """Return the files that the arguments ask for, by what they hold, checked before the work is done."""
+    found: dict[str, Path] = {}
+    if options.csv is not None:
+        found["table"] = Path(options.csv)
+    if options.page is not None:
+        found["page"] = Path(options.page)
+        ensure(found["page"].suffix.lower() == ".html", f"--page {options.page}: the file's name ends in .html.")
+    if options.pictures is not None:
+        folder = Path(options.pictures)
+        with in_words(folder):
+            folder.mkdir(parents=True, exist_ok=True)
+        found["drawing"] = folder / f"{Path(options.file).stem}.png"
+    for path in found.values():
+        check_place(path)
+    return found
+
+
+# Surveys, zones, tolerances.
+
+
+@Command("study", "a survey, a zone, tolerances, a tornado or settings that a file asks for", *STUDY)
+def study(options: Namespace) -> int:
+    """Run the studies of a file."""
+    study = read_study(options.file, finder(options.trust), settings_of(options.settings))
+    folder = Path(options.folder) if options.folder else None
+    solved = True
+    for section in study.tasks:
+        with study_progress(section, asked=options.progress) as progress:
+            found = study.run(section, folder, progress)
+        print(found.text)
+        for path in study.outputs.get(section, ()):
+            if path.suffix.lower() in (".csv", ".jsonl"):
+                write_columns(found.columns, path, found.labels)
+            else:
+                bands_of(study.machine, found).savefig(path)
+            print(path)
+        solved &= found.solved
+    return 0 if solved else NOT_FEASIBLE
+
+
+def bands_of(machine: Mechanism, found: TaskResult) -> Any:
+    """Return the picture of a study's result."""
+    from ..pictures import plot_bands, plot_tornado, plot_zone
+
+    match found.found:
+        case Zone():
+            return plot_zone(machine, found.found, found.unit)
+        case Tornado():
+            return plot_tornado(found.found)
+    return plot_bands(found.found)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from inspect import signature
@@ -23,34 +23,32 @@ from ..reports import NOTHING, At, force_columns, results, run_along, run_of, st
 from ..steps import Point
 from ..units import UNITS, parse, parse_span
 from ..verdict import Verdict
-from .command import MOST, repeatable, say_remark
+from .command import MOST, option, repeatable, say_remark
 from .machines import find
 
 FAILED = 1
 """The exit code of `--check` where a verdict fails."""
 
 
-def force_arguments(parser: ArgumentParser) -> None:
-    """Declare the arguments that choose the loads."""
-    parser.add_argument("--case", metavar="CASE", help=f"the load case of this name; {PLAIN_CASE}: the loads as they are declared")
-    parser.add_argument(
-        "--direction", choices=DIRECTIONS, help="with the declared friction of this direction: of the stroke, or of each cylinder"
-    )
-    parser.add_argument("--drive", metavar="S", help="the stroke that moves, for friction where there are several")
-
-
-def check_argument(parser: ArgumentParser) -> None:
-    """Declare the argument that turns a verdict that fails into an exit code."""
-    parser.add_argument("--check", action="store_true", help="leave with exit code 1 where a verdict fails")
-
-
-def over_argument(parser: ArgumentParser) -> None:
-    """Declare the argument that says where a judgement looks."""
-    what = (
-        "where verdicts and largest values are looked for: a declared Over by its name, or strokes, two ends or one value of each; "
-        "others run; repeatable (default: all declared ones, else the box of all strokes)"
-    )
-    repeatable(parser, "--over", '"phi=15deg:80deg,t=0"', what)
+FORCES = (
+    option("--case", metavar="CASE", help=f"the load case of this name; {PLAIN_CASE}: the loads as they are declared"),
+    option("--direction", choices=DIRECTIONS, help="with the declared friction of this direction: of the stroke, or of each cylinder"),
+    option("--drive", metavar="S", help="the stroke that moves, for friction where there are several"),
+)
+"""The options that choose the loads."""
+CHECK = option("--check", action="store_true", help="leave with exit code 1 where a verdict fails")
+OVER = repeatable(
+    "--over",
+    '"phi=15deg:80deg,t=0"',
+    "where verdicts and largest values are looked for: a declared Over by its name, or strokes, two ends or one value of each; "
+    "others run; repeatable (default: all declared ones, else the box of all strokes)",
+)
+LIMIT = repeatable(
+    "--limit",
+    '"pressure<=180bar"',
+    "draw this limit of a column, COLUMN<=VALUE or COLUMN>=VALUE with its unit, the side that fails shaded; repeatable",
+    "limits",
+)
 
 
 def machine_of(options: Namespace) -> Mechanism:
@@ -351,12 +349,6 @@ def ratio_columns(machine: Mechanism, motion: Motion, targets: Sequence[str], wr
 
 
 LIMITS = {"<=": ("above", "at most"), ">=": ("below", "at least")}
-
-
-def limit_argument(parser: ArgumentParser) -> None:
-    """Declare the argument that says which values of a column fail."""
-    what = "draw this limit of a column, COLUMN<=VALUE or COLUMN>=VALUE with its unit, the side that fails shaded; repeatable"
-    repeatable(parser, "--limit", '"pressure<=180bar"', what, "limits")
 
 
 def parse_limit(text: str, columns: Sequence[Column]) -> tuple[str, tuple[float, str, str]]:

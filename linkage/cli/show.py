@@ -2,67 +2,67 @@
 
 from __future__ import annotations
 
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from collections.abc import Iterable, Iterator, Mapping
 from inspect import cleandoc
 from pathlib import Path
-from typing import TYPE_CHECKING, final
+from typing import TYPE_CHECKING
 
 from ..errors import DefinitionError, ensure
 from ..mechanism import Mechanism
 from ..plan import strokes_text, written_out
 from ..quantities import Dimension
 from ..reports import design_rows, stroke_rows
-from .command import Command, lined_up, machine_arguments, picture, picture_argument, repeatable, whole_number
-from .settings import check_argument, judged_code, machine_of, over_argument, overs_of, strokes_given
+from .command import Command, group, lined_up, machine_options, option, picture, picture_option, repeatable, whole_number
+from .settings import CHECK, OVER, judged_code, machine_of, overs_of, strokes_given
 
 if TYPE_CHECKING:
     from ..formulas import Equations
 
 
-@final
-class ShowCommand(Command):
-    """Prints a machine in sections."""
-
-    name = "show"
-    help = "a machine's dimensions, strokes, bodies, construction steps and verdicts"
-
-    def add(self, parser: ArgumentParser) -> None:
-        machine_arguments(parser)
-        over_argument(parser)
-        check_argument(parser)
-        group = parser.add_argument_group("equations")
-        group.add_argument("--equations", action="store_true", help="the vector equations too, numbered")
-        group.add_argument("--start", metavar="N", type=whole_number, help="the first equation's number (default 1)")
-        group.add_argument("--ratio", metavar="G", action="append", help="the derivatives of a point or an output too; repeatable")
-        group.add_argument("--wrt", metavar="S", help="the stroke of these derivatives, where there are several")
-        group.add_argument("--forces", action="store_true", help="the loads, the driving forces, what cylinders and circuits have")
-        group.add_argument("--numbers", action="store_true", help="with the numbers filled in, at the start of each stroke")
-        repeatable(group, "--at", "S=0.6", "numbers at this stroke; repeatable", "strokes")
-        group.add_argument("--latex", action="store_true", help="as LaTeX, and nothing else")
-        modes = parser.add_argument_group("assembly modes")
-        modes.add_argument("--modes", action="store_true", help="all assembly modes with the lines that choose them, and nothing else")
-        picture_argument(modes, "the modes, drawn; with --modes")
-
-    def run(self, options: Namespace) -> int:
-        check_asked(options)
-        machine = machine_of(options)
-        over, given = overs_of(machine, options.over), strokes_given(machine, options)
-        for text in options.strokes:
-            ensure("," not in text, f"--at {text}: numbers are filled in at one pose; give one value.")
-        at = {name: float(values[0]) for name, values in given.items()}
-        if options.modes:
-            return show_modes(machine, at, None if options.output is None else picture(options, machine))
-        if options.latex:
-            print(printed_equations(machine, options, at).latex())
-            return 0
-        for title, lines in sections(machine):
-            print_section(title, lines)
-        if options.equations:
-            print_section("Equations", str(printed_equations(machine, options, at)).splitlines())
-        verdicts = machine.verdicts(over=over)
-        print_section("Verdict", verdicts)
-        return judged_code(verdicts, options)
+@Command(
+    "show",
+    "a machine's dimensions, strokes, bodies, construction steps and verdicts",
+    *machine_options(),
+    OVER,
+    CHECK,
+    group(
+        "equations",
+        option("--equations", action="store_true", help="the vector equations too, numbered"),
+        option("--start", metavar="N", type=whole_number, help="the first equation's number (default 1)"),
+        option("--ratio", metavar="G", action="append", help="the derivatives of a point or an output too; repeatable"),
+        option("--wrt", metavar="S", help="the stroke of these derivatives, where there are several"),
+        option("--forces", action="store_true", help="the loads, the driving forces, what cylinders and circuits have"),
+        option("--numbers", action="store_true", help="with the numbers filled in, at the start of each stroke"),
+        repeatable("--at", "S=0.6", "numbers at this stroke; repeatable", "strokes"),
+        option("--latex", action="store_true", help="as LaTeX, and nothing else"),
+    ),
+    group(
+        "assembly modes",
+        option("--modes", action="store_true", help="all assembly modes with the lines that choose them, and nothing else"),
+        picture_option("the modes, drawn; with --modes"),
+    ),
+)
+def show(options: Namespace) -> int:
+    """Print a machine in sections."""
+    check_asked(options)
+    machine = machine_of(options)
+    over, given = overs_of(machine, options.over), strokes_given(machine, options)
+    for text in options.strokes:
+        ensure("," not in text, f"--at {text}: numbers are filled in at one pose; give one value.")
+    at = {name: float(values[0]) for name, values in given.items()}
+    if options.modes:
+        return show_modes(machine, at, None if options.output is None else picture(options, machine))
+    if options.latex:
+        print(printed_equations(machine, options, at).latex())
+        return 0
+    for title, lines in sections(machine):
+        print_section(title, lines)
+    if options.equations:
+        print_section("Equations", str(printed_equations(machine, options, at)).splitlines())
+    verdicts = machine.verdicts(over=over)
+    print_section("Verdict", verdicts)
+    return judged_code(verdicts, options)
 
 
 def check_asked(options: Namespace) -> None:
@@ -130,29 +130,3 @@ def print_section(title: str, lines: Iterable[str]) -> None:
     text = [f"  {line}".rstrip() for line in lines]
     if text:
         print("\n".join([title, *text, ""]))
-
-
-# `hydrolinkage save NAME FILE`: a machine as a mechanism file, and what such a file does not hold.
-
-
-@final
-class SaveCommand(Command):
-    """Writes a machine into a file."""
-
-    name = "save"
-    help = "a machine, as it is set, as a file in TOML or JSON"
-
-    def add(self, parser: ArgumentParser) -> None:
-        machine_arguments(parser)
-        parser.add_argument("file", metavar="FILE", help="the file, named .toml or .json")
-
-    def run(self, options: Namespace) -> int:
-        from ..files import left_out, save
-
-        machine = machine_of(options)
-        save(machine, options.file)
-        lost = ", ".join(left_out(machine))
-        print(f"{options.file}: the linkage with {len(machine.plan.members)} members.")
-        if lost:
-            print(f"Not in it, since a file holds no functions of a class: {lost}.")
-        return 0

@@ -1,4 +1,4 @@
-"""`hydrolinkage table NAME`: a machine's results over the stroke, as text or CSV."""
+"""`hydrolinkage table NAME`, `forces NAME`, `limits NAME`: results over the stroke, what carries them, how far a machine goes."""
 
 from __future__ import annotations
 
@@ -7,12 +7,11 @@ import io
 import json
 import re
 import sys
-from argparse import ArgumentParser, Namespace
-from collections.abc import Sequence
+from argparse import Namespace
+from collections.abc import Iterator, Sequence
 from contextlib import nullcontext
 from pathlib import Path
 from shutil import get_terminal_size
-from typing import final
 
 import numpy as np
 
@@ -20,59 +19,55 @@ from ..disk import replacing_text
 from ..errors import DefinitionError, cited, ensure
 from ..loads import Acting
 from ..mechanism import Mechanism
-from ..motion import Column, Motion, Over
-from ..reports import is_loaded, rich_tables, text_table, write_csv
+from ..motion import Column, Motion, Over, columns_of, geometry_verdicts, limits_over
+from ..reports import force_columns, is_loaded, rich_tables, text_table, write_csv
 from ..statics import PinForces, max_table, pin_forces, table_text
 from . import settings
-from .command import Command, every_argument, machine_arguments, motion_arguments, progress_bar, repeatable
+from .command import COLUMNS, CSV, EVERY, Command, machine_options, option, pose_options, progress_bar, repeatable
+from .settings import CHECK, FORCES, OVER
 
-COLUMNS = "only these columns (default: all), or what is asked for in words: 'pressure(lift)', 'ratio(G.y)'"
 RICH_ROWS = 500  # a longer table is printed plain, which takes no time
 
 
-@final
-class TableCommand(Command):
-    """Prints or writes the table of results."""
-
-    name = "table"
-    help = "a machine's results over the stroke, as text or CSV"
-
-    def add(self, parser: ArgumentParser) -> None:
-        machine_arguments(parser)
-        parser.add_argument("columns", metavar="COLUMN", nargs="*", default=[], help=COLUMNS)
-        repeatable(parser, "--columns", "I,kz", "the same, separated by commas", "listed")
-        csv_argument(parser)
-        motion_arguments(parser, 11)
-        every_argument(parser)
-        repeatable(parser, "--ratio", "G", "the derivatives of a point or an output; repeatable")
-        parser.add_argument("--wrt", metavar="S", help="the stroke of these derivatives (default: each)")
-        settings.force_arguments(parser)
-        settings.over_argument(parser)
-        parser.add_argument("--pins", action="store_true", help="the largest force of every pin too, its load case, direction and pose")
-        parser.add_argument("--limits", action="store_true", help="how far each stroke goes too, dead points, transmission angles")
-        settings.check_argument(parser)
-
-    def run(self, options: Namespace) -> int:
-        if options.csv == "-" and (options.pins or options.limits):
-            raise DefinitionError("--pins and --limits do not go into CSV; leave them out, or write it into a file, --csv table.csv.")
-        machine = settings.machine_of(options)
-        acting, poses = settings.acting_of(machine, options), settings.motion_at(machine, options)
-        over, strokes, names = settings.judged_over(machine, options), list(poses.strokes), list(options.columns)
-        for text in options.listed:  # a comma between parentheses belongs to its name, `reserve(lift, share=0.9)`
-            listed = [name.strip() for name in re.split(r",(?![^()]*\))", text) if name.strip()]
-            ensure(listed, f"--columns {cited(text)}: name at least one column, such as --columns thrust,pressure.")
-            names += listed
-        if options.ratio and not names:
-            names = strokes  # ratios alone stand beside their strokes
-        columns = settings.columns_picked(machine, poses, names, strokes, settings.plain_value(acting))
-        columns += settings.ratio_columns(machine, poses, options.ratio, options.wrt)
-        pins = worst_pins(machine, over, acting) if options.pins else ""
-        write_table(columns, poses.reached.size, options.csv)
-        if pins:
-            print(f"\n{pins}")
-        if options.limits:
-            print(f"\n{poses.limits()}")
-        return settings.print_verdicts(machine.verdicts(over=over), options) if options.check else 0
+@Command(
+    "table",
+    "a machine's results over the stroke, as text or CSV",
+    *machine_options(),
+    option("columns", metavar="COLUMN", nargs="*", default=[], help=COLUMNS),
+    repeatable("--columns", "I,kz", "the same, separated by commas", "listed"),
+    CSV,
+    *pose_options(11),
+    EVERY,
+    repeatable("--ratio", "G", "the derivatives of a point or an output; repeatable"),
+    option("--wrt", metavar="S", help="the stroke of these derivatives (default: each)"),
+    *FORCES,
+    OVER,
+    option("--pins", action="store_true", help="the largest force of every pin too, its load case, direction and pose"),
+    option("--limits", action="store_true", help="how far each stroke goes too, dead points, transmission angles"),
+    CHECK,
+)
+def table(options: Namespace) -> int:
+    """Print or write the table of results."""
+    if options.csv == "-" and (options.pins or options.limits):
+        raise DefinitionError("--pins and --limits do not go into CSV; leave them out, or write it into a file, --csv table.csv.")
+    machine = settings.machine_of(options)
+    acting, poses = settings.acting_of(machine, options), settings.motion_at(machine, options)
+    over, strokes, names = settings.judged_over(machine, options), list(poses.strokes), list(options.columns)
+    for text in options.listed:  # a comma between parentheses belongs to its name, `reserve(lift, share=0.9)`
+        listed = [name.strip() for name in re.split(r",(?![^()]*\))", text) if name.strip()]
+        ensure(listed, f"--columns {cited(text)}: name at least one column, such as --columns thrust,pressure.")
+        names += listed
+    if options.ratio and not names:
+        names = strokes  # ratios alone stand beside their strokes
+    columns = settings.columns_picked(machine, poses, names, strokes, settings.plain_value(acting))
+    columns += settings.ratio_columns(machine, poses, options.ratio, options.wrt)
+    pins = worst_pins(machine, over, acting) if options.pins else ""
+    write_table(columns, poses.reached.size, options.csv)
+    if pins:
+        print(f"\n{pins}")
+    if options.limits:
+        print(f"\n{poses.limits()}")
+    return settings.print_verdicts(machine.verdicts(over=over), options) if options.check else 0
 
 
 def worst_pins(machine: Mechanism, over: Sequence[Over | Motion] | None, acting: Acting) -> str:
@@ -89,11 +84,6 @@ def worst_pins(machine: Mechanism, over: Sequence[Over | Motion] | None, acting:
 def pins_of(motion: Motion, acting: Acting) -> PinForces:
     """Return the joint forces of a motion in a load case and a direction."""
     return pin_forces(motion, case=acting.case, direction=acting.movement, drive=acting.drive)
-
-
-def csv_argument(parser: ArgumentParser) -> None:
-    """Declare the argument that has a table written as CSV."""
-    parser.add_argument("--csv", metavar="FILE", help="write the table as CSV in full precision instead; - for stdout")
 
 
 def write_table(columns: Sequence[Column], rows: int, file: str | None) -> None:
@@ -141,3 +131,76 @@ def write_columns(columns: Sequence[Column], path: Path, labels: Sequence[str] =
                 stream.write(json.dumps(dict(zip(names, [*label, *known], strict=True))) + "\n")
             else:
                 rows.writerow([*label, *("" if value != value else repr(value) for value in row)])
+
+
+# What drives, cylinders and pins carry.
+
+
+@Command(
+    "forces",
+    "what drives, cylinders and pins carry over the stroke, and the worst of every pin over all load cases and directions",
+    *machine_options(),
+    CSV,
+    *pose_options(11),
+    EVERY,
+    *FORCES,
+    OVER,
+    option("--poses", action="store_true", help="the force of every pin at every pose too"),
+    option("--on", metavar="BODY", help="all forces on this body at every pose, which balance, instead: for FEM"),
+    CHECK,
+)
+def forces(options: Namespace) -> int:
+    """Print what a machine's drives, cylinders and pins carry."""
+    machine = settings.machine_of(options)
+    acting, motion = settings.acting_of(machine, options), settings.motion_at(machine, options)
+    over, plain = settings.judged_over(machine, options), settings.plain_value(acting)
+    if not is_loaded(motion):
+        what = f"{machine.plan.title} declares no load, so that there is no force; declare one, load = Weight(G, mass=100)"
+        raise DefinitionError(f'{what}, or in a file: load = {{ Weight = "G", mass = 100 }}.')
+    pins = pins_of(motion, plain)
+    columns = [column for column in columns_of(motion) if column.name in motion.strokes]
+    if options.on is None:
+        columns += force_columns(motion, plain.case, plain.direction)
+        columns += joint_columns(pins) if options.poses else []
+    else:
+        forces = pins.on_body(options.on).items()
+        columns += [Column(f"{point}_{axis}", part, "kN", 3) for point, force in forces for axis, part in zip("xy", force, strict=True)]
+    if options.csv != "-":
+        signs = "Drive forces are positive the way the stroke grows, thrusts in a push."
+        print(f"{machine.plan.title}, {pins.case}, {pins.direction}. {signs}\n")
+    write_table(columns, motion.reached.size, options.csv)
+    if options.csv == "-":
+        return 0
+    print(f"\n{worst_pins(machine, over, acting)}\n")
+    print(f"residual of equilibrium {pins.residual:.0e}", *pins.remarks, sep="\n")
+    return settings.print_verdicts(machine.verdicts(over=over), options) if options.check else 0
+
+
+def joint_columns(pins: PinForces) -> Iterator[Column]:
+    """Yield the force, or the couple, of every joint."""
+    points = [joint.point for joint in pins.joints]
+    for joint in pins.joints:
+        name = joint.point if points.count(joint.point) == 1 else f"{joint.point} on {joint.on} from {joint.by}"
+        yield Column(name, joint.size, "kN", 3) if joint.has_force else Column(f"{name} couple", np.asarray(joint.couple), "Nm", 3)
+
+
+# How far it goes.
+
+
+@Command(
+    "limits",
+    "how far each stroke goes, what stops it, dead points, transmission angles, freedom",
+    *machine_options(),
+    repeatable("--at", "S=0.6", "where other strokes are held; repeatable", "strokes"),
+    OVER,
+    CHECK,
+)
+def limits(options: Namespace) -> int:
+    """Print how far a machine goes."""
+    machine = settings.machine_of(options)
+    ensure(machine.strokes, f"{machine.plan.title} has no stroke, so there is nothing that goes; declare one, S = Stroke(0, 0.25).")
+    motion = machine.at(unreachable="nan", **settings.poses_at(machine, options, settings.POSES))
+    over = settings.judged_over(machine, options)
+    print(limits_over(motion, settings.overs_of(machine, options.over) or [Over()]))
+    print(f"mobility {machine.mobility}; Gruebler count {machine.gruebler}", *machine.four_bars, sep="\n")
+    return settings.print_verdicts(geometry_verdicts(machine.judge(over)), options) if options.check else 0

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from functools import partial
 from pathlib import Path
 
 import numpy as np
 
 from linkage import Column, DefinitionError, max_table
-from linkage.cli.chart import print_chart
-from linkage.cli.command import Command, progress_bar
+from linkage.cli.command import CSV, Command, option, progress_bar, repeatable
+from linkage.cli.follow import print_chart
 from linkage.cli.machines import find
-from linkage.cli.settings import check_argument, design, over_argument, overs_of, print_verdicts, si_value
-from linkage.cli.table import csv_argument, write_table
+from linkage.cli.settings import CHECK, OVER, design, overs_of, print_verdicts, si_value
+from linkage.cli.table import write_table
 from linkage.disk import check_place, in_words
 from linkage.errors import ensure
 from linkage.statics import table_text
@@ -38,64 +38,67 @@ KINDS = {"M": "moment", "payload": "mass", "psi_0": "angle", "k_d": "", "rho_w":
 COUNT = 9
 
 
-class DesignedCrane(Command):
-    """Designs a crane for a duty, or judges the one that is named."""
+DesignedCrane = Command(
+    "crane",
+    "a forestry crane: skeleton, masses, bound of moments, drives, load map, pin forces, pictures",
+    option(
+        "machine",
+        metavar="NAME",
+        nargs="?",
+        help="judge this crane, or one of its drives, such as crane, boom_drive or arm_drive, instead of designing one",
+    ),
+    repeatable(
+        "--set", "L=8.5m", "change a number of the duty, with its unit; of a crane that is named a design variable; repeatable", "settings"
+    ),
+    option("--reading", choices=(">=", "<="), default=">=", help="how (2.13) is read: the tip clears the guard, or comes as near"),
+    option("--cab", metavar="6.9m", help="column's axis to cab: a back-broken skeleton, and no further stage"),
+    option("--scheme", choices=SCHEMES, help="the arm's drive of the crane to design, as in fig. 2.13 (default a)"),
+    option("--skeleton", action="store_true", help="the skeleton and its masses alone, without drives and load map"),
+    option("--pins", action="store_true", help="the largest force of every pin in the load cases for strength too"),
+    CSV,
+    option(
+        "--pictures",
+        metavar="FOLDER",
+        help=f"write the pictures there: {', '.join(FIGURES)}; of each drive {', '.join(DRIVE_FIGURES)}",
+    ),
+    OVER,
+    CHECK,
+)
 
-    name = "crane"
-    help = "a forestry crane: skeleton, masses, bound of moments, drives, load map, pin forces, pictures"
 
-    def add(self, parser: ArgumentParser) -> None:
-        what = "judge this crane, or one of its drives, such as crane, boom_drive or arm_drive, instead of designing one"
-        parser.add_argument("machine", metavar="NAME", nargs="?", help=what)
-        parser.add_argument(
-            "--set", dest="settings", metavar="L=8.5m", action="append", default=[],
-            help="change a number of the duty, with its unit; of a crane that is named a design variable; repeatable",
-        )  # fmt: skip
-        parser.add_argument(
-            "--reading", choices=(">=", "<="), default=">=", help="how (2.13) is read: the tip clears the guard, or comes as near"
-        )
-        parser.add_argument("--cab", metavar="6.9m", help="column's axis to cab: a back-broken skeleton, and no further stage")
-        parser.add_argument("--scheme", choices=SCHEMES, help="the arm's drive of the crane to design, as in fig. 2.13 (default a)")
-        parser.add_argument("--skeleton", action="store_true", help="the skeleton and its masses alone, without drives and load map")
-        parser.add_argument("--pins", action="store_true", help="the largest force of every pin in the load cases for strength too")
-        csv_argument(parser)
-        parser.add_argument(
-            "--pictures", metavar="FOLDER", help=f"write the pictures there: {', '.join(FIGURES)}; of each drive {', '.join(DRIVE_FIGURES)}"
-        )
-        over_argument(parser)
-        check_argument(parser)
-
-    def run(self, options: Namespace) -> int:
-        if options.skeleton or options.cab:
-            for name in ("pictures", "pins", "csv", "scheme"):
-                ensure(not getattr(options, name), f"--{name} is of a whole crane; leave --skeleton and --cab out.")
-            ensure(not options.machine, f"{options.machine} has its skeleton already; leave its name out to search one.")
-            cab = si_value(options.cab, "length", "--cab") if options.cab else None
-            with progress_bar("skeleton") as progress:
-                duty = duty_set(Duty, options, "L=8.5m", KINDS)
-                found = design_skeleton(duty, reading=options.reading, cab=cab, progress=progress or False)
-            print(f"{found}\n")
-            skeleton = found.machine
-            assert isinstance(skeleton, CraneSkeleton)
-            print_skeleton(skeleton)
-            return print_verdicts(skeleton.verdicts(over=overs_of(skeleton, options.over)), options)
-        folder = Path(options.pictures) if options.pictures else None
-        if folder is not None:
-            with in_words(folder):
-                folder.mkdir(parents=True, exist_ok=True)
-            check_place(folder / "map.png")
-        machine = crane_or_drive(options)
-        over = overs_of(machine, options.over)
-        if isinstance(machine, Crane):
-            print_skeleton(machine)
-            print_crane(machine, options)
-        else:
-            motion = machine.working(2 * COUNT - 1)
-            write_table(machine.columns(motion), motion.reached.size, options.csv)
-        code = print_verdicts(machine.verdicts(over=over), options)
-        if folder is not None:
-            draw_all(machine, folder)
-        return code
+@DesignedCrane
+def print_design(options: Namespace) -> int:
+    """Design a crane for a duty, or judge the one that is named."""
+    if options.skeleton or options.cab:
+        for name in ("pictures", "pins", "csv", "scheme"):
+            ensure(not getattr(options, name), f"--{name} is of a whole crane; leave --skeleton and --cab out.")
+        ensure(not options.machine, f"{options.machine} has its skeleton already; leave its name out to search one.")
+        cab = si_value(options.cab, "length", "--cab") if options.cab else None
+        with progress_bar("skeleton") as progress:
+            duty = duty_set(Duty, options, "L=8.5m", KINDS)
+            found = design_skeleton(duty, reading=options.reading, cab=cab, progress=progress or False)
+        print(f"{found}\n")
+        skeleton = found.machine
+        assert isinstance(skeleton, CraneSkeleton)
+        print_skeleton(skeleton)
+        return print_verdicts(skeleton.verdicts(over=overs_of(skeleton, options.over)), options)
+    folder = Path(options.pictures) if options.pictures else None
+    if folder is not None:
+        with in_words(folder):
+            folder.mkdir(parents=True, exist_ok=True)
+        check_place(folder / "map.png")
+    machine = crane_or_drive(options)
+    over = overs_of(machine, options.over)
+    if isinstance(machine, Crane):
+        print_skeleton(machine)
+        print_crane(machine, options)
+    else:
+        motion = machine.working(2 * COUNT - 1)
+        write_table(machine.columns(motion), motion.reached.size, options.csv)
+    code = print_verdicts(machine.verdicts(over=over), options)
+    if folder is not None:
+        draw_all(machine, folder)
+    return code
 
 
 def draw_all(machine: Crane | BoomDrive | DrivenArm, folder: Path) -> None:

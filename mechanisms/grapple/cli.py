@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 
 import numpy as np
 
 from linkage import Mechanism
-from linkage.cli.command import Command, figure_path, machine_arguments
+from linkage.cli.command import Command, figure_path, machine_options, option
 from linkage.cli.machines import find_like
 from linkage.cli.settings import design, judged_over, motion_at, print_verdicts
 from linkage.cli.table import write_table
@@ -15,7 +15,7 @@ from linkage.errors import ensure
 from linkage.language import said
 from linkage.units import show, shown_number, unit_sign
 
-from ..paper import duty_set, figure_arguments
+from ..paper import duty_set, figure_options
 from . import FIGURES, figure
 from .design import OBJECTIVES
 from .design import design as design_for
@@ -27,39 +27,42 @@ pressure gives about the hinge; M_1 moment that the stem needs (an assumed law: 
 pressures are gauge."""
 
 
-class Gripping(Command):
-    """Prints what a grapple's lever gives and what its stems need."""
+Gripping = Command(
+    "grapple",
+    "a harvester head's grapple: hinge, moments over the stems, verdicts, figures",
+    *machine_options("grapple"),
+    option(
+        "--design",
+        choices=OBJECTIVES,
+        nargs="?",
+        const=OBJECTIVES[0],
+        help="design one for a duty first: even, the least greatest M_g / M_1, or arm, the greatest arm at the largest stem; --set "
+        "then changes a number of the duty, D_0=600mm",
+    ),
+    *figure_options(FIGURES, "stems"),
+)
 
-    name = "grapple"
-    help = "a harvester head's grapple: hinge, moments over the stems, verdicts, figures"
 
-    def add(self, parser: ArgumentParser) -> None:
-        machine_arguments(parser, default="grapple")
-        parser.add_argument(
-            "--design", choices=OBJECTIVES, nargs="?", const=OBJECTIVES[0],
-            help="design one for a duty first: even, the least greatest M_g / M_1, or arm, the greatest arm at the largest stem; --set "
-            "then changes a number of the duty, D_0=600mm",
-        )  # fmt: skip
-        figure_arguments(parser, FIGURES, "stems")
-
-    def run(self, options: Namespace) -> int:
-        machine = design(find_like(options.machine, Grapple, "grapple"), options.settings) if options.design is None else designed(options)
-        path = figure_path(options, machine, self.name)
-        motion, over = motion_at(machine, options), judged_over(machine, options)
-        assert isinstance(machine, Grapple)
-        columns, first = machine.columns(motion), {name: np.ravel(motion[name])[0] for name in ("OA", "opening_angle", "closing_angle")}
-        places = {name: ", ".join(shown_number(float(part.ravel()[0]), "mm", ".2f") for part in motion[name]) for name in "OE"}
-        pins = ", ".join(f"{name} ({place}) {unit_sign('mm')}" for name, place in places.items())
-        arms = f"OA {show(float(first['OA']), 'mm', '.2f')}, OC {show(float(motion.inputs['rho']), 'mm', '.2f')}"
-        opened, closing = (show(float(first[name]), "deg", ".3f") for name in ("opening_angle", "closing_angle"))
-        print(said("{pins}, {arms}; opens by {opened}, closes by {closing}.", pins=pins, arms=arms, opened=opened, closing=closing))
-        print(f"{LEGEND}\n")
-        write_table(columns, motion.reached.size, options.csv)
-        code = print_verdicts(machine.verdicts(over=over), options)
-        if path is not None:
-            figure(options.figure or "stems", machine).savefig(path)
-            print(path)
-        return code
+@Gripping
+def print_grapple(options: Namespace) -> int:
+    """Print what a grapple's lever gives and what its stems need."""
+    machine = design(find_like(options.machine, Grapple, "grapple"), options.settings) if options.design is None else designed(options)
+    path = figure_path(options, machine, "grapple")
+    motion, over = motion_at(machine, options), judged_over(machine, options)
+    assert isinstance(machine, Grapple)
+    columns, first = machine.columns(motion), {name: np.ravel(motion[name])[0] for name in ("OA", "opening_angle", "closing_angle")}
+    places = {name: ", ".join(shown_number(float(part.ravel()[0]), "mm", ".2f") for part in motion[name]) for name in "OE"}
+    pins = ", ".join(f"{name} ({place}) {unit_sign('mm')}" for name, place in places.items())
+    arms = f"OA {show(float(first['OA']), 'mm', '.2f')}, OC {show(float(motion.inputs['rho']), 'mm', '.2f')}"
+    opened, closing = (show(float(first[name]), "deg", ".3f") for name in ("opening_angle", "closing_angle"))
+    print(said("{pins}, {arms}; opens by {opened}, closes by {closing}.", pins=pins, arms=arms, opened=opened, closing=closing))
+    print(f"{LEGEND}\n")
+    write_table(columns, motion.reached.size, options.csv)
+    code = print_verdicts(machine.verdicts(over=over), options)
+    if path is not None:
+        figure(options.figure or "stems", machine).savefig(path)
+        print(path)
+    return code
 
 
 def designed(options: Namespace) -> Mechanism:

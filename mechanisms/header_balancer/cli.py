@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 
 from linkage import DefinitionError, Motion
-from linkage.cli.command import Command, figure_path, machine_arguments, picture_argument, whole_number
+from linkage.cli.command import CSV, Command, count_option, figure_path, machine_options, option, picture_option
 from linkage.cli.machines import find_like
-from linkage.cli.settings import check_argument, over_argument, overs_of, parsed_setting, print_verdicts
-from linkage.cli.table import csv_argument, write_table
+from linkage.cli.settings import CHECK, OVER, overs_of, parsed_setting, print_verdicts
+from linkage.cli.table import write_table
 from linkage.errors import ensure
 from linkage.plan import Plan
 from linkage.units import kgf, parse, show
@@ -29,44 +29,44 @@ moving down over the following range; safe: 1 where the shoe never lifts off. A 
 WANTED = tuple(step * 100.0 * kgf for step in range(9))
 
 
-class Balance(Command):
-    """Prints the reactions of a header over the following range and judges its balancing."""
+Balance = Command(
+    "balance",
+    "a header on gas accumulators: shoe reactions, charge pressures, the five criteria, figures",
+    *machine_options(),
+    option("--header", type=int, choices=sorted(HEADERS), help="one of the published headers with its setting"),
+    option("--pressure", metavar="40kgf_cm2", help="charge pressure of the line at the horizon, gauge"),
+    option("--reaction", metavar="300kgf", help="charge for this reaction of all shoes at the horizon instead"),
+    option("--table", action="store_true", help="charge pressures for each header and wanted reaction instead"),
+    count_option(13, "poses over the following range"),
+    CSV,
+    option("--measured", metavar="FILE", help='compare with measured values: columns "R_y, mm", "F_R up, kgf"'),
+    picture_option("the figure"),
+    option("--figure", choices=FIGURES, help="which figure of the paper, such as 2a, or 2 for both its halves"),
+    OVER,
+    CHECK,
+)
 
-    name = "balance"
-    help = "a header on gas accumulators: shoe reactions, charge pressures, the five criteria, figures"
 
-    def add(self, parser: ArgumentParser) -> None:
-        machine_arguments(parser)
-        parser.add_argument("--header", type=int, choices=sorted(HEADERS), help="one of the published headers with its setting")
-        parser.add_argument("--pressure", metavar="40kgf_cm2", help="charge pressure of the line at the horizon, gauge")
-        parser.add_argument("--reaction", metavar="300kgf", help="charge for this reaction of all shoes at the horizon instead")
-        parser.add_argument("--table", action="store_true", help="charge pressures for each header and wanted reaction instead")
-        parser.add_argument("--count", metavar="N", type=whole_number, default=13, help="poses over the following range (default 13)")
-        csv_argument(parser)
-        parser.add_argument("--measured", metavar="FILE", help='compare with measured values: columns "R_y, mm", "F_R up, kgf"')
-        picture_argument(parser, "the figure")
-        parser.add_argument("--figure", choices=FIGURES, help="which figure of the paper, such as 2a, or 2 for both its halves")
-        over_argument(parser)
-        check_argument(parser)
-
-    def run(self, options: Namespace) -> int:
-        machine = header_of(options)
-        path, over, code = figure_path(options, machine, self.name), overs_of(machine, options.over), 0
-        motion = machine.at(h=machine.strokes["h"].start)
-        compared = deviations(motion, read_measured(options.measured)) if options.measured else []
-        if options.table:
-            columns = setting_table(WANTED, changes(machine.plan, options))
-            print(ABOUT_TABLE)
-            write_table(columns, len(columns[0].values), options.csv)
-        if not options.table or options.header or options.pressure or options.reaction or compared:
-            print_header(motion, options)
-            code = print_verdicts([*machine.verdicts(over=over), *(each.verdict for each in compared)], options)
-        if path is not None:  # figure 6 of the machine as it is shipped shows the improved one
-            number = options.figure or ("7" if compared else REACTION.get(options.header, "4"))
-            as_shipped = type(machine) is HeaderBalancer and machine.dimensions in (HeaderBalancer().dimensions, with_header(1).dimensions)
-            figure(number, None if number[0] == "6" and as_shipped else machine, compared).savefig(path)
-            print(path)
-        return code
+@Balance
+def print_balance(options: Namespace) -> int:
+    """Print the reactions of a header over the following range and judge its balancing."""
+    machine = header_of(options)
+    path, over, code = figure_path(options, machine, "balance"), overs_of(machine, options.over), 0
+    motion = machine.at(h=machine.strokes["h"].start)
+    compared = deviations(motion, read_measured(options.measured)) if options.measured else []
+    if options.table:
+        columns = setting_table(WANTED, changes(machine.plan, options))
+        print(ABOUT_TABLE)
+        write_table(columns, len(columns[0].values), options.csv)
+    if not options.table or options.header or options.pressure or options.reaction or compared:
+        print_header(motion, options)
+        code = print_verdicts([*machine.verdicts(over=over), *(each.verdict for each in compared)], options)
+    if path is not None:  # figure 6 of the machine as it is shipped shows the improved one
+        number = options.figure or ("7" if compared else REACTION.get(options.header, "4"))
+        as_shipped = type(machine) is HeaderBalancer and machine.dimensions in (HeaderBalancer().dimensions, with_header(1).dimensions)
+        figure(number, None if number[0] == "6" and as_shipped else machine, compared).savefig(path)
+        print(path)
+    return code
 
 
 def print_header(motion: Motion, options: Namespace) -> None:

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 
 from linkage import DefinitionError, max_table, pin_forces
-from linkage.cli.command import Command, figure_path, machine_arguments
+from linkage.cli.command import Command, figure_path, machine_options, option
 from linkage.cli.machines import find_like
 from linkage.cli.settings import design, judged_over, motion_at, print_verdicts
 from linkage.cli.table import write_table
 from linkage.statics import table_text
 
-from ..paper import figure_arguments
+from ..paper import figure_options
 from . import FIGURES, figure
 from .machine import CATEGORIES, ThreePointHitch
 from .report import capacity_columns, pressure_words
@@ -23,44 +23,44 @@ front: front axle's load; max: largest implement that leaves the front axle its 
 uphill: the slope that does."""
 
 
-class Hitch(Command):
-    """Prints what a hitch lifts and what limits it."""
+Hitch = Command(
+    "hitch",
+    "a three-point hitch: lifting capacity, zones, upper link, front axle, figures",
+    *machine_options("three_point_hitch"),
+    option("--category", type=int, choices=sorted(CATEGORIES), help="a hitch of these proportions (ISO 730) instead"),
+    option("--zones", action="store_true", help="the zones over all admissible settings instead (figure 2)"),
+    option("--vertical", action="store_true", help="the upper link's length for a vertical mast at every stroke too"),
+    option("--pins", action="store_true", help="the largest force of every pin too, its direction and pose"),
+    *figure_options(FIGURES, "capacity, with --zones zones"),
+)
 
-    name = "hitch"
-    help = "a three-point hitch: lifting capacity, zones, upper link, front axle, figures"
 
-    def add(self, parser: ArgumentParser) -> None:
-        machine_arguments(parser, default="three_point_hitch")
-        parser.add_argument("--category", type=int, choices=sorted(CATEGORIES), help="a hitch of these proportions (ISO 730) instead")
-        parser.add_argument("--zones", action="store_true", help="the zones over all admissible settings instead (figure 2)")
-        parser.add_argument("--vertical", action="store_true", help="the upper link's length for a vertical mast at every stroke too")
-        parser.add_argument("--pins", action="store_true", help="the largest force of every pin too, its direction and pose")
-        figure_arguments(parser, FIGURES, "capacity, with --zones zones")
-
-    def run(self, options: Namespace) -> int:
-        machine = hitch_of(options)
-        path = figure_path(options, machine, self.name)
-        motion, over = motion_at(machine, options), judged_over(machine, options)
-        if options.category:
-            print(f"{CATEGORIES[options.category]}.\n")
-        if options.zones:
-            capacity, tilt = capacity_zone(machine, S=motion.strokes["S"]), tilt_zone(machine, S=motion.strokes["S"])
-            print(*(f"{remark}\n\n" for remark in dict.fromkeys((*capacity.remarks, *tilt.remarks))), sep="", end="")
-            columns = zone_columns(capacity, tilt)
-        else:
-            eta = float(motion.inputs["circuit.mechanical_efficiency"])
-            print(f"{pressure_words(motion)}, eta {eta:.4g}. Pressures are gauge.\n{LEGEND}\n")
-            columns = capacity_columns(motion)
-        write_table(columns, motion.reached.size, options.csv)
-        if options.pins:
-            print(f"\n{table_text(max_table([pin_forces(motion)]))}")
-        if options.vertical:
-            print("", *(f"S = {S:.4f} m: {mast_words(machine, float(S))}" for S in motion.strokes["S"].ravel()), sep="\n")
-        code = print_verdicts(machine.verdicts(over=over), options)
-        if path is not None:
-            figure(options.figure or ("zones" if options.zones else "capacity"), machine).savefig(path)
-            print(path)
-        return code
+@Hitch
+def print_hitch(options: Namespace) -> int:
+    """Print what a hitch lifts and what limits it."""
+    machine = hitch_of(options)
+    path = figure_path(options, machine, "hitch")
+    motion, over = motion_at(machine, options), judged_over(machine, options)
+    if options.category:
+        print(f"{CATEGORIES[options.category]}.\n")
+    if options.zones:
+        capacity, tilt = capacity_zone(machine, S=motion.strokes["S"]), tilt_zone(machine, S=motion.strokes["S"])
+        print(*(f"{remark}\n\n" for remark in dict.fromkeys((*capacity.remarks, *tilt.remarks))), sep="", end="")
+        columns = zone_columns(capacity, tilt)
+    else:
+        eta = float(motion.inputs["circuit.mechanical_efficiency"])
+        print(f"{pressure_words(motion)}, eta {eta:.4g}. Pressures are gauge.\n{LEGEND}\n")
+        columns = capacity_columns(motion)
+    write_table(columns, motion.reached.size, options.csv)
+    if options.pins:
+        print(f"\n{table_text(max_table([pin_forces(motion)]))}")
+    if options.vertical:
+        print("", *(f"S = {S:.4f} m: {mast_words(machine, float(S))}" for S in motion.strokes["S"].ravel()), sep="\n")
+    code = print_verdicts(machine.verdicts(over=over), options)
+    if path is not None:
+        figure(options.figure or ("zones" if options.zones else "capacity"), machine).savefig(path)
+        print(path)
+    return code
 
 
 def hitch_of(options: Namespace) -> ThreePointHitch:

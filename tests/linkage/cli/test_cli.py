@@ -19,7 +19,7 @@ import numpy as np
 import pytest
 
 from linkage import plugins
-from linkage.cli import Command, listing, main
+from linkage.cli import Command, listing, main, option
 from linkage.cli import command as progress
 from linkage.cli import entry as commands
 from linkage.cli.command import lined_up
@@ -468,25 +468,30 @@ def test_not_enough_memory_is_said(said):
 # -- other packages ----------------------------------------------------------------------------------------
 
 
-class Weigh(Command):
-    """A command of another package."""
+@Command("weigh", "the weight of a machine", option("machine"))
+def weigh(options):
+    print(f"{options.machine} weighs")
+    return 3
 
-    name = "weigh"
-    help = "the weight of a machine"
+
+class Weigh(Command):
+    """The same as a subclass, as commands were."""
+
+    name = "old"
+    help = "the same of old"
 
     def add(self, parser):
         parser.add_argument("machine")
 
     def run(self, options):
-        print(f"{options.machine} weighs")
-        return 3
+        return weigh.run(options)
 
 
 @pytest.fixture
 def plugged(monkeypatch):
-    """Let two commands and two machines be installed, one of each broken."""
+    """Let commands and machines be installed, one of each broken."""
     installed = {
-        plugins.COMMANDS: {"weigh": f"{__name__}:Weigh", "burn": "no_package:Burn"},
+        plugins.COMMANDS: {"weigh": f"{__name__}:weigh", "burn": "no_package:Burn", "old": f"{__name__}:Weigh"},
         plugins.MACHINES: {"good": "mechanisms.mower_lift:MowerLift", "bad": "no_package:Bad"},
     }
     entries = {group: {name: EntryPoint(name, value, group) for name, value in each.items()} for group, each in installed.items()}
@@ -494,13 +499,16 @@ def plugged(monkeypatch):
     monkeypatch.setattr(plugins, "entry_points", lambda group: entries[group])
 
 
+@pytest.mark.filterwarnings("default::FutureWarning")
 def test_command_of_another_package(said, plugged):
     assert said("weigh", "it") == (3, "it weighs\n", "")
+    code, out, err = said("old", "it")
+    assert (code, out) == (3, "it weighs\n") and "warning: The command old" in err and "under @Command" in err
     code, _, err = said("burn")
     assert code == 2 and "The command burn (no_package:Burn) cannot be loaded" in err
     code, out, err = said("--help")
     assert code == 0 and "the weight of a machine" in out
-    assert err.startswith("hydrolinkage: warning: The command burn")
+    assert err.startswith("hydrolinkage: warning: The command burn") or "\nhydrolinkage: warning: The command burn" in err
 
 
 def test_broken_machine_of_another_package_does_not_hide_the_others(said, plugged):

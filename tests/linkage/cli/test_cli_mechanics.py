@@ -288,21 +288,16 @@ def test_limits_are_drawn(said, tmp_path):
 TALKS = """
 import sys
 from pathlib import Path
-from linkage.cli import Command, entry, main
+from linkage.cli import Command, entry, main, option
 
-class Talks(Command):
-    name, help = "talks", "says much, then writes a file"
+@Command("talks", "says much, then writes a file", option("-o", "--output"))
+def talks(options):
+    for number in range(100_000):
+        print("line", number)
+    Path("said.txt").write_text("whole")
+    return 0
 
-    def add(self, parser):
-        parser.add_argument("-o", "--output")
-
-    def run(self, options):
-        for number in range(100_000):
-            print("line", number)
-        Path("said.txt").write_text("whole")
-        return 0
-
-entry.commands_for = lambda arguments: [Talks()]
+entry.commands_for = lambda arguments: [talks]
 sys.exit(main(["talks", *sys.argv[1:]]))
 """
 

@@ -23,7 +23,7 @@ from .loads import PLAIN_CASE, Acting, ForceElement, LoadCase, check_together
 from .loads.element import Formulas
 from .mobility import FourBar, Mobility, chain_graph, check, four_bars, mobility
 from .motion import Answer, Featured, Positions, RequestLike, Target, at_values, followed, judge_verdicts, positions_for, sweep_values
-from .motion.evaluation import PoseFunction, evaluate, source_of
+from .motion.functions import PoseFunction, evaluate, source_of
 from .motion.judge import Judge, Question
 from .motion.motion import Motion, require_motion
 from .motion.over import OPTIONS, Over

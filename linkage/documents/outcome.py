@@ -17,6 +17,7 @@ from ..loads import PLAIN_CASE, Acting
 from ..motion import Answer, Column, Measure, Motion, Request, Tabled, least, most, speakers
 from ..motion.limits import StrokeLimits
 from ..motion.measures import Least, Most
+from ..motion.requests import Trait
 from ..pictures import mechanism
 from ..pictures.curves import limit_of, note, panel
 from ..pictures.scene import Scene
@@ -279,7 +280,7 @@ def sides_asked(quantity: object) -> tuple[Callable[[Any], Measure], ...]:
 
     Of a pressure the greatest: the least is nought, on the side that does not hold.
     """
-    is_open = isinstance(quantity, Request) and quantity.may_be_unlimited
+    is_open = isinstance(quantity, Request) and Trait.MAY_BE_UNLIMITED in quantity.traits
     return (least,) if is_open else (most,) if getattr(quantity, "measures", "") == "pressure" else (least, most)
 
 

@@ -2,30 +2,27 @@
 
 from ..numeric import highest, last_holding
 from ..star import declare_public
-from .answer import Answer, Lost, places_text
-from .evaluation import PoseFunction, evaluate, evaluate_grid, source_of
-from .featured import Featured
+from .answer import Answer, Lost
 from .follow import followed
+from .functions import PoseFunction, evaluate, evaluate_grid, source_of
 from .gaps import gap, nearest_places
 from .grid import Grid
 from .judge import Judge, Question, case_named
 from .judged_poses import judged_poses
 from .judging import HasVerdicts, geometry_verdicts, judge_verdicts, limits_over
-from .limits import stroke_display_unit, stroke_measure, stroke_unit
+from .limits import places_text, stroke_display_unit, stroke_measure, stroke_unit
 from .live import LiveText, live_text
 from .measures import Condition, Constraint, Leaf, Measure, at, integral, least, most, reachable, worst
 from .motion import Motion, OnePose, each_at_its_stroke, require_motion
 from .over import OPTIONS, Over, Run
+from .places import Positions, Target, positions_for
 from .planes import Planes, clearance, pair_at
 from .poles import whole_body
-from .pose_requests import condition, transmission
-from .positions import Positions, positions_for
 from .regions import inside, outside
-from .requests import MotionFunction, NodeRequest, Request, RequestLike, SmoothPiece, Value, ratio
+from .requests import MotionFunction, NodeRequest, Request, RequestLike, SmoothPiece, Value, condition, ratio, transmission
 from .search import Span, below_zero, greatest, lowest, reached
 from .stroke_search import out_of_reach
 from .strokes import at_values, check_any, float_array, rates_of, sweep_values
-from .table import Column, Tabled, columns_of, speakers
-from .target import Target
+from .table import Column, Featured, Tabled, columns_of, speakers
 
 declare_public(globals())

@@ -11,7 +11,7 @@ import numpy as np
 from ..language import said, translated
 from ..loads import FRICTIONLESS
 from ..units import display_unit, show
-from .limits import place_text
+from .limits import places_text
 
 OF_VALUE, LOST, UNBOUNDED, NOTHING_LEFT = "value", "lost", "unbounded", "nothing left"
 """What an answer rests on: a value; places that are lost; a value that grows without bounds; nothing, as no place is asked or limited."""
@@ -176,8 +176,3 @@ class Answer:
 def share_text(share: float) -> str:
     """Return a share of the places as a percentage."""
     return f"{100.0 * share:.3g} %" if share > 0.0 else said("a narrow part")
-
-
-def places_text(strokes: Mapping[str, object], units: Mapping[str, str]) -> str:
-    """Return values of strokes as a place is read: `S1 = 0.1000 m, phi = 25.00 deg`; of several, the ranges."""
-    return ", ".join(f"{name} = {place_text(value, units[name])}" for name, value in strokes.items())

@@ -171,8 +171,8 @@ def conditioning(plan: Plan, reading: ArrayReading, steep: set[str], names: set[
     """
     moving = {name: span for name, span in reading.spans.items() if not name or (name in names and plan.moves(plan.members[name]))}
     spans = {name: np.broadcast_to(span, error.shape) for name, span in moving.items()}
-    loops = {name: np.broadcast_to(cond, error.shape) for name, cond in loop_conditions(plan, reading, names).items()}
-    return Conditioning(plan, loops, spans, error, frozenset(steep), doubt)
+    conditions = {name: np.broadcast_to(cond, error.shape) for name, cond in loop_conditions(plan, reading, names).items()}
+    return Conditioning(plan, conditions, spans, error, frozenset(steep), doubt)
 
 
 def loop_conditions(plan: Plan, reading: ArrayReading, names: set[str]) -> dict[str, FloatArray]:

@@ -20,9 +20,9 @@ from ..numeric.linear import solved
 from ..plan import Mask, Plan, opening
 from ..program import NO_VALUE, FloatArray
 from ..units import show
-from .interruptions import ON_ARRAYS, Clearances
 from .motion import Motion
 from .places import BranchSearch, Places, stroke_numbers, unmet_words
+from .stroke_search import ON_ARRAYS, Clearances
 from .strokes import TURN
 
 TOLERANCE = 1e-12
@@ -236,10 +236,7 @@ class Route:
 
     def motion(self, strokes: FloatArray, unreachable: str) -> Motion:
         """Return the motion at strokes (n, k)."""
-        places = self.places
-        every = dict(zip(places.free, strokes.T, strict=True))
-        every |= {name: np.full(len(strokes), value) for name, value in places.held.items()}
-        return Motion(places.plan, places.designs, {name: every[name] for name in places.plan.strokes}, unreachable)
+        return Motion(self.places.plan, self.places.designs, self.places.every(strokes.T), unreachable)
 
 
 @final

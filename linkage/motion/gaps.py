@@ -32,7 +32,7 @@ from ..steps import Link
 from ..surroundings import CircleOutline, Outline, numbers_at
 from ..units import require_measure
 from ..vectors import Scalar, Vec, pick
-from .requests import MotionLike, NodeRequest
+from .requests import MotionLike, NodeRequest, Trait
 
 Pick: TypeAlias = Callable[[Scalar, Scalar, Scalar, Scalar], Scalar]
 """What gives its third number where the first is at most the second, else the fourth."""
@@ -67,7 +67,7 @@ def gap(a: Reference, b: Reference, *, width: float = 0.0) -> NodeRequest:
 
     return NodeRequest(
         text=f"gap({one}, {other}{f', width={width:g}' if width else ''})", sentence=f"the gap between {one} and {other}",
-        key=("gap", one, other, float(width)), measures="length", may_fail=True,
+        key=("gap", one, other, float(width)), measures="length", traits=Trait.MAY_FAIL,
         nodes_of=nodes, names_of=names,
         refused_by=lambda motion: check_forms(motion, (one, other)),
     )  # fmt: skip

@@ -14,9 +14,9 @@ import numpy as np
 from ..assembly import NONE_SOLVED, GroupSolution, solve_groups, with_angles
 from ..errors import DefinitionError
 from ..frozen import FrozenDict, read_only
+from ..loads import Poses
 from ..plan import ArrayReading, Mask, Plan
 from ..program import QUICKEST, FloatArray, Kernel, Level, Node, RunOptions, ancestors, interpret
-from ..quantities import Member, Quantity
 from ..vectors import Numbers
 
 Made = TypeVar("Made")
@@ -172,11 +172,10 @@ def varies(value: Any) -> bool:
     return type(value) is not float and np.ndim(value) > 0
 
 
-class MotionLike(Protocol):
+class MotionLike(Poses, Protocol):
     """What limits, conditions and requests ask of a motion, which itself is made with them; see `Motion`."""
 
     plan: Plan
-    shape: tuple[int, ...]
     reached: Mask
     _grid: Grid
     _design_shape: tuple[int, ...]
@@ -185,8 +184,6 @@ class MotionLike(Protocol):
     def designs(self) -> Mapping[str, Numbers]: ...
     @property
     def strokes(self) -> Mapping[str, FloatArray]: ...
-    @property
-    def inputs(self) -> Mapping[str, Numbers]: ...
     @property
     def _reading(self) -> ArrayReading: ...
     @property
@@ -197,9 +194,7 @@ class MotionLike(Protocol):
     def _requested(self, request: Any) -> FloatArray: ...
     def _finite(self, values: FloatArray, excused: Mask, what: str) -> FloatArray: ...
     def moved(self, strokes: Mapping[str, Any]) -> Self: ...
-    def value(self, quantity: Quantity) -> FloatArray: ...
     def transmission_angle(self, point: str) -> FloatArray: ...
-    def ratio(self, target: str | Member, *, wrt: str | None = None, order: int = 1) -> FloatArray: ...
 
 
 # How angles are made continuous over a grid.

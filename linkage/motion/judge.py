@@ -8,6 +8,7 @@ cannot be assembled or a law gives no number, unlimited where a law has no bound
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass, field, replace
 from functools import cached_property, reduce
 from typing import Any, TypeAlias, final
@@ -22,15 +23,15 @@ from ..numeric.box import values_a_stroke
 from ..numeric.line import SAMPLES
 from ..numeric.quadrature import quadrature
 from ..plan import Mask, Plan
-from ..program import QUICKEST, FloatArray, Kernel
+from ..program import FloatArray, Kernel
 from ..quantities import PoseCondition, Quantity, Ref, is_whole, keywords
 from ..vectors import Numbers
 from .answer import LOST, LOST_SHARE, NONE_LOST, NOTHING_LEFT, OF_VALUE, PER_DESIGN, UNBOUNDED, Answer, Lost, PerDesign
 from .evaluation import Evaluation
+from .functions import evaluate_bound
 from .grid import Grid, recalled
 from .kinds import check_condition, check_kinds
-from .limits import stroke_unit
-from .margins import LeastMargin, assembly_error_at, least_margins
+from .limits import LoopMargin, stroke_unit
 from .measures import (
     At,
     Condition,
@@ -51,8 +52,8 @@ from .measures import (
 )
 from .motion import Motion
 from .over import ALLOWED, Over, Run, with_strokes
-from .requests import Request, SmoothPiece, identity_of
-from .search import extremum, strokes_moved
+from .requests import Request, SmoothPiece, Trait, identity_of
+from .search import assembly_error_at, extremum, least_margins, strokes_moved
 from .strokes import at_values
 
 Question: TypeAlias = "Measure | Condition"
@@ -248,7 +249,7 @@ class Domain:
             return [Situation()]
         directions = [acting.direction] if acting.direction is not None else [*movements] or [""]
         drives: list[str] = [""]
-        if request.of_strokes and not self.is_path:
+        if Trait.OF_STROKES in request.traits and not self.is_path:
             drives = [acting.drive] if acting.drive else [*(self.running or self.plan.strokes)]
         cases = self.cases(acting)
         return [
@@ -305,7 +306,7 @@ class Domain:
     # -- what is lost ------------------------------------------------------------------------------------
 
     @cached_property
-    def margins(self) -> list[LeastMargin]:
+    def margins(self) -> list[LoopMargin]:
         """How clear each loop stays of its dead point wherever it is looked at; nothing where that is at poses only."""
         if self.over.shape == "poses" or not self.motion.strokes:
             return []
@@ -421,7 +422,7 @@ class Asked:
         values, unlimited = np.full((len(self.rows), *motion.shape), np.nan), np.zeros((len(self.rows), *motion.shape), bool)
         with unwarned(), np.errstate(all="ignore"):
             if self._bound:
-                found = Evaluation(reached_grid(motion), tuple(self._bound.values()), QUICKEST, "nan").run(None)
+                found = evaluate_bound(Evaluation(reached_grid(motion), tuple(self._bound.values())), None, "nan")
                 for k, each in zip(self._bound, found, strict=True):
                     values[k] = np.broadcast_to(each, motion.shape)
             for k, row in enumerate(self.rows):
@@ -574,12 +575,10 @@ class Judge:
 
     def lost_allowed(self) -> Judge:
         """Return the judge of the same for whom places that are lost are part of the machine; what is known already both know."""
-        places = []
-        for each in self.places:
-            places.append(object.__new__(Domain))
-            vars(places[-1]).update(vars(each) | {"over": each.over.renewed(lost=ALLOWED)})
-        found = object.__new__(Judge)
-        vars(found).update(vars(self) | {"places": tuple(places), "_lost": {}})
+        found, found_places = copy(self), tuple(map(copy, self.places))
+        for place in found_places:
+            place.over = place.over.renewed(lost=ALLOWED)
+        found.places, found._lost = found_places, {}
         return found
 
     def of_design(self, number: int) -> Judge:

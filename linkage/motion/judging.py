@@ -5,6 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -12,19 +13,19 @@ from ..assembly import sketch_words, width_words
 from ..errors import DefinitionError, unwarned
 from ..language import said
 from ..loads import TwoPoint
-from ..plan import Plan, name_or_pins
+from ..plan import name_or_pins
 from ..quantities import Member
 from ..units import deg, show
 from ..verdict import Remark, Verdict
 from . import stroke_search
-from .answer import NONE_LOST, Answer, places_text, share_text
+from .answer import NONE_LOST, Answer, share_text
 from .judge import Domain, Judge, Question
-from .limits import BoxLimits, Limits, LoopMargin, StrokeLimits, place_text
-from .margins import LeastMargin, least_margins
+from .limits import BoxLimits, Limits, LoopMargin, StrokeLimits, place_text, places_text
 from .measures import Condition, Measure, least, reachable
 from .motion import Motion
 from .over import Over
-from .pose_requests import transmission
+from .requests import transmission
+from .search import least_margins
 from .stroke_search import out_of_reach
 from .table import speakers
 
@@ -307,21 +308,15 @@ def limits_over(motion: Motion, overs: Sequence[Over | Motion] = (Over(),)) -> L
     lost, title = judge.answer(reachable).lost, "; ".join(place.over.words(place.motion) for place in judge.places)
     with unwarned():
         found = [each for place in judge.places if place.over.shape != "poses" for each in least_margins(place.motion)]
-    known = [each for each in found if not np.isnan(each.value)]
-    loops = dict.fromkeys((each.step, each.kind) for each in known)
-    least = [min((each for each in known if (each.step, each.kind) == loop), key=lambda each: float(each.value)) for loop in loops]
-    box = BoxLimits(title, lost.share, dict(lost.strokes), lost.sentence, tuple(loop_margin(motion.plan, each) for each in least))
+    least = dict[tuple[str, str], LoopMargin]()
+    for each in found:
+        best = least.get((each.step, each.kind))
+        if not np.isnan(each.value) and (best is None or each.value < best.value):
+            at = {name: float(value) for name, value in each.strokes.items()}
+            least[each.step, each.kind] = replace(each, value=float(each.value), is_hole=bool(each.is_hole), strokes=at)
+    margins = tuple(replace(each, step=name_or_pins(motion.plan, each.step)) for each in least.values())
+    box = BoxLimits(title, lost.share, dict(lost.strokes), lost.sentence, margins)
     return Limits(strokes, box, width_words(motion.plan, motion.designs))
-
-
-def loop_margin(plan: Plan, least: LeastMargin) -> LoopMargin:
-    """Return the least margin of a loop as it is read: squares as their roots, sines as angles."""
-    value = max(float(least.value), 0.0)
-    clear = value if least.kind == "length" else value**0.5
-    if least.kind in ("links", "guides"):
-        clear = float(np.arcsin(min(clear, 1.0)))
-    strokes = {name: float(each) for name, each in least.strokes.items()}
-    return LoopMargin(name_or_pins(plan, least.step), least.kind, clear, bool(least.is_hole), strokes, places_text(strokes, least.units))
 
 
 Motion._limits_of = limits_over  # a motion's limits ask the judge, who is made with motions

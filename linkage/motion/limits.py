@@ -118,18 +118,33 @@ class BoxLimits:
 @refuses_changes
 @dataclass(frozen=True)
 class LoopMargin:
-    """How clear the loop of a step stays of its dead point, and where: `clear` [rad] between links or guides, else [m]; 0 in a hole.
+    """The least margin of the loop of a step, and where: of one design numbers, of a batch arrays over its designs.
 
-    `kind` is "links", "guides", "length" or "meeting", of two points that a direction is taken between; `place` says the strokes
-    [m or rad] in words.
+    `kind` is "links", "guides", "length" or "meeting", of two points that a direction is taken between. `value` is the squared sine of
+    the angle between two links, or two guides, the length where that follows others [m], or the squared one between two points; below
+    zero the `step` cannot be assembled, by more than rounding where it `is_hole`. NaN where no pose tells. `strokes` [m or rad, which
+    `units` say] are the place.
     """
 
     step: str
     kind: str
-    clear: float
-    is_hole: bool
-    strokes: Mapping[str, float]
-    place: str
+    value: Any
+    is_hole: Any
+    strokes: Mapping[str, Any]
+    units: Mapping[str, str]
+
+    @property
+    def clear(self) -> float:
+        """How clear one design stays of it: an angle [rad] between links or guides, else a length [m]; 0 in a hole."""
+        value = max(float(self.value), 0.0)
+        if self.kind == "length":
+            return value
+        return float(np.arcsin(min(value**0.5, 1.0))) if self.kind in ("links", "guides") else value**0.5
+
+    @property
+    def place(self) -> str:
+        """The strokes in words."""
+        return places_text(self.strokes, self.units)
 
     @property
     def tells(self) -> bool:
@@ -272,6 +287,11 @@ def place_text(value: Any, unit: str) -> str:
     digits, shown = 2 if unit == "rad" else 4, display_unit(UNITS[unit][1])
     low, high = (shown_number(float(each), shown, f"z.{digits}f") for each in (np.min(value), np.max(value)))
     return f"{low if low == high else said('{low} to {high}', low=low, high=high)} {unit_sign(shown)}"
+
+
+def places_text(strokes: Mapping[str, object], units: Mapping[str, str]) -> str:
+    """Return values of strokes as a place is read: `S1 = 0.1000 m, phi = 25.00 deg`; of several, the ranges."""
+    return ", ".join(f"{name} = {place_text(value, units[name])}" for name, value in strokes.items())
 
 
 def stroke_text(value: float, unit: str, digits: int = 9) -> str:

@@ -15,15 +15,13 @@ from typing import Any, final
 import numpy as np
 
 from ..errors import DefinitionError
-from ..numeric.cells import all_known, corners_all, extremes_of_cells
-from ..numeric.descent import descended, grid_axes
+from ..numeric.descent import all_known, corners_all, descended, extremes_of_cells, grid_axes
 from ..numeric.line import Index
 from ..numeric.linear import solved_systems
 from ..plan import Mask, Plan
 from ..program import FloatArray
-from .places import MET, SCATTERED, Places, StrokeRanges, held_strokes, traced_target
+from .places import MET, SCATTERED, Places, StrokeRanges, Target, held_strokes, traced_target
 from .strokes import TURN
-from .target import Target
 
 MOST_SPARE = 2
 SIDE = {0: {1: 129, 2: 33, 3: 13}, 1: {1: 65, 2: 17, 3: 9}, 2: {1: 33, 2: 13, 3: 7}}

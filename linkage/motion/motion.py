@@ -9,39 +9,23 @@ from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Self, TypeVar, cast
 import numpy as np
 
 from ..assembly import ambiguous_angle
-from ..errors import DefinitionError, SingularError, SingularWarning, cited, one_word, unwarned, warn
+from ..errors import DefinitionError, SingularError, SingularWarning, cited, one_word, unknown, unwarned, warn
 from ..numeric import differences
-from ..plan import ArrayReading, Mask, Plan, failures, negative, require_kinds
+from ..plan import ArrayReading, Mask, Part, Plan, failures, negative, require_kinds
 from ..program import FloatArray, Kernel
-from ..quantities import Angle, Distance, Member, Quantity, Reference, as_mapping, needs
+from ..quantities import FRAME_AXES, Angle, Axes, Coordinate, Distance, Member, Number, Quantity, Reference, as_mapping, needs, quantity
 from ..shown import Shown
 from ..steps import Arrow, Point
-from ..vectors import Vec
+from ..vectors import Numbers, Vec
 from . import conditions, stroke_search
 from .conditions import Conditioning
-from .grid import Grid, JoinedTo, Joining, angles_of, joined_in_order, not_joined, to_rounding
-from .interruptions import Interruption
+from .evaluation import BulkProgram, Evaluation, examined, near_singular, other_law_error
+from .grid import Grid, JoinedTo, Joining, MotionLike, joined_in_order, not_joined, to_rounding
 from .limits import Limits, no_joint, span_text, stroke_unit, where_words
 from .over import Over, over_of
-from .part_motion import part_at_poses
 from .poles import body_points, body_rates, pole_of, whole_body
-from .requests import (
-    Request,
-    RequestLike,
-    Value,
-    bound,
-    dimensions_of,
-    examined,
-    natural_size,
-    near_singular,
-    other_law_error,
-    places_of,
-    requested_of,
-    slope,
-    slopes_of,
-    stroke_of,
-    watched,
-)
+from .requests import Request, RequestLike, Value, bound, dimensions_of, natural_size, places_of, slope, stroke_of, switches_of
+from .stroke_search import Interruption
 from .strokes import checked_name, checked_rate, method_of, order_of, rates_of
 
 Made = TypeVar("Made")
@@ -91,8 +75,7 @@ class Motion(Shown):
         if self._is_near_singular or plan.may_overflow or has_gaps:  # a place of a path that is not reached has no strokes
             self._settle_unreached()
         if self._is_near_singular:  # refuse or mask the poses of which rounding leaves nothing, as where two points come together
-            words, what = f"The places of {plan.title}", places_of(plan.moving)
-            lost = self._refused_near(what, words, lambda found, mask: conditions.lost_places(found, mask, self.strokes))
+            lost = self._refused_near(places_of(plan.moving), f"The places of {plan.title}", are_places=True)
             if lost.any():
                 self._places = np.where(lost, np.nan, self._places)
                 self.reached &= ~lost
@@ -190,7 +173,12 @@ class Motion(Shown):
         Places and ratios are those of the part alone, thrusts, pressures and joint forces those of the whole; its `columns` and `rules`
         take it. Strokes and dimensions have the values that the whole gives them. DefinitionError for a dimension that follows a stroke.
         """
-        part, designs, strokes = part_at_poses(self, name)
+        part = self.plan.members.get(name)
+        if not isinstance(part, Part):
+            raise unknown("Part", name, self.plan.of_kind(Part), where=self.plan.title)
+        axes = part.axes(self.plan.members)
+        strokes = {each: np.array(np.broadcast_to(self[f"{name}.{each}"], self.shape)) for each in part.plan.strokes}
+        designs = {each: steady_dimension(self, part, each, axes) for each in part.plan.table.entries}
         motion = Motion(part.plan, designs, strokes, "nan", per_design=bool(self._design_shape))
         motion._held = (self, name)
         return motion
@@ -345,8 +333,8 @@ class Motion(Shown):
         if not isinstance(velocities, Mapping) or not velocities:
             raise DefinitionError(f'{title}: {cited(velocities)}: rates by name are expected, such as {{"px": 0.2, "py": 0.0}}.')
         names, slopes, wanted, sizes = list[str](), list[FloatArray](), list[FloatArray](), list[FloatArray]()
-        for quantity, rate in dict[Any, object](velocities).items():
-            what = bound(plan, quantity)
+        for target, rate in dict[Any, object](velocities).items():
+            what = bound(plan, target)
             parts: Sequence[object] = [rate]
             if what.rows > 1:
                 if not isinstance(rate, (tuple, list, np.ndarray)) or len(rate) != what.rows:
@@ -355,7 +343,7 @@ class Motion(Shown):
                 parts = [*rate]
             names += [str(what)] * what.rows
             wanted += [np.broadcast_to(checked_rate(f"rates_for: {what}", part, self.shape, plan.title), self.shape) for part in parts]
-            along = [np.broadcast_to(self.ratio(quantity, wrt=stroke), (what.rows, *self.shape)) for stroke in self.strokes]
+            along = [np.broadcast_to(self.ratio(target, wrt=stroke), (what.rows, *self.shape)) for stroke in self.strokes]
             slopes += list(np.stack(along, axis=1))
             measured = what.member if isinstance(what, Value) else what.measured(plan)
             sizes += [np.broadcast_to(self._natural_size(measured), self.shape)] * what.rows
@@ -419,43 +407,42 @@ class Motion(Shown):
         """
         plan = self.plan
         what, dimensions = bound(plan, of), dimensions_of(plan, wrt)
-        names, title = tuple(name for name, _ in dimensions), f"The gradient of {what.sentence}"
-        refused = self._refused(slope(what, names), title)
-        good = self.reached & ~refused
-        slopes = plan.made(("gradient", what.key, names), lambda plan: slopes_of(plan, what, names))
-        ends = np.cumsum([what.rows * len(names), slopes.assumed, slopes.gaps])
-        values, assumed, gaps, switches = np.split(self._grid.full(slopes.kernel(self._grid.flat).values), ends)
-        if slopes.gaps:
-            refused = refused | ~np.all(gaps > 0.0, axis=0)
-            good &= ~refused
-        self._check_laws(what, good, assumed, zip(slopes.touched, switches, strict=True))
-        continued = slopes.angles.continued(self._grid, self.reached)
-        signs = np.tile([float(sign) for _, sign in dimensions], what.rows).reshape(-1, *(1,) * len(self.shape))
-        found = values if continued is None else continued
-        if not (good.all() and np.all(signs > 0.0) and found.flags.writeable):
-            found = np.where(good, found * signs, np.nan)
-        rows = self._finite(found, refused, title)
+        names, signs = tuple(name for name, _ in dimensions), np.tile([float(sign) for _, sign in dimensions], what.rows)
+        kernel, touched = plan.made(("switches", what.key, names), lambda plan: switches_of(plan, what, names))
+        switches = self._grid.full(kernel(self._grid.flat).values) if touched else ()
+        found = self._looked_at(slope(what, names), f"The gradient of {what.sentence}", what, zip(touched, switches, strict=True))
+        rows = found.reshape(-1, *self.shape) * signs.reshape(-1, *(1,) * len(self.shape))
         return np.stack(np.split(rows, what.rows), axis=1) if what.rows > 1 else rows
 
     def _requested(self, request: Request) -> FloatArray:
         """Return a request's values over all poses [SI], by its program; see `Request.of`."""
         what = bound(self.plan, request)
-        program = self.plan.made(("requested", what.key), lambda twin: requested_of(twin, what))
-        result = program.kernel(self._grid.flat, size=self._grid.size)
-        values = self._grid.full(result.values)
-        continued = None if program.angles is None else program.angles.continued(self._grid, self.reached)
-        values = values if continued is None else continued
-        refused = np.zeros(self.shape, bool)
-        if not np.all(result.guards > 0.0):
-            checks = self._grid.full(program.checks(self._grid.flat, size=self._grid.size).values)
-            refused = self._refused_near(what, what.sentence, lambda found, mask: self._singular(found, mask, what.sentence))
-            refused = refused | ~np.all(checks[program.assumed :] > 0.0, axis=0)
-            self._check_laws(what, self.reached & ~refused, checks[: program.assumed], ())
-        good = self.reached & ~refused
-        if self.unreachable == "raise" and not np.isfinite(values[..., good]).all():
+        return self._looked_at(what, what.sentence, what)
+
+    def _looked_at(self, looked: Request, words: str, what: Request, switches: Iterable[tuple[str, FloatArray]] = ()) -> FloatArray:
+        """Return the values of a request that is made of `what`, NaN where it is refused; `words` begin a sentence about it.
+
+        Raise the error of poses where a law is another than the one traced, or changes to another with a dimension: where one of its
+        `switches`, numbers with words for them, is above zero.
+        """
+        (values,), look = Evaluation(self._grid, (looked,)).run(among=self.reached.reshape(self._grid.size))
+        excused, broken = np.zeros(self.shape, bool), False
+        if look is not None:
+            refused, doubtful, empty = (mask.reshape(self.shape) for mask in (look.refused, look.doubtful, look.empty))
+            self._report(words, refused, doubtful, lambda mask: self._near(looked, mask))
+            excused, broken = refused | empty, bool((look.broken & ~look.empty[0]).any())
+        good = self.reached & ~excused
+        if broken:
             what.refuse(self)
-        found = self._finite(np.where(good, values, np.nan), refused, what.sentence)
-        return found if what.rows > 1 else found[0]
+            raise other_law_error(self.plan, what)
+        for owner, number in switches:
+            if np.any(good & (number > 0.0)):
+                why = f"{what.sentence} has no derivative by {owner} that it equals here, and is another law next to it"
+                remedy = "Leave that dimension out of wrt=, or set it beside that number."
+                raise DefinitionError(f"{self.plan.title}: {why}. {remedy}")
+        if self.unreachable == "raise" and not np.isfinite(values[..., good]).all():
+            looked.refuse(self)
+        return self._finite(np.where(good, values, np.nan), excused, words)
 
     # -- how far it goes, and other strokes --------------------------------------------------------------
 
@@ -561,19 +548,16 @@ class Motion(Shown):
             return np.zeros((2, *self.shape))
         key = (self.plan.moving, along) if pass_of_all else what.key
         if key not in self._values:
-            if pass_of_all:
-                kernel = self.plan.kernel(self.plan.moving, along)
-            else:
-                kernel = self.plan.made(("watched", what.key), lambda twin: Kernel(what.nodes(twin), watched(twin, what)))
+            program = None if pass_of_all else BulkProgram.of(self.plan, (what,))
+            kernel = self.plan.kernel(self.plan.moving, along) if program is None else program.kernel
             found, is_clear = self._grid.run(kernel)
-            if not pass_of_all:
+            if program is not None:
                 self._watched[what.key] = not is_clear
             if self._is_near_singular and not along:
                 at_end = self.reached & ~np.isfinite(found).all(axis=0)
                 found = to_rounding(found, at_end, kernel.plan.outputs, self._grid.inputs_at(at_end)) if at_end.any() else found
-            if isinstance(member, Quantity):  # angles in it are continued along the stroke
-                angles = self.plan.made(("angles", what.key), lambda plan: angles_of(plan, what.nodes(plan)))
-                continued = angles.continued(self._grid, self.reached)
+            if program is not None and program.angles:  # angles in it are continued along the stroke
+                continued = program.angles[0].continued(self._grid, self.reached)
                 found = found if continued is None else continued
             self._values[key] = found
             self._values[key].flags.writeable = False
@@ -626,17 +610,6 @@ class Motion(Shown):
             raise SingularError(text, mask=missing, motion=self)
         return np.where(good, values, np.nan)
 
-    def _check_laws(self, what: Request, good: Mask, assumed: FloatArray, switches: Iterable[tuple[str, FloatArray]]) -> None:
-        """Raise the error of poses where a law is another than the one traced, or changes to another with a dimension."""
-        if np.any(good & ~np.all(assumed > 0.0, axis=0)):
-            what.refuse(self)
-            raise other_law_error(self.plan, what)
-        for words, values in switches:
-            if np.any(good & (values > 0.0)):
-                why = f"{what.sentence} has no derivative by {words} that it equals here, and is another law next to it"
-                remedy = "Leave that dimension out of wrt=, or set it beside that number."
-                raise DefinitionError(f"{self.plan.title}: {why}. {remedy}")
-
     # -- near singular poses -----------------------------------------------------------------------------
 
     def _refused(self, what: Request, words: str) -> Mask:
@@ -647,28 +620,32 @@ class Motion(Shown):
             near = self._watched[what.key]
         if not near:
             return np.zeros(self.shape, bool)
-        return self._refused_near(what, words, lambda found, mask: self._singular(found, mask, words))
+        return self._refused_near(what, words)
 
-    def _singular(self, found: Conditioning, mask: Mask, words: str) -> SingularError:
-        """Return the error for a result asked at singular poses."""
-        return conditions.singular_error(found, mask, self.strokes, words, self)
-
-    def _refused_near(self, what: Request, words: str, error: Callable[[Conditioning, Mask], SingularError]) -> Mask:
-        """Return the mask of poses where a result is refused, all that are near singular ones looked at; raise or warn as asked.
-
-        `error` makes what is raised of how the refused poses are judged and of their mask.
-        """
+    def _refused_near(self, what: Request, words: str, are_places: bool = False) -> Mask:
+        """Return the mask of poses where a result is refused, all that are near singular ones looked at; raise or warn as asked."""
         refused, doubtful = np.zeros(self.shape, bool), np.zeros(self.shape, bool)
         near = near_singular(self._grid, what) & self.reached
-        if not near.any():
-            return refused
-        (found,) = examined(self.plan, (what,), self._grid.inputs_at(near), self._grid.read_at(near), [0])
-        refused[near], doubtful[near] = found.refused, found.doubtful
-        if refused.any() and self.unreachable == "raise":
-            raise error(found.at(found.refused), refused)
-        if doubtful.any():
-            conditions.warn_near(found.at(found.doubtful), f"{words} {where_words(self.plan, doubtful, self.strokes)}")
+        if near.any():
+            found = self._near(what, near)
+            refused[near], doubtful[near] = found.refused, found.doubtful
+            self._report(words, refused, doubtful, lambda mask: found.at(mask[near]), are_places)
         return refused
+
+    def _near(self, what: Request, mask: Mask) -> Conditioning:
+        """Return how far some poses are from singular ones for a result."""
+        return examined(self.plan, (what,), self._grid.inputs_at(mask), self._grid.read_at(mask), [0])[0]
+
+    def _report(
+        self, words: str, refused: Mask, doubtful: Mask, near: Callable[[Mask], Conditioning], are_places: bool = False
+    ) -> None:
+        """Raise or warn, as asked, where a result is refused or doubtful; `near` tells how near such poses are to singular ones."""
+        if refused.any() and self.unreachable == "raise":
+            if are_places:
+                raise conditions.lost_places(near(refused), refused, self.strokes)
+            raise conditions.singular_error(near(refused), refused, self.strokes, words, self)
+        if doubtful.any():
+            conditions.warn_near(near(doubtful), f"{words} {where_words(self.plan, doubtful, self.strokes)}")
 
     def _once(self, key: Hashable, make: Callable[[], Made]) -> Made:
         """Return what several ask of these poses, such as all joint forces in one situation, made once and kept with the motion."""
@@ -739,3 +716,31 @@ def require_motion(given: object) -> Motion:
     if not isinstance(given, (Motion, OnePose)):
         raise DefinitionError(f"{given!r:.60} is no motion; give machine.sweep(...) or machine.at(...).")
     return cast(Motion, given)
+
+
+# What a part of a machine has in a motion of the whole: its design and its strokes.
+
+SAME = 1e-9
+"""A dimension of a part changes over the poses where it does by more than this, over its size or 1."""
+
+
+def steady_dimension(whole: MotionLike, part: Part, name: str, axes: Axes | None) -> Numbers:
+    """Return a design variable of a part as the whole has it [SI], one value a design; DefinitionError for one that changes."""
+    dotted, table = f"{part.name}.{name}", whole.plan.table
+    point, _, axis = name.rpartition(".")
+    fused, given = whole.plan.aliases.get(f"{part.name}.{point}", ""), part.given.get(name, Number(part.plan.defaults[name]))
+    if dotted in table.spellings:
+        owner, sign = table.spellings[dotted]
+        array = np.asarray(sign * whole.inputs[owner], float)
+    elif fused and axis in ("x", "y"):
+        array = whole.value(Coordinate(fused, axis, axes or FRAME_AXES))
+    else:
+        array = np.asarray(part.plan.defaults[name] if given is None else whole.value(quantity(given)), float)
+    if array.size == 1:
+        return float(array.reshape(()))
+    rows = np.broadcast_to(array, whole.shape).reshape(*whole._design_shape, -1)
+    first = rows[..., 0]
+    if np.any(np.abs(rows - first[..., None]) > SAME * np.maximum(1.0, np.abs(first[..., None]))):
+        what = f"{whole.plan.title}.{part.name}: {name} changes over the poses, so that the part alone has no such design"
+        raise DefinitionError(f'{what}; ask the whole for its points, such as motion["{part.name}.{next(iter(part.plan.moving), "")}"].')
+    return first if whole._design_shape else float(first)

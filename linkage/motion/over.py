@@ -18,7 +18,7 @@ from ..program import FloatArray
 from ..quantities import Member, PoseCondition, Quantity, Stroke, is_number, keywords, name_of, needs, numbers_in, quantity, real
 from ..units import Amount, amount_or_float
 from .grid import MotionLike
-from .limits import place_text, span_text, stroke_unit
+from .limits import places_text, span_text, stroke_unit
 from .strokes import check_magnitude
 
 OPTIONS = ("only", "cases", "lost")
@@ -197,9 +197,7 @@ class Over(Member):
         ends = [f"{name} = {span_text(values, stroke_unit(plan, name))}" for name, values in motion.strokes.items()]
         if self.shape == "path" and len(motion.strokes) > 1:
             units = {name: stroke_unit(plan, name) for name in motion.strokes}
-            start, end = (
-                ", ".join(f"{name} = {place_text(float(value[k]), units[name])}" for name, value in motion.strokes.items()) for k in (0, -1)
-            )
+            start, end = (places_text({name: value[k] for name, value in motion.strokes.items()}, units) for k in (0, -1))
             text = said("the path from {start} to {end}", start=start, end=end)
         elif self.shape == "poses":
             text = said("{count} poses, {spans}", count=motion.reached.size, spans=", ".join(ends))
@@ -251,7 +249,7 @@ class Run:
         passed = np.array(shares, float)
         for mark in self.marks[1:-1]:
             passed[np.argmin(np.abs(passed - mark))] = mark
-        return {**self.held, **{name: np.interp(passed, self.marks, way) for name, way in self.ways.items()}}
+        return self.at(passed)[0]
 
     @property
     def is_path(self) -> bool:

@@ -6,34 +6,35 @@ values at its corners and how these bend. Where two branches come close to each 
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import ItemsView, Iterable, Mapping, Sequence, ValuesView
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import combinations, product
-from typing import Any, TypeAlias, final
+from typing import Any, NoReturn, TypeAlias, final
 
 import numpy as np
 
-from ..checks import require, require_one_design, require_type
-from ..errors import DefinitionError, unwarned
-from ..frozen import FrozenDict
+from ..checks import require, require_number, require_one_design, require_type
+from ..errors import DefinitionError, SingularWarning, cited, unwarned, warn
+from ..frozen import FrozenDict, read_only, refuses_changes
 from ..language import said
-from ..numeric.cells import all_known, along, corners_all, extremes_of_cells
-from ..numeric.descent import descended, grid_axes, is_one_solution, without_repeats
+from ..numeric.box import widened
+from ..numeric.descent import all_known, along, corners_all, descended, extremes_of_cells, grid_axes, is_one_solution, without_repeats
 from ..numeric.line import Index, last_holding
 from ..plan import Mask, Plan, require_kind
 from ..program import QUICKEST, FloatArray, Kernel, RunOptions
 from ..program.elimination import is_zero
-from ..units import show
+from ..quantities import Quantity, is_number, numbers_in
+from ..units import amount_or_float, deg, display_unit, mm, require_measure, show, unit_or_none
+from .conditions import WARN
 from .grid import Grid
-from .interruptions import ON_ARRAYS
 from .kinds import measure_of
 from .limits import stroke_display_unit
 from .measures import traced, words_of
 from .motion import Motion
-from .requests import Request
+from .requests import Request, RequestLike
+from .stroke_search import ON_ARRAYS
 from .strokes import TURN, check_magnitude, checked_name
-from .target import Target, is_one, targets_given
 
 StrokeRanges: TypeAlias = Mapping[str, tuple[float, float]]
 """The ends of strokes, by name [m or rad]."""
@@ -203,19 +204,19 @@ class Places:
 
     # -- what is seen ------------------------------------------------------------------------------------
 
+    def every(self, strokes: FloatArray) -> dict[str, FloatArray]:
+        """Return all strokes by name [m or rad], shape (n,), from those that are looked for (k, n)."""
+        found = dict(zip(self.free, strokes, strict=True)) | {name: np.full(strokes.shape[1], value) for name, value in self.held.items()}
+        return {name: found[name] for name in self.plan.strokes}
+
     def inputs(self, strokes: FloatArray) -> Mapping[str, Any]:
         """Return the inputs of the program at strokes (k, n) [m or rad]."""
-        held = {name: np.full(strokes.shape[1], value) for name, value in self.held.items()}
-        every = dict(zip(self.free, strokes, strict=True)) | held
-        if not self.plan.solved:
-            return {**self.designs, **every}
-        return Grid(self.plan, self.designs, {name: every[name] for name in self.plan.strokes}).flat
+        every = self.every(strokes)
+        return Grid(self.plan, self.designs, every).flat if self.plan.solved else {**self.designs, **every}
 
     def rows(self, unit: FloatArray) -> dict[str, FloatArray]:
         """Return all strokes by name [m or rad], shape (n,), at unit coordinates (n, k)."""
-        every = dict(zip(self.free, (self.low + unit * self.span).T, strict=True))
-        every |= {name: np.full(len(unit), value) for name, value in self.held.items()}
-        return {name: every[name] for name in self.plan.strokes}
+        return self.every((self.low + unit * self.span).T)
 
     def kernel_values(self, kernel: Kernel, unit: FloatArray) -> FloatArray:
         """Return what a kernel gives at unit coordinates (n, k), shape (outputs, n); NaN out of reach."""
@@ -602,16 +603,222 @@ class BranchSearch:
         It starts where least is missed on the grid: from the best, and those that no neighbour improves on.
         """
         size = np.sum((self.misses_seen / self.places.within.reshape(-1, *[1] * len(self.axes))) ** 2, axis=0)
-        low = size = np.where(np.isfinite(size), size, np.inf)
-        for axis in range(size.ndim):
-            moved = np.moveaxis(low, axis, 0)
-            wide = moved.copy()
-            wide[1:] = np.minimum(wide[1:], moved[:-1])
-            wide[:-1] = np.minimum(wide[:-1], moved[1:])
-            low = np.moveaxis(wide, 0, axis)
-        place = np.flatnonzero((size.ravel() <= low.ravel()) & np.isfinite(size.ravel()))
+        size = np.where(np.isfinite(size), size, np.inf)
+        place = np.flatnonzero((size <= -widened(-size)) & np.isfinite(size))
         starts = self.grid[place[np.argsort(size.ravel()[place], kind="stable")][:16]]
         found = self.descend(starts, MORE_STEPS, self.places.within)
         found = found.where(self.places.reached(found.unit)) if len(starts) else found
         size = np.sum((found.off / self.places.within) ** 2, axis=1)
         return found.where(np.argsort(size, kind="stable")[:1])
+
+
+
+@final
+class Target:
+    """A value [SI] that a quantity is to have at a pose: `Target(y("F"), 0.45, S=0.05)`, `Target("tilt", 0.0, unit="deg", S=0.05)`.
+
+    The quantity is an output, a quantity or a request. `within` says how far off it may be [SI], by default 1 mm, 0.1 deg, or a
+    thousandth: where nothing gives all targets, misses are weighed by it. `unit` is that of the words. Where strokes are looked for,
+    in `strokes_for` and `follow`, it says none; there angles count modulo a turn. In `follow` the value may be an array (places,).
+    """
+
+    def __init__(
+        self, quantity: RequestLike, value: float | FloatArray, *, within: float | None = None, unit: str = "", **strokes: float
+    ) -> None:
+        what = f"Target({quantity_cited(quantity)}, {cited(value)})"
+        if within is not None:
+            require_number(f"{what}: within", within, "how far off it may be [SI], a number above zero, is expected", above=0.0)
+        if not all(map(is_one, strokes.values())):
+            raise DefinitionError(f"{what}: one number is expected for each stroke, in SI.")
+        known: float | FloatArray
+        if is_one(value):
+            known = float(value)
+        else:  # the values of a path, shape (places,)
+            known = read_only(numbers_in(value))
+            if known.ndim != 1 or not known.size or not np.isfinite(known).all():
+                said = "one number is expected for the value, in SI. Along a path it is an array, a number a place"
+                raise DefinitionError(f"{what}: {said}.")
+        pose = FrozenDict({name: amount_or_float(each) for name, each in strokes.items()})
+        parts = {"quantity": quantity, "value": known, "within": within, "strokes": pose}
+        vars(self).update(parts, unit=unit_or_none(unit, where="Target(unit=...)"), given=value)
+
+    quantity: RequestLike
+    value: float | FloatArray
+    within: float | None
+    unit: str
+    strokes: Mapping[str, float]
+    given: object
+    """Its value as it was given, with the unit where that was said."""
+
+    def __setattr__(self, name: str, value: object) -> NoReturn:
+        raise DefinitionError(f"Target.{name} = ...: it does not change; make a new one, Target(...).")
+
+    def __repr__(self) -> str:
+        value = cited(self.value.tolist()) if isinstance(self.value, np.ndarray) else repr(self.value)
+        return f"Target({', '.join([quantity_cited(self.quantity), value, *(f'{k}={v!r}' for k, v in self.strokes.items())])})"
+
+    @property
+    def is_path(self) -> bool:
+        """Whether its value is an array, one value a place along a path."""
+        return isinstance(self.value, np.ndarray)
+
+    def check(self, plan: Plan) -> None:
+        """Raise DefinitionError for a value, `within` or a stroke in a unit of another kind than what they are of."""
+        kind = measure_of(plan, self.quantity)
+        for what, value in (("", self.given), (": within", self.within)):
+            if kind:
+                require_measure(value, kind, f"{plan.title}: Target({quantity_cited(self.quantity)}, ...){what}")
+        for name, value in self.strokes.items():
+            require_kind(plan, name, value, f"{plan.title}: Target({quantity_cited(self.quantity)}, ...): {name}")
+
+    def miss(self, plan: Plan, value: float) -> float:
+        """Return how far off it may be where it is to have a value [SI]: `within`, or what is usual of what it measures."""
+        kind = measure_of(plan, self.quantity)
+        return self.within or {"length": 1.0 * mm, "angle": 0.1 * deg}.get(kind, 1e-3 * abs(value) or 1e-3)
+
+    def shown_in(self, plan: Plan) -> str:
+        """Return the unit that it is shown in."""
+        return self.unit or display_unit(measure_of(plan, self.quantity), "mm")
+
+
+def quantity_cited(quantity: object) -> str:
+    """Return what a target is of as it is written in a message: `'tilt'`, `x(M)`."""
+    return str(quantity) if isinstance(quantity, (Quantity, Request)) else cited(quantity)
+
+
+def targets_given(given: object, title: str, example: str) -> Sequence[Target]:
+    """Return what is a list of targets, one at least; DefinitionError for anything else."""
+    if not isinstance(given, (list, tuple)) or not given or not all(isinstance(each, Target) for each in given):
+        raise DefinitionError(f"{title}: {cited(given)}: a list of targets is expected, {example}.")
+    return given
+
+
+def is_one(value: object) -> bool:
+    """Return whether a value is one finite number."""
+    return is_number(value.item() if isinstance(value, np.ndarray) and value.ndim == 0 and not np.ma.is_masked(value) else value)
+
+
+# What `strokes_for` returns: the strokes of all poses that give some targets, or of the nearest one, and a sentence.
+
+TOLD = 4
+"""Branches that are told in a sentence."""
+
+
+@final
+class StrokeRows(np.ndarray[Any, np.dtype[np.float64]]):
+    """Strokes [m or rad], one row a branch, one column a stroke: `rows[0]`, `rows["boom"]`, `rows[0]["boom"]`, `machine.at(**rows[0])`.
+
+    The columns stand in the order of the machine's strokes; `keys()` are their names.
+    """
+
+    names: tuple[str, ...]
+
+    def __new__(cls, rows: object, names: Iterable[str]) -> StrokeRows:
+        found = np.array(rows, float).view(cls)
+        found.names = tuple(names)
+        found.flags.writeable = False
+        return found
+
+    def __array_finalize__(self, other: object) -> None:
+        self.names = getattr(other, "names", ())
+
+    def __getitem__(self, key: Any) -> Any:
+        if isinstance(key, str):
+            if key not in self.names:
+                raise DefinitionError(f"The stroke {cited(key)} is unknown. Known: {', '.join(self.names)}.")
+            place = self.names.index(key)
+            return np.asarray(self)[:, place] if self.ndim > 1 else np.asarray(self)[place]
+        found = np.asarray(self)[key]
+        if self.ndim < 2 or not isinstance(key, (int, np.integer, slice)):
+            return found
+        rows = found.view(type(self))
+        rows.names = self.names
+        return rows
+
+    def keys(self) -> tuple[str, ...]:
+        """Return the names of the strokes."""
+        return self.names
+
+    def items(self) -> ItemsView[str, FloatArray]:
+        """Return the strokes by name, arrays (branches,), of one row numbers."""
+        return {name: self[name] for name in self.names}.items()
+
+    def values(self) -> ValuesView[FloatArray]:
+        """Return the same without the names."""
+        return dict(self.items()).values()
+
+    def __contains__(self, value: object) -> bool:
+        return value in self.names if isinstance(value, str) else value in np.asarray(self)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return StrokeRows, (np.array(self), self.names)
+
+
+@final
+@refuses_changes
+@dataclass(frozen=True, eq=False)
+class Positions:
+    """The strokes that give some targets: all branches within the ends of the strokes, ascending by the first stroke.
+
+    `strokes` [m or rad] has one row for each branch, with the strokes that are held. `condition` is the condition number of the targets by
+    the strokes in their natural sizes, infinite at a dead point. `misses` is by how much each target is exceeded [SI]. `met` is whether
+    there is a branch. Without one, `nearest` is the row of the pose within the ends at which least is missing, None if nothing can be
+    assembled. `misses` then has its one row, and `sentence` says which stroke would be past which end, by how much.
+    """
+
+    strokes: StrokeRows
+    condition: FloatArray
+    met: bool
+    misses: FloatArray
+    nearest: StrokeRows | None
+    sentence: str
+
+    def __len__(self) -> int:
+        return len(self.strokes)
+
+    def __str__(self) -> str:
+        return self.sentence
+
+
+def positions_for(plan: Plan, designs: Mapping[str, object], targets: object, hold: object) -> Positions:
+    """Return the strokes that give some targets; see `strokes_for`."""
+    places = Places.of(plan, designs, targets, hold, where="strokes_for")
+    for each in places.targets:
+        if each.is_path:
+            raise DefinitionError(f"{plan.title}: strokes_for: {each!r}: one number is expected; a path is followed, machine.follow(...).")
+    wanted = np.array([float(each.value) for each in places.targets])
+    search = BranchSearch(places, wanted)
+    found = search.branches()
+    condition, rows = places.condition(found.unit), rows_of_branches(places, found)
+    if len(found.unit):
+        check_independent(places, condition)
+        return Positions(rows, condition, True, found.off, None, met_words(places, found, condition, wanted))
+    near = search.nearest()
+    words = unmet_words(places, wanted, near)
+    nearest_row = rows_of_branches(places, near)[0] if len(near.unit) else None
+    return Positions(rows, condition, False, near.off, nearest_row, words[0].upper() + words[1:])
+
+
+def rows_of_branches(places: Places, found: Found) -> StrokeRows:
+    """Return all strokes of some branches, those that are held included."""
+    return StrokeRows(np.stack([*places.rows(found.unit).values()], axis=1), places.plan.strokes)
+
+
+def met_words(places: Places, found: Found, condition: FloatArray, wanted: FloatArray) -> str:
+    """Return the strokes that give what is wanted, in words; warn of those next to a dead point."""
+    strokes = [places.stroke_words(each) for each in places.low + found.unit * places.span]
+    parts = {"wanted": places.shown(wanted), "strokes": said(" or with ").join(strokes[:TOLD])}
+    text = said("{wanted}: with {strokes}.", **parts)
+    if len(strokes) > TOLD:
+        text = said("{wanted}: on {count} branches, with {strokes} and so on.", count=len(strokes), **parts)
+    worst = int(np.argmax(condition))
+    if condition[worst] > WARN:
+        size = "" if np.isfinite(condition[worst]) else said("infinite")
+        near = said(
+            "At {strokes} it is at the border of what the strokes reach, next to a dead point of the drive (condition {condition}): "
+            "the strokes are known only roughly there.",
+            strokes=strokes[worst], condition=size or f"{condition[worst]:.1e}",
+        )  # fmt: skip
+        text += f" {near}"
+        warn(SingularWarning(f"{places.plan.title}: strokes_for: {near}", estimate=float(np.finfo(float).eps * condition[worst])))
+    return text

@@ -27,7 +27,7 @@ from .judge import Judge, Question
 from .judging import HasVerdicts
 from .measures import Condition, least
 from .motion import Motion
-from .requests import NodeRequest
+from .requests import NodeRequest, Trait
 
 Pair = tuple[str, str]
 
@@ -121,8 +121,8 @@ def clearance() -> NodeRequest:
         return plan.reaches(*(name for shape in shapes for name in shape.parts_behind), width_of(plan))
 
     return NodeRequest(
-        text="clearance()", sentence="the least gap of what lies in one plane", key=("clearance",), measures="length", may_fail=True,
-        nodes_of=nodes, names_of=behind,
+        text="clearance()", sentence="the least gap of what lies in one plane", key=("clearance",), measures="length",
+        traits=Trait.MAY_FAIL, nodes_of=nodes, names_of=behind,
         refused_by=lambda motion: check_forms(motion, {name for pair in pairs_of(motion.plan) for name in pair}),
     )  # fmt: skip
 

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import final
+from typing import TypeAlias
 
 import numpy as np
 
@@ -21,20 +20,8 @@ STILL = 1e-12
 OfPoint = Callable[[str], FloatArray]
 
 
-@final
-@dataclass(frozen=True, eq=False)
-class BodyRates:
-    """How a body moves: a point of it and its velocity, shape (2, ...), its angular velocity and its length, shape (...)."""
-
-    P: FloatArray
-    p: FloatArray
-    spin: FloatArray
-    length: FloatArray
-
-    def at(self, X: FloatArray) -> FloatArray:
-        """Return the velocity of the body's point at X, shape (2, ...)."""
-        arm = X - self.P
-        return np.asarray(self.p + self.spin * np.stack([-arm[1], arm[0]]))
+BodyRates: TypeAlias = tuple[FloatArray, FloatArray, FloatArray, FloatArray]
+"""How a body moves: a point of it and its velocity, shape (2, ...), its angular velocity and its length, shape (...)."""
 
 
 def body_points(plan: Plan, body: object) -> tuple[str, ...]:
@@ -66,14 +53,14 @@ def whole_body(plan: Plan, body: object) -> tuple[str, ...]:
 def body_rates(points: tuple[str, ...], place: OfPoint, rate: OfPoint, shape: tuple[int, ...]) -> BodyRates:
     """Return how a body moves, by its two points that are furthest apart; the frame, without points, stands still."""
     if not points:
-        return BodyRates(np.zeros((2, *shape)), np.zeros((2, *shape)), np.zeros(shape), np.zeros(shape))
+        return np.zeros((2, *shape)), np.zeros((2, *shape)), np.zeros(shape), np.zeros(shape)
     pairs = [(P, Q) for place_of, P in enumerate(points) for Q in points[place_of + 1 :]]
     P, Q = max(pairs, key=lambda pair: float(np.nanmax(np.hypot(*(place(pair[1]) - place(pair[0]))), initial=0.0)))
     arm, turning = place(Q) - place(P), rate(Q) - rate(P)
     square = arm[0] ** 2 + arm[1] ** 2
     if not np.all((square > 0.0) | np.isnan(square)):
         raise DefinitionError(f"the points {P} and {Q} of a body coincide and do not tell how it turns; name two others.")
-    return BodyRates(place(P), rate(P), (arm[0] * turning[1] - arm[1] * turning[0]) / square, np.sqrt(square))
+    return place(P), rate(P), (arm[0] * turning[1] - arm[1] * turning[0]) / square, np.sqrt(square)
 
 
 @np.errstate(all="ignore")
@@ -83,11 +70,11 @@ def pole_of(body: BodyRates, other: BodyRates, fastest: FloatArray) -> FloatArra
     Infinite where the one only translates against the other, NaN where it stands still against it: each of its points is a pole then.
     Source: Artobolevsky, Theory of Mechanisms and Machines, instant centres of velocities.
     """
-    P = body.P if np.any(body.length) else other.P
-    speed = body.at(P) - other.at(P)
-    spin, length = body.spin - other.spin, np.maximum(body.length, other.length)
+    X = body[0] if np.any(body[3]) else other[0]
+    speed, against = (p + spin * np.stack([P[1] - X[1], X[0] - P[0]]) for P, p, spin, _ in (body, other))
+    speed, spin, length = speed - against, body[2] - other[2], np.maximum(body[3], other[3])
     away = np.stack([-speed[1], speed[0]])
-    found = P + away / spin
+    found = X + away / spin
     size = np.hypot(speed[0], speed[1])
     found = np.where(np.abs(spin) * length * ENDLESS <= size, np.inf, found)
     still = np.maximum(size, np.abs(spin) * length) <= STILL * fastest

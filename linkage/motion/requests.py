@@ -7,9 +7,11 @@ where it has no value, and the error that rounding leaves of it. Kernels, functi
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence, Set
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
+from enum import Flag, auto
 from functools import reduce
-from itertools import accumulate, product
+from itertools import product
+from operator import or_
 from types import MappingProxyType
 from typing import Any, TypeAlias, cast, final
 from weakref import ref
@@ -19,14 +21,35 @@ import numpy as np
 from ..errors import DefinitionError, UntracedError, cited
 from ..loads import DIRECTIONS, Acting
 from ..pickling import object_of, picklable
-from ..plan import NEAR, ArrayReading, Mask, Plan
-from ..program import LAST, FloatArray, Kernel, Node, Notes, ancestors, disturbed, gradient
-from ..quantities import TAKEN, Arithmetic, Member, Number, Quantity, label, quantity, spelled
+from ..plan import NEAR, REGULAR, ArrayReading, Mask, Plan
+from ..program import FloatArray, Kernel, Node, Notes, ancestors, gradient
+from ..quantities import TAKEN, Arithmetic, Member, Number, Quantity, Reference, label, name_of, quantity, spelled
 from ..quantities.quantity import PoseCondition
 from ..steps import Arrow, Point
-from .conditions import DOUBTFUL, LEAST, PLACES, ROUGH, Conditioning, PrecisionLeft, Rounding, conditioning, iterated
-from .grid import Angles, Grid, Made, MotionLike, angles_of
+from .conditions import LEAST, PLACES, PrecisionLeft
+from .grid import MotionLike
+from .limits import no_joint
 from .strokes import checked_name, order_of
+
+
+class Trait(Flag):
+    """What holds of a request beside its values."""
+
+    OF_STROKES = auto()
+    """The directions of motion it is judged in are those of a stroke, which has to be named; else its own, as a cylinder's."""
+    OF_LAWS = auto()
+    """It is made of laws over a motion, which take long to trace: their looks share one program."""
+    MAY_BE_UNLIMITED = auto()
+    """Its law may have no bound at some poses, as `unlimited` then tells."""
+    MAY_FAIL = auto()
+    """It may have no value where all points it is built from have a place."""
+    FOLLOWS_ANGLES = auto()
+    """It follows angles, which are continued along the stroke."""
+    STANDS_FOR_OTHERS = auto()
+    """Results that are not nodes go through it, so that what its loops lose counts even where it happens to be exact itself."""
+
+
+NO_TRAIT = Trait(0)
 
 
 class Request(Arithmetic):
@@ -100,9 +123,9 @@ class Request(Arithmetic):
         return ()
 
     @property
-    def of_strokes(self) -> bool:
-        """Whether these directions are those of a stroke, which has to be named; else they are its own, as a cylinder's."""
-        return False
+    def traits(self) -> Trait:
+        """What holds of it beside its values."""
+        return NO_TRAIT
 
     @property
     def mover(self) -> Hashable:
@@ -116,16 +139,6 @@ class Request(Arithmetic):
     def unlimited(self, motion: MotionLike) -> Mask | None:
         """Return the mask of poses at which its law has no bound, such as where the load drives; None where it always has one."""
         return None
-
-    @property
-    def of_laws(self) -> bool:
-        """Whether it is made of laws over a motion, which take long to trace: their looks share one program."""
-        return False
-
-    @property
-    def may_be_unlimited(self) -> bool:
-        """Whether its law may have no bound at some poses, as `unlimited` then tells."""
-        return False
 
     # -- bound to a plan ---------------------------------------------------------------------------------
 
@@ -176,11 +189,6 @@ class Request(Arithmetic):
         """Return the members at whose singular poses it is refused: those it is differentiated through."""
         return self.names(plan) if self.order else set()
 
-    @property
-    def stands_for_others(self) -> bool:
-        """Whether results that are not nodes go through it, so that what its loops lose counts even where it happens to be exact itself."""
-        return False
-
     def gaps(self, plan: Plan) -> tuple[Node, ...]:
         """Return the nodes that are above zero where it has a value: elsewhere it is NaN, which is no error, as a load that is no limit."""
         return ()
@@ -207,16 +215,6 @@ class Request(Arithmetic):
     def error(self, plan: Plan, left: PrecisionLeft) -> FloatArray:
         """Return the relative error to expect, shape (n,), from what rounding leaves of those nodes."""
         return left.relative(self.scale(plan, left))
-
-    @property
-    def may_fail(self) -> bool:
-        """Whether it may have no value where all points it is built from have a place."""
-        return False
-
-    @property
-    def follows_angles(self) -> bool:
-        """Whether it follows angles, which are continued along the stroke."""
-        return False
 
 
 RequestLike: TypeAlias = str | Member | Request
@@ -386,12 +384,8 @@ class Value(Request):
             motion.value(self.member)
 
     @property
-    def follows_angles(self) -> bool:
-        return isinstance(self.member, Quantity)
-
-    @property
-    def may_fail(self) -> bool:
-        return isinstance(self.member, Quantity)
+    def traits(self) -> Trait:
+        return Trait.FOLLOWS_ANGLES | Trait.MAY_FAIL if isinstance(self.member, Quantity) else NO_TRAIT
 
     @property
     def regular(self) -> float:
@@ -495,12 +489,12 @@ class Combined(Request):
         return tuple(each for each in DIRECTIONS if each in occurring)
 
     @property
-    def of_strokes(self) -> bool:
-        return any(each.of_strokes for each in self.requests)
+    def traits(self) -> Trait:
+        return reduce(or_, (each.traits for each in self.requests), Trait.MAY_FAIL)
 
     @property
     def mover(self) -> Hashable:
-        return None if self.of_strokes else next((each.mover for each in self.requests if each.mover is not None), None)
+        return None if Trait.OF_STROKES in self.traits else next((each.mover for each in self.requests if each.mover is not None), None)
 
     def pieces(self, plan: Plan) -> tuple[SmoothPiece, ...]:
         parts = [each.pieces(plan) if isinstance(each, Request) else (SmoothPiece(each),) for each in self.parts]
@@ -510,14 +504,6 @@ class Combined(Request):
         sides = [next((piece.side for piece in each if piece.side), "") for each in chosen]
         combined = [Combined(self.function, tuple(piece.request for piece in each)) for each in chosen]
         return tuple(SmoothPiece(request, side) for request, side in zip(combined, sides, strict=True))
-
-    @property
-    def of_laws(self) -> bool:
-        return any(each.of_laws for each in self.requests)
-
-    @property
-    def may_be_unlimited(self) -> bool:
-        return any(each.may_be_unlimited for each in self.requests)
 
     def unlimited(self, motion: MotionLike) -> Mask | None:
         found = [mask for mask in (each.unlimited(motion) for each in self.requests) if mask is not None]
@@ -591,18 +577,6 @@ class Combined(Request):
     @property
     def regular(self) -> float:
         return max(each.regular for each in self.requests)
-
-    @property
-    def stands_for_others(self) -> bool:
-        return any(each.stands_for_others for each in self.requests)
-
-    @property
-    def may_fail(self) -> bool:
-        return True
-
-    @property
-    def follows_angles(self) -> bool:
-        return any(each.follows_angles for each in self.requests)
 
     def rounded(self, plan: Plan) -> tuple[Node, ...]:
         return *self.nodes(plan), *(node for each in self.requests for node in each.rounded(plan))
@@ -689,6 +663,7 @@ class NodeRequest(Request):
     """
 
     text: str
+    rows: int = 1
     nodes_of: Callable[[Plan], tuple[Node, ...]] | None = None
     names_of: Callable[[Plan], set[str]] | None = None
     bound_by: Callable[[Plan], NodeRequest] | None = None
@@ -699,10 +674,9 @@ class NodeRequest(Request):
     parts: tuple[RequestLike, ...] = ()
     order: int = 0
     regular_above: float | None = None
-    may_fail: bool = False
-    follows_angles: bool = False
-    stands_for_others: bool = False
+    traits: Trait = NO_TRAIT
     notes_of: Callable[[Plan], Notes] | None = None
+    gaps_of: Callable[[Plan], tuple[Node, ...]] | None = None
     error_of: Callable[[PrecisionLeft], FloatArray] | None = None
     values_of: Callable[[MotionLike], FloatArray] | None = None
     refused_by: Callable[[MotionLike], None] | None = None
@@ -729,6 +703,9 @@ class NodeRequest(Request):
 
     def notes(self, plan: Plan) -> Notes:
         return Notes() if self.notes_of is None else self.notes_of(plan)
+
+    def gaps(self, plan: Plan) -> tuple[Node, ...]:
+        return () if self.gaps_of is None else self.gaps_of(plan)
 
     def refuse(self, motion: MotionLike) -> None:
         if self.refused_by is not None:
@@ -776,7 +753,7 @@ def point_ratios(members: Set[str]) -> NodeRequest:
 
     return NodeRequest(
         text="the ratios of the points", key=("ratios", among), nodes_of=nodes, names_of=lambda plan: set(among), order=1,
-        stands_for_others=True, error_of=error,
+        traits=Trait.STANDS_FOR_OTHERS, error_of=error,
     )  # fmt: skip
 
 
@@ -805,148 +782,83 @@ def slope(what: Request, by: tuple[str, ...]) -> NodeRequest:
         return tuple(share for node in what.nodes(plan) for share in gradient(node, inputs))
 
     return NodeRequest(
-        text=f"the gradient of {what.sentence}", key=("slope", what.key, by), nodes_of=nodes, names_of=what.names, order=1 + what.order,
+        text=f"the gradient of {what.sentence}", key=("slope", what.key, by), rows=what.rows * len(by), nodes_of=nodes, names_of=what.names,
+        order=1 + what.order, notes_of=what.notes, gaps_of=what.gaps, traits=Trait.FOLLOWS_ANGLES,
         error_of=lambda left: left.length.relative(SMALL),
     )  # fmt: skip
 
 
-@final
-@dataclass(frozen=True, eq=False)
-class Slopes:
-    """The kernel of a request's derivatives by some dimensions, then of what it assumes, of its gaps, and of its switches by them."""
-
-    kernel: Kernel
-    angles: Angles
-    assumed: int
-    gaps: int
-    touched: tuple[str, ...]
-
-
-def slopes_of(plan: Plan, what: Request, names: Sequence[str]) -> Slopes:
-    """Return the derivatives of a request by dimensions, as a kernel."""
+def switches_of(plan: Plan, what: Request, names: Sequence[str]) -> tuple[Kernel, list[str]]:
+    """Return the kernel of what is above zero where laws behind a request change with one of some dimensions, and words for each."""
     inputs = [plan.trace.inputs[name] for name in names]
-    shares, notes = slope(what, tuple(names)).nodes(plan), what.notes(plan)
     touched = [
         (switch, f"{name}: the law of {owner} compares what follows {name} with a number")
-        for switch, owner in notes.switches.items()
+        for switch, owner in what.notes(plan).switches.items()
         for name, each in zip(names, inputs, strict=True)
         if each in ancestors([switch])
     ]
-    gaps = what.gaps(plan)
-    kernel = Kernel([*shares, *notes.assumed, *gaps, *(switch for switch, _ in touched)])
-    return Slopes(kernel, angles_of(plan, shares), len(notes.assumed), len(gaps), tuple(words for _, words in touched))
+    return Kernel([switch for switch, _ in touched]), [words for _, words in touched]
 
 
-# Values of requests over a motion.
-
-@final
-@dataclass(frozen=True, eq=False)
-class Requested:
-    """The kernel of a request's nodes, watched by what it assumes, its gaps and how near it is; and the kernel of the two first."""
-
-    kernel: Kernel
-    angles: Angles | None
-    checks: Kernel
-    assumed: int
+# What can be asked of a pose itself: how well joints transmit, and how near it is to a singular one.
 
 
-def requested_of(plan: Plan, what: Request) -> Requested:
-    """Return the program of a request's values over a motion."""
-    nodes, assumed, gaps = what.nodes(plan), [*what.notes(plan).assumed], what.gaps(plan)
-    angles = angles_of(plan, nodes) if what.follows_angles else None
-    return Requested(Kernel(nodes, [*assumed, *gaps, *watched(plan, what)]), angles, Kernel([*assumed, *gaps]), len(assumed))
+def transmission(point: Reference) -> NodeRequest:
+    """Return the request for a joint's transmission angle [rad], folded to 0 ... pi/2: how far it is from the links in line.
 
-
-# Near singular poses.
-
-def watched(plan: Plan, what: Request) -> list[Node]:
-    """Return the nodes that are above zero where a request is far from every singular pose."""
-    what.nodes(plan)  # directions of its own are noted then
-    return plan.trace.watched(what.names(plan), what.regular)
-
-
-def near_singular(grid: Grid, what: Request) -> Mask:
-    """Return the mask of poses at which a request has to be looked at closely."""
-    watch = grid.plan.made(("watch", what.key), lambda twin: Kernel([nearness_of(twin, what), *twin.trace.placeable(what.names(twin))]))
-    with np.errstate(invalid="ignore"):
-        above = watch(grid.flat, size=grid.size).values > 0.0
-    near = ~above[0]
-    (clear,) = keeps_digits(grid.plan, (what,), grid.flat, near[None])
-    return np.asarray(grid.full((~np.all(above[1:], axis=0) | (near & ~clear))[None])[0])
-
-
-def nearness_of(plan: Plan, what: Request) -> Node:
-    """Return the node that is above zero where a request is far from every singular pose."""
-    what.nodes(plan)  # directions of its own are noted then
-    return plan.trace.nearness(what.names(plan)) - what.regular
-
-
-DIGITS = 3e-12
-"""The relative error that a coarse look finds, below which rounding surely leaves nine digits: such a look errs by less than 100."""
-MANY = 1.0 / 64
-"""Of so many poses at least, all are looked at coarsely by a compiled program; of fewer each is looked at closely."""
-
-
-def keeps_digits(plan: Plan, requests: Sequence[Request], inputs: Mapping[str, Any], near: Mask) -> Mask:
-    """Return the mask (requests, designs, poses) of which a coarse look shows that a request keeps its digits; none where few are `near`.
-
-    The product of all parts that come near says what is lost where each multiplies what the others lose, as hardly any machine does.
+    It is `motion.transmission_angle(point)`, and pi less it where that is above pi/2: `least(transmission("K")) >= 35 * deg`.
     """
-    many = near.sum(axis=(1, 2)) >= MANY * near[0].size
-    clear = np.zeros(near.shape, bool)
-    if not near[many].any():
-        return clear
-    kernel, counts = of_all("coarse", plan, requests, coarse_look)
-    size = near.shape[1:]
-    values = np.broadcast_to(kernel(inputs, size=size).values, (len(kernel.plan.outputs), *size)).reshape(-1, near[0].size)
-    extent, (own, shaken), least = np.sqrt(values[0]), np.split(values[1 : 1 + 2 * sum(counts)], 2), values[1 + 2 * sum(counts) :]
-    with np.errstate(all="ignore"):
-        left = PrecisionLeft(own, LAST * np.abs(shaken - own), extent)
-        for k, (what, count, last) in enumerate(zip(requests, counts, accumulate(counts), strict=True)):
-            if many[k]:
-                error = what.error(plan, left.part(slice(last - count, last)))
-                clear[k] = ((error <= DIGITS) & (least[k] > NEAR**2)).reshape(size)
-    return clear & near
+    name = name_of(point)
+
+    def names(plan: Plan) -> set[str]:
+        checked_name("Point", name, plan.points, plan.title)
+        joints = plan.made(("joints",), lambda twin: tuple(each for each, step in twin.points.items() if step.meeting(twin.trace)))
+        if name not in joints:
+            raise no_joint(plan, name, joints)
+        return plan.reaches(name)
+
+    def nodes(plan: Plan) -> tuple[Node, ...]:
+        u, w = plan.points[name].meeting(plan.trace)
+        return (plan.trace.graph.node(np.arctan2(np.abs(u.cross(w)), np.abs(u.dot(w)))),)
+
+    def values(motion: MotionLike) -> FloatArray:
+        angle = motion.transmission_angle(name)
+        return np.minimum(angle, np.pi - angle)
+
+    return NodeRequest(
+        text=f"transmission({name})", sentence=f"transmission angle at {name}", key=("transmission", name), measures="angle",
+        nodes_of=nodes, names_of=names, values_of=values, traits=Trait.MAY_FAIL,
+    )  # fmt: skip
 
 
-def coarse_look(plan: Plan, requests: Sequence[Request]) -> tuple[Kernel, list[int]]:
-    """Return the kernel of the size, of what tells the requests' errors, the same disturbed and the least parts; and each one's number."""
-    own = [each.rounded(plan) for each in requests]
-    flat = [node for each in own for node in each]
-    least = [plan.trace.least_part(each.names(plan)) for each in requests]
-    return Kernel([plan.trace.graph.node(plan.trace.extent), *flat, *disturbed(flat, iterated(plan)), *least]), list(map(len, own))
+WORST = 1e16
+"""The largest condition over 2 / 0.3 that is told."""
 
 
-def of_all(name: str, plan: Plan, requests: Sequence[Request], make: Callable[[Plan, Sequence[Request]], Made]) -> Made:
-    """Return what is made once of requests together: of laws, which take long to trace, from a program that all looks share."""
-    made = plan.made_beside if any(each.of_laws for each in requests) else plan.made
-    return made((name, *(each.key for each in requests)), lambda twin: make(twin, requests))
+def condition(target: str | Member | None = None) -> NodeRequest:
+    """Return the request for the condition of a pose, in `evaluate`, `function` and `source`: a number, 2 / 0.3 at regular poses.
 
+    Next to a singular pose it is 2 over the sine of the loop in line. It is the product of such where several follow one another, or where
+    a direction is taken between points that come close. Above 1e4 a ratio is off by some 0.3 eps cond^2, above 1e6 it is refused.
+    `condition("G")` is of what G is built from, `condition(angle("A", "P"))` of what the angle is built from and of its own direction,
+    `condition()` of all points of the machine. What else is asked beside it makes no difference.
+    """
 
-def examined(
-    plan: Plan, requests: Sequence[Request], inputs: Mapping[str, Any], reading: ArrayReading, among: Sequence[int]
-) -> list[Conditioning]:
-    """Return how far poses are from singular ones for some `among` the requests: inputs as floats or (n,), and the eager reading there."""
-    rounding = of_all("rounding", plan, requests, lambda twin, these: Rounding.of(twin, [each.rounded(twin) for each in these]))
-    return [_conditioned(plan, requests[k], reading.copied(), left) for k, left in zip(among, rounding.at(inputs, among), strict=True)]
+    def value(plan: Plan) -> Value | None:
+        return None if target is None else Value(target).bound(plan)
 
+    def names(plan: Plan) -> set[str]:
+        of = value(plan)
+        return set[str]().union(*map(plan.reaches, plan.points)) if of is None else of.names(plan)
 
-def _conditioned(plan: Plan, what: Request, reading: ArrayReading, left: PrecisionLeft) -> Conditioning:
-    """Return how far poses are from singular ones for one request; what it notes itself in the reading counts for no other."""
-    what.read_own(reading)
-    error = what.error(plan, left)
-    found = conditioning(plan, reading, what.differentiated(plan), what.names(plan), error, DOUBTFUL if what.order else ROUGH)
-    if not what.stands_for_others:
-        return found
-    by_loops = [0.3 * np.finfo(float).eps * cond * cond for cond in found.conditions.values()]  # what the loops alone lose
-    return replace(found, error=np.maximum.reduce([error, *by_loops]))
+    def nodes(plan: Plan) -> tuple[Node, ...]:
+        of = value(plan)
+        near = plan.trace.alone(None if of is None else of.member).nearness(names(plan), exact=True)
+        return ((2.0 / REGULAR) / np.sqrt(near.graph.apply("maximum", near, WORST**-2)),)
 
-
-def other_law_error(plan: Plan, what: Request) -> DefinitionError:
-    """Return the error for poses where a law goes another way than the one that was traced."""
-    laws = ", ".join(dict.fromkeys(what.notes(plan).assumed.values()))
-    law = f"the law of {laws}" if laws else "a law"
-    return DefinitionError(
-        f"{plan.title}: {what.sentence}: at some of these poses {law} goes another way than the one traced, "
-        "or has no finite value. Leave them out, choose by np.where in the law, or take finite differences of the forces."
-    )
+    what = target.identity if isinstance(target, Quantity) else None if target is None else name_of(target)
+    return NodeRequest(
+        text=f"condition({'' if target is None else label(target)})",
+        sentence=f"the condition of {'its points' if target is None else label(target)}", key=("condition", what),
+        nodes_of=nodes, names_of=names, parts=() if target is None else (target,), regular_above=-1.0,
+    )  # fmt: skip

@@ -16,17 +16,18 @@ from typing import Any, Protocol, TypeAlias, final, runtime_checkable
 import numpy as np
 import numpy.typing as npt
 
-from ..errors import DefinitionError, cited, told, unwarned
+from ..errors import AssemblyError, DefinitionError, cited, told, unwarned
 from ..language import said
 from ..numeric.box import highest_in, values_a_stroke, weights_of
-from ..numeric.line import CLOSE, SAMPLES, Index, bisected, highest, missing_lowest, peaks, samples, zoomed
+from ..numeric.line import CLOSE, SAMPLES, Index, bisected, highest, missing_lowest, peaks, runs_of, samples, zoomed
 from ..plan import Mask
 from ..program import FloatArray
-from .answer import OF_VALUE, UNBOUNDED, Answer, PerDesign, places_text
+from .answer import OF_VALUE, UNBOUNDED, Answer, PerDesign
 from .grid import JoinedTo, joined_in_order, recalled
-from .limits import place_text, stroke_unit
+from .limits import LoopMargin, place_text, places_text, stroke_unit
 from .motion import Motion, require_motion
 from .requests import Request, identity_of
+from .stroke_search import ON_ARRAYS, ROUNDING, Clearances, out_of_reach
 from .strokes import check_any
 
 
@@ -134,8 +135,7 @@ def below_zero(motion: Motion, f: Function | Request) -> tuple[Span, ...]:
     leg, t, value = (np.concatenate([known, *(each[row] for each in found)]) for row, known in enumerate((leg, t, value)))
     order = np.lexsort((t, leg))
     leg, t, value = leg[order], t[order], value[order]
-    below = np.concatenate([[False], value < 0.0, [False]])
-    firsts, lasts = np.flatnonzero(below[1:] & ~below[:-1]), np.flatnonzero(below[:-1] & ~below[1:]) - 1
+    firsts, lasts = np.array(runs_of(value < 0.0), int).reshape(-1, 2).T
     low, high = (ends(between, leg, t, inside, by) for inside, by in ((firsts, -1), (lasts, 1)))
     units = {name: stroke_unit(motion.plan, name) for name in motion.strokes}
     strokes = [between.route.strokes(leg[inside], at) for inside, at in ((firsts, low), (lasts, high))]
@@ -428,3 +428,62 @@ class InBox:
             away = np.abs(at - low - corner).max(axis=-1) + np.where(there, 0.0, 10.0)
             best, near = np.minimum(best, away), np.where(away < best, place, near)
         return near
+
+
+# How clear each loop stays of its dead point over all that a motion covers: below zero it cannot be assembled there.
+#
+# A loop's margin is a smooth function of the strokes, whether it is assembled or not. So the search for extremes finds its least value,
+# and with it a part of the strokes out of reach that is far narrower than any grid.
+
+
+def least_margins(motion: Motion, kept: Callable[[Motion], Mask] | None = None) -> list[LoopMargin]:
+    """Return the least margin of every loop that moves, over the range, the path or the box that a motion covers.
+
+    `kept` says which poses are asked for, all where it is None.
+
+    A hole down to 1e-5 of the strokes is found. Groups, whose pins are looked for by iteration, have no such margin, and laws that give no
+    value somewhere have none either.
+    """
+    known = motion.plan.made("clearances", Clearances.of)
+    if not (known.loops and motion.strokes):
+        return []
+
+    def asked(each: Motion) -> FloatArray:
+        found = margins(each, known)
+        return found if kept is None else np.where(kept(each), found, np.nan)
+
+    def found() -> list[LoopMargin]:
+        least, each_of = extremum_reached(motion, asked, -1.0, everywhere=True), list[LoopMargin]()
+        for row, loop in enumerate(known.loops):
+            place = {name: value[row] for name, value in least.strokes.items()}
+            hole = np.asarray(least.value[row] < -rounding_at(motion, known, place)[row].reshape(motion._design_shape))[()]
+            each_of.append(LoopMargin(loop.step, loop.kind, least.value[row], hole, place, least.units))
+        return each_of
+
+    return recalled(motion, "margins", found) if kept is None else found()
+
+
+def margins(motion: Motion, known: Clearances) -> FloatArray:
+    """Return the margins of loops, shape (loops, ...), smooth: sines of guides are squared."""
+    grid = motion._grid
+    values = known.kernel(grid.flat, way=ON_ARRAYS, size=grid.size).values
+    found = grid.full(values)
+    is_signed = known.is_signed.reshape(-1, *(1,) * len(grid.shape))
+    return np.where(is_signed, found * found, found)
+
+
+def rounding_at(motion: Motion, known: Clearances, strokes: Mapping[str, Any]) -> FloatArray:
+    """Return by how much rounding moves the margins of loops, shape (loops, ...), at a place of each design."""
+    there = {name: np.reshape(value, (*motion._design_shape, 1)) for name, value in strokes.items()}
+    grid = Motion(motion.plan, motion.designs, there, "nan", per_design=True)._grid
+    sizes = known.rounding(grid.flat, way=ON_ARRAYS, size=grid.size).values
+    return np.asarray(ROUNDING * np.fmax(np.abs(grid.full(sizes))[..., 0], 1.0))
+
+
+def assembly_error_at(motion: Motion, strokes: Mapping[str, float]) -> AssemblyError | None:
+    """Return why a motion's one design cannot be assembled at strokes [m or rad], as that pose says it; None where it can.
+
+    Its text names the step, what is missing there and the remedy; `point` is the step, `shortfall` what is missing [m].
+    """
+    there = motion.moved({name: np.reshape(value, (1,)) for name, value in strokes.items()})
+    return None if there.reached.all() else out_of_reach(there)

@@ -1,25 +1,43 @@
-"""Motions looked at along one stroke: the limits of a design, and change points between the poses of a sweep."""
+"""Motions looked at along one stroke: the limits of a design, and change points between the poses of a sweep.
+
+Every loop tells how far it is from its dead point: the squared sine of the angle between its links, which is negative where they do not
+reach, or the sine of the angle between its guides. It is a function of the stroke, on a grid of its own that does not depend on the poses.
+An interval is dismissed if the lower of its ends is above twice what the function bends there. Else it is divided by eight, down to 1e-9 of
+the way.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import final
+from functools import cached_property
+from typing import Any, final
 
 import numpy as np
 
 from ..errors import AssemblyError, DefinitionError, SingularError, unwarned
 from ..loads import ForceElement, TwoPoint
-from ..numeric.line import CLOSE, SAMPLES, Curve, Index, highest, last_holding, samples, sign_changes
-from ..plan import Mask, failures, missing_words, name_or_pins, opening
-from ..program import FloatArray
+from ..numeric.line import CLOSE, SAMPLES, Curve, Index, highest, last_holding, runs_of, samples, sign_changes
+from ..plan import Loop, Mask, Plan, failures, missing_words, name_or_pins, opening
+from ..program import FloatArray, Kernel, Level, RunOptions
 from ..quantities import Distance
 from ..steps import Point
 from ..units import deg
-from .grid import MotionLike, recalled
-from .interruptions import Interruption, StrokeClearance
-from .limits import Extreme, Held, Interval, Limits, Open, StrokeLimits, assembly_error, stroke_unit, where_words
-from .pose_requests import transmission
+from .grid import Grid, MotionLike, recalled
+from .limits import (
+    Extreme,
+    Held,
+    Interval,
+    Limits,
+    Open,
+    StrokeLimits,
+    assembly_error,
+    stroke_number,
+    stroke_text,
+    stroke_unit,
+    where_words,
+)
+from .requests import transmission
 from .strokes import TURN, check_any
 
 KEPT = 64
@@ -28,7 +46,7 @@ LOOKED_AT = 1441
 """Values of a stroke at which it is looked for reachable ranges."""
 UNCHANGED = 1e-9
 """A transmission angle that changes by less [rad] does not follow the stroke."""
-MOST = 6
+TURNS_AFTER = 6
 """Turns of a crank after which it is looked whether pins have returned."""
 CLOSED = 1e-6
 """Pins that are so near to where they began, compared with the linkage, have returned."""
@@ -63,18 +81,28 @@ class StrokeLine:
     name: str
     held: dict[str, float]
 
+    @property
+    def plan(self) -> Plan:
+        """The machine."""
+        return self.motion.plan
+
+    @property
+    def unit(self) -> str:
+        """The unit of the stroke."""
+        return stroke_unit(self.plan, self.name)
+
     def at(self, values: FloatArray) -> MotionLike:
         """Return the motion at values of the stroke, unreachable poses as NaN."""
         return self.motion.moved({**self.held, self.name: values})
 
     def stroke_limits(self) -> StrokeLimits:
         """Return the limits, looked for one span beyond the declared range, a crank over a full turn."""
-        plan, name = self.motion.plan, self.name
-        stroke, unit = plan.strokes[name], stroke_unit(plan, name)
+        plan, name, unit = self.plan, self.name, self.unit
+        stroke = plan.strokes[name]
         start, end = min(stroke.start, stroke.end), max(stroke.start, stroke.end)
         beyond = end - start if unit == "m" else max(0.0, np.pi - 0.5 * (end - start))
         low, high = start - beyond, end + beyond
-        between = StrokeClearance(plan, self.motion._grid.flat, name, self.held).interruptions(low, high)
+        between = self.interruptions(low, high)
         gaps = [each.deepest for each in between if each.is_gap]  # they may lie between samples
         at = np.linspace(low, high, LOOKED_AT)
         reached = np.concatenate([self.at(at).reached, np.zeros(len(gaps), bool)])
@@ -92,8 +120,7 @@ class StrokeLine:
     def ranges_among(self, at: FloatArray, reached: Mask) -> list[Interval]:
         """Return the reachable ranges among samples, with their ends."""
         found: list[Interval] = []
-        edges = np.flatnonzero(np.diff(np.concatenate([[False], reached, [False]]).astype(int)))
-        for first, last in zip(edges[::2], edges[1::2] - 1, strict=True):
+        for first, last in runs_of(reached):
             low, low_stop = (at[first], "") if first == 0 else self.end_of_reach(at[first], at[first - 1])
             high, high_stop = (at[last], "") if last == len(at) - 1 else self.end_of_reach(at[last], at[last + 1])
             found.append(Interval(float(low), float(high), low_stop, high_stop))
@@ -113,7 +140,7 @@ class StrokeLine:
             last, beyond = known[0], at[int(np.argmin(seen.reached))]
         else:
             last, beyond = map(float, last_holding(lambda at: np.array(self.at(at).reached), inside, outside))
-        there, plan = self.at(np.array([beyond])), self.motion.plan
+        there, plan = self.at(np.array([beyond])), self.plan
         failing = (name_or_pins(plan, name) for name, mask in failures(plan, there._reading, there.shape) if mask.any())
         return float(last), next(failing, "")
 
@@ -121,7 +148,7 @@ class StrokeLine:
 
     def least_transmission(self, found: Sequence[Interval]) -> tuple[Extreme, ...]:
         """Return the least transmission angle of every dyad that moves with the stroke, over its declared and reachable part."""
-        declared = self.motion.plan.strokes[self.name]
+        declared = self.plan.strokes[self.name]
         start, end = sorted((declared.start, declared.end))
         parts = np.array([(max(each.low, start), min(each.high, end)) for each in found if each.low < end and each.high > start])
         if not parts.size:
@@ -152,12 +179,12 @@ class StrokeLine:
         full turn may lead from one to another. Source: T. R. Chase, J. A. Mirth, Circuits and branches of single-degree-of-freedom planar
         linkages, J. Mech. Design 115 (1993) 223-230.
         """
-        plan = self.motion.plan
+        plan = self.plan
         pins = [pin for group in plan.groups.values() for pin in group.pins if self.name in plan.reaches(pin)]
         whole = next((each for each in found if each.high - each.low > TURN * (1.0 - 1e-9)), None)
         if not pins or whole is None:
             return None
-        turned = self.at(np.asarray(whole.low + TURN * np.arange(MOST + 1), float))
+        turned = self.at(np.asarray(whole.low + TURN * np.arange(TURNS_AFTER + 1), float))
         every = np.array([turned[point][:, 0] for point in plan.points])
         gaps = {pin: np.hypot(*(turned[pin] - turned[pin][:, :1])) / np.ptp(every, axis=0).max() for pin in pins}
         away = tuple(pin for pin, gap in gaps.items() if gap[1] > CLOSED)
@@ -171,7 +198,7 @@ class StrokeLine:
 
         Those whose two points a stroke drives apart never do, and what a closed line alone holds drives nothing. The others are held.
         """
-        plan, wrt = self.motion.plan, self.name
+        plan, wrt = self.plan, self.name
         ranges = [(low, high) for low, high in ranges if low < high]
         if not ranges:
             return []
@@ -205,10 +232,94 @@ class StrokeLine:
         if at.size < 2:
             return np.ones(at.shape, bool)
         poses = self.at(at)
-        places = np.array([poses[name] for name in self.motion.plan.points]).reshape(-1, at.size)
+        places = np.array([poses[name] for name in self.plan.points]).reshape(-1, at.size)
         apart = np.abs(places[:, :, None] - places[:, None, :]).max(axis=0)
         size = float(np.ptp(places.reshape(-1, 2, at.size), axis=0).max(initial=0.0))
         return np.asarray(~np.tril(apart <= AGAIN * size, -1).any(axis=1))
+
+    # -- the way between poses: where a loop comes to its dead point, and where it cannot be assembled -------
+
+    @cached_property
+    def clearances(self) -> Clearances:
+        """The loops that move, with how clear of their dead points they are."""
+        return self.plan.made("clearances", Clearances.of)
+
+    def inputs(self, x: FloatArray) -> dict[str, Any]:
+        """Return the inputs of the program at values of the stroke."""
+        grid = self.motion._grid
+        if not self.plan.solved:
+            return {**grid.flat_designs, **self.held, self.name: x}
+        strokes = {name: x if name == self.name else np.full(x.shape, self.held[name]) for name in self.plan.strokes}
+        return Grid(self.plan, grid.flat_designs, strokes).flat
+
+    def seen(self, x: FloatArray) -> FloatArray:
+        """Return the clearance of every loop, shape (loops, n): squared sines of links, sines of guides without a sign, lengths [m]."""
+        found = self.clearances.kernel(self.inputs(x), way=ON_ARRAYS, size=(1, x.size)).values[:, 0]
+        return np.where(self.clearances.is_signed, np.abs(found), found)
+
+    def rounding(self, x: FloatArray) -> FloatArray:
+        """Return by how much rounding moves every loop's clearance at the most along the values, shape (loops, 1)."""
+        sizes = self.clearances.rounding(self.inputs(x), way=ON_ARRAYS, size=(1, x.size)).values[:, 0]
+        return np.asarray(ROUNDING * np.fmax.reduce(np.abs(sizes), axis=1, initial=1.0)[:, None])
+
+    def grid(self, low: float, high: float) -> FloatArray:
+        """Return the values at which a way is looked at first."""
+        turns = (high - low) / (2.0 * np.pi) if self.name in self.plan.turning else 1.0
+        return np.asarray(low + (high - low) * np.linspace(0.0, 1.0, GRID * max(1, int(np.ceil(turns))) + 1))
+
+    def interruptions(self, low: float, high: float) -> tuple[Interruption, ...]:
+        """Return what interrupts the way between two values of the stroke, in their order."""
+        if not (self.clearances.loops and high > low):
+            return ()
+        x = self.grid(low, high)
+        seen = self.seen(x)
+        with np.errstate(invalid="ignore"):
+            bends = np.abs(seen[:, 2:] - 2.0 * seen[:, 1:-1] + seen[:, :-2])
+        if seen.min() > BENDS * bends.max() + TOUCH or np.all(seen.min(axis=1) > BENDS * bends.max(axis=1) + TOUCH):
+            return ()
+        return self._narrowed(x, seen, bends)
+
+    def _narrowed(self, x: FloatArray, seen: FloatArray, bends: FloatArray) -> tuple[Interruption, ...]:
+        """Return what interrupts the way, from the grid on."""
+        noise = self.rounding(x)
+        tops = np.fmax.reduce(seen, axis=1)
+        tells = np.array([loop.kind != "length" for loop in self.clearances.loops])
+        level = np.where([[loop.kind == "links"] for loop in self.clearances.loops], TOUCH**2, 2.0 * DEPTH * tops[:, None])
+        level = np.where(tells[:, None], np.maximum(level, noise), 0.0)
+        still = tops <= 4.0 * level[:, 0]
+        if still.any():  # in line all the way, as a rod that is straight; or the way is so short
+            stroke = self.plan.strokes[self.name]
+            wide = self.seen(self.grid(min(stroke.start, stroke.end), max(stroke.start, stroke.end)))
+            still &= ~(np.fmax.reduce(wide, axis=1) > 4.0 * level[:, 0])
+        places, values = divided(self.seen, x, seen, bends, noise, ~still)
+        found: list[Interruption] = []
+        for row in np.flatnonzero(~still).tolist():
+            found += self._of_loop(row, places, values[row], float(level[row, 0]), float(noise[row, 0]))
+        return tuple(sorted(found, key=lambda each: each.low))
+
+    def _of_loop(self, row: int, x: FloatArray, seen: FloatArray, level: float, noise: float) -> list[Interruption]:
+        """Return where one loop interrupts the way: runs of values that have come to zero."""
+        found, loop = [], self.clearances.loops[row]
+        low_end, high_end, known = x[0], x[-1], np.isfinite(seen)  # the ends of the way: where the loop has values it may begin within
+        x, seen = x[known], seen[known]
+        for first, last in runs_of(seen <= level):
+            run = slice(first, last + 1)
+            deepest = float(x[run][seen[run] <= seen[run].min() + noise].mean())
+            if seen[run].min() < -noise:
+                under = first + np.flatnonzero(seen[run] < -noise)
+                low = self._border(row, x, int(under[0]), -1, noise)
+                high = self._border(row, x, int(under[-1]), 1, noise)
+                found.append(Interruption(self.name, self.unit, loop.step, low, high, deepest, loop.kind))
+            elif loop.kind != "length" and min(deepest - low_end, high_end - deepest) > END * (high_end - low_end):
+                found.append(Interruption(self.name, self.unit, loop.step, deepest, deepest, deepest, loop.kind))
+        return found
+
+    def _border(self, row: int, x: FloatArray, place: int, side: int, noise: float) -> float:
+        """Return the end of a stretch that is out of reach, on one side of a value in it."""
+        def is_under(at: FloatArray) -> Mask:
+            return np.asarray(self.seen(at)[row] < -noise)
+
+        return float(last_holding(is_under, x[place], x[min(max(place + side, 0), len(x) - 1)])[1])
 
 
 def roots_between(rate: Curve, low: float, high: float) -> list[float]:
@@ -251,7 +362,7 @@ def interruptions(motion: MotionLike) -> tuple[Interruption, ...]:
     known = clear.get(key)
     if known is not None and known[0] <= low and high <= known[1]:
         return ()
-    found = StrokeClearance(motion.plan, motion._grid.flat, name, {}).interruptions(low, high)
+    found = StrokeLine(motion, name, {}).interruptions(low, high)
     if not found and (known is None or (low <= known[0] and known[1] <= high)):
         clear[key] = low, high
         for old in list(clear)[:-KEPT]:
@@ -331,3 +442,110 @@ def out_of_reach(motion: MotionLike) -> AssemblyError:
         found = StrokeLine(motion, name, {}).ranges_among(values[order], motion.reached[order])
         stop = spans_words(name, stroke_unit(plan, name), [(each.low, each.high) for each in found])
     return assembly_error(plan, motion._grid.read_at(missing), missing, motion.strokes, stop)
+
+
+# The way between poses: where a loop comes to its dead point there, and where it cannot be assembled.
+
+GRID = 128
+"""Intervals of the grid; an angle has so many for each turn of it."""
+PARTS = 8
+DEPTH = 1e-9
+"""The width, of the way, down to which it is divided."""
+BENDS = 2.0
+TOUCH = 1e-6
+"""A sine of links that comes so low has come to zero: a clearance of 1e-12 of their lengths is not told from none."""
+END = 1e-7
+"""A dead point so near to an end of the way, compared with the way, is its end and not passed."""
+ROUNDING = 8 * np.finfo(float).eps
+MOST_INTERVALS = 4096
+
+ON_ARRAYS = RunOptions("numpy")
+INNER = np.arange(1, PARTS) / PARTS
+
+
+@final
+@dataclass(frozen=True)
+class Interruption:
+    """What interrupts the way along a stroke: from `low` to `high` [m or rad] a step cannot be assembled; equal at a change point."""
+
+    stroke: str
+    unit: str
+    step: str
+    low: float
+    high: float
+    deepest: float
+    """Where it is farthest from being assembled, or in line."""
+    kind: str = "links"
+
+    @property
+    def is_gap(self) -> bool:
+        """Whether a stretch of the way is out of reach; else two branches meet in a point of it, or guides are parallel."""
+        return self.high > self.low
+
+    def __str__(self) -> str:
+        if self.is_gap:
+            span = f"{stroke_number(self.low, self.unit)} to {stroke_text(self.high, self.unit)}"
+            return f"{self.step} out of reach from {self.stroke} = {span}"
+        what = {"guides": "parallel guides", "meeting": "no direction"}.get(self.kind, "a change point")
+        return f"{what} of {self.step} at {self.stroke} = {stroke_text(self.low, self.unit)}"
+
+
+@final
+@dataclass(frozen=True)
+class Clearances:
+    """The loops of a plan that move, and the kernels of how clear of their dead points they are, and of the size of rounding there."""
+
+    loops: tuple[Loop, ...]
+    kernel: Kernel
+    rounding: Kernel
+
+    @property
+    def is_signed(self) -> Mask:
+        """Of which loops, shape (loops, 1), the sign says on which side they are assembled: of guides, and of points that meet."""
+        return np.array([loop.kind in ("guides", "meeting") for loop in self.loops])[:, None]
+
+    @classmethod
+    def of(cls, plan: Plan) -> Clearances:
+        """Return those of a plan; pins of groups are followed on their own."""
+        trace = plan.trace
+        moving = dict.fromkeys(loop for loop in trace.loops if loop.terms[0].level is Level.POSE)
+        grouped = {pin for group in plan.groups.values() for pin in group.pins}
+        own = [loop for loop in moving if loop.step not in grouped]
+        # a root's scale that is a root itself is the distance of two points, along which a slot's line is taken; it may vanish
+        sides = [Loop(loop.step, "meeting", loop.terms[1:2]) for loop in own if loop.kind == "links" and loop.terms[1].op == "sqrt"]
+        own += [loop for loop in sides if loop.terms[0].level is Level.POSE]
+        clear = [loop.terms[0] / (loop.terms[1] * loop.terms[1]) if loop.kind == "links" else loop.terms[0] for loop in own]
+        size = [loop.terms[2] / (loop.terms[1] * loop.terms[1]) if loop.kind == "links" else trace.graph.constant(1.0) for loop in own]
+        return cls(tuple(own), Kernel(clear), Kernel(size))
+
+
+def divided(
+    look: Callable[[FloatArray], FloatArray], x: FloatArray, seen: FloatArray, bends: FloatArray, noise: FloatArray, rows: Mask
+) -> tuple[FloatArray, FloatArray]:
+    """Return all values looked at, in order, and what was seen there, shape (loops, n): intervals divided where a loop may reach zero."""
+    wide = np.pad(np.where(np.isfinite(bends), bends, 0.0), ((0, 0), (2, 2)), mode="edge")
+    bend = np.maximum.reduce([wide[:, k : k + x.size - 1] for k in range(4)])
+    left, right, first, last = x[:-1], x[1:], seen[:, :-1], seen[:, 1:]
+    places, values = [x], [seen]
+    least = DEPTH * float(x[-1] - x[0])
+    while left.size:
+        lower = np.minimum(first, last)
+        low = (lower <= BENDS * bend + noise) & (np.maximum(first, last) >= -noise) & rows[:, None]
+        pick = np.flatnonzero(low.any(axis=0) & (right - left > least))[:MOST_INTERVALS]
+        if not pick.size:
+            break
+        left, right, first, last = left[pick], right[pick], first[:, pick], last[:, pick]
+        inner = left[:, None] + (right - left)[:, None] * INNER
+        found = look(inner.ravel()).reshape(len(seen), *inner.shape)
+        places.append(inner.ravel())
+        values.append(found.reshape(len(seen), -1))
+        f = np.concatenate([first[..., None], found, last[..., None]], axis=2)
+        at = np.concatenate([left[:, None], inner, right[:, None]], axis=1)
+        with np.errstate(invalid="ignore"):
+            curved = np.abs(f[..., 2:] - 2.0 * f[..., 1:-1] + f[..., :-2])
+        bend = np.repeat(np.fmax.reduce(curved, axis=2, initial=0.0), PARTS, axis=1)
+        left, right = at[:, :-1].ravel(), at[:, 1:].ravel()
+        first, last = f[..., :-1].reshape(len(seen), -1), f[..., 1:].reshape(len(seen), -1)
+    at = np.concatenate(places)
+    order = np.argsort(at, kind="stable")
+    return at[order], np.concatenate(values, axis=1)[:, order]

@@ -3,21 +3,22 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from importlib import import_module
-from typing import ClassVar, TypeVar
+from typing import Any, ClassVar, TypeVar, final
 
 import numpy as np
 
+from ..checks import require_type
 from ..errors import DefinitionError, cited
 from ..frozen import refuses_changes
 from ..language import heading_of, noted
 from ..loads import ForceElement, LoadCase
 from ..plan import Plan
 from ..program import FloatArray, claim, is_traced
-from ..quantities import Coordinate, Dimension, Member, Quantity, Stroke
+from ..quantities import Coordinate, Dimension, Member, Quantity, Stroke, is_number
 from ..units import decimals, display_unit, factor, shown_in, unit_or_none, unit_sign
 from .limits import stroke_display_unit
 from .motion import Motion, require_motion
@@ -160,3 +161,34 @@ class Tabled(Member):
         `thrust` [N], `pressure` [Pa] and the greatest that it may have, `most`; `reserve`; its `closed` length and its `stroke` [m].
         """
         return {}
+
+
+# What a machine is about: the curve, the paths and the limits that its pictures show where nothing else is asked for.
+
+
+@final
+@dataclass(frozen=True)
+class Featured:
+    """The column of results that a machine is about, the points whose paths are drawn, and limits of columns by their names.
+
+    A limit is `(value [SI], text)` or `(value, text, "below")`: the side that fails, above unless said. Its text stands on that side and
+    says what fails there, or what the line is. `coupler` is the point of a
+    coupler, which a synthesis brings along a path where no other one is said. What is left out is chosen from the results: the last column
+    that changes, no path, no limit.
+    """
+
+    column: str = ""
+    path: Sequence[str] = ()
+    limits: Mapping[str, Sequence[Any]] = field(default_factory=dict)
+    coupler: str = ""
+
+    def __post_init__(self) -> None:
+        require_type("Featured(column", self.column, str, 'the name of a column of results is expected, "tilt"')
+        require_type("Featured(coupler", self.coupler, str, 'the name of a point is expected, "P"')
+        require_type("Featured(path", self.path, (list, tuple), 'a list of points is expected, path=["G"]', of=str)
+        require_type("Featured(limits", self.limits, Mapping, 'limits by column are expected, dict(tilt=(0.1, "most"))')
+        for name, limit in self.limits.items():
+            value, *words = limit if isinstance(limit, (list, tuple)) and limit else (None,)
+            if not is_number(value) or len(words) > 2 or not all(isinstance(each, str) for each in words):
+                said = f"Featured(limits={{{cited(name)}: {cited(limit)}}})"
+                raise DefinitionError(f'{said}: write (value [SI], text) or (value, text, "below").')

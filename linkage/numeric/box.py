@@ -20,7 +20,7 @@ from typing import Protocol, Self, final
 import numpy as np
 
 from ..vectors import FloatArray, Mask
-from .line import CLOSE, LOWEST, Index, is_pole, last_holding, missing_lowest
+from .line import CLOSE, LOWEST, Index, is_pole, last_holding, missing_lowest, shifted
 
 SIDES = {2: 129, 3: 33, 4: 13, 5: 8, 6: 6}  # values a stroke, by the number of strokes
 MORE, MOST_POSES = 5, 1 << 20  # values a stroke of more strokes; grid poses of all designs together
@@ -132,12 +132,7 @@ def steps_to_neighbours(k: int, side: int) -> tuple[Index, Index]:
 def widened(cube: FloatArray) -> FloatArray:
     """Return the highest of each point of a grid and its neighbours."""
     for axis in range(cube.ndim):
-        ahead, behind = np.moveaxis(cube, axis, 0)[1:], np.moveaxis(cube, axis, 0)[:-1]
-        found = cube.copy()
-        into = np.moveaxis(found, axis, 0)
-        np.maximum(into[:-1], ahead, out=into[:-1])
-        np.maximum(into[1:], behind, out=into[1:])
-        cube = found
+        cube = np.maximum(cube, np.maximum(shifted(cube, -1, -np.inf, axis), shifted(cube, 1, -np.inf, axis)))
     return cube
 
 
@@ -151,23 +146,19 @@ def firsts(values: FloatArray, point: Index, k: int, side: int) -> Index:
     return np.asarray(point[(near < values[point][:, None]).all(axis=-1)])
 
 
-def bends(seen: FloatArray, point: Index, k: int, side: int) -> FloatArray:
-    """Return the sum of the absolute second differences along the strokes at points of a grid, values (side^k,).
+def bends(cube: FloatArray, point: Index) -> FloatArray:
+    """Return the sum of the absolute second differences along the strokes at points of a grid, by their numbers.
 
     They are taken to one side at borders and next to missing values, and none where that is not possible.
     """
-    index = np.unravel_index(point, [side] * k)
     total = np.zeros(point.shape)
-    for axis in range(k):
-        weight = side ** (k - 1 - axis)
-
-        def at(by: int, axis: int = axis, weight: int = weight) -> FloatArray:
-            there = (index[axis] + by >= 0) & (index[axis] + by < side)
-            return np.where(there, seen[np.where(there, point + by * weight, 0)], np.nan)
-
-        middle = np.abs(at(-1) - 2.0 * seen[point] + at(1))
-        sides = [np.abs(seen[point] - 2.0 * at(by) + at(2 * by)) for by in (-1, 1)]
-        total += np.nan_to_num(np.where(np.isnan(middle), np.fmax(*sides), middle), nan=0.0, posinf=-LOWEST)
+    for axis in range(cube.ndim):
+        far_behind, behind, here, ahead, far_ahead = (
+            (shifted(cube, by, axis=axis) if by else cube).ravel()[point] for by in (-2, -1, 0, 1, 2)
+        )
+        middle = np.abs(behind - 2.0 * here + ahead)
+        sides = np.fmax(np.abs(here - 2.0 * behind + far_behind), np.abs(here - 2.0 * ahead + far_ahead))
+        total += np.nan_to_num(np.where(np.isnan(middle), sides, middle), nan=0.0, posinf=-LOWEST)
     return total
 
 
@@ -182,7 +173,7 @@ def hopeful(seen: FloatArray, k: int, side: int) -> tuple[Index, FloatArray]:
     point = np.flatnonzero(tops)
     if not point.size:
         return point, np.zeros(0)
-    bound = np.minimum(values[point] + 0.5 * bends(seen, point, k, side), -LOWEST)
+    bound = np.minimum(values[point] + 0.5 * bends(seen.reshape([side] * k), point), -LOWEST)
     may_win = bound >= values.max()
     kept = np.isin(point, firsts(values, point[may_win], k, side))
     point, bound = point[kept], bound[kept]
@@ -481,7 +472,7 @@ def border_starts(box: SeenBox) -> Climbs:
         if not np.isneginf(cube).any():
             continue
         for axis, by in product(range(box.k), (-1, 1)):
-            beyond, behind = values_beside(cube, axis, by), values_beside(cube, axis, -by)
+            beyond, behind = shifted(cube, by, axis=axis), shifted(cube, -by, axis=axis)
             edge = (cube > -np.inf) & np.isneginf(beyond)
             score = np.where(edge, cube + np.where(behind > LOWEST, np.maximum(cube - behind, 0.0), 0.0), -np.inf).ravel()
             tops = np.flatnonzero(edge.ravel() & (score >= widened(score.reshape(cube.shape)).ravel()))
@@ -494,15 +485,6 @@ def border_starts(box: SeenBox) -> Climbs:
     rise = np.fmax.reduce(np.abs(box.seen[function[:, None], design[:, None], near] - value[:, None]), axis=-1, initial=0.0)
     half, none = np.full(len(point), 1.0 / (box.side - 1)), np.full(len(point), np.nan)
     return Climbs(function, design, unit, value, unit, half, none, 2.0 * rise, np.zeros(len(point), int), along)
-
-
-def values_beside(cube: FloatArray, axis: int, by: int) -> FloatArray:
-    """Return the values so many places on along an axis, NaN beyond the ends."""
-    found = np.full(cube.shape, np.nan)
-    into, out = [slice(None)] * cube.ndim, [slice(None)] * cube.ndim
-    into[axis], out[axis] = (slice(None, -by), slice(by, None)) if by > 0 else (slice(-by, None), slice(None, by))
-    found[tuple(into)] = cube[tuple(out)]
-    return found
 
 
 def on_border(box: SeenBox, alike: Index, climbs: Climbs, places: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -597,12 +579,6 @@ def hopeful_borders(box: SeenBox, alike: Index, known: FloatArray) -> Climbs:
     return going.subset(order)
 
 
-def border_stencil(k: int, axis: Index) -> tuple[FloatArray, Index]:
-    """Return the different places (r, m, k) of stencils that stand still along a stroke (r,), and which of them (r, n) each place is."""
-    found = [np.unique(np.where(np.arange(k) == each, 0.0, stencil_of(k)), axis=0, return_inverse=True) for each in range(k)]
-    return np.array([offsets for offsets, _ in found])[axis], np.array([index.reshape(-1) for _, index in found])[axis]
-
-
 def along_borders(box: SeenBox, known: FloatArray, least: FloatArray) -> tuple[Climbs, Climbs, Climbs]:
     """Return the searches along borders that came to a smooth top, the others, and places next to which a function is unbounded.
 
@@ -619,10 +595,13 @@ def along_borders(box: SeenBox, known: FloatArray, least: FloatArray) -> tuple[C
     going = going.subset(~endless[going.function, going.design])
     tops, ended = [going.subset(NONE)], [going.subset(NONE)]
     begun = box.count
+    # the different places of stencils that stand still along each stroke (k, m, k), and which of them (k, n) each place is
+    still = [np.unique(np.where(np.arange(box.k) == each, 0.0, stencil_of(box.k)), axis=0, return_inverse=True) for each in range(box.k)]
+    flat, number = np.array([offsets for offsets, _ in still]), np.array([index.reshape(-1) for _, index in still])
     for _ in range(ROUNDS):
         if not len(going.value) or box.count - begun > BUDGET:
             break
-        offsets, index = border_stencil(box.k, going.axis)
+        offsets, index = flat[going.axis], number[going.axis]
         places, values = on_border(box, alike, going, snapped(going.centre[:, None] + going.half[:, None, None] * offsets))
         places, values = np.take_along_axis(places, index[..., None], axis=1), np.take_along_axis(values, index, axis=1)
         half = going.half

@@ -141,11 +141,11 @@ def at_own_legs(look: Look, leg: Index, t: FloatArray) -> tuple[FloatArray, Mask
 # -- the samples ---------------------------------------------------------------------------------------------
 
 
-def shifted(values: FloatArray, by: int, missing: float) -> FloatArray:
-    """Return the values of the samples so many places on, `missing` beyond the ends."""
+def shifted(values: FloatArray, by: int, missing: float = np.nan, axis: int = -1) -> FloatArray:
+    """Return the values so many places on along an axis, `missing` beyond the ends."""
     found = np.full(values.shape, missing)
     into, out = (slice(None, -by), slice(by, None)) if by > 0 else (slice(-by, None), slice(None, by))
-    found[..., into] = values[..., out]
+    np.moveaxis(found, axis, -1)[..., into] = np.moveaxis(values, axis, -1)[..., out]
     return found
 
 
@@ -154,7 +154,7 @@ def peaks(values: FloatArray, leg: Index, t: FloatArray, counts: Sequence[int], 
     finite = np.where(values > LOWEST, values, np.nan)
     rise = np.zeros(values.shape)
     for by in (-2, -1, 1, 2):
-        rise = np.fmax(rise, finite - shifted(finite, by, np.nan))
+        rise = np.fmax(rise, finite - shifted(finite, by))
     size = np.nanmax(np.abs(finite), axis=-1, initial=0.0, keepdims=True)
     span = np.nanmax(finite, axis=-1, initial=-np.inf, keepdims=True) - np.nanmin(finite, axis=-1, initial=np.inf, keepdims=True)
     # Those as high as their neighbours, the first one of a level part; a corner stands twice among them.
@@ -246,6 +246,12 @@ def borders(look: Look, missing: Mask, values: FloatArray, leg: Index, t: FloatA
 def bisected(look: Look, leg: Index, inside: FloatArray, outside: FloatArray) -> FloatArray:
     """Return the last places (K, D, c) with a value between those that have one and those that have none."""
     return last_holding(lambda t: ~np.isnan(at_own_legs(look, leg, t)[0]), inside, outside, CLOSE)[0]
+
+
+def runs_of(mask: Mask) -> list[tuple[int, int]]:
+    """Return the first and the last place of every stretch of a mask (n,) that is true, in their order."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]]).astype(int)))
+    return [*zip(edges[::2].tolist(), (edges[1::2] - 1).tolist(), strict=True)]
 
 
 def last_holding(

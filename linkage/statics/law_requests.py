@@ -15,7 +15,7 @@ from ..errors import DefinitionError, LawError, UntracedError, unwarned
 from ..loads import DIRECTIONS, PLAIN, Acting, Case, ForceElement, Load, LoadCase, Push, Rates
 from ..motion import Motion, OnePose, Request, SmoothPiece, require_motion
 from ..motion.grid import MotionLike
-from ..motion.requests import identity_of, stroke_of
+from ..motion.requests import NO_TRAIT, Trait, identity_of, stroke_of
 from ..motion.strokes import checked_name, order_of
 from ..plan import TRACING, ArrayReading, Mask, Plan, Trace
 from ..program import FloatArray, Node, Notes, SparseSystem, Traced, interpret, is_zero, node_of
@@ -357,9 +357,6 @@ class LawRequest(Request):
     column: str = ""
     in_plan: LawInPlan | None = None
     """What it is in the plan that it is bound to."""
-    of_laws = True
-    may_fail = True
-    follows_angles = True
 
     def law(self, motion: AnyMotion) -> FloatArray:
         """Return the values over a motion's poses [SI], shape (...); one number of a program where the motion is traced."""
@@ -386,13 +383,15 @@ class LawRequest(Request):
     def under(self, acting: Acting, *, keep: bool = False) -> LawRequest:
         if self.acting is None:
             return self
-        outer = acting if self.of_strokes else replace(acting, drive=None)
+        outer = acting if Trait.OF_STROKES in self.traits else replace(acting, drive=None)
         found = self.acting.within(outer, "" if keep else str(self))
         return self if found == self.acting else replace(self, acting=found)
 
     @property
-    def of_strokes(self) -> bool:
-        return self.acting is not None and self.mover is None
+    def traits(self) -> Trait:
+        found = Trait.OF_LAWS | Trait.MAY_FAIL | Trait.FOLLOWS_ANGLES
+        found |= Trait.OF_STROKES if self.acting is not None and self.mover is None else NO_TRAIT
+        return found if self.unlimited_in is None else found | Trait.MAY_BE_UNLIMITED
 
     def movements(self, plan: Plan, rubs: bool) -> tuple[str, ...]:
         own = () if self.acting is None else None if self.directions is None else self.directions(plan)
@@ -406,10 +405,6 @@ class LawRequest(Request):
 
     def pieces(self, plan: Plan) -> tuple[SmoothPiece, ...]:
         return super().pieces(plan) if self.pieces_in is None else self.pieces_in(self, plan)
-
-    @property
-    def may_be_unlimited(self) -> bool:
-        return self.unlimited_in is not None
 
     def unlimited(self, motion: MotionLike) -> Mask | None:
         return None if self.unlimited_in is None else self.unlimited_in(motion_in_case(require_motion(motion), self.acting), self.situation)

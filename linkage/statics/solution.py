@@ -12,8 +12,9 @@ import numpy as np
 from ..errors import DefinitionError, SingularError, one_word, unwarned
 from ..loads import PLAIN_CASE, Acting, ForceElement, Load, Push, Rates, TwoPoint
 from ..motion import Motion, require_motion
+from ..motion.evaluation import examined
 from ..motion.limits import where_words
-from ..motion.requests import examined, point_ratios
+from ..motion.requests import point_ratios
 from ..plan import NEAR, Mask, Plan
 from ..program import FloatArray, elementwise
 from .applied import Anywhere, AppliedLoads, member_title, motion_in_case

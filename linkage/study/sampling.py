@@ -11,12 +11,13 @@ import numpy as np
 from ..errors import unwarned
 from ..motion import Grid, Motion, NodeRequest, Request
 from ..motion.evaluation import BulkProgram, Evaluation
+from ..motion.functions import evaluate_bound
 from ..motion.grid import Angles, angles_of
 from ..motion.kinds import constant_part, operation
 from ..motion.measures import Leaf, traced, words_of
-from ..motion.requests import slope
+from ..motion.requests import Trait, slope
 from ..plan import Mask, Plan
-from ..program import QUICKEST, FloatArray, Kernel, Level, Node
+from ..program import FloatArray, Kernel, Level, Node
 from ..quantities import Quantity, Ref
 from ..vectors import Numbers
 from .measured import eager, motion_of, nothing_limits
@@ -64,7 +65,7 @@ class SampleProgram:
         """Return the program of requests, and of derivatives of some by the owners, on a plan that is not traced yet."""
         bulk = BulkProgram.compiled_on(plan, requests)
         own = bulk.kernel
-        following = [node for each in requests if each.follows_angles for node in each.nodes(plan)]
+        following = [node for each in requests if Trait.FOLLOWS_ANGLES in each.traits for node in each.nodes(plan)]
         shares = [node for each in sloped for node in slope(each, owners).nodes(plan)] if owners else []
         return cls(
             requests, len(own.outputs), Kernel([*own.outputs, *shares], own.guards), angles_of(plan, [*following, *shares]),
@@ -81,7 +82,7 @@ class SampleProgram:
         if is_told:
             values = grid.full(found.values)
             return values[: self.rows], values[self.rows :]
-        values = np.array([np.broadcast_to(each, grid.shape) for each in Evaluation(grid, self.requests, QUICKEST, "nan").run(None)])
+        values = np.array([np.broadcast_to(each, grid.shape) for each in evaluate_bound(Evaluation(grid, self.requests), None, "nan")])
         if self.slopes is None:
             return values, np.zeros((0, *grid.shape))
         kernel, followed = self.slopes
@@ -186,7 +187,7 @@ def rows_of_motion(plan: Plan, quantities: Sequence[object]) -> Callable[[Motion
     def values(motion: Motion) -> FloatArray:
         rows = np.empty((len(quantities), *motion.shape))
         with unwarned(), np.errstate(all="ignore"):
-            known = iter(Evaluation(motion._grid, requests, QUICKEST, "nan").run(None)) if requests else iter(())
+            known = iter(evaluate_bound(Evaluation(motion._grid, requests), None, "nan")) if requests else iter(())
         for place, request in found:
             rows[place] = eager(motion, quantities[place]) if request is None else np.where(motion.reached, next(known), np.nan)
         return rows

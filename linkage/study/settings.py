@@ -15,8 +15,8 @@ from ..mechanism import Mechanism
 from ..motion import Target, last_holding
 from ..motion.grid import recalled
 from ..motion.measures import words_of
+from ..motion.places import is_one
 from ..motion.requests import identity_of
-from ..motion.target import is_one
 from ..numeric.line import Curve, highest_between, sign_changes
 from ..plan import Mask, require_kind
 from ..program import FloatArray

@@ -13,8 +13,9 @@ from ..errors import DefinitionError, unwarned
 from ..frozen import FrozenDict, refuses_changes
 from ..mechanism import Mechanism
 from ..motion import Motion, Request, Target, stroke_display_unit
-from ..motion.requests import dimensions_of, slopes_of
-from ..motion.target import targets_given
+from ..motion.evaluation import BulkProgram
+from ..motion.places import targets_given
+from ..motion.requests import dimensions_of, slope
 from ..numeric.descent import NEAR, descended, is_one_solution, without_repeats
 from ..numeric.line import Index
 from ..plan import Mask
@@ -124,8 +125,8 @@ class Aim:
         found: dict[Hashable, FloatArray] = {}
         for request in self.bound:
             if request.key not in found:
-                kept = plan.made(("gradient", request.key, owners), lambda twin, what=request: slopes_of(twin, what, owners))  # type: ignore[misc]
-                found[request.key] = kept.kernel(grid.flat, way=RunOptions("numpy"), size=grid.size).values[: len(owners)]
+                kernel = BulkProgram.of(plan, [slope(request, owners)]).kernel
+                found[request.key] = kernel(grid.flat, way=RunOptions("numpy"), size=grid.size).values
         columns = [found[request.key][:, :, place] for place, request in enumerate(self.bound)]
         return np.asarray(np.stack(columns, axis=0).transpose(2, 0, 1) * signs / self.scale[:, None])
 

@@ -17,7 +17,7 @@ from ..mechanism import Mechanism
 from ..motion import NodeRequest, Request, RequestLike, require_motion
 from ..motion.grid import MotionLike
 from ..motion.measures import words_of
-from ..motion.requests import dimensions_of, identity_of
+from ..motion.requests import Trait, dimensions_of, identity_of
 from ..plan import Plan, plan_measure
 from ..program import FloatArray, Node, gradient
 from ..quantities import is_number
@@ -214,8 +214,8 @@ def sigma_of(what: Request, quantity: RequestLike, deviations: tuple[tuple[str, 
 
     return NodeRequest(
         text=f"sigma({words_of(quantity)})", sentence=f"the sigma of {what.sentence}", key=("sigma", what.key, deviations),
-        order=1 + what.order, nodes_of=nodes, names_of=what.names, notes_of=what.notes, refused_by=refuse, may_fail=True,
-        follows_angles=what.follows_angles,
+        order=1 + what.order, nodes_of=nodes, names_of=what.names, notes_of=what.notes, refused_by=refuse,
+        traits=Trait.MAY_FAIL | what.traits & Trait.FOLLOWS_ANGLES,
     )  # fmt: skip
 
 

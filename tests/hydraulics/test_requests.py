@@ -9,6 +9,7 @@ from numpy.testing import assert_allclose
 from hydraulics import Cylinder, LiftCircuit, buckling, capacity, pressure, reserve, thrust
 from linkage import DefinitionError, LoadCase, SingularError, bar, drive_force, mm, plot, ratio, y
 from linkage.errors import UntracedError
+from linkage.motion.requests import Trait
 from linkage.study import settings_for, zone
 from mechanisms.header_balancer.machine import HeaderBalancer
 from mechanisms.mower_lift import MowerLift
@@ -309,5 +310,6 @@ def test_requests_go_to_other_processes():
 
 def test_what_has_no_bound_in_places_says_so():
     """A reserve and a capacity have none where the load drives, and nor has a sum with one; a pressure and a thrust always have."""
-    assert all(each.may_be_unlimited for each in (reserve("lift"), capacity("lift", "G"), 2.0 * reserve("lift")))
-    assert not any(each.may_be_unlimited for each in (pressure("lift"), thrust("lift"), thrust("lift") + drive_force(), ratio("G")))
+    assert all(Trait.MAY_BE_UNLIMITED in each.traits for each in (reserve("lift"), capacity("lift", "G"), 2.0 * reserve("lift")))
+    always = (pressure("lift"), thrust("lift"), thrust("lift") + drive_force(), ratio("G"))
+    assert not any(Trait.MAY_BE_UNLIMITED in each.traits for each in always)

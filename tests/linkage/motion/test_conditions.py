@@ -38,8 +38,9 @@ from linkage import (
 )
 from linkage.loads import Weight
 from linkage.motion import evaluation, motion, requests
+from linkage.motion.evaluation import examined, keeps_digits
 from linkage.motion.grid import Grid
-from linkage.motion.requests import bound, examined, keeps_digits
+from linkage.motion.requests import bound
 from tests.for_all import for_all
 from tests.laws.near_singular import pose
 

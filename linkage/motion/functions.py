@@ -1,0 +1,306 @@
+"""Values and ratios of many poses in one pass, of one pose in floats, and as text: the calls under `evaluate`, `function` and `source`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
+from math import isfinite, nan
+from typing import Any, NoReturn, TypeAlias, final
+
+import numpy as np
+
+from ..checks import require
+from ..errors import DefinitionError, SingularError, UntracedError, one_word
+from ..plan import Plan, require_kinds
+from ..program import LANGUAGES, NO_VALUE, QUICKEST, FloatArray, Kernel, RunOptions
+from ..quantities import numbers_in
+from ..units import Amount
+from . import conditions
+from .evaluation import BulkProgram, Evaluation, keeps_digits, members_behind, other_law_error
+from .grid import Grid, varies
+from .live import live_source, true_nodes
+from .motion import Motion
+from .requests import Request, RequestLike, all_bound, identities_of, known_bound
+from .strokes import at_values, float_array, known_strokes
+
+
+def evaluate(
+    plan: Plan,
+    designs: Mapping[str, Any],
+    strokes: Mapping[str, Any],
+    requests: Sequence[RequestLike],
+    out: FloatArray | None,
+    way: RunOptions,
+    unreachable: str,
+    per_design: bool = False,
+) -> list[FloatArray]:
+    """Return the values of requests of designs at strokes; see Mechanism.evaluate."""
+    require_kinds(plan, strokes)
+    if out is None and unreachable in ("raise", "nan"):
+        with suppress(UntracedError):
+            found = at_one_pose(plan, designs, strokes, requests) if way == QUICKEST else None
+            if found is None:
+                found = at_few_poses(plan, designs, strokes, requests, way)
+            if found is not None:
+                return found
+    return evaluate_grid(Grid(plan, designs, at_values(strokes, plan, float_array), per_design=per_design), requests, out, way, unreachable)
+
+
+def evaluate_grid(
+    grid: Grid, requests: Sequence[RequestLike], out: FloatArray | None, way: RunOptions, unreachable: str
+) -> list[FloatArray]:
+    """Return the values of requests over a grid; see Mechanism.evaluate."""
+    one_word("unreachable", unreachable, ("raise", "nan"))
+    try:
+        found = known_bound(grid.plan, requests)
+    except UntracedError:
+        return evaluate_apart(grid, requests, out, way, unreachable)
+    return evaluate_bound(Evaluation(grid, found, way), out, unreachable)
+
+
+def evaluate_bound(asked: Evaluation, out: FloatArray | None, unreachable: str) -> list[FloatArray]:
+    """Return the values of requests that are bound; raise or warn as asked."""
+    grid, rows = asked.grid, asked.program.rows
+    values, look = asked.run(None if out is None else checked_out(grid, rows, out).reshape(rows, *grid.size))
+    if look is not None:
+        if look.broken.any() or (unreachable == "raise" and look.missing.any()):
+            refuse(asked, unreachable)
+        for number, worst in look.worst.items():
+            conditions.warn_near(worst, f"{grid.plan.title}: {asked.requests[number].sentence}", "comes")
+    return values
+
+
+def refuse(asked: Evaluation, unreachable: str) -> NoReturn:
+    """Raise the error of poses without a value, in the words of a motion."""
+    grid = asked.grid
+    motion = Motion(grid.plan, grid.designs, grid.strokes, unreachable, per_design=grid.per_design)
+    for each in asked.requests:
+        each.refuse(motion)
+    for each in asked.requests:
+        if each.notes(grid.plan).assumed:
+            raise other_law_error(grid.plan, each)
+    names = ", ".join(each.sentence for each in asked.requests)
+    text = f'{grid.plan.title}: {names} has no value at some of these poses. Leave them out, or ask with unreachable="nan".'
+    raise SingularError(text, motion=motion)
+
+
+def evaluate_apart(
+    grid: Grid, requests: Sequence[RequestLike], out: FloatArray | None, way: RunOptions, unreachable: str
+) -> list[FloatArray]:
+    """Return the same of requests some of which have no program: these as a motion of the same poses gives them."""
+    motion = Motion(grid.plan, grid.designs, grid.strokes, unreachable, per_design=grid.per_design)
+    found = []
+    for each in requests:
+        try:
+            found += evaluate_bound(Evaluation(grid, all_bound(grid.plan, [each]), way), None, unreachable)
+        except UntracedError:
+            found.append(motion[each])
+    rows = [np.reshape(each, (-1, *grid.shape)) for each in found]
+    if out is not None:
+        whole = checked_out(grid, sum(map(len, rows)), out)
+        np.concatenate(rows, out=whole)
+        rows = np.split(whole, np.cumsum([len(each) for each in rows])[:-1])
+    return [part if each.ndim > len(grid.shape) else part[0] for part, each in zip(rows, found, strict=True)]
+
+
+def at_one_pose(
+    plan: Plan, designs: Mapping[str, object], strokes: Mapping[str, object], requests: Sequence[RequestLike]
+) -> list[FloatArray] | None:
+    """Return the values of requests at one pose within the declared strokes; None where it has to be looked at closely, or are several.
+
+    The program of requests that are known from before is found by what they are; nothing is bound or traced again.
+    """
+    if len(strokes) != len(plan.strokes) or plan.solved:
+        return None
+    values = []
+    for name, stroke in plan.strokes.items():
+        value = strokes.get(name)
+        if not (isinstance(value, float) or type(value) is int):
+            return None
+        if not (stroke.start <= value <= stroke.end or stroke.end <= value <= stroke.start):
+            return None
+        values.append(float(value))  # NumPy's own would not raise where it is divided by zero
+    identities = identities_of(plan, requests)
+    if identities is None:
+        return None
+    program = plan.made(("one pose", identities), lambda _: PoseProgram(plan, all_bound(plan, requests)))
+    pose = program.of_design(designs)
+    found = None if pose is None else pose(values)
+    return None if found is None else program.bulk.split(np.array(found))
+
+
+FEW = 8192
+"""Poses of one design that are worked out at once before any of them is looked at closely."""
+
+
+def at_few_poses(
+    plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, Any], requests: Sequence[RequestLike], way: RunOptions
+) -> list[FloatArray] | None:
+    """Return the same of one design at arrays of strokes, shape (n,), within the declared ranges; None as `at_one_pose` does."""
+    if plan.solved or len(strokes) != len(plan.strokes) or not {*map(type, designs.values())} <= {float}:
+        return None
+    sizes = set()
+    for name, stroke in plan.strokes.items():
+        value = strokes.get(name)
+        if type(value) is not np.ndarray or value.dtype != np.float64 or value.ndim != 1 or not 0 < value.size <= FEW:
+            return None
+        low, high = (stroke.start, stroke.end) if stroke.start <= stroke.end else (stroke.end, stroke.start)
+        if not (low <= value.min() and value.max() <= high):  # what is not finite neither
+            return None
+        sizes.add(value.size)
+    identities = identities_of(plan, requests)
+    if identities is None or len(sizes) != 1:
+        return None
+    program = plan.made(("few poses", identities), lambda _: BulkProgram.of(plan, all_bound(plan, requests)))
+    if program.angles:
+        return None
+    result = program.kernel({**designs, **strokes}, None, way, (1, sizes.pop()))
+    return program.split(result.values[:, 0]) if program.is_clear(result) else None
+
+
+def checked_out(grid: Grid, rows: int, out: FloatArray) -> FloatArray:
+    """Return the array that takes so many rows of results; DefinitionError for what cannot."""
+    shape = (rows, *grid.shape)
+    if not isinstance(out, np.ndarray) or out.dtype != np.float64 or out.shape != shape or not out.flags.c_contiguous:
+        given = f"{out.dtype} {out.shape}" if isinstance(out, np.ndarray) else repr(out)
+        raise DefinitionError(
+            f"{grid.plan.title}: out= is {given}; expected is a contiguous float64 array of the shape {shape}: "
+            "one row a component of what is asked for."
+        )
+    if not out.flags.writeable:
+        raise DefinitionError(f"{grid.plan.title}: out= cannot be written into; give an array of your own, np.empty({shape}).")
+    return out
+
+
+# Values and ratios of one design, pose by pose, in floats: for root finders and other loops.
+
+Pose: TypeAlias = Callable[[Sequence[float]], tuple[float, ...] | None]
+"""All components at the strokes of one pose, one after the other; None where it has to be looked at closely."""
+
+
+@final
+class PoseProgram:
+    """Some requests in floats: `of_design(designs)` is a function of the strokes, the design worked out."""
+
+    def __init__(self, plan: Plan, requests: tuple[Request, ...]) -> None:
+        self.bulk, self._plan, self._requests = BulkProgram.of(plan, requests), plan, requests
+        self._tells_nearness = plan.trace.nearness(members_behind(plan, requests)).op != "constant"
+        self._order = [list(plan.strokes).index(node.value) for node in self.bulk.kernel.plan.pose_inputs]
+        self._latest: tuple[Mapping[str, Any] | None, Pose | None] = None, None
+
+    def of_design(self, designs: Mapping[str, object]) -> Pose | None:
+        """Return the function of one design, that of the latest kept; None for several designs."""
+        known, pose = self._latest
+        if known is not designs:
+            if any(map(varies, designs.values())):
+                return None
+            pose = self._pose(designs)
+            self._latest = designs, pose
+        return pose
+
+    def _pose(self, designs: Mapping[str, Any]) -> Pose:
+        kernel, order, may_fail, many = self.bulk.kernel, self._order, self.bulk.may_fail, len(self._plan.strokes)
+        floats, count = kernel.floats, len(kernel.plan.outputs)
+        passed = floats.design([float(designs[node.value]) for node in kernel.plan.design_inputs])
+        pose, is_ordered = floats.quick["pose"], order == list(range(many))
+
+        def at(strokes: Sequence[float]) -> tuple[float, ...] | None:
+            if len(strokes) != many:
+                return None
+            try:
+                found: tuple[float, ...] = pose(*passed, *(strokes if is_ordered else [strokes[place] for place in order]))
+                if not isfinite(sum(strokes)):  # those that the requests do not follow included
+                    return None
+            except (*NO_VALUE, TypeError):
+                return None
+            for guard in found[count:]:
+                if not guard > 0.0:
+                    is_placed = self._tells_nearness and all([each > 0.0 for each in found[count:-1]])
+                    if not (is_placed and self._keeps_digits(designs, strokes)):
+                        return None
+                    break  # the last guard tells how near singular poses are
+            return None if may_fail and not all(map(isfinite, found)) else found[:count]
+
+        return at
+
+    def _keeps_digits(self, designs: Mapping[str, object], strokes: Sequence[float]) -> bool:
+        """Return whether a coarse look shows that all requests keep their digits at a pose."""
+        inputs = {**designs, **dict(zip(self._plan.strokes, strokes, strict=True))}
+        every = np.ones((len(self._requests), 1, 1), bool)
+        return not self._plan.solved and bool(keeps_digits(self._plan, self._requests, inputs, every).all())
+
+
+@final
+class PoseFunction:
+    """Requests of one design as a function of the strokes, in floats; it can be sent to other processes."""
+
+    def __init__(self, plan: Plan, designs: Mapping[str, Any], requests: Sequence[RequestLike]) -> None:
+        if any(np.ndim(value) for value in designs.values()):
+            raise DefinitionError(f"{plan.title}: a function of floats is of one design; use evaluate for several.")
+        self._plan, self._designs, self._names = plan, dict(designs), tuple(plan.strokes)
+        self._requests = tuple(requests) if isinstance(requests, Iterator) else requests
+        try:
+            found = all_bound(plan, self._requests)
+            self._pose = None if plan.solved else PoseProgram(plan, found).of_design(self._designs)
+        except UntracedError:
+            self._pose = None
+
+    def __call__(self, *strokes: float, **named: float) -> tuple[float, ...]:
+        """Return all components one after the other at strokes [SI], in their order or by name."""
+        if self._pose is None or (named and len(strokes) + len(named) != len(self._names)):
+            return self._closely(strokes, named)
+        at = strokes
+        if named:
+            at = (*strokes, *(named.get(name, nan) for name in self._names[len(strokes) :]))
+        found = None if Amount in map(type, at) else self._pose(at)
+        return self._closely(strokes, named) if found is None else found
+
+    def _closely(self, strokes: Sequence[float], named: Mapping[str, float]) -> tuple[float, ...]:
+        """Return the same where a guard or a failing operation tells, or the strokes are given in another way."""
+        plan, names = self._plan, list(self._plan.strokes)
+        known_strokes(named, {name: plan.strokes[name] for name in names[len(strokes) :]}, plan.title)
+        values = [*strokes, *(named[name] for name in names[len(strokes) :])]
+        if len(values) != len(names):
+            raise DefinitionError(f"{plan.title}: one value for each stroke is expected: {', '.join(names)}.")
+        at = dict(zip(names, values, strict=True))
+        require_kinds(plan, at)
+        given = {name: numbers_in(value) for name, value in at.items()}
+        for name, found in given.items():
+            if found.size != 1 or not np.isfinite(found).all():
+                what = f"{plan.title}: the stroke {name}={at[name]!r:.60}"
+                raise DefinitionError(f"{what}: one finite number is expected; evaluate takes arrays.")
+        grid = Grid(plan, self._designs, {name: found.reshape(()) for name, found in given.items()})
+        return tuple(float(part) for found in evaluate_grid(grid, self._requests, None, QUICKEST, "raise") for part in np.ravel(found))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return PoseFunction, (self._plan, self._designs, self._requests)
+
+
+# Values and ratios as the text of a function in another language: for a controller, or a page of one's own.
+
+
+def source_of(plan: Plan, designs: Mapping[str, Any], requests: Sequence[RequestLike], language: object, name: str) -> str:
+    """Return requests as text in a language; see Mechanism.source."""
+    writer = LANGUAGES.given(language) or LANGUAGES[one_word("language", language, tuple(LANGUAGES))]
+    require(isinstance(name, str) and name.isascii() and name.isidentifier(), "name", name, "a function's name is expected, such as poses")
+    if name in writer.words.split():
+        raise DefinitionError(f"name={name!r} has a meaning in {language} already; give the function another name, such as poses.")
+    if any(np.ndim(value) for value in designs.values()):
+        raise DefinitionError(f"{plan.title}: source() states one design; its dimensions are arguments of the text, which serves all.")
+    bound = all_bound(plan, requests)
+    design = {name: float(value) for name, value in designs.items()}
+    nodes = plan.made(
+        ("source", tuple(each.key for each in bound)), lambda twin: [node for each in bound for node in true_nodes(twin, each)]
+    )
+    read = {node.value for node in Kernel(nodes).plan.pose_inputs}
+    if language == "javascript" and not read.isdisjoint(plan.solved):
+        return live_source(plan, bound, name, design)
+    for group in plan.groups.values():  # what hangs on pins that are found by iteration, or on a followed angle, has no closed form
+        if not read.isdisjoint(group.inputs):
+            what = f"{plan.title}: {group} is solved by iteration and has no closed form to write down"
+            raise DefinitionError(f"{what}; ask for what does not hang on {', '.join(group.pins)}, or use function().")
+    for angle in plan.followed:
+        if angle in read:
+            what = f"{plan.title}: {angle} is followed from the sketch, as its whole turns tell poses apart, and has no closed form"
+            raise DefinitionError(f"{what} to write down; use a whole multiple of it, drive the angle by a Stroke, or use function().")
+    return writer.text(nodes, name, design)

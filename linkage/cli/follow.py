@@ -17,7 +17,7 @@ from ..errors import DefinitionError, FileError
 from ..files.criterion import quantity_said
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, RequestLike, Target, stroke_measure
-from ..motion.kinds import measure_of
+from ..motion.measures import measure_of
 from ..quantities import x, y
 from ..units import UNITS, parse, parse_span, units_of
 from .command import COLUMNS, CSV, PICTURES, Command, lined_up, machine_options, option, picture, progress_bar, repeatable

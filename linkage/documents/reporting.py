@@ -31,7 +31,7 @@ from ..motion import (
     places_text,
     stroke_display_unit,
 )
-from ..motion.kinds import measure_of
+from ..motion.measures import measure_of
 from ..pictures.curves import limit_of
 from ..pictures.poses import named_points
 from ..pictures.strokes import column_among

@@ -20,15 +20,18 @@ import numpy as np
 from ..errors import DefinitionError, ensure, unknown
 from ..mechanism import Mechanism
 from ..motion import Request
-from ..motion.kinds import KINDS, MeasureKind, common_kind, kind_of_quantity
 from ..motion.measures import (
+    KINDS,
     Condition,
     Given,
     Measure,
+    MeasureKind,
     Worst,
     as_measure,
     at,
+    common_kind,
     integral,
+    kind_of_quantity,
     least,
     most,
     reachable,

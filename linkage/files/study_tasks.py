@@ -27,8 +27,7 @@ from ..errors import DefinitionError, ensure, known_name, unknown
 from ..loads import Acting
 from ..mechanism import Mechanism
 from ..motion import Column, Request, stroke_display_unit, stroke_measure
-from ..motion.kinds import measure_of
-from ..motion.measures import At, Constraint, Given, Measure, in_case
+from ..motion.measures import At, Constraint, Given, Measure, in_case, measure_of
 from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import is_number

@@ -20,8 +20,7 @@ from typing import Annotated, Any, TypeAlias
 
 from ..errors import DefinitionError, known_name
 from ..motion import stroke_measure
-from ..motion.kinds import measure_of
-from ..motion.measures import words_of
+from ..motion.measures import measure_of, words_of
 from ..study.problem import is_still, ranges_of
 from ..synthesis import FunctionTask, PathTask, PoseTask
 from ..synthesis.task_search import synthesise

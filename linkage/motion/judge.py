@@ -30,7 +30,6 @@ from .answer import LOST, LOST_SHARE, NONE_LOST, NOTHING_LEFT, OF_VALUE, PER_DES
 from .evaluation import Evaluation
 from .functions import evaluate_bound
 from .grid import Grid, recalled
-from .kinds import check_condition, check_kinds
 from .limits import LoopMargin, stroke_unit
 from .measures import (
     At,
@@ -43,6 +42,8 @@ from .measures import (
     Most,
     Reachable,
     Worst,
+    check_condition,
+    check_kinds,
     conditions_of,
     is_quantity,
     reachable,

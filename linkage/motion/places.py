@@ -28,9 +28,8 @@ from ..quantities import Quantity, is_number, numbers_in
 from ..units import amount_or_float, deg, display_unit, mm, require_measure, show, unit_or_none
 from .conditions import WARN
 from .grid import Grid
-from .kinds import measure_of
 from .limits import stroke_display_unit
-from .measures import traced, words_of
+from .measures import measure_of, traced, words_of
 from .motion import Motion
 from .requests import Request, RequestLike
 from .stroke_search import ON_ARRAYS

@@ -14,8 +14,7 @@ from ..checks import require_whole
 from ..errors import StudyError
 from ..language import said, said_of
 from ..motion import Column, stroke_display_unit
-from ..motion.kinds import measure_of
-from ..motion.measures import words_of
+from ..motion.measures import measure_of, words_of
 from ..program import FloatArray
 from ..synthesis import FunctionTask, PathTask, PoseTask, Synthesis, SynthesisedMachine
 from ..synthesis.synthesis import CLOSEST_CHANGE_POINT, EXACT, miss_unit

@@ -9,8 +9,7 @@ import numpy as np
 
 from ..errors import DefinitionError, StudyError
 from ..motion import live_text
-from ..motion.kinds import measure_of
-from ..motion.measures import words_of
+from ..motion.measures import measure_of, words_of
 from ..plan import Plan
 from ..quantities import Quantity
 from ..reports import results

@@ -14,8 +14,7 @@ from ..errors import DefinitionError, cited, known_name, one_word, unwarned
 from ..frozen import FrozenDict, refuses_changes
 from ..mechanism import Mechanism
 from ..motion import Request
-from ..motion.kinds import measure_of
-from ..motion.measures import At, Condition, Constraint, Integral, Leaf, Measure, Worst, conditions_of
+from ..motion.measures import At, Condition, Constraint, Integral, Leaf, Measure, Worst, conditions_of, measure_of
 from ..numeric.line import Index
 from ..plan import Mask, Plan
 from ..program import FloatArray, RunOptions

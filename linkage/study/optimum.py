@@ -19,8 +19,7 @@ from ..checks import require_number
 from ..disk import Place, replacing_text
 from ..errors import AssemblyError, DefinitionError, LinkageError
 from ..mechanism import Mechanism
-from ..motion.kinds import measure_of, measure_unit
-from ..motion.measures import Constraint, Given, Integral, Leaf, Measure
+from ..motion.measures import Constraint, Given, Integral, Leaf, Measure, measure_of, measure_unit
 from ..numeric.line import Index
 from ..plan import Plan
 from ..program import FloatArray

@@ -22,7 +22,6 @@ from ..frozen import FrozenDict
 from ..mechanism import Mechanism
 from ..motion import Grid, Motion, Request, greatest
 from ..motion.grid import JoinedTo, joined_in_order, varies
-from ..motion.kinds import check_kinds
 from ..motion.measures import (
     At,
     CombinedMeasure,
@@ -34,6 +33,7 @@ from ..motion.measures import (
     Measure,
     Most,
     Worst,
+    check_kinds,
     strokes_behind,
     traced,
     words_of,

@@ -13,8 +13,7 @@ from ..motion import Grid, Motion, NodeRequest, Request
 from ..motion.evaluation import BulkProgram, Evaluation
 from ..motion.functions import evaluate_bound
 from ..motion.grid import Angles, angles_of
-from ..motion.kinds import constant_part, operation
-from ..motion.measures import Leaf, traced, words_of
+from ..motion.measures import Leaf, constant_part, operation, traced, words_of
 from ..motion.requests import Trait, slope
 from ..plan import Mask, Plan
 from ..program import FloatArray, Kernel, Level, Node

@@ -13,7 +13,7 @@ from ..checks import require, require_whole
 from ..errors import DefinitionError, one_word, unwarned
 from ..frozen import FrozenDict, refuses_changes
 from ..mechanism import Mechanism
-from ..motion.kinds import measure_of
+from ..motion.measures import measure_of
 from ..plan import Plan
 from ..program import FloatArray, RunOptions
 from ..quantities import is_whole

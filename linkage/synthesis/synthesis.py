@@ -18,8 +18,7 @@ from ..language import said, said_of
 from ..mechanism import Mechanism
 from ..motion import stroke_display_unit
 from ..motion.judging import transmissions
-from ..motion.kinds import measure_of
-from ..motion.measures import Measure
+from ..motion.measures import Measure, measure_of
 from ..plan import Mask
 from ..program import FloatArray
 from ..shown import Shown

@@ -16,8 +16,7 @@ from ..frozen import frozen
 from ..language import said
 from ..mechanism import Mechanism
 from ..motion import stroke_display_unit
-from ..motion.kinds import measure_of
-from ..motion.measures import Constraint, Given, Measure, conditions_of, in_case, mean_in_cases, reachable, words_of
+from ..motion.measures import Constraint, Given, Measure, conditions_of, in_case, mean_in_cases, measure_of, reachable, words_of
 from ..plan import Mask
 from ..program import FloatArray, fixed_backend
 from ..study.box import unit_points

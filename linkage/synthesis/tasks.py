@@ -14,7 +14,7 @@ from ..checks import require, require_number, require_type
 from ..errors import DefinitionError, cited, ensure, is_yes
 from ..frozen import frozen, read_only, refuses_changes
 from ..mechanism import Mechanism
-from ..motion.kinds import measure_of
+from ..motion.measures import measure_of
 from ..motion.strokes import TURN, is_in_degrees
 from ..plan import Mask
 from ..program import FloatArray

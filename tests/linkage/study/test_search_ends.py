@@ -36,8 +36,7 @@ from linkage import (
 )
 from linkage.files.criterion import condition_said, measure_said
 from linkage.files.survey_measures import TextMeasures
-from linkage.motion.kinds import measure_unit
-from linkage.motion.measures import conditions_of
+from linkage.motion.measures import conditions_of, measure_unit
 from linkage.program import Kernel
 from linkage.study import InfeasibleError, Target, monte_carlo, settings_for
 from linkage.study.problem import Problem

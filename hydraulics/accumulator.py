@@ -39,7 +39,6 @@ from .gas import Gas, Polytropic, isothermal
 from .inputs import (
     Array,
     above_vacuum,
-    absolute_pressure,
     all_finite,
     following,
     follows,
@@ -318,8 +317,9 @@ class AccumulatorBlock:
         unit_or_none(unit, "checks(unit=...)", units_of("pressure"))
         given = (one_number(pressure, "Pressure") for pressure in (p_min, p_max, allowed))
         low, high, limit = (float(self._absolute(pressure)) - self.atmosphere for pressure in given)
-        text = partial(show, unit=unit or self._unit, digits=4)
-        ensure(not low > high, f"p_min = {text(low)} is above p_max = {text(high)}; exchange them.")
+        text = partial(show, unit=unit or self.unit or "bar", digits=4)
+        if low > high:
+            raise DefinitionError(f"p_min = {text(low)} is above p_max = {text(high)}; exchange them.")
         charges = {number: there(charge, vessel) for number, (charge, vessel) in enumerate(self._bank, 1) if np.any(vessel > 0.0)}
         worst = {"charge": (low + self.atmosphere, np.max), "compression": (high + self.atmosphere, np.min)}
         found = []
@@ -385,11 +385,6 @@ class AccumulatorBlock:
         return GasBank(self.gas, tuple(charges), tuple(vessels))
 
     @property
-    def _unit(self) -> str:
-        """The unit of pressure of its sentences."""
-        return self.unit or "bar"
-
-    @property
     def lowest_charge(self) -> Array:
         """The lowest charge [Pa gauge] of the vessels that are there: charged to less, the block is rigid."""
         return np.asarray(self._bank.lowest - self.atmosphere)[()]
@@ -401,7 +396,7 @@ class AccumulatorBlock:
 
     def _absolute(self, pressure: ArrayLike) -> Array:
         self._check_sized()
-        return absolute_pressure(pressure, self.atmosphere, "Pressure")
+        return above_vacuum(all_finite(pressure, "Pressure") + self.atmosphere, self.atmosphere, "Pressure")
 
     def _charged(self, p1: ArrayLike) -> Array:
         """Return `p1` as absolute pressure [Pa]; DefinitionError where the block is rigid."""
@@ -409,7 +404,7 @@ class AccumulatorBlock:
         rigid = pressure < lowest * (1.0 - ROUNDING)
         if np.any(rigid):
             p, charge = (float(np.broadcast_to(of, rigid.shape)[rigid][0] - self.atmosphere) for of in (pressure, lowest))
-            low, least = show(p, self._unit, 4), show(charge, self._unit, 4)
+            low, least = (show(each, self.unit or "bar", 4) for each in (p, charge))
             raise DefinitionError(
                 f"The block is rigid: charged to {low} gauge it holds no fluid, its lowest gas charge being {least} gauge. "
                 f"Charge the line above {least}, or lower a gas charge."

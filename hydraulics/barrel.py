@@ -6,7 +6,7 @@ left of that way. Both are taken as long as the cylinder is closed: the barrel e
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any, ClassVar, Self, final
@@ -16,12 +16,10 @@ from linkage.frozen import refuses_changes
 from linkage.language import noted
 from linkage.loads import Glyph, Halves, Load, Parameter, Poses, Rates, TwoPoint
 from linkage.loads.point import DOWN, on_slope, vector
-from linkage.quantities import Axes, Member, Number, Operand, Quantity, Reference, Where, label, name_of, quantity, spelled
+from linkage.quantities import Axes, Member, NamedMembers, Number, Operand, Quantity, Reference, Where, label, name_of, quantity, spelled
 from linkage.steps import Link, Point
 from linkage.units import mm
 from linkage.vectors import Vec
-
-from .inputs import variable_written
 
 GLAND, PISTON = "gland", "piston"
 """The points at which a barrel and a rod end in the cylinder, as `lift.gland`."""
@@ -66,7 +64,7 @@ class BarrelAndRod(TwoPoint):
         has_masses = any(self.given(name) is not None for name in MASSES)
         return (*super().parts(), *(self._inner_ends if self.name and has_masses else ()))
 
-    def inner(self, name: str, members: Mapping[str, Member]) -> Member | None:
+    def inner(self, name: str, members: NamedMembers) -> Member | None:
         A, B = self.ends
         gland, piston = self._inner_ends
         if name in (BARREL, ROD):
@@ -82,13 +80,13 @@ class BarrelAndRod(TwoPoint):
         if self.closed is None:
             what = f"{self.name} is a barrel and a rod here, which are as long as it is closed, and its closed length is not given"
             raise DefinitionError(f"{what}; add closed=... in m.", member=self.name)
-        return variable_written(self, "closed")
+        return self.written("closed")
 
     @property
     def scales(self) -> bool:
         return any(self.given(name) is not None for name in MASSES) or super().scales
 
-    def halves(self, members: Mapping[str, Member]) -> Halves | None:
+    def halves(self, members: NamedMembers) -> Halves | None:
         if not self.name or self._inner_ends[0] not in members:
             return None
         names, labels = (f"{self.name} barrel", f"{self.name} rod"), (f"{self.name}.{BARREL}", f"{self.name}.{ROD}")
@@ -108,7 +106,7 @@ class BarrelAndRod(TwoPoint):
     def in_gravity(self, gravity: tuple[float, float] | None, slope: float) -> Self:
         return self.renewed(_gravity=on_slope(self._gravity if gravity is None else gravity, slope)) if self._masses else self
 
-    def glyphs(self, members: Mapping[str, Member]) -> tuple[Glyph, ...]:
+    def glyphs(self, members: NamedMembers) -> tuple[Glyph, ...]:
         return (*super().glyphs(members), *(Glyph("mass", points) for points in self._masses.values() if points[1] in members))
 
 
@@ -154,7 +152,7 @@ class OnCylinder(Point):
             if isinstance(value, Number) and not abs(value.number) < float("inf"):
                 raise DefinitionError(f"{self}: along and across are finite numbers [m].")
 
-    def among(self, members: Mapping[str, Member]) -> Self:
+    def among(self, members: NamedMembers) -> Self:
         called = name_of(self.cylinder)
         if called not in members:
             having = (name for name, each in members.items() if GLAND in each.inside)
@@ -182,18 +180,16 @@ class OnCylinder(Point):
         given = {name.rpartition(".")[2]: quantity(values[name]) for name, _ in self.numbers() if name in values}
         return self.renewed(**given) if given else self
 
-    def examine(self, members: Mapping[str, Member], title: str) -> None:
-        """Raise DefinitionError for a point beyond the ends of its body."""
+    def faults(self, members: NamedMembers) -> Iterator[str]:
+        """Yield that it is beyond the ends of its body."""
         closed: Any = getattr(members[name_of(self.cylinder)], "closed", None)
         if not isinstance(self.along, Number) or not isinstance(quantity(closed), Number):
             return
         along, long = self.along.number, float(closed)
         if along > long or along < (-long if self.is_on_A else 0.0):
             beyond = "its pin" if along < 0.0 else f"its end, {long / mm:.6g} mm from there"
-            raise DefinitionError(
-                f"{title}: {self.name} = {self}: {along / mm:.6g} mm along {self.what}, counted from {self.ends[0]} towards "
-                f"{self.ends[1]}, is beyond {beyond}. Take a point on it, or measure it on the body that {self.ends[0]} belongs to."
-            )
+            there = f"{along / mm:.6g} mm along {self.what}, counted from {self.ends[0]} towards {self.ends[1]}, is beyond {beyond}"
+            yield f"{there}. Take a point on it, or measure it on the body that {self.ends[0]} belongs to"
 
     def in_axes(self, axes: Axes) -> Self:
         return self.renewed(is_mirrored=not self.is_mirrored) if axes.mirrored else self

@@ -15,13 +15,12 @@ from linkage.language import noted, said
 from linkage.loads import Acting, ForceElement, LoadCase
 from linkage.mechanism import Mechanism
 from linkage.motion import Column, Judge, Motion, columns_of, least
-from linkage.statics import LawRequest, elements_of, pull_direction, same
+from linkage.statics import LawRequest, elements_of, is_among, pull_direction
 from linkage.units import g0, show
 from linkage.verdict import Verdict
 
-from .inputs import Array, proper_share
-from .judged import line_verdicts
-from .lift import LiftCircuit
+from .inputs import Array, one_design, proper_share
+from .lift import LiftCircuit, line_verdicts
 from .member import Ram, found_in
 from .requests import capacity_request
 
@@ -74,7 +73,7 @@ def print_capacity(options: Namespace) -> int:
     shown = [each for each in columns_of(over) if each.name in places]
     columns = [*shown, *ram.columns_in(whole, case), Column(FURTHER, capacity(whole), "kN", 3)]
     if options.csv != "-":
-        supply = show(float(np.ravel(circuit.supply(over))[0]), "bar", 4)
+        supply = show(one_design(circuit.supply(over)), "bar", 4)
         way = f"along ({x:g}, {y:g}) at {f'{share:g} of ' if share != 1.0 else ''}{supply}"
         print(f"{machine.plan.title}: {ram.name} lifts at {point} {way}, beside the machine's own loads. Pressures are gauge.\n")
     write_table(columns, over.reached.size, options.csv)
@@ -89,7 +88,7 @@ def cylinder_of(machine: Mechanism, name: str | None) -> Ram:
     if name is not None:
         return found_in(plan.members, name, plan.title)
     fed = [ram for each in plan.of_kind(ForceElement).values() for ram in each.feeds(plan.members)]
-    lifting = {key: each for key, each in plan.of_kind(Ram).items() if not any(same(each, ram) for ram in fed)}
+    lifting = {key: each for key, each in plan.of_kind(Ram).items() if not is_among(each, fed)}
     if len(lifting) == 1:
         return next(iter(lifting.values()))
     ensure(not lifting, f"{plan.title} has the cylinders {', '.join(lifting)}; say --cylinder one of them.")
@@ -105,7 +104,7 @@ def circuit_of(machine: Mechanism, ram: Ram, options: Namespace) -> LiftCircuit:
         pressure = si_value(options.pressure, "pressure", "--pressure")
         ensure(not pressure < 0.0, f"--pressure {options.pressure}: it is negative; give zero or more.")
         return LiftCircuit(ram.name, pressure=pressure)
-    circuits = {name: each for name, each in plan.of_kind(LiftCircuit).items() if any(same(ram, one) for one in each.members(plan.members))}
+    circuits = {name: each for name, each in plan.of_kind(LiftCircuit).items() if is_among(ram, each.members(plan.members))}
     if options.circuit is not None:
         return circuits[known_name("LiftCircuit", options.circuit, circuits, f"{plan.title} with {ram.name}")]
     if len(circuits) == 1:

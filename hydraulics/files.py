@@ -11,8 +11,7 @@ from linkage.errors import DefinitionError, cited, ensure, known_name, unknown
 from linkage.quantities import Number, is_number
 from linkage.quantities.quantity import plain
 
-from .gas import ROOM, Gas, Polytropic, adiabatic, isothermal, polytropic
-from .nitrogen import RealNitrogen, real_nitrogen
+from .gas import ROOM, Gas, Polytropic, RealNitrogen, adiabatic, isothermal, polytropic, real_nitrogen
 
 LAWS: Mapping[str, tuple[Callable[..., Gas], tuple[str, ...]]] = {
     "isothermal": (lambda: isothermal, ()),

@@ -8,7 +8,7 @@ Source: Rekhlitski, Chuprynin (2013), (36), (37), (39).
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial, reduce
 from math import nan
@@ -27,13 +27,13 @@ from linkage.loads.element import Formulas
 from linkage.loads.two_point import end_forces
 from linkage.motion import Answer, Judge, Motion, MotionFunction, least, most
 from linkage.program import is_traced
-from linkage.quantities import Member, Reference, label, name_of, quantity
+from linkage.quantities import NamedMembers, Reference, label, name_of, quantity
 from linkage.statics import AnyMotion, held_in_case, plan_of, same, stroke_followed
 from linkage.verdict import Verdict
 
 from .accumulator import AccumulatorBlock, keeps_rule
 from .gas import Polytropic
-from .inputs import Array, all_finite, follows, in_pascals, number_set
+from .inputs import Array, all_finite, follows, in_pascals, number_set, one_design
 from .line import pressure_range
 from .member import Circuit, Feeds, Ram, as_in, chamber_area
 from .shut import shut_verdicts
@@ -54,7 +54,7 @@ class GasLine(Circuit):
     def parts(self) -> tuple[Reference, ...]:
         return (*super().parts(), *getattr(self.gas_block(), "following", ()))
 
-    def glyphs(self, members: Mapping[str, Member]) -> tuple[Glyph, ...]:
+    def glyphs(self, members: NamedMembers) -> tuple[Glyph, ...]:
         block = self.gas_block()
         if block is None:
             return ()
@@ -69,24 +69,17 @@ class GasLine(Circuit):
         """Return the length of one of its cylinders where it was charged [m]."""
         return length_at(motion, ram, self.charged_at(motion, ram))
 
-    def volumes(self, motion: Poses) -> Iterator[Array]:
-        """Yield how much larger each of its chambers is than where it was charged [m3]."""
-        require_poses(motion)
-        for ram, chamber in self.filling(motion.plan.members):
-            yield ram.filled(chamber.side, motion, self.length_charged(motion, ram), motion.distance(ram.A, ram.B))
-
     def withdrawn(self, motion: Poses) -> Array:
-        """Return the fluid [m3] that has left the block since it was charged, shape (...); negative: pushed in. (36)"""
-        return reduce(np.add, self.volumes(motion))
+        """Return the fluid [m3] that has left the block since it was charged, shape (...); negative: pushed in. (36)
+
+        By so much its chambers are larger than where it was charged.
+        """
+        require_poses(motion)
+        chambers = ((ram, each.side, motion.distance(ram.A, ram.B)) for ram, each in self.filling(motion.plan.members))
+        return reduce(np.add, [ram.filled(side, motion, self.length_charged(motion, ram), length) for ram, side, length in chambers])
 
     def pressure_in(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array:
-        return self.pressure_under(motion, acting)
-
-    def pressure_under(self, motion: AnyMotion, acting: Acting | None) -> Array:
-        """Return the pressure of the gas [Pa gauge], or where a load case shuts the line what the loads make of it."""
-        motion = held_in_case(motion, acting)
-        is_shut = acting is not None and as_in(motion.plan, self)._is_shut
-        return standing_pressure(self, motion, cast(Acting, acting)) if is_shut else self.pressure(motion)
+        return self.line_pressure(motion, acting)
 
     def bounds_of(self, cylinder: Reference, motion: Poses, lifting: bool, *, share: float = 1.0) -> tuple[Array, Array]:
         """Return the gas's force twice: its cylinder has no other [N]."""
@@ -107,7 +100,7 @@ class GasLine(Circuit):
             low, high = judge.answers([each(MotionFunction(pressure, "pressure")) for each in (least, most)])
             block = self.accumulators(judge.motion)
         except DefinitionError as error:
-            return [Verdict("line", False, " ".join(str(error).split())), *shut]
+            return [Verdict.refused("line", error), *shut]
         unit = block.unit or "bar"
         says = pressure_range(low, high, unit)
         if not low.value > 0.0:
@@ -125,8 +118,8 @@ class GasLine(Circuit):
 
         Whatever the charges, the `worst` pressure for a rule stands where most, or least, oil is drawn.
         """
-        place, own = judge.there(worst[rule]), float(np.ravel(block.accumulators[number - 1].charge)[0])
-        limit = float(np.ravel(self.number(place, "charge_pressure"))[0]) if rule == "compression" else 0.05 * own
+        place, own = judge.there(worst[rule]), one_design(block.accumulators[number - 1].charge)
+        limit = one_design(self.number(place, "charge_pressure")) if rule == "compression" else 0.05 * own
 
         def keeps(charge: float) -> bool:
             vessels = [each.recharged(charge) if k == number else each for k, each in enumerate(block.accumulators, 1)]
@@ -180,12 +173,10 @@ class GasLine(Circuit):
         areas = [chamber_area(chamber, ram, motion) for each, chamber in self.filling(motion.plan.members) if same(each, ram)]
         area = reduce(np.add, areas)
         free = self.line_pressure(motion) * area
-        return np.asarray(free - self.rubbing(ram, np.abs(area), motion, rates) if rates and not self.is_drained else free)
-
-    def rubbing(self, ram: Ram, area: Array | float, motion: Poses, rates: Mapping[str, Rate]) -> Array:
-        """Return the seals' friction in a cylinder, with the area of its chamber, against its movement at rates [N]."""
-        friction = all_finite(self.number(motion, "seal_friction"), "Seal friction") * area
-        return np.asarray(np.sign(ram.growth(motion, rates)) * friction)
+        if not rates or self.is_drained:
+            return np.asarray(free)
+        friction = all_finite(self.number(motion, "seal_friction"), "Seal friction") * np.abs(area)  # of the seals, against the movement
+        return np.asarray(free - np.sign(ram.growth(motion, rates)) * friction)
 
     def formulas(self, written: Formulas) -> None:
         """Write the line's pressure, and the cylinder's thrust of it. (17)-(33), (36), (37)
@@ -204,7 +195,7 @@ class GasLine(Circuit):
         block, sense = self.gas_block(), -1.0 if ram.side == "rod" else 1.0
         is_ideal = isinstance(block, AccumulatorBlock) and isinstance(block.gas, Polytropic) and not np.any(block.gas.n != 1.0)
         length = written.plan.table.lengths.get(frozenset((name_of(ram.A), name_of(ram.B))))
-        if is_ideal and ram.keeps_area and length is not None and written.equals(self.number(written, "exponent"), 1.0):
+        if is_ideal and ram.stages == 1 and length is not None and written.equals(self.number(written, "exponent"), 1.0):
             charged = length_at(written, ram, self.charged_at(written, ram))
             left = written.line(f"dV_{ram.name}", (written.distance(ram.A, ram.B) - charged) * area * sense, "l")
             pressure = self._pressure_written(written, ram, cast(AccumulatorBlock, block), left)
@@ -285,7 +276,7 @@ class FloatCircuit(GasLine):
     def scales(self) -> bool:
         return True
 
-    def kind_open(self, members: Mapping[str, Member]) -> str:
+    def kind_open(self, members: NamedMembers) -> str:
         return "given"
 
     def gas_block(self) -> Block:
@@ -295,9 +286,12 @@ class FloatCircuit(GasLine):
         return self.renewed(block=block)
 
     def line_pressure(self, motion: AnyMotion, acting: Acting | None = None) -> Array:
-        return self.pressure_under(motion, acting)
+        """Return the pressure of the gas [Pa gauge], or where a load case shuts the line what the loads make of it."""
+        motion = held_in_case(motion, acting)
+        is_shut = acting is not None and as_in(motion.plan, self)._is_shut
+        return standing_pressure(self, motion, cast(Acting, acting)) if is_shut else self.pressure(motion)
 
-    def examine(self, members: Mapping[str, Member], title: str) -> None:
+    def examine(self, members: NamedMembers, title: str) -> None:
         super().examine(members, title)
         if any(found.side == "both" for found in self.members(members)):
             names = ", ".join(map(label, self.references))
@@ -308,10 +302,10 @@ class FloatCircuit(GasLine):
         block = str(self.block) if isinstance(self.block, AccumulatorBlock) else getattr(self.block, "__name__", "block")
         return f"FloatCircuit({', '.join([self.named, block, *self.words()])})"
 
-    def feeds(self, members: Mapping[str, Member]) -> tuple[ForceElement, ...]:
+    def feeds(self, members: NamedMembers) -> tuple[ForceElement, ...]:
         return () if self._is_shut else self.members(members)
 
-    def claims(self, members: Mapping[str, Member]) -> Mapping[Hashable, str]:
+    def claims(self, members: NamedMembers) -> Mapping[Hashable, str]:
         filled = "are given the same block, which would be filled twice: gas stands in one line"
         found: dict[Hashable, str] = {
             ("block", id(self.block)): f"{filled}. Give each circuit a block of its own, AccumulatorBlock([Accumulator(...)])."
@@ -350,7 +344,7 @@ def length_at(motion: Poses, ram: Ram, at: Mapping[str, Array]) -> Array:
         if not isinstance(motion, Motion) or any(np.size(value) != 1 for value in at.values()):
             what = f"{ram}: its length follows from a group of links, which has no closed form"
             raise DefinitionError(f"{what}; give the circuit one charging stroke for all designs, and ask for arrays.")
-        values = {name: float(np.ravel(value)[0]) for name, value in at.items()}
+        values = {name: one_design(value) for name, value in at.items()}
         strokes = {name: np.asarray(place) for name, place in {**motion.plan.sketch_strokes, **values}.items()}
         there = Motion(motion.plan, motion.designs, {name: strokes[name] for name in motion.strokes}, "nan")
         found: Array = there.distance(ram.A, ram.B).reshape((*motion._design_shape, *(1,) * len(motion._stroke_shape)))

@@ -7,7 +7,7 @@ expression of dimensions or its name may replace a number.
 
 from __future__ import annotations
 
-from collections.abc import Container
+from collections.abc import Container, Iterable
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -19,7 +19,8 @@ from linkage.loads import ForceElement, Poses
 from linkage.loads.element import value_text
 from linkage.plan import ArrayReading
 from linkage.program import Comparison, is_traced
-from linkage.quantities import Number, Quantity, Variable, quantity
+from linkage.quantities import Member, NamedMembers, Quantity, Reference, name_of, needs, quantity
+from linkage.steps import Link
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -53,6 +54,11 @@ def one_number(value: ArrayLike, what: str) -> float:
     return float(array)
 
 
+def one_design(value: ArrayLike) -> float:
+    """Return a number of a motion of one design, whatever its shape."""
+    return float(np.ravel(value)[0])
+
+
 def positive(value: float | ArrayLike, what: str, remedy: str = "give a positive number in SI units") -> Array:
     """Return the value as floats, its shape kept; DefinitionError unless every one is finite and above zero."""
     if isinstance(value, float) and 0.0 < value < np.inf:
@@ -81,8 +87,8 @@ def in_metres(value: ArrayLike, what: str, most: float = WIDEST) -> Array:
 
 
 def stroke_in_metres(value: ArrayLike, what: str, bore: ArrayLike | None = None) -> Array:
-    """Return a stroke or a closed length [m]; DefinitionError where it is too long at all, or for a bore [m] that is known."""
-    return in_metres(value, what, LONGEST if bore is None else min(LONGEST, SLENDER * float(np.max(bore))))
+    """Return a stroke or a closed length [m]; DefinitionError if it is too long at all or for a bore [m] beside it, or not above zero."""
+    return positive(in_metres(value, what, LONGEST if bore is None else min(LONGEST, SLENDER * float(np.max(bore)))), what)
 
 
 def in_pascals(value: ArrayLike, what: str) -> Array:
@@ -121,11 +127,6 @@ def efficient(value: ArrayLike, what: str) -> Array:
     if np.any(array > 1.0):
         raise DefinitionError(f"{what} = {np.max(array):.6g} is above 1; an efficiency lies between 0 and 1.")
     return array
-
-
-def absolute_pressure(gauge: ArrayLike, atmosphere: float, what: str) -> Array:
-    """Return gauge + atmosphere [Pa]; DefinitionError where that would be below zero."""
-    return above_vacuum(all_finite(gauge, what) + atmosphere, atmosphere, what)
 
 
 def above_vacuum(pressure: Array, atmosphere: float, what: str) -> Array:
@@ -213,13 +214,29 @@ def number_set(element: ForceElement, motion: Poses, name: str) -> Array:
     return all_finite(setting_of_designs(motion, given, name.capitalize()), name.capitalize())
 
 
-def variable_written(element: ForceElement, name: str) -> Quantity:
-    """Return a number of a force element as a quantity of its class: what it follows, else its design variable."""
-    given = quantity(element.given(name))
-    return Variable(f"{element.name}.{name}") if isinstance(given, Number) else given
-
-
 def proper_share(share: float) -> None:
     """Raise DefinitionError for a share of the pressure that is not above 0 and up to 1."""
     if not 0.0 < one_number(share, "share") <= 1.0:
         raise DefinitionError(f"share = {share:.6g} of the pressure is not in 0 to 1; 0.9 is how tractors are tested.")
+
+
+def names_behind(starts: Iterable[Reference], members: NamedMembers) -> set[str]:
+    """Return the names that members of a class are built from, as far as they are there.
+
+    Behind a pin of a parts list that no step places yet stand the links that hold it, with their other points.
+    """
+    stack, found = list[str](), set[str]()
+    for each in starts:
+        stack += needs(each) if isinstance(each, Member) and not each.name else [name_of(each)]
+    while stack:
+        name = stack.pop()
+        if name in found:
+            continue
+        found.add(name)
+        held = members.get(name)
+        needed = [] if held is None else [*needs(held)]
+        if held is not None and not needed and not getattr(held, "is_fixed", True):
+            links = [each for each in members.values() if isinstance(each, Link) and name in each.point_names]
+            needed = [other for each in links for other in (*needs(each), *each.point_names)]
+        stack += needed
+    return found

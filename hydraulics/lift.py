@@ -1,38 +1,59 @@
-"""A pump that lifts by cylinders: its numbers, and what is said of it. Every pressure in this file is gauge [Pa]."""
+"""A pump that lifts by cylinders: its numbers, and what is said of it. Every pressure in this file is gauge [Pa].
+
+What is said is over all that a machine runs, in sentences: lifting, oil and time, holding, going back. One design at a time; each cylinder
+is judged with all drives locked, by its own thrust, in every load case and in each of its own movements, on both of its sides. The judge
+looks between the poses, whatever their number.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import ClassVar, final
 
-from linkage.errors import DefinitionError, ensure
+import numpy as np
+
+from linkage.errors import DefinitionError, ensure, known_name, unknown
 from linkage.frozen import refuses_changes
-from linkage.language import with_and
-from linkage.loads import ForceElement, Parameter
-from linkage.motion import Condition, Judge, Motion, Question
-from linkage.quantities import Member
-from linkage.statics import same
+from linkage.language import said, said_of, with_and
+from linkage.loads import FRICTIONLESS, Acting, Case, ForceElement, Loads, Parameter, situation_of
+from linkage.motion import Answer, Condition, Judge, Motion, Question, Span, at, below_zero, least, most, reached, require_motion
+from linkage.quantities import NamedMembers, distance, of_kind
+from linkage.statics import LawRequest, elements_of, is_among
+from linkage.units import UNITS, show
 from linkage.verdict import Verdict
 
-from .inputs import Array, check_pressures
-from .judged import line_conditions, line_questions, line_verdicts
+from .inputs import Array, check_pressures, not_negative, one_design, one_number
 from .line import LiftLine
-from .member import Feeds, kind_among
+from .member import PISTON, SIDES, AllOf, Feeds, OnLines, Ram, as_in, carries_loads, judge_of, thrust_request
+from .remedy import Sizes, can_be_set, show_enough, size_words, smallest
+from .requests import going_back_request, pressure_request, reserve_request
 from .shut import shut_verdicts
+
+ENDLESS = 1e-4
+"""A reserve that is less says that the force grows without bounds."""
 
 
 class PumpLine(LiftLine):
     """The base of lines that a pump holds, with what is asked and said of them."""
 
+    def lifting(self, judge: Judge, unit: str = "bar") -> list[LiftingCylinder]:
+        """Return its cylinders over all that a judge looks at."""
+        return [LiftingCylinder(judge, self, ram, unit) for ram in self.rams(judge.motion)]
+
     def questions(self, judge: Judge) -> list[Question]:
-        """Return what is asked of each of its cylinders: whether it carries anything, lifts, holds."""
-        return line_questions(self, judge)
+        """Return what is asked of each of its cylinders: whether it carries anything, lifts, holds; nothing where nothing acts."""
+        return [question for each in self.lifting(judge) for question in each.questions()] if carries_loads(judge) else []
 
     def conditions(self, judge: Judge) -> Mapping[str, Condition]:
-        """Return that each of its cylinders lifts, holds and goes back."""
-        return line_conditions(self, judge)
+        """Return that each of its cylinders lifts, holds and goes back; none where nothing is lifted."""
+        cylinders = self.lifting(judge) if carries_loads(judge) else []
+        if not cylinders or idle(cylinders) is not None:
+            return {}
+        found = [(rule, each.ram.name, one) for each in cylinders for rule, one in each.conditions().items()]
+        judged = [each for each in found if each[0] != "lowering" or not is_valved(self, judge)]
+        return {f"{rule} {name}" if len(cylinders) > 1 else rule: one for rule, name, one in judged}
 
     def load_limits(self, judge: Judge) -> Mapping[str, Condition]:
         return {}
@@ -42,7 +63,7 @@ class PumpLine(LiftLine):
         try:
             return [*line_verdicts(self, judge, unit=self.unit_in(judge)), *shut_verdicts(self, judge)]
         except DefinitionError as error:
-            return [Verdict("lifting", False, " ".join(str(error).split()))]
+            return [Verdict.refused("lifting", error)]
 
 
 @final
@@ -66,7 +87,11 @@ class LiftCircuit(PumpLine):
     relief: Parameter | None = None
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType(
         {
-            "pressure": "bar", "flow": "l/min", "mechanical_efficiency": "", "hydraulic_efficiency": "", "back_pressure": "bar",
+            "pressure": "bar",
+            "flow": "l/min",
+            "mechanical_efficiency": "",
+            "hydraulic_efficiency": "",
+            "back_pressure": "bar",
             "relief": "bar",
         }
     )
@@ -78,17 +103,17 @@ class LiftCircuit(PumpLine):
         super().__post_init__()
         check_pressures(self, "circuit")
 
-    def examine(self, members: Mapping[str, Member], title: str) -> None:
+    def examine(self, members: NamedMembers, title: str) -> None:
         ensure(self.references, f"{title}.{self.name}: the circuit has no cylinder; name one, LiftCircuit(lift, pressure=...).")
         super().examine(members, title)
         own = self.members(members)
         for place, ram in enumerate(own):
-            if any(same(ram, each) for each in own[:place]):
+            if is_among(ram, own[:place]):
                 what = f"{self.name} has {ram.name or ram} twice, so that its oil would count double"
                 raise DefinitionError(f"{title}: {what}; name it once, or write count=2 in the Cylinder where there are two.")
-        for other in (each for each in kind_among(members, LiftCircuit) if each is not self):
+        for other in (each for each in of_kind(members, LiftCircuit).values() if each is not self):
             rams = other.members(members)
-            shared = [ram for ram in own if any(same(ram, each) for each in rams)]
+            shared = [ram for ram in own if is_among(ram, rams)]
             if shared and not len(shared) == len(own) == len(rams):
                 both = with_and(ram.name or str(ram) for ram in shared)
                 what = f"{self.name} and {other.name} both have {both}, but not the same cylinders"
@@ -98,8 +123,340 @@ class LiftCircuit(PumpLine):
     def __str__(self) -> str:
         return f"LiftCircuit({', '.join([self.named, *self.words()])})"
 
-    def says(self, name: str, members: Mapping[str, Member]) -> tuple[ForceElement, str] | None:
+    def says(self, name: str, members: NamedMembers) -> tuple[ForceElement, str] | None:
         return None if self.given(name) is None else (self, name)
 
     def oil(self, motion: Motion) -> Array:
         return self.taken(motion)
+
+
+# What is said of a lift.
+
+
+def lift_verdicts(
+    circuit: PumpLine | str, motion: Motion, loads: Loads = None, *, case: Case = None, acting: Acting | None = None,
+    resistance: float = 0.0, unit: str = "bar",
+) -> list[Verdict]:  # fmt: skip
+    """Return the verdicts on lifting (with the remedy), oil and time, holding, and going back against a `resistance` [Pa].
+
+    `loads` are the machine's own unless others are given, in all load cases unless one is named; `unit` is that of the pressures in the
+    sentences. Of several strokes, `at(S1=..., S2=...)` with arrays of one axis, it is judged along the path, of a grid over the box.
+    """
+    given = situation_of("lift_verdicts", acting, loads=loads, case=case)
+    require_motion(motion)
+    circuits = motion.plan.of_kind(PumpLine)
+    line = circuits.get(circuit) if isinstance(circuit, str) else circuit
+    if not isinstance(line, PumpLine):
+        raise unknown("LiftCircuit", str(circuit), circuits, where=motion.plan.title)
+    not_negative(one_number(resistance, "Return resistance"), "Return resistance")
+    known_name("Unit", unit, UNITS, where="lift_verdicts(unit=...)")
+    unreached = f"{motion.plan.title}: no pose of this motion can be assembled, so that there is nothing to judge."
+    return line_verdicts(line, judge_of(motion, "A lift", given, unreached=unreached), resistance, unit)
+
+
+def line_verdicts(circuit: PumpLine, judge: Judge, resistance: float = 0.0, unit: str = "bar") -> list[Verdict]:
+    """Return the verdicts on a circuit and each of its cylinders."""
+    cylinders = circuit.lifting(judge, unit)
+    unplaced = [each.ram.unplaced for each in cylinders if not each.ram.is_placed(judge)]
+    if unplaced:
+        return [Verdict("lifting", False, " ".join(unplaced))]
+    nothing = idle(cylinders)
+    if nothing is not None:
+        return [nothing, oil_verdict(circuit, judge)]
+    several = len(cylinders) > 1
+    going_back = [] if is_valved(circuit, judge) else [each for each in cylinders if not each.goes_back_by_another]
+    return [
+        *(with_name(each.lifting(), each.ram, several) for each in cylinders),
+        oil_verdict(circuit, judge),
+        *(with_name(each.holding(), each.ram, several) for each in cylinders),
+        *(with_name(each.going_back(resistance), each.ram, several) for each in going_back),
+    ]
+
+
+def is_valved(circuit: LiftLine, judge: Judge) -> bool:
+    """Return whether a valve holds a line, over which the load goes down."""
+    return any(each.holds_line(circuit) for each in judge.plan.of_kind(OnLines).values())
+
+
+def with_name(verdict: Verdict, ram: Ram, several: bool) -> Verdict:
+    """Return a verdict that names its cylinder, where there are several."""
+    return verdict.named(ram.name or str(ram)) if several else verdict
+
+
+def idle(cylinders: Sequence[LiftingCylinder]) -> Verdict | None:
+    """Return the verdict on a lift that has nothing to carry; None where it has."""
+    first = cylinders[0]
+    plan, members = first.judge.plan, first.judge.plan.members
+    elements = elements_of(plan, first.judge.acting.loads)
+    feeding = [(name, one.feeds(members)) for name, one in elements]
+    fed = [(name, each.ram) for each in cylinders for name, rams in feeding if is_among(each.ram, rams)]
+    if fed:
+        (line, ram), *_ = fed
+        text = said(
+            "{ram} is fed by {line} and carries the gas's force, whatever the load: there is nothing that the pump lifts. "
+            "Judge what the drive must do, driving_force(motion), or leave {line} out of the loads.",
+            ram=ram.name or ram, line=line,
+        )  # fmt: skip
+        return Verdict("lifting", False, text)
+    if any(answer.value != 0.0 for each in cylinders for answer in each.judge.answers(each.thrusts)):
+        return None
+    acting = [name for name, each in elements if not each.holds and not each.joined(members)]
+    if not acting:
+        return Verdict("lifting", None, said("there is nothing to lift: no load is declared, such as Weight(G, mass=...)."))
+    text = said_of(
+        len(acting),
+        "there is nothing to lift: {loads} asks nothing of it; is a mass zero?",
+        "there is nothing to lift: the loads {loads} ask nothing of it; is a mass zero?",
+        loads=", ".join(acting),
+    )
+    return Verdict("lifting", None, text)
+
+
+@final
+class LiftingCylinder:
+    """One cylinder of a circuit over all that a judge looks at."""
+
+    def __init__(self, judge: Judge, circuit: LiftLine, ram: Ram, unit: str = "bar") -> None:
+        self.judge, self.circuit, self.ram, self.unit = judge, circuit, ram, unit
+
+    @property
+    def thrusts(self) -> list[Question]:
+        """Its least and its greatest thrust, as questions."""
+        return [least(thrust_request(self.ram, Acting())), most(thrust_request(self.ram, Acting()))]
+
+    def back(self, way: str, resistance: float = 0.0, tells: str = "push") -> LawRequest:
+        """Return what the other side must give while it goes back one way, or what the load alone makes."""
+        return going_back_request(*self.asked, way, resistance, tells)
+
+    @property
+    def asked(self) -> tuple[Ram, Acting, LiftLine]:
+        """What a request of it begins with."""
+        return self.ram, Acting(), self.circuit
+
+    def questions(self) -> list[Question]:
+        """Return what its verdicts ask at first."""
+        ways = ("retracting", "extending") if self.ram.side == "both" else self.ram.ways_back(0.0, 0.0)
+        going = [question for way in ways for question in (most(self.back(way)), least(self.back(way, tells="load")))]
+        return [*self.thrusts, least(reserve_request(*self.asked)), *self.standing, *going]
+
+    @property
+    def standing(self) -> list[Question]:
+        """The greatest pressures of its sides at rest, as questions."""
+        return [most(pressure_request(self.ram, Acting(direction=FRICTIONLESS), self.circuit, side)) for side in self.ram.own_sides]
+
+    def conditions(self) -> dict[str, Condition]:
+        """Return what it has to keep: it lifts, holds on both sides, and goes back."""
+        asked, name = (self.ram.name, Acting(), self.circuit.name), self.circuit.name
+        held, supply = (at(LawRequest(text=f"{name} {each.__name__}", formula=each)) for each in (self.circuit.held, self.circuit.supply))
+        back = [most(going_back_request(*asked, way)) for way in self.ways_back]
+        sinks = AllOf(tuple(each <= supply if self.ram.side == "both" else each <= 0.0 for each in back))
+        holding = most(pressure_request(self.ram.name, Acting(direction=FRICTIONLESS), self.circuit.name)) <= held
+        pressed = self.ram.pressed(self.ram.name)
+        return {
+            "lifting": least(reserve_request(*asked)) >= 1.0,
+            "holding": AllOf((holding, pressed)) if self.ram.is_single_acting else holding,
+            **({} if self.goes_back_by_another else {"lowering": sinks.each[0] if len(back) == 1 else sinks}),
+        }
+
+    @property
+    def goes_back_by_another(self) -> bool:
+        """Whether another held line has its other side, so that its pump drives it back, as is judged there."""
+        return as_in(self.judge.plan, self.ram).side == "both" and self.ram.side != "both"
+
+    def show(self, pressure: Array | float) -> str:
+        """Return a pressure in the unit of the sentences."""
+        return show(float(pressure), self.unit, 4)
+
+    # -- lifting -------------------------------------------------------------------------------------------
+
+    def lifting(self) -> Verdict:
+        """Return whether the pump lifts wherever it runs; where not, the pressure needed and the standard bore that would do."""
+        question, pump = least(reserve_request(*self.asked)) >= 1.0, self.show(self.circuit.supply(self.judge.motion))
+        found = self.judge.answer(question)
+        if np.isnan(found.value) and found.ok is None:
+            text = said("the load drives all the way: it is not limited by this cylinder{remedy}.", remedy=self.other_side())
+            return Verdict("lifting", None, text, answer=found)
+        if found.value < ENDLESS:
+            text = said(
+                "at {pump} the force needed grows without bounds {where}: no cylinder lifts there; keep away from that pose.",
+                pump=pump, where=found.place,
+            )  # fmt: skip
+            return Verdict("lifting", False, text, answer=found)
+        driven = self.parts(found, lambda reserve: np.where(np.isnan(reserve), -1.0, 1.0)) if found.unlimited else ()
+        free = said(
+            "; the load drives {where}, there it is not limited by this cylinder{remedy}", where=with_and(driven), remedy=self.other_side()
+        ) if driven and self.ram.side != "both" else ""  # fmt: skip
+        says = said("at {pump} the least reserve is {least:.3f}, {where}", pump=pump, least=found.value, where=found.place)
+        if found.ok:
+            return Verdict("lifting", True, f"{says}{free}.", answer=found)
+        short = self.parts(found, lambda reserve: np.nan_to_num(reserve, nan=2.0) - 1.0)
+        weak = said("; too weak {where}", where=with_and(short)) if short else ""
+        return Verdict("lifting", False, f"{says}{weak}{free}. {self.remedy(float(found.value))}", answer=found)
+
+    def parts(self, found: Answer, of_reserve: Callable[[Array], Array]) -> tuple[Span, ...]:
+        """Return the parts of the one way, where there is one, on which a function of the reserve is below zero, in the worst situation."""
+        way, acting = self.judge.way, self.judge.situation(found)
+        if way is None:
+            return ()
+        reserve = reserve_request(self.ram, acting, self.circuit, is_judged=True)
+        return below_zero(way, lambda at: of_reserve(reserve.of(at)))
+
+    def other_side(self) -> str:
+        """Return the remedy where the thrust changes its sign and one side alone is declared."""
+        alone = self.ram.side == "both" or self.ram.is_single_acting or self.goes_back_by_another
+        return "" if alone else said('; works="both" judges the other side as well')
+
+    def remedy(self, reserve: float) -> str:
+        """Return what makes up for a reserve below 1: a pressure, or a standard bore with its reserve."""
+        found = self.judge.answer(most(pressure_request(*self.asked, is_needed=True)))
+        if found.unbounded or not np.isfinite(found.value):
+            return said("No pressure and no bore lifts there; keep away from that pose.")
+        needed = show_enough(float(found.value), self.unit)
+        if self.circuit.relieves(self.judge.plan) and found.value > float(self.circuit.held(self.judge.motion)):
+            needed = said("{pressure}, at its relief valve as well", pressure=needed)
+        if len(self.circuit.rams(self.judge.motion)) > 1:
+            return said("It needs {needed}, or larger bores on this line.", needed=needed)
+        if self.ram.is_single_acting:
+            return said("It needs {needed}, or larger stages.", needed=needed)
+        counts = said("; both sides are on one line, so that the rod counts and not the bore") if self.ram.side == "regenerative" else ""
+        larger = self.ram.larger(self.judge.motion)
+        if larger and not can_be_set(self.judge, self.ram, larger[0]):
+            return said("It needs {needed}, or a larger size{counts}.", needed=needed, counts=counts)
+        found_with = self.mended(larger, reserve, lambda ram: [least(reserve_request(ram, Acting(), self.circuit)) >= 1.0])
+        if found_with is None:
+            rod = said("It needs {needed}; no standard rod is thick enough{counts}.", needed=needed, counts=counts)
+            return rod if counts else said("It needs {needed}; no standard bore is large enough.", needed=needed)
+        sizes, (gained,) = found_with
+        return said(
+            "It needs {needed}, or {size}, with a reserve of {gained:.2f}{counts}.",
+            needed=needed, size=size_words(sizes), gained=gained.value, counts=counts,
+        )  # fmt: skip
+
+    def mended(
+        self, larger: Sequence[Sizes], reserve: float, questions: Callable[[Ram], Sequence[Question]]
+    ) -> tuple[Sizes, list[Answer]] | None:
+        """Return the first of some larger sizes that keeps conditions, with the answers; what is tried first has the missing area."""
+        now = self.ram.sized(self.judge.motion)
+        areas = [one_design(replace(now, **sizes).area) for sizes in larger]  # type: ignore[type-var]
+        wanted = one_design(now.area) / reserve
+        start = next((place for place, area in enumerate(areas) if area >= wanted * (1.0 - 1e-9)), len(areas))
+        return smallest(self.judge, self.ram, larger, start, questions)
+
+    # -- holding and going back ----------------------------------------------------------------------------
+
+    def holding(self) -> Verdict:
+        """Return the pressures that the load makes with the pump off, and whether they stay below the relief valve's."""
+        circuit, limit = self.circuit, float(self.circuit.held(self.judge.motion))
+        pulled = self.ram.pulled(self.judge)
+        if pulled is not None:
+            return pulled
+        order = self.ram.own_sides if self.ram.side != "rod" else SIDES[::-1]
+        order = order[:1] if self.goes_back_by_another else order
+        asked = [most(pressure_request(self.ram, Acting(direction=FRICTIONLESS), circuit, side)) <= limit for side in order]
+        found = self.judge.answers(asked)
+        endless = next((each for each in found if each.unbounded), None)
+        if endless is not None:
+            text = said("the pressure grows without bounds {where}: nothing holds there; keep away from that pose.", where=endless.place)
+            return Verdict("holding", False, text, answer=endless)
+        words = [said("piston side") if side == PISTON else said("rod side") for side in order]
+        words[1:] = [f"{words[-1]}{'' if self.ram.side == 'both' else said(' where the load drives')}"] if words[1:] else []
+        parts = [
+            said("the {side} holds up to {pressure}, {where}", pressure=self.show(each.value), side=side, where=each.place)
+            for each, side in zip(found, words, strict=True)
+            if each.value > 0.0
+        ]
+        stands = ", ".join(parts) or said("neither side holds pressure")
+        given, pump = self.show(limit), not circuit.relieves(self.judge.plan)
+        valve = said("the relief valve's {limit}", limit=given)
+        valve = said("the pump's {limit}, since no relief valve is declared", limit=given) if pump else valve
+        worst = max(found, key=lambda each: each.value)
+        if all(each.ok for each in found):
+            text = said("with the pump off, {stands}: not above {valve}.", stands=stands, valve=valve)
+            return Verdict("holding", True, text, answer=worst)
+        remedy = self.holds_with(asked, worst)
+        text = said("with the pump off, {stands}: above {valve}; {remedy}.", stands=stands, valve=valve, remedy=remedy)
+        return Verdict("holding", False, text, answer=worst)
+
+    def holds_with(self, asked: Sequence[Condition], worst: Answer) -> str:
+        """Return what makes it hold, in words: a larger size, of a single cylinder on a line with the pressure that it then holds."""
+        if self.ram.is_single_acting:
+            return said("take larger stages")
+        larger, limit = self.ram.larger(self.judge.motion), float(self.circuit.held(self.judge.motion))
+        alone = len(self.circuit.rams(self.judge.motion)) == 1
+        found = self.mended(larger, limit / float(worst.value), lambda ram: asked) if alone else None
+        size = said("take a thicker rod") if self.ram.side == "regenerative" else said("take a larger bore")
+        if found is None:
+            return size
+        sizes, answers = found
+        holds = max(answers, key=lambda each: float(each.value))
+        return said("{remedy}: with {size} it is up to {pressure}", remedy=size, size=size_words(sizes), pressure=self.show(holds.value))
+
+    def going_back(self, resistance: float = 0.0) -> Verdict:
+        """Return whether it goes back by itself against the resistance of the returning oil; where not, what the other side must give.
+
+        It goes back against its working direction; of one that works with both sides the way the load drives it, and both ways where
+        that changes its sense. The verdict is on the worse. Where the load then drives it on, as a lever past its top, the pump's pressure
+        on the other side has to do it.
+        """
+        judge, against = self.judge, said("against {pressure} in the return line", pressure=self.show(resistance))
+        each_way = [(way, judge.answers([most(self.back(way, resistance)) <= 0.0])[0]) for way in self.ways_back]
+        way, push = max(each_way, key=lambda each: (each[1].unbounded, float(np.nan_to_num(each[1].value, nan=-np.inf))))
+        alone = judge.answer(least(self.back(way, resistance, "load")))
+        if push.ok:
+            by = {"against": against, "where": alone.place, "pressure": self.show(alone.value)}
+            text = said("it sinks by itself {against}: the load makes at least {pressure} in the working side, {where}.", **by)
+            if alone.value <= 1e-9 * float(self.circuit.supply(judge.motion)):
+                text = said("it goes back by itself {against}; {where} the load presses on neither side and nothing drives it.", **by)
+            return Verdict("lowering", True, text, answer=push)
+        where, enough = self.stuck(replace(self.back(way, resistance), acting=judge.situation(push))), False
+        by = {"where": where, "against": against, "place": push.place, "pose": push.place, "push": self.show(push.value)}
+        if push.unbounded:
+            text = said("it does not sink by itself {where} {against}, and no push moves it {pose}: keep away from that pose.", **by)
+        elif self.ram.is_single_acting:
+            text = said("it does not sink by itself {where} {against}: it lacks up to {push}, {place}, and no oil pushes it in.", **by)
+        else:
+            by["push"] = show_enough(float(judge.answer(most(self.back(way, resistance, "whole push"))).value), self.unit)
+            text = said("it does not sink by itself {where} {against}: the other side must push with up to {push}, {place}.", **by)
+            if self.ram.side == "both":
+                enough = push.value <= float(self.circuit.supply(judge.motion)) * (1.0 + 1e-9)
+                by["direction"] = said("extending") if way == "extending" else said("retracting")
+                text = said(
+                    "{direction}, the load does not drive it back {where} {against}: the other side must push with up to {push}, {place}.",
+                    **by,
+                )
+        return Verdict("lowering", enough, text, answer=push)
+
+    @property
+    def ways_back(self) -> tuple[str, ...]:
+        """The directions in which it goes back: of one that works with both sides by the pressures that hold it over all that it runs."""
+        held = [each.value for each in self.judge.answers(self.standing)] if self.ram.side == "both" else [0.0, 0.0]
+        return self.ram.ways_back(-held[-1], held[0])
+
+    def stuck(self, back: LawRequest) -> str:
+        """Return where it does not go back, in words."""
+        way = self.judge.way
+        if way is None:
+            return said("anywhere") if self.judge.answer(least(back)).value > 0.0 else said("in places")
+        stuck, whole = below_zero(way, lambda at: -np.nan_to_num(back.of(at), nan=-1.0)), reached(way)
+        everywhere = len(stuck) == len(whole) and all(str(a) == str(b) for a, b in zip(stuck, whole, strict=True))
+        return said("anywhere") if everywhere or not stuck else with_and(stuck)
+
+
+def oil_verdict(circuit: LiftLine, judge: Judge) -> Verdict:
+    """Return how much oil the machine takes over all that it runs, and how long the pump's flow needs for it."""
+    rams = circuit.rams(judge.motion)
+    lengths = [distance(ram.A, ram.B) for ram in rams]
+    ends = [[np.asarray(each.value) for each in judge.answers([least(length), most(length)])] for length in lengths]
+    if np.isnan(ends).any():
+        return Verdict("oil", None, said("nothing is left to judge: every place is unlimited, left out or lost"))
+    oil = sum(one_design(ram.taken(judge.motion, *own)) for ram, own in zip(rams, ends, strict=True))
+    both = [(ram, high - low) for ram, (low, high) in zip(rams, ends, strict=True) if ram.side == "both"]
+    back = sum(float(way) * one_design(ram.sized(judge.motion).pull_area) for ram, way in both)
+    says = said("{oil} from end to end", oil=show(oil, "l", ".2f"))
+    if back:
+        says = said("{oil} from end to end outwards, {back} inwards", oil=show(oil, "l", ".2f"), back=show(back, "l", ".2f"))
+    rate = one_design(circuit.number(judge.motion, "flow"))
+    if not rate > 0.0:
+        return Verdict("oil", True, said("{says}; time follows from the pump's flow, which is not given.", says=says))
+    time, flow = show(oil / rate, "s", ".1f"), show(rate, "l/min", 4)
+    return Verdict("oil", True, said("{says}, {time} at {flow}.", says=says, time=time, flow=flow))

@@ -11,7 +11,7 @@ Source: worksheet of the mower lift; Dyuzhev, Kotov, Chuprynin (2008), (28), (29
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any, Unpack, cast, final
@@ -24,17 +24,17 @@ from linkage.frozen import refuses_changes
 from linkage.language import said, with_and
 from linkage.loads import Acting, ActingKeywords, Case, Loads, situation_of
 from linkage.loads.element import Declared, ForceElement, Formulas, Parameter, Poses, Share, Tie, require_poses
-from linkage.motion import Answer, HasVerdicts, Judge, Motion, greatest, lowest
-from linkage.plan import Mask
+from linkage.motion import Answer, Judge, Motion, greatest, lowest
+from linkage.plan import Mask, Plan
 from linkage.program import is_traced
-from linkage.quantities import Member, Reference
+from linkage.quantities import NamedMembers, Reference, of_kind
 from linkage.statics import PROBE, AnyMotion, elements_of, held_in_case, member_limits, member_thrust, plan_of, pump_thrust, same
 from linkage.statics.carried import direction_at, is_steady, pull_direction, pulling
 from linkage.units import show
 
 from .cylinder import RamSize
 from .inputs import Array, efficient, follows, in_cubic_metres, in_pascals, not_negative, number_set, only_where, positive, proper_share
-from .member import PISTON, Circuit, OnLines, Ram, Reading, by_other_lines, kind_among, line_thrust, lines_of, thrust_along
+from .member import PISTON, Circuit, OnLines, Ram, Reading, by_other_lines, line_thrust, lines_of, thrust_along
 from .standing import is_blocked, standing_pressure
 
 
@@ -123,54 +123,30 @@ class Lowering:
     by_itself: Array
 
 
-@final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
-class WayBack:
-    """A cylinder on its way back against a resistance of the returning oil [Pa].
+def way_back(
+    ram: Ram, line: Circuit, motion: AnyMotion, acting: Acting, way: str, against: Array | float, k_m: Array
+) -> tuple[Array, Array, Array]:
+    """Return three pressures of a cylinder on its way back against a resistance of the returning oil [Pa].
 
-    Friction acts against it: the load brings T k_m where it drives and takes T / k_m where it resists. `working` is the pressure that the
-    load alone makes in the side that empties [Pa]. `push` is what the other side must give beyond the pressure of its `tank`, below zero
-    where the load does it by itself [Pa].
+    `way` is "extending" or "retracting", its own direction. Friction acts against it: the load brings T k_m where it drives and takes
+    T / k_m where it resists. The first pressure is what the load alone makes in the side that empties, the second what the other side
+    must give beyond the third one, that of its tank; it is below zero where the load does it by itself.
     """
-
-    working: Array
-    push: Array
-    tank: Array
-
-    @classmethod
-    def of(
-        cls, ram: Ram, line: Circuit, motion: AnyMotion, acting: Acting, way: str, against: Array | float, k_m: Array
-    ) -> WayBack:  # fmt: skip
-        """Return how a cylinder goes back at a motion's poses: `way` is "extending" or "retracting", its own direction."""
-        acting, sense = replace(acting, direction=way, rates=None), -1.0 if way == "retracting" else 1.0
-        size, drives = ram.sized(motion, way), -sense * line_thrust(ram, line, motion, acting, with_tanks=False) + 0.0
-        empties, other = (size.outward_area, size.pull_area) if way == "retracting" else (size.pull_area, size.outward_area)
-        other = empties if ram.is_single_acting else other  # nothing pushes it back: what is missing where it empties
-        drained = by_other_lines(ram, line, held_in_case(motion, acting), None, True)
-        helps = np.zeros(()) if drained is None else sense * drained
-        brings = np.where(drives > 0.0, drives * k_m, drives / k_m)
-        push = (against * empties - brings - helps) / other
-        return cls(np.asarray(np.maximum(brings + helps, 0.0) / empties)[()], np.asarray(push)[()], np.asarray(helps / other)[()])
-
-
-class LineValve(OnLines, HasVerdicts):
-    """The base of valves that hold what is in a line; the load then goes down over them."""
-
-    @abstractmethod
-    def holds_line(self, line: Circuit) -> bool:
-        """Return whether it holds a line."""
-
-    @abstractmethod
-    def pressure_lowering(self, line: Circuit, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array | None:
-        """Return the pressure of a line while a cylinder goes down over it [Pa gauge]; None where it does not go down over it."""
+    acting, sense = replace(acting, direction=way, rates=None), -1.0 if way == "retracting" else 1.0
+    size, drives = ram.sized(motion, way), -sense * line_thrust(ram, line, motion, acting, with_tanks=False) + 0.0
+    empties, other = (size.outward_area, size.pull_area) if way == "retracting" else (size.pull_area, size.outward_area)
+    other = empties if ram.is_single_acting else other  # nothing pushes it back: what is missing where it empties
+    helps = sense * by_other_lines(ram, line, held_in_case(motion, acting), None, True)
+    brings = np.where(drives > 0.0, drives * k_m, drives / k_m)
+    push = (against * empties - brings - helps) / other
+    return np.asarray(np.maximum(brings + helps, 0.0) / empties)[()], np.asarray(push)[()], np.asarray(helps / other)[()]
 
 
 class LiftLine(Circuit):
     """The base of lines that a pump holds: what `LiftCircuit` and `OilLine` share. A subclass says where its numbers come from."""
 
     @abstractmethod
-    def says(self, name: str, members: Mapping[str, Member]) -> tuple[ForceElement, str] | None:
+    def says(self, name: str, members: NamedMembers) -> tuple[ForceElement, str] | None:
         """Return what says a number of the pump, the relief valve or the tank, and by which name; None where nothing does."""
 
     def number(self, motion: Poses, name: str) -> Array:
@@ -195,10 +171,10 @@ class LiftLine(Circuit):
     def relieves(self, plan: Declared) -> bool:
         return self.says("relief", plan.members) is not None
 
-    def joined(self, members: Mapping[str, Member]) -> tuple[ForceElement, ...]:
-        return () if self.tie(members) is not None else self.members(members)
+    def joined(self, members: NamedMembers) -> tuple[ForceElement, ...]:
+        return self.members(members) if self.kind_in(members) == "held" and self.tie(members) is None else ()
 
-    def tie(self, members: Mapping[str, Member]) -> Tie | None:
+    def tie(self, members: NamedMembers) -> Tie | None:
         """Return how its pressure acts on its cylinders, where a closed line has another side of one of them."""
         own = self.members(members)
         closed = [line for ram in own for line, _ in lines_of(ram, members) if line.kind_in(members) == "closed"]
@@ -281,7 +257,7 @@ class LiftLine(Circuit):
         thrust = line_thrust(cylinder, self, motion, replace(acting, direction=way), with_tanks=False)
         drained = by_other_lines(cylinder, self, held_in_case(motion, acting), None, True)
         sense = np.sign(thrust) if way == "frictionless" else np.full(np.shape(thrust), 1.0 if way == "extending" else -1.0)
-        return Work(thrust, sense, size, k_m, 0.0 if drained is None else drained)
+        return Work(thrust, sense, size, k_m, drained)
 
     def works(self, what: str, motion: AnyMotion, loads: Loads, choice: Choice) -> list[Work]:
         """Return what the cylinder that is named has to do, or each of them; `what` is the function that is asked."""
@@ -308,7 +284,7 @@ class LiftLine(Circuit):
         members = motion.plan.members
         if is_blocked(ram, members):
             return np.asarray(np.maximum(standing_pressure(self, motion, acting), 0.0))[()]
-        for valve in kind_among(members, LineValve):
+        for valve in of_kind(members, OnLines).values():
             lowering = valve.pressure_lowering(self, ram, motion, acting)
             if lowering is not None:
                 return lowering
@@ -317,7 +293,7 @@ class LiftLine(Circuit):
         share = np.where(work.supplied, self.efficiency(motion, "hydraulic"), 1.0)
         return np.asarray(np.maximum(work.force + back + work.against, 0.0) / (work.area * share))[()]
 
-    def _pushes_out(self, cylinder: Ram, members: Mapping[str, Member]) -> bool:
+    def _pushes_out(self, cylinder: Ram, members: NamedMembers) -> bool:
         """Return whether its pump pushes a cylinder out: it has the piston side, and no line of the cylinder is shut."""
         has_piston = any(each.side == PISTON and same(ram, cylinder) for ram, each in self.filling(members))
         return has_piston and self.kind_open(members) == "held" and not is_blocked(cylinder, members)
@@ -333,7 +309,8 @@ class LiftLine(Circuit):
         return self.held(motion) if self._pushes_out(cylinder, motion.plan.members) else None
 
     def reserve_of(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array | None:
-        return self.reserve(motion, cylinder=cylinder, acting=acting)
+        is_held = self.kind_open(motion.plan.members) == "held"
+        return self.reserve(motion, cylinder=cylinder, acting=acting) if is_held else None
 
     def unit_in(self, judge: Judge) -> str:
         """Return the unit in which its pressures are shown: that of the dimension which its pump's pressure follows, else bar."""
@@ -341,7 +318,9 @@ class LiftLine(Circuit):
         given = judge.plan.members.get(pressure) if isinstance(pressure, str) else pressure
         return str(getattr(given, "unit", "")) or "bar"
 
-    def gauges_of(self, cylinder: Ram) -> dict[str, Reading]:
+    def gauges_of(self, cylinder: Ram, plan: Plan) -> dict[str, Reading]:
+        if self.kind_in(plan.members) != "held":
+            return {}
         return {"most": self.supply, "reserve": lambda motion: self.reserve(motion, cylinder=cylinder)}
 
     def largest(self, motion: AnyMotion, loads: Loads = None, *, share: float = 1.0, **choice: Unpack[Choice]) -> Array:
@@ -371,8 +350,7 @@ class LiftLine(Circuit):
         ram = self.one(motion, cylinder)
         size = ram.sized(motion)
         others = by_other_lines(ram, self, motion, None, None if not lifting else False)  # type: ignore[arg-type]
-        tanks = by_other_lines(ram, self, motion, None, True)  # type: ignore[arg-type]
-        drained = 0.0 if tanks is None else tanks
+        drained = by_other_lines(ram, self, motion, None, True)  # type: ignore[arg-type]
         if not lifting:
             held = self.held(motion)
             low, high = np.asarray(-held * size.inward_area), np.asarray(held * size.outward_area)
@@ -381,7 +359,7 @@ class LiftLine(Circuit):
             works = (Work(way, way, size, k_m, drained) for way in (np.asarray(-1.0), np.asarray(1.0)))
             pull, push = (self._given(motion, work, share) * k_m for work in works)
             low, high = (-pull if size.works in ("rod", "both") else nothing), (nothing if size.works == "rod" else push)
-        return (low, high) if others is None else (low + others, high + others)
+        return low + others, high + others
 
     def reserve(self, motion: AnyMotion, loads: Loads = None, **choice: Unpack[Choice]) -> Array:
         """Return the greatest rod force over the needed one, shape (...); NaN where it is not limited by this cylinder.
@@ -560,10 +538,10 @@ class LiftLine(Circuit):
                 plain = partial(member_thrust, member=ram, acting=Acting(given.loads, given.case))
                 with unwarned():
                     low, high = (np.asarray(ends(motion, plain).value) for ends in (lowest, greatest))
-            found += [WayBack.of(ram, self, motion, given, way, against, k_m) for way in ram.ways_back(low, high)]
-        push = np.max([each.push for each in found], axis=0)
-        needed = np.max([np.where(each.push > 0.0, each.push + each.tank, 0.0) for each in found], axis=0)
-        return Lowering(np.min([each.working for each in found], axis=0), needed, np.asarray(push < 0.0))
+            found += [way_back(ram, self, motion, given, way, against, k_m) for way in ram.ways_back(low, high)]
+        working, pushes, tanks = zip(*found, strict=True)
+        needed = [np.where(push > 0.0, push + tank, 0.0) for push, tank in zip(pushes, tanks, strict=True)]
+        return Lowering(np.min(working, axis=0), np.max(needed, axis=0), np.asarray(np.max(pushes, axis=0) < 0.0))
 
 
 IDLE = 1e-12

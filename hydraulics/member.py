@@ -23,37 +23,33 @@ from numpy.typing import ArrayLike
 from linkage.errors import DefinitionError, cited, ensure, known_name, unknown, unwarned
 from linkage.frozen import refuses_changes
 from linkage.language import noted, said, with_and
-from linkage.loads import Acting, ActingKeywords, Case, DrawnAs, Loads, TwoPoint, situation_of, takes_situation
-from linkage.loads.element import (
-    AT_REST,
-    DIRECTIONS,
-    FRICTIONLESS,
-    UNBOUNDED,
-    Declared,
-    ForceElement,
-    Formulas,
-    Load,
-    Parameter,
-    Poses,
-    Push,
-    Rates,
-    Share,
-    Tie,
-    require_poses,
-)
+from linkage.loads import AT_REST, FRICTIONLESS, Acting, ActingKeywords, Case, ForceElement, Load, Loads, situation_of, takes_situation
+from linkage.loads.element import DIRECTIONS, UNBOUNDED, Declared, Formulas, Parameter, Poses, Push, Rates, Share, Tie, require_poses
+from linkage.loads.two_point import DrawnAs, TwoPoint
 from linkage.motion import Column, HasVerdicts, Judge, Motion, Question, Request, SmoothPiece, Tabled, greatest, lowest, require_motion
 from linkage.motion.measures import Condition, Constraint, at, least, most
 from linkage.plan import Mask, Plan
-from linkage.quantities import InnerQuantity, Member, Quantity, Reference, body_name, distance, label, name_of, quantity
-from linkage.statics import AnyMotion, LawRequest, applied_elements, case_words, elements_of, held_in_case, member_thrust, same
+from linkage.quantities import (
+    InnerQuantity,
+    Member,
+    NamedMembers,
+    Quantity,
+    Reference,
+    body_name,
+    distance,
+    label,
+    name_of,
+    of_kind,
+    quantity,
+)
+from linkage.statics import AnyMotion, LawRequest, applied_elements, elements_of, held_in_case, is_among, member_thrust, request_text, same
 from linkage.units import show, shown_number, unit_sign
 from linkage.verdict import Remark, Verdict
 
 from .barrel import HELD, MASSES, BarrelAndRod
 from .buckling import Buckling, never_pushed
 from .cylinder import SAME_SIZE, CylinderSize, RamSize, Works, chosen_series, series_of, standard_rods
-from .inputs import Array, follows, number_set, one_number, only_where, positive, stroke_in_metres, variable_written
-from .names import names_behind
+from .inputs import Array, follows, names_behind, number_set, one_design, one_number, only_where, stroke_in_metres
 from .remedy import Sizes, can_be_set, show_enough, smallest
 
 LENGTHS: Mapping[str, str] = MappingProxyType({"stroke": "Stroke of the cylinder", "closed": "Closed length of the cylinder"})
@@ -93,6 +89,8 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
     count: int
     mounting: str
     safety: float
+    own_sides: ClassVar[tuple[Side, ...]] = SIDES
+    """Its chambers."""
     drawn_as: ClassVar[DrawnAs] = "cylinder"
     file_section: ClassVar[str] = "hydraulics"
 
@@ -106,11 +104,6 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
     def on_side(self, side: Side) -> Ram:
         """Return it as it works with one of its sides, for the line that this has: itself where it has no other."""
         return self
-
-    @property
-    @abstractmethod
-    def own_sides(self) -> tuple[Side, ...]:
-        """Its chambers."""
 
     @abstractmethod
     def sized(self, motion: Poses, direction: str | None = None) -> RamSize:
@@ -129,40 +122,20 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         """Return its length, as a quantity [m], where some chambers hold more oil than at a length: so much, over the same area."""
 
     @abstractmethod
-    def taken(self, motion: Poses, low: Array, high: Array) -> Array:
-        """Return the oil [m3] that it takes, with what it works with, from one length to a greater one [m]."""
-
-    @abstractmethod
     def thickness(self, motion: Poses, direction: str | None = None) -> float | Array:
         """Return the diameter of what buckles [m], to broadcast against the motion."""
 
-    @property
     @abstractmethod
-    def lengths_given(self) -> tuple[str, ...]:
-        """Which of LENGTHS it says."""
+    def length_set(self, name: str, motion: Poses, *, beside_bore: bool = False) -> Array:
+        """Return its closed length or its whole stroke as a motion's designs have it [m], to broadcast against it.
 
-    @abstractmethod
-    def closed_and_stroke(self, motion: Poses) -> tuple[Array | None, Array | None]:
-        """Return its closed length and its whole stroke as a motion's designs have them [m], to broadcast against it; None for none.
-
-        DefinitionError for one that is not above zero, that is given in millimetres, or that follows a stroke of the machine.
+        DefinitionError for one that is not above zero, that is given in millimetres, as it may be seen `beside_bore`, or that follows a
+        stroke of the machine.
         """
-
-    @abstractmethod
-    def _length_given(self, name: str, motion: AnyMotion) -> Array:
-        """Return its closed length or its whole stroke as it is given [m]."""
-
-    @abstractmethod
-    def lengths_named(self, name: str) -> tuple[Quantity | str, ...]:
-        """Return the closed length, or the stroke of each of its stages, as conditions name them; empty where it says none."""
 
     @abstractmethod
     def sides_written(self, written: Formulas, thrust: Array) -> tuple[Array, Array]:
         """Write the area of the side that works, and return its symbol with the area of the other side [m2]."""
-
-    @abstractmethod
-    def larger(self, motion: Poses) -> list[Sizes]:
-        """Return the standard sizes that give more force, ascending, as a remedy takes them; none where it has no series."""
 
     @abstractmethod
     def size_verdicts(self, judge: Judge) -> list[Verdict]:
@@ -195,7 +168,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         """The distance of its pins [m]: as a closed line gives it where it is asked for by a step that they follow, else as they are."""
         return InnerQuantity(self, "length")
 
-    def inner(self, name: str, members: Mapping[str, Member]) -> Member | None:
+    def inner(self, name: str, members: NamedMembers) -> Member | None:
         return length_in(self, members) if name == "length" else None
 
     @property
@@ -221,13 +194,38 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
 
     @property
     def stages(self) -> int:
-        """How many stages move."""
+        """How many stages move: with one its areas are the same at all its lengths."""
         return 1
 
+    def larger(self, motion: Poses) -> list[Sizes]:
+        """Return the standard sizes that give more force, ascending, as a remedy takes them; none where it has no series."""
+        return []
+
+    def lengths_named(self, name: str) -> tuple[Quantity | str, ...]:
+        """Return the closed length, or the stroke of each of its stages, as conditions name them; empty where it says none."""
+        given = {each: self.given(each) for each in self.numbers if each.partition("_")[0] == name}
+        return tuple(quantity(value) if follows(value) else f"{self.name}.{each}" for each, value in given.items())
+
     @property
-    def keeps_area(self) -> bool:
-        """Whether its areas are the same at all its lengths."""
-        return self.stages == 1
+    def lengths_given(self) -> tuple[str, ...]:
+        """Which of LENGTHS it says."""
+        return tuple(name for name in LENGTHS if self.lengths_named(name))
+
+    def closed_and_stroke(self, motion: Poses) -> tuple[Array | None, Array | None]:
+        """Return its closed length and its whole stroke as a motion's designs have them [m], to broadcast against it; None for none.
+
+        DefinitionError for one that cannot be, and for sizes that cannot be.
+        """
+        self.sized(motion)
+        given = self.lengths_given
+        closed, stroke = (self.length_set(name, motion, beside_bore=True) if name in given else None for name in ("closed", "stroke"))
+        return closed, stroke
+
+    def taken(self, motion: Poses, low: Array, high: Array) -> Array:
+        """Return the oil [m3] that it takes, with what it works with, from one length to a greater one [m]."""
+        works = self.sized(motion).works
+        sides = SIDES if works == "regenerative" else (ROD if works == "rod" else PISTON,)
+        return np.abs(reduce(np.add, [self.filled(side, motion, low, high) for side in sides]))
 
     def is_in_stage(self, motion: Poses, stage: int, direction: str | None = None) -> Any:
         """Return where a stage moves, by its number from 1, to broadcast against a motion; at a border as in a direction."""
@@ -313,9 +311,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         ways = ("retracting",) if pushes > TO_ROUNDING * pulls or not pulls else ()
         return (*ways, "extending") if pulls > TO_ROUNDING * pushes else ways
 
-    def pressure_on(
-        self, side: str, motion: AnyMotion, acting: Acting, circuit: Circuit | None = None, *, below: bool = False
-    ) -> Array:
+    def pressure_on(self, side: str, motion: AnyMotion, acting: Acting, circuit: Circuit | None = None, *, below: bool = False) -> Array:
         """Return the pressure on one of its sides, shape (...) [Pa gauge]; 0 where the other side holds, or `below` what would balance.
 
         At rest without friction and efficiencies; while it moves, on a side that works, as its circuit has it.
@@ -356,7 +352,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         """Return that it fits, where its stroke is declared, and that its rod does not buckle."""
         found: dict[str, Condition] = {}
         ends = distance(self.A, self.B)
-        given = {name: LawRequest(text=f"{self.name} {name}", formula=partial(self._length_given, name)) for name in LENGTHS}
+        given = {name: LawRequest(text=f"{self.name} {name}", formula=partial(self.length_set, name)) for name in LENGTHS}
         closed, stroke = at(given["closed"]), at(given["stroke"])
         if self.lengths_given == ("stroke",):
             found["length"] = most(ends) - least(ends) <= stroke
@@ -378,7 +374,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
             rod = self.buckling_verdicts(judge) if carries_loads(judge) else []
             return [*self.length_verdicts(judge), *self.size_verdicts(judge), *rod]
         except DefinitionError as error:
-            return [Verdict("cylinder", False, " ".join(str(error).split()))]
+            return [Verdict.refused("cylinder", error)]
 
     def gauges(self, plan: Plan) -> dict[str, Request]:
         circuits = circuits_of(self, plan)
@@ -386,15 +382,15 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         if len(circuits) <= 1:
             found["pressure"] = self.pressure
         if len(circuits) == 1:
-            found |= circuits[0].gauges_of(self)
-        found |= {name: partial(self._length_given, name) for name in self.lengths_given}
+            found |= circuits[0].gauges_of(self, plan)
+        found |= {name: partial(self.length_set, name) for name in self.lengths_given}
         return {name: LawRequest(text=f"{self.name} {name}", formula=read) for name, read in found.items()}
 
     def formulas(self, written: Formulas) -> None:
         """Write its area, and its pressure where no circuit says it."""
         thrust, members = written.thrust(self), written.plan.members
         on_circuit = (one for each in written.plan.of_kind(Circuit).values() for one in each.members(members))
-        if thrust is None or any(same(self, one) for one in on_circuit):
+        if thrust is None or is_among(self, on_circuit):
             return
         area, _ = self.sides_written(written, thrust)
         written.line(f"p_{self.name}", thrust_along(self, thrust) / area, "bar")
@@ -509,7 +505,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
     def stopped(self, judge: Judge) -> list[Verdict]:
         """Return with what force a pump pushes it against a stop where it is longest, and how far that is from buckling."""
         pushing = [(each, each.pressure_out(self, judge.motion)) for each in circuits_among(judge.plan.members)]
-        given = [(float(np.ravel(pressure)[0]), each.unit_in(judge)) for each, pressure in pushing if pressure is not None]
+        given = [(one_design(pressure), each.unit_in(judge)) for each, pressure in pushing if pressure is not None]
         longest = judge.answer(most(distance(self.A, self.B)))
         if not given or np.isnan(longest.value):
             return []
@@ -604,7 +600,7 @@ class Cylinder(BarrelAndRod, Ram):
         for name, what in LENGTHS.items():
             value = getattr(self, name)
             if value is not None and not follows(value):
-                positive(stroke_in_metres(one_number(value, what), what, None if self._follows else size.bore), what)
+                stroke_in_metres(one_number(value, what), what, None if self._follows else size.bore)
 
     def _check_number(self, name: str) -> None:
         if name not in LENGTHS:  # those are looked at beside the bore, in words of their own
@@ -618,15 +614,11 @@ class Cylinder(BarrelAndRod, Ram):
         return self._on_lines or self.works or "piston"
 
     @property
-    def own_sides(self) -> tuple[Side, ...]:
-        return SIDES
-
-    @property
     def rod_side(self) -> Chamber:
         """The chamber around its rod, for an OilLine."""
         return Chamber(self, "rod")
 
-    def among(self, members: Mapping[str, Member]) -> Cylinder:
+    def among(self, members: NamedMembers) -> Cylinder:
         """Return it as the lines of its class say what it works with; DefinitionError where it says another side itself."""
         found, others = works_by_lines(self, members), lines_of(self, members)
         beside = self.works in SIDES and all(line.kind_in(members) == "given" and each.side != self.works for line, each in others)
@@ -671,37 +663,16 @@ class Cylinder(BarrelAndRod, Ram):
 
     def _square_written(self, side: Side) -> Quantity:
         """Return the signed area of a chamber over that of a circle of diameter 1, as a quantity of its class."""
-        square = variable_written(self, "bore") ** 2
-        square = square if side == PISTON else variable_written(self, "rod") ** 2 - square
+        square = self.written("bore") ** 2
+        square = square if side == PISTON else self.written("rod") ** 2 - square
         return square if self.count == 1 else square * float(self.count)
-
-    def taken(self, motion: Poses, low: Array, high: Array) -> Array:
-        return np.asarray(self.sized(motion).area * (high - low))[()]
 
     def thickness(self, motion: Poses, direction: str | None = None) -> float | Array:
         return self.sized(motion).rod
 
-    @property
-    def lengths_given(self) -> tuple[str, ...]:
-        return tuple(name for name in LENGTHS if getattr(self, name) is not None)
-
-    def closed_and_stroke(self, motion: Poses) -> tuple[Array | None, Array | None]:
-        bore = self.sized(motion).bore
-        closed, stroke = (self._length(motion, name, bore) for name in ("closed", "stroke"))
-        return closed, stroke
-
-    def _length(self, motion: Poses, name: str, bore: ArrayLike) -> Array | None:
-        if getattr(self, name) is None:
-            return None
-        what = LENGTHS[name]
-        return positive(stroke_in_metres(number_set(self, motion, name), what, bore), what)
-
-    def _length_given(self, name: str, motion: AnyMotion) -> Array:
-        return positive(stroke_in_metres(number_set(self, motion, name), LENGTHS[name]), LENGTHS[name])
-
-    def lengths_named(self, name: str) -> tuple[Quantity | str, ...]:
-        given = getattr(self, name)
-        return () if given is None else (quantity(given) if follows(given) else f"{self.name}.{name}",)
+    def length_set(self, name: str, motion: Poses, *, beside_bore: bool = False) -> Array:
+        bore, what = self.sized(motion).bore if beside_bore else None, LENGTHS[name]
+        return stroke_in_metres(number_set(self, motion, name), what, bore)
 
     def offers(self, thrust: float, pressure: float, length: float | None = None) -> list[CylinderSize]:
         """Return the standard sizes that give a thrust [N] at a pressure: the smallest bore, each rod that suits.
@@ -804,7 +775,6 @@ class AllOf(Condition):
 
 Values = TypeVar("Values")
 Own = TypeVar("Own", bound=ForceElement)
-Kind = TypeVar("Kind", bound=Member)
 
 
 def cylinder_request(
@@ -825,12 +795,11 @@ def cylinder_request(
     named = cylinder if isinstance(cylinder, str) else cylinder.name or cylinder
 
     def text(acting: Acting) -> str:
-        given = [str(each) for each in (named, *before, acting.direction, *after) if each is not None]
-        return f"{word}({', '.join([*given, *case_words(acting.case)])})"
+        return request_text(word, [str(each) for each in (named, *before, acting.direction, *after) if each is not None], acting)
 
     def cases_in(plan: Plan, case: str) -> bool:
         ram = cylinder_in(named, plan)
-        feeding = {name for name, each in elements_of(plan, None) if any(same(ram, fed) for fed in each.feeds(plan.members))}
+        feeding = {name for name, each in elements_of(plan, None) if is_among(ram, each.feeds(plan.members))}
         return not feeding or not feeding.isdisjoint(each.name for each in applied_elements(plan, Acting(case=case)))
 
     return LawRequest(
@@ -839,9 +808,7 @@ def cylinder_request(
     )  # fmt: skip
 
 
-def formula_of_cylinder(
-    formula: Callable[[AnyMotion, Ram, Acting], Values], named: str | Ram, motion: AnyMotion, acting: Acting
-) -> Values:
+def formula_of_cylinder(formula: Callable[[AnyMotion, Ram, Acting], Values], named: str | Ram, motion: AnyMotion, acting: Acting) -> Values:
     """Return what a formula gives of the cylinder that is meant, as the motion's class has it."""
     return formula(motion, cylinder_in(named, motion.plan), acting)
 
@@ -887,7 +854,7 @@ def in_stages(pieces: Sequence[SmoothPiece], cylinder: str | Ram, plan: Plan) ->
     Along one stroke a jump from stage to stage is looked at from both sides as it is.
     """
     ram = cylinder_in(cylinder, plan)
-    if ram.keeps_area or len(plan.strokes) < 2:
+    if ram.stages == 1 or len(plan.strokes) < 2:
         return tuple(pieces)
 
     def staged(request: LawRequest | None, stage: int) -> LawRequest | None:
@@ -945,7 +912,7 @@ def circuit_having(cylinder: Ram, plan: Declared, is_needed: bool = True) -> Cir
     None where it is not needed and not plain.
     """
     members, mine = plan.members, circuits_of(cylinder, plan)
-    feeding = [each for each in mine if any(same(cylinder, one) for one in each.feeds(members))]
+    feeding = [each for each in mine if is_among(cylinder, each.feeds(members))]
     if len(mine) > 1 and not feeding and not is_needed:
         return None
     if len(mine) > 1 and not feeding:
@@ -958,9 +925,9 @@ def circuit_having(cylinder: Ram, plan: Declared, is_needed: bool = True) -> Cir
 def circuits_of(cylinder: Ram, plan: Declared) -> list[Circuit]:
     """Return the circuits of a class that have a cylinder's working side, which its lines there may tell."""
     cylinder = as_in(plan, cylinder)
-    found = [each for each in plan.of_kind(Circuit).values() if any(same(cylinder, one) for one in each.members(plan.members))]
+    found = [each for each in plan.of_kind(Circuit).values() if is_among(cylinder, each.members(plan.members))]
     other = [line for line, chamber in lines_of(cylinder, plan.members) if chamber.side != cylinder.side and cylinder.side in SIDES]
-    return [each for each in found if not any(same(each, line) for line in other)] if other else found
+    return [each for each in found if not is_among(each, other)] if other else found
 
 
 Feeds: TypeAlias = "Reference | Sequence[Reference]"
@@ -979,6 +946,14 @@ class OnLines(ForceElement):
     @property
     def scales(self) -> bool:
         return False
+
+    def holds_line(self, line: Circuit) -> bool:
+        """Return whether it is a valve that holds a line; the load then goes down over it."""
+        return False
+
+    def pressure_lowering(self, line: Circuit, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array | None:
+        """Return the pressure of a line while a cylinder goes down over it [Pa gauge]; None where it does not go down over it."""
+        return None
 
 
 class Circuit(OnLines, HasVerdicts):
@@ -1008,7 +983,7 @@ class Circuit(OnLines, HasVerdicts):
         names = ", ".join(map(label, self.references))
         return f"[{names}]" if len(self.references) > 1 else names
 
-    def tie(self, members: Mapping[str, Member]) -> Tie | None:
+    def tie(self, members: NamedMembers) -> Tie | None:
         """Return how its pressure acts where it is given by itself, and a load case shuts it."""
         is_kept = self._is_shut and self.kind_open(members) == "given"
         return Tie(self.name, self.shares(members), held=True) if is_kept else None
@@ -1044,16 +1019,16 @@ class Circuit(OnLines, HasVerdicts):
         """The cylinders that it names without a side: that which works."""
         return self.references
 
-    def chambers_of(self, cylinder: Ram, members: Mapping[str, Member]) -> tuple[Chamber, ...]:
+    def chambers_of(self, cylinder: Ram, members: NamedMembers) -> tuple[Chamber, ...]:
         """Return the chambers of a cylinder that it names, among the members of its class."""
         return tuple(each for each in self.chambers if name_of(each.cylinder) == cylinder.name)
 
-    def kind_in(self, members: Mapping[str, Member]) -> str:
+    def kind_in(self, members: NamedMembers) -> str:
         """Return the kind of its line, among the members of its class: one of KINDS. A shut one keeps the oil that it has: it is held."""
         kind = self.kind_open(members)
         return "held" if self._is_shut and kind == "given" else kind
 
-    def kind_open(self, members: Mapping[str, Member]) -> str:
+    def kind_open(self, members: NamedMembers) -> str:
         """Return the kind of its line while no load case shuts it."""
         return "held"
 
@@ -1065,12 +1040,12 @@ class Circuit(OnLines, HasVerdicts):
     def when_shut(self) -> Self:
         return self if self._is_shut else self.renewed(_is_shut=True)
 
-    def filling(self, members: Mapping[str, Member]) -> list[tuple[Ram, Chamber]]:
+    def filling(self, members: NamedMembers) -> list[tuple[Ram, Chamber]]:
         """Return the chambers on its line with their cylinders, as the class has them: of each the side that works."""
         sides = [(ram, SIDES if ram.side not in SIDES else (ram.side,)) for ram in self.members(members)]
         return [(ram, Chamber(ram, side)) for ram, own in sides for side in own]
 
-    def shares(self, members: Mapping[str, Member]) -> tuple[Share, ...]:
+    def shares(self, members: NamedMembers) -> tuple[Share, ...]:
         """Return what one unit of its line's pressure is in each cylinder."""
         return tuple(Share(ram, partial(chamber_area, chamber, ram)) for ram, chamber in self.filling(members))
 
@@ -1086,22 +1061,22 @@ class Circuit(OnLines, HasVerdicts):
         """Return whether it says how long a cylinder is where it is filled."""
         return False
 
-    def length_given(self, chamber: Chamber, members: Mapping[str, Member]) -> Quantity:
+    def length_given(self, chamber: Chamber, members: NamedMembers) -> Quantity:
         """Return the length that a closed line gives one of its cylinders [m]."""
         raise DefinitionError(f"{self.name} = {self} is not closed, and gives no length.")
 
-    def examine(self, members: Mapping[str, Member], title: str) -> None:
+    def examine(self, members: NamedMembers, title: str) -> None:
         for each in self.references:
             if is_named(each):
                 found_in(members, each, f"{title}.{self.name}")
 
-    def members(self, members: Mapping[str, Member]) -> tuple[Ram, ...]:
+    def members(self, members: NamedMembers) -> tuple[Ram, ...]:
         """Return its cylinders, as a class has them."""
         title = self.name or type(self).__name__
         found = (found_in(members, each, title) if is_named(each) else each for each in self.references)
         return tuple(each for each in found if isinstance(each, Ram))
 
-    def gauges_of(self, cylinder: Ram) -> dict[str, Reading]:
+    def gauges_of(self, cylinder: Ram, plan: Plan) -> dict[str, Reading]:
         """Return what it says of one of its cylinders on a live page: the `most` pressure it may have [Pa], its `reserve`."""
         return {}
 
@@ -1143,34 +1118,29 @@ def as_in(plan: Declared, each: Own) -> Own:
     return found if isinstance(found, type(each)) else each
 
 
-def lines_of(cylinder: Ram, members: Mapping[str, Member]) -> list[tuple[Circuit, Chamber]]:
+def lines_of(cylinder: Ram, members: NamedMembers) -> list[tuple[Circuit, Chamber]]:
     """Return the chambers of a cylinder that lines name, each with its line."""
     return [(line, each) for line in circuits_among(members) for each in line.chambers_of(cylinder, members)]
 
 
-def kind_among(members: Mapping[str, Member], kind: type[Kind]) -> list[Kind]:
-    """Return the members of a kind, such as the cylinders, among those of a class."""
-    return [each for each in members.values() if isinstance(each, kind)]
-
-
-def circuits_among(members: Mapping[str, Member]) -> list[Circuit]:
+def circuits_among(members: NamedMembers) -> list[Circuit]:
     """Return the circuits and oil lines of a class."""
-    return kind_among(members, Circuit)
+    return [*of_kind(members, Circuit).values()]
 
 
-def in_class(members: Mapping[str, Member], reference: Reference) -> Member | str:
+def in_class(members: NamedMembers, reference: Reference) -> Member | str:
     """Return what a reference stands for in a class; the reference itself where it has nothing of that name."""
     return members.get(reference if isinstance(reference, str) else reference.name, reference)
 
 
-def side_left(cylinder: Ram, members: Mapping[str, Member]) -> Works:
+def side_left(cylinder: Ram, members: NamedMembers) -> Works:
     """Return the side of a cylinder that no line names, where another one is named; else what it works with."""
     named = [each.side for line in circuits_among(members) for each in Circuit.chambers_of(line, cylinder, members)]
     left = [side for side in SIDES if side not in named]
     return left[0] if named and left else cylinder.side
 
 
-def works_by_lines(cylinder: Ram, members: Mapping[str, Member]) -> Works | None:
+def works_by_lines(cylinder: Ram, members: NamedMembers) -> Works | None:
     """Return what lines say that a cylinder works with; None where they do not say it.
 
     Sides on held lines come first, then those on closed ones, then those whose pressure is given.
@@ -1190,30 +1160,27 @@ def works_by_lines(cylinder: Ram, members: Mapping[str, Member]) -> Works | None
     return "regenerative" if working[0][0] is working[1][0] else "both"
 
 
-def by_other_lines(
-    ram: Ram, line: Circuit | None, motion: AnyMotion, acting: Acting | None, tanks: bool | None = None
-) -> Array | None:
-    """Return what lines other than one put on a cylinder over a motion's poses [N]; None for nothing.
+def by_other_lines(ram: Ram, line: Circuit | None, motion: AnyMotion, acting: Acting | None, tanks: bool | None = None) -> Array | float:
+    """Return what lines other than one put on a cylinder over a motion's poses [N].
 
     Without a situation only lines whose pressure is given count. `tanks`: those of tanks alone, or all but those.
     """
     motion = held_in_case(motion, acting)
     members = motion.plan.members
-    parts = []
+    thrust: Array | float = 0.0
     for other, chamber in lines_of(ram, members):
         kind = other.kind_in(members)
         if tanks is not None and tanks is not (kind == "given" and other.is_drained):
             continue
         if (line is None or not same(other, line)) and (kind == "given" or (kind == "closed" and acting is not None)):
-            parts.append(other.line_pressure(motion, acting) * chamber_area(chamber, ram, motion))
-    return reduce(np.add, parts) if parts else None
+            thrust = thrust + other.line_pressure(motion, acting) * chamber_area(chamber, ram, motion)
+    return thrust
 
 
 def line_thrust(ram: Ram, line: Circuit | None, motion: AnyMotion, acting: Acting, *, with_tanks: bool = True) -> Array:
     """Return what a line has to put on a cylinder [N]: what it carries without what its other lines do, those on tanks where asked for."""
     motion = held_in_case(motion, acting)
-    thrust, others = member_thrust(motion, ram, acting), by_other_lines(ram, line, motion, acting, None if with_tanks else False)
-    return thrust if others is None else thrust - others
+    return member_thrust(motion, ram, acting) - by_other_lines(ram, line, motion, acting, None if with_tanks else False)
 
 
 def chamber_area(chamber: Chamber, ram: Ram, motion: Poses) -> Array:
@@ -1226,7 +1193,7 @@ KINDS = ("held", "closed", "given")
 """The kinds of lines: a stroke holds their pressure, they keep their oil, their pressure is given."""
 
 
-def length_in(cylinder: Ram, members: Mapping[str, Member]) -> Quantity:
+def length_in(cylinder: Ram, members: NamedMembers) -> Quantity:
     """Return the length of a cylinder in its class: from its closed line where its own pins follow it, else the distance of these."""
     called = f"{cylinder.name}.length"
     if called not in names_behind(cylinder.ends, members):
@@ -1245,12 +1212,12 @@ def length_in(cylinder: Ram, members: Mapping[str, Member]) -> Quantity:
     raise DefinitionError(f"{what}; declare another line, or find their pins together in a Group.")
 
 
-def lines_giving(members: Mapping[str, Member]) -> dict[str, Circuit]:
+def lines_giving(members: NamedMembers) -> dict[str, Circuit]:
     """Return the closed lines that give cylinders their lengths, by the names of these: one each, first one whose `filled` names it.
 
     A cylinder whose pins follow its own length is given that; it is left out where there are more of them than lines.
     """
-    asking = [each for each in kind_among(members, Ram) if lines_of(each, members)]
+    asking = [each for each in of_kind(members, Ram).values() if lines_of(each, members)]
     asking = [each for each in asking if f"{each.name}.length" in names_behind(each.ends, members)]
     closed = {each.name: [line for line, _ in lines_of(each, members) if line.kind_in(members) == "closed"] for each in asking}
     closed = {name: sorted(lines, key=lambda line: not line.fills(name)) for name, lines in closed.items()}
@@ -1302,22 +1269,15 @@ def is_named(reference: Reference) -> bool:
 def the_cylinder(motion: Poses, reference: Reference) -> Ram:
     """Return the cylinder a reference stands for, as the motion's class has it; DefinitionError where there is none."""
     require_poses(motion)
-    if is_named(reference):
-        return found_in(motion.plan.members, reference, motion.plan.title)
-    return _cylinder(reference, "The circuit")
+    is_named(reference)
+    return found_in(motion.plan.members, reference, motion.plan.title)
 
 
-def found_in(members: Mapping[str, Member], reference: Reference, where: str) -> Ram:
+def found_in(members: NamedMembers, reference: Reference, where: str) -> Ram:
     """Return the cylinder a reference stands for in a class; DefinitionError where there is none."""
-    name = name_of(reference)
-    if name in members:
-        return _cylinder(members[name], where)
-    if isinstance(reference, str):
-        raise unknown("Cylinder", name, (each.name for each in kind_among(members, Ram)), where=where)
-    return _cylinder(reference, where)
-
-
-def _cylinder(found: object, where: str) -> Ram:
+    found = in_class(members, reference)
+    if isinstance(found, str):
+        raise unknown("Cylinder", found, of_kind(members, Ram), where=where)
     if not isinstance(found, Ram):
         raise DefinitionError(f"{where}: {found} is no Cylinder; name one.")
     return found

@@ -1,18 +1,18 @@
 """Oil lines: what they join has one pressure and one volume; one is given, the other answers. Every pressure is gauge [Pa].
 
-    a chamber has a signed area a = dV/dl: pistons +, annuli -
-    thrust T = sum of a p over a cylinder's chambers, oil taken V' = a l', so that T l' = sum of p V'
+a chamber has a signed area a = dV/dl: pistons +, annuli -
+thrust T = sum of a p over a cylinder's chambers, oil taken V' = a l', so that T l' = sum of p V'
 
-    on the line                  given             called
-    Pump                         V, by the pose    held: it takes over one stroke
-    nothing                      V = oil           closed: it keeps a sum of lengths, its pressure is what that takes
-    Tank                         p                 given
-    AccumulatorBlock             p of the gas      given, as a function of the oil that is drawn
+on the line                  given             called
+Pump                         V, by the pose    held: it takes over one stroke
+nothing                      V = oil           closed: it keeps a sum of lengths, its pressure is what that takes
+Tank                         p                 given
+AccumulatorBlock             p of the gas      given, as a function of the oil that is drawn
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial, reduce
 from math import pi
@@ -22,14 +22,29 @@ from typing import Any, ClassVar, TypeAlias, Unpack, cast, final
 import numpy as np
 
 from linkage.checks import require_type
-from linkage.errors import DefinitionError, cited, ensure, unknown
+from linkage.errors import DefinitionError, cited, unknown
 from linkage.frozen import FrozenDict, refuses_changes
 from linkage.language import said
 from linkage.loads import Acting, ActingKeywords, Declared, ForceElement, Loads, Parameter, Poses, Tie, situation_of, takes_situation
 from linkage.loads.element import UNBOUNDED, Formulas
 from linkage.motion import Condition, Judge, Motion, Question, at, least, most
 from linkage.plan import require_kinds
-from linkage.quantities import AtPose, Distance, Member, Number, Quantity, Reference, Stroke, Variable, Where, label, name_of, quantity
+from linkage.quantities import (
+    AtPose,
+    Distance,
+    Member,
+    NamedMembers,
+    Number,
+    Quantity,
+    Reference,
+    Stroke,
+    Variable,
+    Where,
+    label,
+    name_of,
+    quantity,
+)
+from linkage.quantities.member import of_kind
 from linkage.quantities.quantity import plain
 from linkage.statics import AnyMotion, LawRequest, each_once, held_in_case, plan_of, same
 from linkage.units import require_measure, show
@@ -39,7 +54,7 @@ from linkage.verdict import Verdict
 from .accumulator import AccumulatorBlock
 from .files import FilledKind, OnLineKind
 from .floating import Block, GasLine
-from .inputs import Array, check_pressures, follows, in_pascals, number_set, one_number
+from .inputs import Array, check_pressures, follows, in_pascals, names_behind, number_set, one_design, one_number
 from .lift import PumpLine
 from .line import pressure_range
 from .member import (
@@ -51,7 +66,6 @@ from .member import (
     Circuit,
     OnLines,
     Ram,
-    Reading,
     Side,
     as_in,
     by_other_lines,
@@ -59,13 +73,11 @@ from .member import (
     circuits_among,
     in_class,
     is_named,
-    kind_among,
     lines_giving,
     lines_of,
     side_left,
     the_cylinder,
 )
-from .names import names_behind
 from .shut import EMPTY, intensified, shut_verdicts
 from .standing import standing_pressure
 
@@ -250,7 +262,7 @@ class OilLine(PumpLine, GasLine):
     def bare(self) -> tuple[Reference, ...]:
         return tuple(each for each in self.on if isinstance(each, (str, Member)))
 
-    def chambers_of(self, cylinder: Ram, members: Mapping[str, Member]) -> tuple[Chamber, ...]:
+    def chambers_of(self, cylinder: Ram, members: NamedMembers) -> tuple[Chamber, ...]:
         """Return the chambers of a cylinder on it; where it names the cylinder alone, the side that no other line names."""
         named = super().chambers_of(cylinder, members)
         left = side_left(cylinder, members) if cylinder.name and cylinder.name in map(label, self.bare) else None
@@ -263,7 +275,7 @@ class OilLine(PumpLine, GasLine):
     def parts(self) -> tuple[Reference, ...]:
         return (*super().parts(), *(each for each in map(quantity, self.lengths_told.values()) if not each.is_constant))
 
-    def supplies(self, members: Mapping[str, Member], kind: type[Supply]) -> list[Supply]:
+    def supplies(self, members: NamedMembers, kind: type[Supply]) -> list[Supply]:
         """Return the pumps, relief valves or tanks on it."""
         found = (in_class(members, each) for each in self.bare)
         return [each for each in found if isinstance(each, kind)]
@@ -281,7 +293,7 @@ class OilLine(PumpLine, GasLine):
     def gas_block(self) -> Block | None:
         return self.block
 
-    def kind_open(self, members: Mapping[str, Member]) -> str:
+    def kind_open(self, members: NamedMembers) -> str:
         if self.supplies(members, Pump):
             return "held"
         return "given" if self.block is not None or self.supplies(members, Tank) else "closed"
@@ -290,7 +302,7 @@ class OilLine(PumpLine, GasLine):
     def is_drained(self) -> bool:
         return self.kind_of_line == "given" and self.block is None
 
-    def filling(self, members: Mapping[str, Member]) -> list[tuple[Ram, Chamber]]:
+    def filling(self, members: NamedMembers) -> list[tuple[Ram, Chamber]]:
         """Return the chambers on it with their cylinders, as the class has them; of a bare cylinder the side that works."""
         found = []
         for each in self.on:
@@ -303,7 +315,7 @@ class OilLine(PumpLine, GasLine):
                     found.append((ram, Chamber(each, cast(Side, side_left(ram, members)))))
         return found
 
-    def members(self, members: Mapping[str, Member]) -> tuple[Ram, ...]:
+    def members(self, members: NamedMembers) -> tuple[Ram, ...]:
         return each_once(ram for ram, _ in self.filling(members))
 
     def rams(self, motion: Poses) -> tuple[Ram, ...]:
@@ -313,14 +325,14 @@ class OilLine(PumpLine, GasLine):
             return found
         return tuple(ram.on_side(own_side(self, ram, members)) if ram.side == "both" else ram for ram in found)
 
-    def among(self, members: Mapping[str, Member]) -> OilLine:
+    def among(self, members: NamedMembers) -> OilLine:
         return self.renewed(kind_of_line=self.kind_in(members))
 
-    def cuts(self, members: Mapping[str, Member]) -> tuple[str, ...]:
+    def cuts(self, members: NamedMembers) -> tuple[str, ...]:
         tie = self.tie(members) if self.kind_of_line == "closed" else None
         return () if tie is None or not tie.gives or isinstance(members.get(tie.cut), Stroke) else (tie.cut,)
 
-    def driven_cuts(self, members: Mapping[str, Member]) -> tuple[str, ...]:
+    def driven_cuts(self, members: NamedMembers) -> tuple[str, ...]:
         cuts, oil = self.cuts(members), self.oil_given
         return cuts if any(isinstance(members.get(name), Stroke) for name in names_behind([oil], members)) else ()
 
@@ -329,48 +341,48 @@ class OilLine(PumpLine, GasLine):
         beside = ((self.cut, 0.0, "number", "l"),) if self.kind_of_line == "closed" and self.cut.endswith(".added") else ()
         return (*super().variables(), *beside)
 
-    def examine(self, members: Mapping[str, Member], title: str) -> None:
-        opening = f"{title}: {self.name} = {self}"
+    def examine(self, members: NamedMembers, title: str) -> None:
         for each in self.references:
             name = each if isinstance(each, str) else each.name
             if name and name not in members:
                 known = [each.name for each in members.values() if isinstance(each, (Ram, Supply))]
                 raise unknown("Cylinder, pump, valve or tank", name, known, where=f"{title}.{self.name}")
-        filling = self.filling(members)
-        for ram, chamber in filling:
-            if not isinstance(ram, Ram):
-                raise DefinitionError(f"{opening}: {chamber} is no chamber, as {ram} is no Cylinder.")
-            ensure(chamber.side in SIDES, f"{opening}: {ram.name} works with both sides; say which, {ram.name}.piston_side.")
-        ensure(filling, f"{opening}: no chamber is on it; name one, lift.piston_side.")
-        self._examine_supplies(members, opening)
-        self._examine_others(members, filling, title)
-        kind = self.kind_in(members)
-        counting = NUMBERS["closed"] if kind == "closed" else NUMBERS["given"] if self.block is not None else ()
-        said_here = [name for name in self.parameters if self.given(name) is not None and not self._is_usual(name)]
-        idle = next((name for name in said_here if name not in counting), None)
-        if idle is not None:
-            says = {"held": "a pump holds its pressure", "closed": "it is closed", "given": "its pressure is given"}[kind]
-            raise DefinitionError(f"{opening}: {idle}= counts for nothing there, as {says}; leave it out.")
-        if kind == "given" and self.block is not None and self.charge_pressure is None:
-            raise DefinitionError(f"{opening}: its accumulators are charged to no pressure; say charge_pressure=90 * bar.")
-        own = [ram.name for ram, _ in filling]
+        Member.examine(self, members, title)
+        self._examine_others(members, title)
+        own = [ram.name for ram, _ in self.filling(members)]
         lost = next((name for name in self.lengths_told if name not in own), None)
         if lost is not None:
             raise unknown("Cylinder", lost, own, where=f"{title}.{self.name}, filled")
 
-    def _examine_supplies(self, members: Mapping[str, Member], opening: str) -> None:
+    def faults(self, members: NamedMembers) -> Iterator[str]:
+        filling = self.filling(members)
+        for ram, chamber in filling:
+            if not isinstance(ram, Ram):
+                yield f"{chamber} is no chamber, as {ram} is no Cylinder"
+            if chamber.side not in SIDES:
+                yield f"{ram.name} works with both sides; say which, {ram.name}.piston_side"
+        if not filling:
+            yield "no chamber is on it; name one, lift.piston_side"
         pumps, tanks, valves = (self.supplies(members, kind) for kind in (Pump, Tank, Relief))
-        blocks = self.blocks
         if pumps and tanks:
-            what = f"{opening}: a pump and a tank are on one line, whose pressure would be given twice"
-            raise DefinitionError(f"{what}; put the other side on the tank, OilLine(lift.rod_side, {tanks[0].name or 'Tank()'}).")
-        ensure(not (tanks and blocks), f"{opening}: accumulators and a tank give its pressure both; take one out.")
-        for found, what in ((pumps, "pumps"), (tanks, "tanks"), (valves, "relief valves"), (blocks, "blocks of accumulators")):
-            ensure(len(found) <= 1, f"{opening}: {len(found)} {what} are on one line; leave one.")
+            remedy = f"put the other side on the tank, OilLine(lift.rod_side, {tanks[0].name or 'Tank()'})"
+            yield f"a pump and a tank are on one line, whose pressure would be given twice; {remedy}"
+        if tanks and self.blocks:
+            yield "accumulators and a tank give its pressure both; take one out"
+        each_of = (pumps, "pumps"), (tanks, "tanks"), (valves, "relief valves"), (self.blocks, "blocks of accumulators")
+        yield from (f"{len(found)} {what} are on one line; leave one" for found, what in each_of if len(found) > 1)
+        kind = self.kind_in(members)
+        counting = NUMBERS["closed"] if kind == "closed" else NUMBERS["given"] if self.block is not None else ()
+        says = {"held": "a pump holds its pressure", "closed": "it is closed", "given": "its pressure is given"}[kind]
+        for name in self.parameters:
+            if name not in counting and self.given(name) is not None and not self._is_usual(name):
+                yield f"{name}= counts for nothing there, as {says}; leave it out"
+        if kind == "given" and self.block is not None and self.charge_pressure is None:
+            yield "its accumulators are charged to no pressure; say charge_pressure=90 * bar"
 
-    def _examine_others(self, members: Mapping[str, Member], filling: Sequence[tuple[Ram, Chamber]], title: str) -> None:
+    def _examine_others(self, members: NamedMembers, title: str) -> None:
         """Raise DefinitionError for what stands on this line and on another one, or twice on this."""
-        own = [(ram.name, chamber.side) for ram, chamber in filling]
+        own = [(ram.name, chamber.side) for ram, chamber in self.filling(members)]
         twice = next((each for each in own if own.count(each) > 1), None)
         if twice is not None:
             raise DefinitionError(f"{title}: {self.name} has {twice[0]}.{twice[1]}_side twice; name it once.")
@@ -394,7 +406,7 @@ class OilLine(PumpLine, GasLine):
 
     # -- in statics ----------------------------------------------------------------------------------------
 
-    def feeds(self, members: Mapping[str, Member]) -> tuple[ForceElement, ...]:
+    def feeds(self, members: NamedMembers) -> tuple[ForceElement, ...]:
         """Return its cylinders all of whose lines have a given pressure, one of them on the side that works: their thrust is given."""
         found: list[Ram] = []
         for ram in self.members(members) if self.kind_in(members) == "given" else ():
@@ -403,10 +415,7 @@ class OilLine(PumpLine, GasLine):
             found += [ram] if works and all(line.kind_in(members) == "given" for line, _ in on) else []
         return tuple(found)
 
-    def joined(self, members: Mapping[str, Member]) -> tuple[ForceElement, ...]:
-        return PumpLine.joined(self, members) if self.kind_in(members) == "held" else ()
-
-    def tie(self, members: Mapping[str, Member]) -> Tie | None:
+    def tie(self, members: NamedMembers) -> Tie | None:
         """Return how its pressure acts on its cylinders, where it is closed, or held beside a closed line."""
         kind = self.kind_open(members)
         if kind != "closed":
@@ -430,7 +439,7 @@ class OilLine(PumpLine, GasLine):
             return f"{self.name}.oil"
         return oil.name if isinstance(oil, Stroke) and oil.name else f"{self.name}.added"
 
-    def link_written(self, pin: str, members: Mapping[str, Member]) -> str:
+    def link_written(self, pin: str, members: NamedMembers) -> str:
         for ram in [members.get(name_of(each)) for each in self.references] if self.kind_open(members) == "closed" else ():
             if isinstance(ram, Ram) and pin in map(name_of, ram.ends):
                 A, B = map(name_of, ram.ends)
@@ -459,7 +468,7 @@ class OilLine(PumpLine, GasLine):
             raise DefinitionError(f"{self.name} = {self}: the machine has {len(strokes)} strokes; say at=dict({', '.join(strokes)}=...).")
         return {strokes[0]: one_number(self.at, f"{self.name}, at")}
 
-    def length_filled(self, ram: Ram, members: Mapping[str, Member]) -> Quantity:
+    def length_filled(self, ram: Ram, members: NamedMembers) -> Quantity:
         """Return the length of a cylinder where the line is filled [m]."""
         if ram.name in self.lengths_told:
             return quantity(self.lengths_told[ram.name])
@@ -470,10 +479,10 @@ class OilLine(PumpLine, GasLine):
                 raise DefinitionError(f"{self.name} = {self}: {ram.name} says no {lost}; declare it, or give lengths, filled=dict(...).")
             named = [each for name in wanted for each in ram.lengths_named(name)]
             return reduce(lambda a, b: a + b, (Variable(each) if isinstance(each, str) else each for each in named))
-        strokes = [each.name for each in kind_among(members, Stroke)]
-        return AtPose(Distance(ram.A, ram.B), FrozenDict(self.strokes_filled(strokes)), put_in_later(members))
+        strokes = self.strokes_filled([*of_kind(members, Stroke)])
+        return AtPose(Distance(ram.A, ram.B), FrozenDict(strokes), put_in_later(members))
 
-    def length_given(self, chamber: Chamber, members: Mapping[str, Member]) -> Quantity:
+    def length_given(self, chamber: Chamber, members: NamedMembers) -> Quantity:
         """Return the length that it gives one of its cylinders [m]: that where it was filled, and what the oil of the others makes."""
         filling = self.filling(members)
         own = cast(Ram, members[name_of(chamber.cylinder)])
@@ -536,7 +545,7 @@ class OilLine(PumpLine, GasLine):
 
     def oil(self, motion: Motion) -> Array:
         """Return the oil that has come in since it was filled, per pose, shape (...) [m3]; accumulators beside a pump hold theirs, too."""
-        found = np.asarray(reduce(np.add, self.volumes(motion)))
+        found = np.asarray(GasLine.withdrawn(self, motion))
         if self.block is None or self.kind_in(motion.plan.members) != "held":
             return found
         at = {**motion.plan.sketch_strokes, **self.strokes_filled(list(motion.plan.strokes))}
@@ -567,7 +576,7 @@ class OilLine(PumpLine, GasLine):
     def number(self, motion: Poses, name: str) -> Array:
         return ForceElement.number(self, motion, name) if name == "oil" else PumpLine.number(self, motion, name)
 
-    def says(self, name: str, members: Mapping[str, Member]) -> tuple[ForceElement, str] | None:
+    def says(self, name: str, members: NamedMembers) -> tuple[ForceElement, str] | None:
         if name in self.parameters:
             return self, name
         kinds: Mapping[str, type[Supply]] = {"relief": Relief, "back_pressure": Tank}
@@ -579,7 +588,7 @@ class OilLine(PumpLine, GasLine):
     def pressure_in(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array:
         if self.kind_open(motion.plan.members) == "held":
             return PumpLine.pressure_in(self, cylinder, motion, acting)
-        return self.line_pressure(motion, acting) + np.zeros(motion.shape)
+        return GasLine.pressure_in(self, cylinder, motion, acting) + np.zeros(motion.shape)
 
     def bounds_of(self, cylinder: Reference, motion: Poses, lifting: bool, *, share: float = 1.0) -> tuple[Array, Array]:
         """Return between which two thrusts it lets one of its cylinders stand [N].
@@ -591,8 +600,7 @@ class OilLine(PumpLine, GasLine):
         kind = self.kind_open(members)
         if kind == "held":
             return PumpLine.bounds_of(self, cylinder, motion, lifting, share=share)
-        others = by_other_lines(ram, self, motion, None)  # type: ignore[arg-type]
-        more = np.zeros(()) if others is None else others
+        more = by_other_lines(ram, self, motion, None)  # type: ignore[arg-type]
         if kind == "given":
             thrust = self.thrust_of(ram, motion, {}) + more
             return thrust, thrust
@@ -603,12 +611,6 @@ class OilLine(PumpLine, GasLine):
         most = self.number(motion, "relief") if self.relieves(motion.plan) else np.asarray(np.inf)
         low, high = self.least(motion) * own[0] + more, most * own[0] + more
         return (low, high) if own_side(self, ram, members) == PISTON else (high, low)
-
-    def reserve_of(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array | None:
-        return PumpLine.reserve_of(self, cylinder, motion, acting) if self.kind_open(motion.plan.members) == "held" else None
-
-    def gauges_of(self, cylinder: Ram) -> dict[str, Reading]:
-        return PumpLine.gauges_of(self, cylinder) if self.kind_of_line == "held" else {}
 
     def questions(self, judge: Judge) -> list[Question]:
         if self.kind_of_line == "held":
@@ -647,9 +649,9 @@ class OilLine(PumpLine, GasLine):
         try:
             low, high = judge.answers(self._extremes(judge))
         except DefinitionError as error:
-            return [Verdict("line", False, " ".join(str(error).split())), *shut]
+            return [Verdict.refused("line", error), *shut]
         says = pressure_range(replace(low, value=0.0) if abs(low.value) < EMPTY * abs(high.value) else low, high, "bar")
-        make_up = float(np.ravel(self.least(judge.motion))[0])
+        make_up = one_design(self.least(judge.motion))
         if low.value < make_up - EMPTY * max(abs(float(high.value)), 1.0):
             text = said(
                 "{says}: below {make_up} it runs empty there, and does not keep the length that it gives.",
@@ -674,7 +676,7 @@ class OilLine(PumpLine, GasLine):
         """Return the verdict that its relief valve opens, where it does."""
         if not self.relieves(judge.plan):
             return []
-        limit, high = float(np.ravel(self.number(judge.motion, "relief"))[0]), judge.answer(most(self.pressure_request(judge.plan)))
+        limit, high = one_design(self.number(judge.motion, "relief")), judge.answer(most(self.pressure_request(judge.plan)))
         if not high.value > limit:
             return []
         text = said(
@@ -701,9 +703,9 @@ CHAMBERS: Mapping[str, Side] = MappingProxyType({"piston_side": PISTON, "rod_sid
 """The sides of a cylinder by the names of their chambers."""
 
 
-def put_in_later(members: Mapping[str, Member]) -> tuple[str, ...]:
+def put_in_later(members: NamedMembers) -> tuple[str, ...]:
     """Return the inputs of the oil of closed lines, which have nothing of it where they are filled."""
-    lines = [each for each in kind_among(members, OilLine) if each.kind_in(members) == "closed"]
+    lines = [each for each in of_kind(members, OilLine).values() if each.kind_in(members) == "closed"]
     return tuple(each.cut for each in lines if not isinstance(members.get(each.cut), Stroke))
 
 
@@ -714,8 +716,6 @@ def on_line_text(each: object) -> str:
     return label(each) if isinstance(each, (str, Member)) else getattr(each, "__name__", "block")
 
 
-def own_side(line: OilLine, ram: Ram, members: Mapping[str, Member]) -> Side:
+def own_side(line: OilLine, ram: Ram, members: NamedMembers) -> Side:
     """Return the side of a cylinder that a line has."""
     return next(chamber.side for each, chamber in line.filling(members) if same(each, ram))
-
-

@@ -19,11 +19,11 @@ from linkage.mechanism import Mechanism
 from linkage.motion import Condition, Constraint, SmoothPiece, at, least, most
 from linkage.plan import Mask, Plan
 from linkage.quantities import Reference, distance, name_of
-from linkage.statics import AnyMotion, LawRequest, member_limits, member_thrust, plan_in_case, same
+from linkage.statics import AnyMotion, LawRequest, is_among, member_limits, member_thrust, plan_in_case
 from linkage.statics.carried import Direction, direction_words, pull_direction
 
 from .inputs import Array, only_where, proper_share
-from .line import LiftLine, WayBack, Work
+from .line import LiftLine, Work, way_back
 from .member import (
     PISTON,
     ROD,
@@ -42,15 +42,13 @@ from .member import (
     line_thrust,
     thrust_request,
 )
-from .standing import moves_in, no_direction
+from .standing import moves_in
 
 Circuits: TypeAlias = str | LiftLine
 """A circuit by its name, or itself; "" for the only one that has a cylinder."""
 
 
-def thrust(
-    cylinder: Reference, *, case: Case = None, direction: str | None = None, acting: Acting | None = None
-) -> LawRequest:
+def thrust(cylinder: Reference, *, case: Case = None, direction: str | None = None, acting: Acting | None = None) -> LawRequest:
     """Return the request for what a cylinder carries [N], positive where it pushes: `lift.thrust(motion, case=..., direction=...)`.
 
     `acting` says case and direction in one, with loads and rates too. With declared friction and a direction it has values and no
@@ -69,7 +67,7 @@ def circuit_with(plan: Plan, ram: Ram, circuit: Circuits, word: str) -> LiftLine
         return circuit
     if circuit:
         known_name("LiftCircuit", circuit, circuits, where=plan.title)
-    feeding = {name: each for name, each in circuits.items() if any(same(ram, one) for one in each.members(plan.members))}
+    feeding = {name: each for name, each in circuits.items() if is_among(ram, each.members(plan.members))}
     if circuit and circuit not in feeding:
         raise DefinitionError(f"{plan.title}: {circuit} does not feed {ram.name}; that is on {', '.join(feeding) or 'none'}.")
     pumped = {name: each for name, each in feeding.items() if each.kind_open(plan.members) == "held"}
@@ -168,7 +166,7 @@ def pressure_request(
         sides = [side] if side else [DRIVING.get(request.situation.direction or "", "")] if is_needed else ram.own_sides
         plan = plan_in_case(plan, request.situation)
         members = plan.members
-        if not side and not is_needed and any(same(ram, one) for each in circuits_among(members) for one in each.feeds(members)):
+        if not side and not is_needed and any(is_among(ram, each.feeds(members)) for each in circuits_among(members)):
             return in_stages((SmoothPiece(request, ram.side),), cylinder, plan)
         own = circuit_having(ram, plan, False)
         if not (side or circuit) and own is not None and own.kind_in(members) == "closed":
@@ -206,9 +204,7 @@ def reserve(
     return reserve_request(name_of(cylinder), given, "" if circuit is None else name_of(circuit))
 
 
-def reserve_request(
-    cylinder: str | Ram, acting: Acting, circuit: Circuits = "", *, is_judged: bool = False
-) -> LawRequest:
+def reserve_request(cylinder: str | Ram, acting: Acting, circuit: Circuits = "", *, is_judged: bool = False) -> LawRequest:
     """Return the request for the greatest rod force over the needed one; of one that is judged, while it moves against the load.
 
     Its smooth piece is that of the side that drives, whose inverse goes on smoothly where the load drives.
@@ -237,7 +233,7 @@ def reserve_request(
         k_m, thrust = line.efficiency(motion, "mechanical"), line_thrust(ram, line, motion, acting, with_tanks=False)
         drained = by_other_lines(ram, line, motion, None, True)
         sense = 1.0 if acting.direction == "extending" else -1.0
-        most = line.most(motion, Work(np.asarray(sense), np.asarray(sense), size, k_m, 0.0 if drained is None else drained))
+        most = line.most(motion, Work(np.asarray(sense), np.asarray(sense), size, k_m, drained))
         return np.asarray(sense * thrust / (k_m * most))[()]
 
     def directions(plan: Plan) -> tuple[str, ...]:
@@ -272,14 +268,11 @@ def going_back_request(
 
     def over(motion: AnyMotion, ram: Ram, acting: Acting) -> Array:
         line = circuit_with(motion.plan, ram, circuit, "going back")
-        found = WayBack.of(ram, line, motion, acting, way, resistance, line.efficiency(motion, "mechanical"))
-        return found.working if tells == "load" else found.push + found.tank if tells == "whole push" else found.push
-
-    def directions(plan: Plan) -> tuple[str, ...]:
-        return (way,)
+        working, push, tank = way_back(ram, line, motion, acting, way, resistance, line.efficiency(motion, "mechanical"))
+        return working if tells == "load" else push + tank if tells == "whole push" else push
 
     found = circuit_request("going back", cylinder, acting, circuit, over, after=(way, resistance, tells), measures="pressure")
-    return replace(found, directions=directions, pieces_in=partial(whole_in_stages, cylinder), cases_in=partial(moves_in, cylinder))
+    return replace(found, directions=(way,), pieces_in=partial(whole_in_stages, cylinder), cases_in=partial(moves_in, cylinder))
 
 
 def whole_in_stages(cylinder: str | Ram, request: LawRequest, plan: Plan) -> tuple[SmoothPiece, ...]:
@@ -343,7 +336,7 @@ def capacity_request(
     options = None if words == "(0, 1)" else f"along={words}", None if share == 1.0 else f"share={share:g}"
     found = circuit_request("capacity", cylinder, acting, circuit, lifted, (point,), options, measures="force")
     return replace(
-        found, known=found.known if limit is None else (found.known, limit), directions=no_direction, examine=examine,
+        found, known=found.known if limit is None else (found.known, limit), directions=(), examine=examine,
         pieces_in=pieces if limit is None else None, unlimited_in=partial(formula_of_cylinder, is_driven, cylinder),
     )  # fmt: skip
 
@@ -351,14 +344,13 @@ def capacity_request(
 # The use of a rod.
 
 
-def buckling(
-    cylinder: Reference, *, case: Case = None, direction: str | None = None, acting: Acting | None = None
-) -> LawRequest:
+def buckling(cylinder: Reference, *, case: Case = None, direction: str | None = None, acting: Acting | None = None) -> LawRequest:
     """Return the request for the utilisation of a rod: `lift.buckling_use(motion, case=..., direction=...)`, at most 1 where it holds."""
     return buckling_request(name_of(cylinder), situation_of("buckling", acting, case=case, direction=direction))
 
 
 # A condition of a search.
+
 
 @final
 @dataclass(frozen=True)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from functools import partial
 from typing import cast
 
@@ -13,27 +12,27 @@ from linkage.language import said
 from linkage.loads import Acting, LoadCase
 from linkage.motion import Judge, least, most
 from linkage.plan import Plan
-from linkage.quantities import Member
-from linkage.statics import AnyMotion, LawRequest, held_in_case, member_thrust, same
+from linkage.quantities import NamedMembers, of_kind
+from linkage.statics import AnyMotion, LawRequest, held_in_case, is_among, member_thrust, same
 from linkage.units import show
 from linkage.verdict import Verdict
 
-from .inputs import Array
+from .inputs import Array, one_design
 from .line import LiftLine, pressure_range
-from .member import Circuit, kind_among
-from .standing import CommonStroke, members_in, no_direction, standing_pressure
+from .member import Circuit
+from .standing import CommonStroke, members_in, standing_pressure
 
 EMPTY = 1e-9
 """A pressure that is lower by less than this part of the greatest is that to rounding."""
 
 
-def pumps_against(line: Circuit, members: Mapping[str, Member]) -> LiftLine | None:
+def pumps_against(line: Circuit, members: NamedMembers) -> LiftLine | None:
     """Return the line of a pump that fills the other side of one of a line's cylinders; None for none."""
     rams = line.members(members)
     return next((
-        each for each in kind_among(members, LiftLine)
+        each for each in of_kind(members, LiftLine).values()
         if not same(each, line) and not each._is_shut and each.kind_open(members) == "held"
-        and any(same(ram, own) for ram, _ in each.filling(members) for own in rams)
+        and any(is_among(ram, rams) for ram in each.members(members))
     ), None)  # fmt: skip
 
 
@@ -70,7 +69,7 @@ def shut_request(line: Circuit, is_pushed: bool) -> LawRequest:
     first = line.references[0] if line.references else ""
     return LawRequest(
         formula=partial(intensified if is_pushed else standing_pressure, line), text=f"{line.name}.{word}", known=(word, line.name),
-        acting=Acting(), measures="pressure", mover=getattr(first, "name", None) or str(first), directions=no_direction,
+        acting=Acting(), measures="pressure", mover=getattr(first, "name", None) or str(first), directions=(),
         cases_in=partial(shuts, line.name, is_pushed),
     )  # fmt: skip
 
@@ -87,14 +86,14 @@ def shut_verdicts(line: Circuit, judge: Judge, unit: str = "bar") -> list[Verdic
         low, high = judge.answers([least(shut_request(line, False)), most(shut_request(line, False))])
         pushed = None if pump is None else judge.answer(most(shut_request(line, True)))
     except DefinitionError as error:
-        return [Verdict("shut", False, " ".join(str(error).split()))]
+        return [Verdict.refused("shut", error)]
     says = pressure_range(low, high, unit) if high.value > 0.0 or low.value < 0.0 else said("it holds no pressure")
     if low.value < -EMPTY * max(abs(float(high.value)), 1e5):
         text = said("{says}: below zero it runs empty there and does not hold; shut the other side as well.", says=says)
         return [Verdict("shut", False, text, answer=low)]
     worst = high if pushed is None else pushed
     if pump is not None and pushed is not None:
-        given = show(float(np.ravel(pump.supply(judge.motion))[0]), unit, 4)
+        given = show(one_design(pump.supply(judge.motion)), unit, 4)
         says += said(
             "; against the pump's {given} on the other side it is up to {pressure}, {where}",
             given=given, pressure=show(pushed.value, unit, 4), where=pushed.place,
@@ -103,7 +102,7 @@ def shut_verdicts(line: Circuit, judge: Judge, unit: str = "bar") -> list[Verdic
     bears = line if own else pump
     if not isinstance(bears, LiftLine):
         return [Verdict("shut", True, f"{says}.", answer=worst)]
-    limit = float(np.ravel(bears.held(judge.motion))[0])
+    limit = one_design(bears.held(judge.motion))
     by, bears_it = {"says": says, "limit": show(limit, unit, 4), "line": line.name}, float(worst.value) <= limit * (1.0 + EMPTY)
     if bears_it:
         text = said("{says}, below {limit}.", **by)

@@ -6,7 +6,7 @@ open, as of a cylinder with both sides shut, they are the least that balance.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, reduce
 from typing import final
@@ -15,17 +15,17 @@ import numpy as np
 
 from linkage.loads import Acting, LoadCase, Tie
 from linkage.plan import Plan
-from linkage.quantities import Member
-from linkage.statics import AnyMotion, held_in_case, member_thrust, plan_in_case, same, stroke_followed, tied_forces
+from linkage.quantities import NamedMembers
+from linkage.statics import AnyMotion, held_in_case, is_among, member_thrust, plan_in_case, same, stroke_followed, tied_forces
 
 from .inputs import Array
 from .member import Chamber, Circuit, Ram, by_other_lines, chamber_area, changes_in_motion, circuits_among, in_class, line_thrust
 
 
-def is_blocked(ram: Ram, members: Mapping[str, Member]) -> bool:
+def is_blocked(ram: Ram, members: NamedMembers) -> bool:
     """Return whether a shut line keeps a cylinder where it is."""
     shut = [each for each in circuits_among(members) if each._is_shut and each.kind_open(members) != "closed"]
-    return any(same(ram, each) for line in shut for each, _ in line.filling(members))
+    return any(is_among(ram, line.members(members)) for line in shut)
 
 
 def standing_pressure(line: Circuit, motion: AnyMotion, acting: Acting) -> Array:
@@ -43,8 +43,8 @@ def standing_pressure(line: Circuit, motion: AnyMotion, acting: Acting) -> Array
     lines = [next(each for each in others if same(each, line))]  # and all that share cylinders with it, through any of them
     for one in lines:
         rams = one.members(members)
-        joined = [each for each in others if any(same(ram, mine) for ram in each.members(members) for mine in rams)]
-        lines += [each for each in joined if not any(same(each, known) for known in lines)]
+        joined = [each for each in others if any(is_among(ram, rams) for ram in each.members(members))]
+        lines += [each for each in joined if not is_among(each, lines)]
 
     def thrust_of(ram: Ram) -> Array:
         """Return what a cylinder carries without what lines of a given pressure put on it."""
@@ -55,8 +55,7 @@ def standing_pressure(line: Circuit, motion: AnyMotion, acting: Acting) -> Array
             ahead, back = (member_thrust(motion, ram, each) for each in (acting, replace(acting, direction=turned)))
             rates = {next(iter(motion.strokes)): 1.0}
             thrust = np.where(ram.growth(motion, rates) * own[0].growth(motion, rates) < 0.0, back, ahead)
-        of_given = by_other_lines(ram, None, motion, None)
-        return thrust if of_given is None else thrust - of_given
+        return thrust - by_other_lines(ram, None, motion, None)
 
     ties = [Tie(each.name, each.shares(members), held=False) for each in lines]
     found = tied_forces(motion, ties, thrust_of, [each.least(motion) for each in lines])
@@ -83,14 +82,14 @@ class CommonStroke:
 
     def areas(self, filling: Sequence[tuple[Ram, Chamber]]) -> Array:
         """Return the sum of the signed areas of those chambers that are of these cylinders [m2]."""
-        own = [(ram, each) for ram, each in filling if any(same(ram, one) for one in self.rams)]
+        own = [(ram, each) for ram, each in filling if is_among(ram, self.rams)]
         return self.total([(ram, chamber_area(each, ram, self.motion)) for ram, each in own])
 
 
 # What a load case shuts.
 
 
-def members_in(plan: Plan, case: str) -> Mapping[str, Member]:
+def members_in(plan: Plan, case: str) -> NamedMembers:
     """Return the members of a plan as they are in a load case, by its name."""
     return plan_in_case(plan, Acting(case=case) if case in plan.of_kind(LoadCase) else None).members
 
@@ -100,8 +99,3 @@ def moves_in(cylinder: str | Ram, plan: Plan, case: str) -> bool:
     members = members_in(plan, case)
     ram = in_class(members, cylinder)
     return not (isinstance(ram, Ram) and is_blocked(ram, members))
-
-
-def no_direction(plan: Plan) -> tuple[str, ...]:
-    """Return that a request is judged at rest."""
-    return ()

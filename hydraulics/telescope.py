@@ -31,15 +31,15 @@ from linkage.language import noted, said
 from linkage.loads import Case, Glyph, Parameter, Poses
 from linkage.loads.element import Formulas, value_text
 from linkage.motion import Column, Condition, Judge, Motion
-from linkage.quantities import Member, Quantity, Reference, quantity
+from linkage.quantities import NamedMembers, Quantity, Reference, quantity
 from linkage.units import mm, require_measure, show, shown_number
 from linkage.verdict import Verdict
 
 from .buckling import Buckling
 from .cylinder import MOST, RamSize, Works, chosen_series
-from .inputs import Array, follows, in_metres, number_set, one_number, positive, stroke_in_metres, variable_written
+from .inputs import Array, follows, in_metres, number_set, one_design, one_number, positive, stroke_in_metres
 from .member import LENGTHS, PISTON, TOLERANCE, Ram, Side
-from .remedy import Sizes, show_enough
+from .remedy import show_enough
 
 STAGES = 12
 """More moving stages than any telescope has."""
@@ -62,9 +62,6 @@ class StageSize(RamSize):
     @property
     def pull_area(self) -> float | Array:
         return 0.0 * self.push_area
-
-    def behind(self, force: Array) -> Array:
-        return np.asarray(np.where(force > 0.0, np.inf, 0.0 * force))[()]
 
 
 @final
@@ -94,6 +91,7 @@ class Telescope(Ram):
     optional: ClassVar[frozenset[str]] = frozenset(parameters) - {"closed"}
     argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"bores": "lengths", "strokes": "lengths"})
     inside: ClassVar[Mapping[str, str]] = MappingProxyType({"length": "quantity", "piston_side": "chamber"})
+    own_sides: ClassVar[tuple[Side, ...]] = (PISTON,)
 
     def __post_init__(self) -> None:
         keep_own(self)
@@ -118,7 +116,7 @@ class Telescope(Ram):
             check_falling(cast("Sequence[Array]", self.bores), "Telescope")
         for name in ("closed", *(f"stroke_{number}" for number in range(1, self.stages + 1))):
             if not follows(self.given(name)):
-                positive(stroke_in_metres(self.given(name), self._called(name)), self._called(name))
+                stroke_in_metres(self.given(name), self._called(name))
 
     def given(self, name: str) -> Any:
         what, _, number = name.partition("_")
@@ -138,7 +136,7 @@ class Telescope(Ram):
         more = {name: repr(value) for name, value in self.options().items()}
         return [f"{name}={text}" for name, text in (lists | {"closed": value_text(self.closed)} | more).items()]
 
-    def glyphs(self, members: Mapping[str, Member]) -> tuple[Glyph, ...]:
+    def glyphs(self, members: NamedMembers) -> tuple[Glyph, ...]:
         return (Glyph(self.drawn_as, self.ends, stages=self.ends_of_stages),)
 
     def _called(self, name: str) -> str:
@@ -153,10 +151,6 @@ class Telescope(Ram):
     @property
     def side(self) -> Works:
         return PISTON
-
-    @property
-    def own_sides(self) -> tuple[Side, ...]:
-        return (PISTON,)
 
     @property
     def sizes(self) -> tuple[StageSize, ...]:
@@ -176,8 +170,7 @@ class Telescope(Ram):
     def ends_of_stages(self, motion: Poses) -> list[Array]:
         """Return its closed length and the lengths at which its stages are out [m], one after another; they broadcast."""
         names = ("closed", *(f"stroke_{stage}" for stage in range(1, self.stages + 1)))
-        given = ((number_set(self, motion, name), self._called(name)) for name in names)
-        return list(accumulate(positive(stroke_in_metres(value, what), what) for value, what in given))
+        return list(accumulate(stroke_in_metres(number_set(self, motion, name), self._called(name)) for name in names))
 
     def stage(self, motion: Poses, direction: str | None = None) -> Array:
         """Return the number of the stage that moves at each pose, 1 for the outermost, shape (...).
@@ -210,18 +203,15 @@ class Telescope(Ram):
         return self.sized(motion, direction).bore
 
     def filled(self, side: Side, motion: Poses, start: Array, end: Array) -> Array:
-        return self.taken(motion, start, end)
-
-    def taken(self, motion: Poses, low: Array, high: Array) -> Array:
         ends = self.ends_of_stages(motion)
-        parts = [size.push_area * (in_part(high, ends, k) - in_part(low, ends, k)) for k, size in enumerate(self.sizes_in(motion))]
+        parts = [size.push_area * (in_part(end, ends, k) - in_part(start, ends, k)) for k, size in enumerate(self.sizes_in(motion))]
         return np.asarray(reduce(np.add, parts))[()]
 
     def _written(self) -> tuple[list[Quantity], list[Quantity]]:
         """Return the squares of its bores, times the count, and the lengths at which its stages end, as quantities of its class."""
         stages = range(1, self.stages + 1)
-        squares = [variable_written(self, f"bore_{stage}") ** 2 for stage in stages]
-        ends = accumulate(variable_written(self, name) for name in ("closed", *(f"stroke_{stage}" for stage in stages)))
+        squares = [self.written(f"bore_{stage}") ** 2 for stage in stages]
+        ends = accumulate(self.written(name) for name in ("closed", *(f"stroke_{stage}" for stage in stages)))
         return [each if self.count == 1 else each * float(self.count) for each in squares], list(ends)
 
     def filled_written(self, side: Side, start: Quantity, end: Quantity) -> Quantity:
@@ -239,23 +229,9 @@ class Telescope(Ram):
 
     # -- its lengths -----------------------------------------------------------------------------------------
 
-    @property
-    def lengths_given(self) -> tuple[str, ...]:
-        return tuple(LENGTHS)
-
-    def closed_and_stroke(self, motion: Poses) -> tuple[Array, Array]:
-        return self._length_given("closed", motion), self._length_given("stroke", motion)
-
-    def _length_given(self, name: str, motion: Any) -> Array:
+    def length_set(self, name: str, motion: Poses, *, beside_bore: bool = False) -> Array:
         ends = self.ends_of_stages(motion)
         return ends[0] if name == "closed" else ends[-1] - ends[0]
-
-    def lengths_named(self, name: str) -> tuple[Quantity | str, ...]:
-        names = ("closed",) if name == "closed" else tuple(f"stroke_{stage}" for stage in range(1, self.stages + 1))
-        return tuple(quantity(self.given(each)) if follows(self.given(each)) else f"{self.name}.{each}" for each in names)
-
-    def larger(self, motion: Poses) -> list[Sizes]:
-        return []
 
     # -- what it says ------------------------------------------------------------------------------------------
 
@@ -338,6 +314,6 @@ def check_falling(bores: Sequence[Any], what: str) -> None:
     """Raise DefinitionError for bores of stages [m] that do not fall from the outermost one."""
     for stage, (wide, thin) in enumerate(pairwise(bores), 2):
         if np.any(np.greater_equal(thin, wide)):
-            inner, outer = (float(np.ravel(each)[0]) / mm for each in (thin, wide))
+            inner, outer = (one_design(each) / mm for each in (thin, wide))
             says = f"{what}: the bore of stage {stage}, {inner:.6g} mm, is not smaller than that of stage {stage - 1}, {outer:.6g} mm"
             raise DefinitionError(f"{says}, in which it slides; let bores= fall from the outermost stage.")

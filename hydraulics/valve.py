@@ -7,7 +7,7 @@ Source: P. Chapple, Principles of Hydraulic Systems Design, on counterbalance va
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 from types import MappingProxyType
@@ -15,21 +15,21 @@ from typing import ClassVar, Unpack, cast, final
 
 import numpy as np
 
-from linkage.errors import DefinitionError, cited, ensure, known_name, unknown
+from linkage.errors import DefinitionError, cited, known_name, unknown
 from linkage.frozen import refuses_changes
 from linkage.language import said
 from linkage.loads import Acting, ActingKeywords, Case, Loads, Parameter, Poses, situation_of, takes_situation
-from linkage.motion import Condition, Judge, Question, at, most
+from linkage.motion import Condition, HasVerdicts, Judge, Question, at, most
 from linkage.plan import Plan
-from linkage.quantities import Member, Reference, label, name_of
-from linkage.statics import AnyMotion, LawRequest, case_words, held_in_case, member_thrust, same
+from linkage.quantities import Member, NamedMembers, Reference, label, name_of, of_kind
+from linkage.statics import AnyMotion, LawRequest, held_in_case, member_thrust, request_text, same
 from linkage.units import show
 from linkage.verdict import Verdict
 
-from .inputs import Array, follows, in_pascals, number_set, positive
-from .line import LiftLine, LineValve
-from .member import PISTON, Circuit, Ram, carries_loads, circuits_among, in_class, kind_among
-from .standing import CommonStroke, moves_in, no_direction
+from .inputs import Array, follows, in_pascals, number_set, one_design, positive
+from .line import LiftLine
+from .member import PISTON, Circuit, OnLines, Ram, carries_loads, circuits_among, in_class
+from .standing import CommonStroke, moves_in
 
 USUAL_SETTING = 1.3
 """The setting over the greatest pressure that the load makes, at the least, as makers advise."""
@@ -40,7 +40,7 @@ ROUNDED = 5e-4
 @final
 @refuses_changes
 @dataclass(frozen=True, eq=False)
-class HoldingValve(LineValve):
+class HoldingValve(OnLines, HasVerdicts):
     """A counterbalance valve: `valve = HoldingValve(lifting, pilot=other, setting=210 * bar, ratio=4)`.
 
     It holds the oil in `line`, that of the loaded side. The pressure in `line` opens it, and `ratio` times that in `pilot`, the line of the
@@ -77,33 +77,34 @@ class HoldingValve(LineValve):
     def parts(self) -> tuple[Reference, ...]:
         return (self.line, self.pilot, *super().parts())
 
-    def lines(self, members: Mapping[str, Member]) -> tuple[Circuit, Circuit]:
+    def lines(self, members: NamedMembers) -> tuple[Circuit, Circuit]:
         """Return the line that it holds and that of its pilot, as a class has them."""
         line, pilot = (in_class(members, each) for each in (self.line, self.pilot))
         return cast(Circuit, line), cast(Circuit, pilot)
 
-    def examine(self, members: Mapping[str, Member], title: str) -> None:
-        """Raise DefinitionError for anything but a line, and where no cylinder lies between the two lines."""
-        opening = f"{title}: {self.name} = {self}"
+    def examine(self, members: NamedMembers, title: str) -> None:
         known = [each.name for each in circuits_among(members)]
         for each in (self.line, self.pilot):
             if name_of(each) not in known:
                 raise unknown("Line", name_of(each), known, where=f"{title}.{self.name}")
+        Member.examine(self, members, title)
+
+    def faults(self, members: NamedMembers) -> Iterator[str]:
         line, pilot = self.lines(members)
-        ensure(not same(line, pilot), f"{opening}: {line.name} cannot be its own pilot; name the line of the other side, pilot=other.")
+        if same(line, pilot):
+            yield f"{line.name} cannot be its own pilot; name the line of the other side, pilot=other"
         for ram, chamber in line.filling(members):
             others = [each.side for one, each in pilot.filling(members) if same(one, ram)]
             if not others or chamber.side in others:
-                what = f"{opening}: {pilot.name} has not the other side of {ram.name}, whose {chamber.side} side {line.name} has"
+                what = f"{pilot.name} has not the other side of {ram.name}, whose {chamber.side} side {line.name} has"
                 other = "rod" if chamber.side == PISTON else "piston"
-                raise DefinitionError(f"{what}; name the line that does, such as OilLine({ram.name}.{other}_side, Tank()).")
+                yield f"{what}; name the line that does, such as OilLine({ram.name}.{other}_side, Tank())"
         if self.pumped(members) is None:
-            what = f"{opening}: no pump is on {line.name} or {pilot.name}, so that their cylinders carry what is given and lower nothing"
-            raise DefinitionError(f"{what}; put a Pump on {line.name}.")
-        valves = [each for each in kind_among(members, HoldingValve) if not same(each, self)]
-        doubled = [each.name for each in valves if each.holds_line(line)]
-        if doubled:
-            raise DefinitionError(f"{opening}: {doubled[0]} holds {line.name} as well; a line has one holding valve, take one out.")
+            what = f"no pump is on {line.name} or {pilot.name}, so that their cylinders carry what is given and lower nothing"
+            yield f"{what}; put a Pump on {line.name}"
+        for name, each in of_kind(members, HoldingValve).items():
+            if not same(each, self) and each.holds_line(line):
+                yield f"{name} holds {line.name} as well; a line has one holding valve, take one out"
 
     def holds_line(self, line: Circuit) -> bool:
         return name_of(self.line) == line.name
@@ -175,7 +176,7 @@ class HoldingValve(LineValve):
 
     # -- asked for, and judged -----------------------------------------------------------------------------
 
-    def pumped(self, members: Mapping[str, Member]) -> LiftLine | None:
+    def pumped(self, members: NamedMembers) -> LiftLine | None:
         """Return the line whose pump pushes in the pilot line: itself, or that of the line that it holds; None where neither has one."""
         _, pilot = self.lines(members)
         for each in (pilot, self.lines(members)[0]):
@@ -202,11 +203,11 @@ class HoldingValve(LineValve):
         try:
             return [self.setting_verdict(judge), self.pilot_verdict(judge)]
         except DefinitionError as error:
-            return [Verdict("setting", False, " ".join(str(error).split()))]
+            return [Verdict.refused("setting", error)]
 
     def setting_verdict(self, judge: Judge) -> Verdict:
         """Return whether the load opens the valve by itself, and what it would be set to as makers advise."""
-        setting = float(np.ravel(self.at_designs(judge.motion, "setting"))[0])
+        setting = one_design(self.at_designs(judge.motion, "setting"))
         found = judge.answer(most(valve_request("load_pressure", self.name, Acting())))
         line, _ = self.lines(judge.plan.members)
         if not found.value > 0.0:
@@ -237,7 +238,7 @@ class HoldingValve(LineValve):
             pilot_pressure=show(found.value, "bar", 4), pilot=pilot.name, where=found.place, line_pressure=show(line.value, "bar", 4),
         )  # fmt: skip
         assert pump is not None
-        supply = float(np.ravel(pump.supply(judge.motion))[0])
+        supply = one_design(pump.supply(judge.motion))
         if found.value <= supply * (1.0 + 1e-9):
             return Verdict("pilot", True, said("{says}, of the pump's {supply}.", says=says, supply=show(supply, "bar", 4)), answer=found)
         text = said(
@@ -273,21 +274,17 @@ def valve_request(word: str, valve: str, acting: Acting) -> LawRequest:
         found: Array = getattr(valve_in(valve, motion.plan), word)(motion, acting=acting)
         return found + np.zeros(motion.shape)
 
-    def text(acting: Acting) -> str:
-        return f"{word}({', '.join([valve, *case_words(acting.case)])})"
-
     def lowers(plan: Plan, case: str) -> bool:
         line, _ = valve_in(valve, plan).lines(plan.members)
         return all(moves_in(ram.name, plan, case) for ram in line.members(plan.members))
 
     return LawRequest(
-        formula=formula, text=text, known=(word, valve), acting=acting, measures="pressure", mover=valve, directions=no_direction,
-        examine=partial(valve_in, valve), cases_in=None if word == "load_pressure" else lowers,
+        formula=formula, text=partial(request_text, word, (valve,)), known=(word, valve), acting=acting, measures="pressure", mover=valve,
+        directions=(), examine=partial(valve_in, valve), cases_in=None if word == "load_pressure" else lowers,
     )  # fmt: skip
 
 
 def valve_in(valve: str, plan: Plan) -> HoldingValve:
     """Return the holding valve of a name; DefinitionError where there is none."""
     valves = plan.of_kind(HoldingValve)
-    known_name("HoldingValve", valve, valves, where=plan.title)
-    return valves[valve]
+    return valves[known_name("HoldingValve", valve, valves, where=plan.title)]

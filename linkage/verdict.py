@@ -47,6 +47,11 @@ class Verdict(str, Shown):
         verdict.rule, verdict.ok, verdict.sentence, verdict.heading, verdict.answer = rule, ok, sentence, heading, answer
         return verdict
 
+    @staticmethod
+    def refused(rule: str, error: Exception) -> Verdict:
+        """Return that a rule is not kept where what it asks for is refused: the error says why."""
+        return Verdict(rule, False, " ".join(str(error).split()))
+
     def named(self, name: str) -> Self:
         """Return it with a name added to its rule, where several members follow the same one."""
         return type(self)(f"{self.rule} {name}", self.ok, self.sentence, f"{self.heading} {name}", self.answer)

@@ -84,7 +84,7 @@ class Planes(HasVerdicts):
             try:
                 check_forms(judge.motion, {name for pair in pairs_of(judge.plan) for name in pair})
             except DefinitionError as error:
-                return [Verdict("clearance", False, " ".join(str(error).split()))]
+                return [Verdict.refused("clearance", error)]
             return []
         strokes = {name: np.asarray(float(value)) for name, value in answer.strokes.items()}
         (one, other), _ = pair_at(Motion(judge.plan, judge.designs, strokes, "nan"))

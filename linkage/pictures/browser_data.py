@@ -21,7 +21,7 @@ from ..plan import Plan, opening, plan_measure, require_kind
 from ..program import FloatArray, Node
 from ..quantities import is_number, joined_names
 from ..reports import NOTHING, At, LiveColumn, column_requests, reached_motion, run_along, run_of
-from ..statics import AnyMotion, JointForce, LawRequest, TracedMotion, ground_loads, pin_force, pin_forces, traced_loads
+from ..statics import AnyMotion, JointForce, LawRequest, TracedMotion, applied_loads, ground_loads, pin_force, pin_forces
 from ..units import SYSTEMS, UNITS, deg, display_unit, factor, shown_in, unit_system
 from .browser_file import MACHINE, START, PageData, page_part, page_text
 from .browser_judge import LiveQuestions
@@ -64,7 +64,7 @@ def force_part(kind: str, place: int, axis: int, motion: AnyMotion) -> FloatArra
     if kind == "ground":
         return cast(FloatArray, ground_loads(motion, PLAIN)[place].force[axis])
     assert isinstance(motion, TracedMotion)  # it is asked for by a page alone
-    return cast(FloatArray, traced_loads(motion, PLAIN, AT_REST).loads[place].force[axis])
+    return cast(FloatArray, applied_loads(motion, PLAIN, AT_REST).loads[place].force[axis])
 
 
 @final
@@ -150,7 +150,7 @@ class PageRequests:
             with unwarned():
                 joints = pin_forces(poses).joints
             kept = self.plan.made(("traced loads",), lambda twin: twin)
-            loads = traced_loads(TracedMotion(kept, kept.trace.view()), PLAIN, AT_REST).loads
+            loads = applied_loads(TracedMotion(kept, kept.trace.view()), PLAIN, AT_REST).loads
         except LinkageError:  # no forces, or loads that have no program
             return []
         if not loads:

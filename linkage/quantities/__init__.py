@@ -8,6 +8,7 @@ from .inputs import Dimension, Stroke, Variable
 from .joint import FRAME_SIDE, Driven, Joint, Jointed, JointSide, guided, pinned
 from .member import (
     Member,
+    NamedMembers,
     Reference,
     Tabulated,
     Turning,

@@ -197,6 +197,8 @@ class Member:
 
 
 Reference: TypeAlias = str | Member
+NamedMembers: TypeAlias = Mapping[str, Member]
+"""The members of a class by their names."""
 
 
 @lru_cache(maxsize=256)

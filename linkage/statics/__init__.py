@@ -4,9 +4,9 @@ from ..star import declare_public
 from .applied import applied_elements, applied_loads, elements_of, plan_in_case
 from .carried import PROBE, Direction, direction_at, direction_words, is_steady, member_limits, pull_direction, pulling
 from .force_requests import drive_force, drive_remarks, held_verdict, pin_force, pin_forces_under, thrust_from_forces
-from .holding import each_once, same, stroke_followed, tied_forces
+from .holding import each_once, is_among, same, stroke_followed, tied_forces
 from .joint_forces import GlandForce, JointForce, PinForces, pin_forces
-from .law_requests import LawRequest, TracedMotion, case_words, traced_loads
+from .law_requests import LawRequest, TracedMotion, request_text
 from .poses import AnyMotion, plan_of
 from .rope import Rope, tension
 from .solution import held_fault, held_in_case, loose_movements, looseness

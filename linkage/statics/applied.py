@@ -61,22 +61,19 @@ class AppliedElement:
 
 
 Parts: TypeAlias = tuple[list[Load], list[Push]]
-PartsOf: TypeAlias = Callable[[AppliedElement, AnyMotion, Rates], Parts]
 
 
-def applied_loads(motion: AnyMotion, acting: Acting, rates: Rates, without: str = "", parts_of: PartsOf | None = None) -> AppliedLoads:
+def applied_loads(motion: AnyMotion, acting: Acting, rates: Rates, without: str = "") -> AppliedLoads:
     """Return what acts on a motion in a situation; DefinitionError for anything but a force element, and for a wrong force.
 
-    `rates` are those of the situation at the motion's poses. An element named `without` is left out. `parts_of` reads the law of an
-    element, where that is not read on arrays.
+    `rates` are those of the situation at the motion's poses. An element named `without` is left out. Of a traced motion the forces are
+    nodes; LawError, with the element's name, for a law that cannot be traced.
     """
     motion = motion_in_case(motion, acting)
     plan, elements = motion.plan, applied_elements(motion.plan, acting, without)
-    if parts_of is None:
-        fit = partial(over_poses, require_motion(motion))
-        each_of = [element_parts(each, motion, rates, fit) for each in elements]
-    else:
-        each_of = [parts_of(each, motion, rates) for each in elements]
+    over_arrays = partial(element_parts, motion, partial(over_poses, motion))
+    parts_of = over_arrays if isinstance(motion, Motion) else getattr(motion, "parts_of", over_arrays)
+    each_of = [parts_of(each, rates) for each in elements]
     loads = tuple(load for found, _ in each_of for load in found)
     for each in loads:
         check_points(each, plan, each.element)
@@ -89,7 +86,7 @@ def applied_loads(motion: AnyMotion, acting: Acting, rates: Rates, without: str 
     )  # fmt: skip
 
 
-def element_parts(each: AppliedElement, motion: Poses, rates: Rates, fit: Callable[[ArrayLike, int, str, str], FloatArray]) -> Parts:
+def element_parts(motion: Poses, fit: Callable[[ArrayLike, int, str, str], FloatArray], each: AppliedElement, rates: Rates) -> Parts:
     """Return the loads and the thrusts of one element as they act; `fit` brings forces into the motion's shape."""
     element, name, thrusts = each.in_case, each.name, []
     for push in element.pushes(motion, rates):  # one without a name goes by that of the element which gives its thrust
@@ -105,7 +102,7 @@ def element_parts(each: AppliedElement, motion: Poses, rates: Rates, fit: Callab
     return [replace(load, force=force, element=name) for load, force in zip(found, forces, strict=True)], []
 
 
-def over_poses(motion: Motion, values: ArrayLike, vector: int, name: str, what: str) -> FloatArray:
+def over_poses(motion: AnyMotion, values: ArrayLike, vector: int, name: str, what: str) -> FloatArray:
     """Return forces over the poses in the motion's shape, of a `vector` (2, ...); DefinitionError where they do not fit or are none."""
     opening, lead = f"{motion.plan.title}: {name}: its {what}", (2,) * vector
     expected, shape = "; (2, ...) in N is expected" if vector else "", (*lead, *motion.shape)

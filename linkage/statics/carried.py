@@ -29,7 +29,7 @@ from ..program import FloatArray, Kernel
 from ..quantities import Quantity, name_of, quantity, real
 from ..vectors import Numbers
 from .applied import case_of
-from .holding import holders_of
+from .holding import holders_of, is_among
 from .law_requests import LawRequest, TracedMotion
 from .poses import AnyMotion
 from .vehicle import bare_loads, frame_supports, is_rough, standing_of, vehicle_of
@@ -112,7 +112,7 @@ class LoadAt:
         """The cylinders that hold and say bounds, by name."""
         found, held = {}, holders_of(self.plan).lines
         for name, element in self.plan.of_kind(TwoPoint).items():
-            if element.holds and any(line.has(element) for line in held):
+            if element.holds and any(is_among(element, line.cylinders) for line in held):
                 low, high = element.bounds(self.some, self.lifting(name), share=self.share)
                 if np.any(np.isfinite(low) | np.isfinite(high)) and not np.array_equal(low, high):
                     found[name] = element

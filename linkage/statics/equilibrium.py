@@ -18,7 +18,7 @@ from ..plan import Mask
 from ..program import FloatArray
 from ..quantities import Distance, Quantity, name_of
 from .applied import member_title
-from .holding import areas, same, share_of, solution_of_few, tie_pivots
+from .holding import areas, is_among, same, share_of, solution_of_few, tie_pivots
 from .joints import FRAME, Contact, Structure, Strut, Wrench, follows_points, force_direction, wrenches
 from .poses import FlatPoses, cross, over_zero, quarter_turned
 
@@ -278,7 +278,7 @@ class System:
         ties = [line for line in self.structure.holders.every_line if line.tie is not None and line.tie.run is None]
         if not ties:
             return
-        members = [each for each in self.structure.holders.every_cylinder if any(line.has(each) for line in ties)]
+        members = [each for each in self.structure.holders.every_cylinder if any(is_among(each, line.cylinders) for line in ties)]
         forms = [self.thrust(next(strut for strut in self.structure.struts if strut.name == member_title(each))) for each in members]
         given = [self.given(each) for each in members]
         shares = [share_of(each, ties, [areas(line, self.poses, 1) for line in ties]) for each in members]
@@ -440,6 +440,13 @@ class JointFriction:
         """The joint."""
         return self.unit.contact
 
+    @classmethod
+    def of_unit(cls, contact: Contact, poses: FlatPoses) -> JointFriction:
+        """Return that of a joint whose size and sense come later: a couple of 1 Nm at a pin, or a force of 1 N along a guide."""
+        none, turns = np.zeros((2, poses.count)), contact.kind == "pin"
+        force = none if turns else force_direction(contact, "t", poses)
+        return cls(UnitWrench(contact, Wrench(poses.at(contact.point), force, none[0] + float(turns))), none[0], none[0], none[0])
+
 
 def joint_frictions(structure: Structure, poses: FlatPoses, frictions: tuple[Friction, ...], rates: Rates) -> list[JointFriction]:
     """Return the joints with friction while strokes move; DefinitionError for friction where nothing turns or slides."""
@@ -481,14 +488,6 @@ def friction_in(contact: Contact, friction: Friction, speeds: Speeds) -> JointFr
     size = np.abs(point).max(axis=0) + np.abs(by).max(axis=0)
     sign = np.where(np.abs(rate) > SLOWEST * size, np.sign(rate), 0.0)
     return JointFriction(UnitWrench(contact, Wrench(place, -t * sign, none[0])), coefficient, np.abs(rate), -sign)
-
-
-def unit_friction(contact: Contact, poses: FlatPoses) -> UnitWrench:
-    """Return a couple of 1 Nm at a pin, or a force of 1 N along a guide: the friction of a joint, of either sign."""
-    none = np.zeros((2, poses.count))
-    if contact.kind == "pin":
-        return UnitWrench(contact, Wrench(poses.at(contact.point), none, none[0] + 1.0))
-    return UnitWrench(contact, Wrench(poses.at(contact.point), force_direction(contact, "t", poses), none[0]))
 
 
 @final

@@ -22,16 +22,7 @@ from ..motion.evaluation import grid_blocks, part_of_input
 from ..plan import Mask, Plan
 from ..program import FloatArray, Kernel, Level, Node, Tangent
 from .applied import AppliedLoads
-from .equilibrium import (
-    CONTRACTS,
-    JointFriction,
-    PressingForces,
-    System,
-    by_iteration,
-    consistent_frictions,
-    joint_frictions,
-    unit_friction,
-)
+from .equilibrium import CONTRACTS, JointFriction, PressingForces, System, by_iteration, consistent_frictions, joint_frictions
 from .joints import Contact, Structure
 from .law_requests import TracedMotion, eliminated_forces
 from .poses import FlatPoses
@@ -102,7 +93,7 @@ def traced_program(plan: Plan, applied: AppliedLoads, places: tuple[int, ...]) -
     structure, poses = Structure(plan, acts.elements, acts.thrusts), FlatPoses(motion, "")
     inputs = [given("friction", place) for place in range(len(places))]
     contacts = [structure.contacts[index] for index in places]
-    frictions = [JointFriction(unit_friction(contact, poses), np.zeros(1), np.zeros(1), np.zeros(1)) for contact in contacts]
+    frictions = [JointFriction.of_unit(contact, poses) for contact in contacts]
     system, u = eliminated_forces(structure, motion, acts, frictions, inputs)
     solution = Solution(system, u, motion._array([inputs]), np.zeros(1, bool))
     nodes: list[Node] = []

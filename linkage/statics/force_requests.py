@@ -20,21 +20,11 @@ from ..program import FloatArray
 from ..units import show
 from ..vectors import Scalar
 from ..verdict import Remark, Verdict
-from .applied import plan_in_case
+from .applied import applied_loads, plan_in_case
 from .holding import closed_ties, holders_of
 from .joint_forces import JointForce, PinForces, joint_forces, joint_on, joints_of
 from .joints import Contact, Structure
-from .law_requests import (
-    LawInPlan,
-    LawRequest,
-    TracedLaw,
-    TracedMotion,
-    case_words,
-    eliminated_forces,
-    law_in_plan,
-    situation_identity,
-    traced_loads,
-)
+from .law_requests import LawInPlan, LawRequest, TracedLaw, TracedMotion, eliminated_forces, law_in_plan, request_text, situation_identity
 from .poses import AnyMotion, FlatPoses
 from .solution import Solution, assumed_joints, held_fault, held_in_case
 from .work import by_work, stroke_force, without_held
@@ -42,20 +32,11 @@ from .work import by_work, stroke_force, without_held
 
 def force_request(
     word: str, arguments: Sequence[str], known: Hashable, acting: Acting, formula: Callable[..., FloatArray],
-    look_up: Callable[[LawRequest, TracedMotion], LawInPlan], measures: str = "force",
+    look_up: Callable[[LawRequest, TracedMotion], LawInPlan],
 ) -> LawRequest:  # fmt: skip
     """Return a request of a force in a situation, as it is written: a function of that name with these arguments."""
-    return LawRequest(
-        formula=formula, text=partial(force_text, word, tuple(arguments)), known=(word, known), acting=acting, measures=measures,
-        look_up=look_up,
-    )  # fmt: skip
-
-
-def force_text(word: str, arguments: Sequence[str], acting: Acting) -> str:
-    """Return how the request of a force in a situation is written."""
-    direction = [] if acting.direction is None else [f"direction={acting.direction}"]
-    drive = [f"drive={acting.drive}"] if acting.drive else []
-    return f"{word}({', '.join([*arguments, *case_words(acting.case), *direction, *drive])})"
+    text = partial(request_text, word, tuple(arguments), moves=True)
+    return LawRequest(formula=formula, text=text, known=(word, known), acting=acting, measures="force", look_up=look_up)
 
 
 def require_rest(request: LawRequest, plan: Plan) -> None:
@@ -75,34 +56,28 @@ def drive_force(drive: str | None = None, loads: Loads = None, case: Case = None
     A load's law must be plain arithmetic of numbers at one pose; DefinitionError, with the load's name, where it is not.
     """
     given = situation_of("drive_force", acting, loads=loads, case=case)
-    look_up = partial(drive_force_in_plan, drive)
-    found = force_request("drive_force", [drive] if drive else [], drive, given, partial(drive_force_by_work, drive), look_up, "")
-    return replace(found, measured_in=partial(drive_measures, drive))
 
+    def formula(motion: AnyMotion, acting: Acting) -> FloatArray:
+        """Return it over a motion's poses; of a traced one as a number of the program, at rest."""
+        if not isinstance(motion, TracedMotion):
+            return stroke_force(require_motion(motion), acting, drive)
+        applied = applied_loads(motion, acting, AT_REST)
+        applied = without_held(applied, holders_of(motion.plan, applied.elements))
+        (force,) = by_work(FlatPoses(motion, ""), applied, stroke_of(motion.plan, drive, "drive"))
+        return cast(FloatArray, force)
 
-def drive_measures(drive: str | None, plan: Plan) -> str:
-    """Return what the force of a drive measures in a plan."""
-    return "force" if stroke_unit(plan, stroke_of(plan, drive, "drive")) == "m" else "moment"
+    def look_up(request: LawRequest, motion: TracedMotion) -> LawInPlan:
+        require_rest(request, motion.plan)
 
+        def trace(traced: TracedMotion) -> TracedLaw:
+            return traced, traced.node(request.law(traced))
 
-def drive_force_by_work(drive: str | None, motion: AnyMotion, acting: Acting) -> FloatArray:
-    """Return the generalised force of a stroke over a motion's poses; of a traced one as a number of the program, at rest."""
-    if not isinstance(motion, TracedMotion):
-        return stroke_force(require_motion(motion), acting, drive)
-    applied = traced_loads(motion, acting, AT_REST)
-    applied = without_held(applied, holders_of(motion.plan, applied.elements))
-    (force,) = by_work(FlatPoses(motion, ""), applied, stroke_of(motion.plan, drive, "drive"))
-    return cast(FloatArray, force)
+        return law_in_plan(motion, trace, f"the driving force of {stroke_of(motion.plan, drive, 'drive')}")
 
+    def measured(plan: Plan) -> str:
+        return "force" if stroke_unit(plan, stroke_of(plan, drive, "drive")) == "m" else "moment"
 
-def drive_force_in_plan(drive: str | None, request: LawRequest, motion: TracedMotion) -> LawInPlan:
-    """Return what the force of a drive is in the plan of a traced motion."""
-    require_rest(request, motion.plan)
-
-    def trace(traced: TracedMotion) -> TracedLaw:
-        return traced, traced.node(request.law(traced))
-
-    return law_in_plan(motion, trace, f"the driving force of {stroke_of(motion.plan, drive, 'drive')}")
+    return replace(force_request("drive_force", [drive] if drive else [], drive, given, formula, look_up), measured_in=measured)
 
 
 # The force at a joint.
@@ -157,7 +132,7 @@ class JointPart:
         kept = motion.plan.trace.kept
         if shared not in kept:  # at rest; the notes say that the joints hold what they are said to
             motion = held_in_case(motion, acting)
-            applied = traced_loads(motion, acting, AT_REST)
+            applied = applied_loads(motion, acting, AT_REST)
             system, u = eliminated_forces(Structure(motion.plan, applied.elements, applied.thrusts), motion, applied)
             for each in assumed_joints(system.structure, system.poses):
                 motion.notes.assumed.setdefault(motion.node(each[0]), "its joints")
@@ -177,7 +152,7 @@ def structure_in_plan(motion: TracedMotion, acting: Acting) -> tuple[Structure, 
     if key in kept:
         return cast("tuple[Structure, tuple[Hashable, ...]]", kept[key])
     motion = held_in_case(motion, acting)
-    applied = traced_loads(motion, acting, AT_REST)
+    applied = applied_loads(motion, acting, AT_REST)
     structure = Structure(motion.plan, applied.elements, applied.thrusts)
     loads = ((each.point, each.on, *(motion.node(part).number for part in each.force)) for each in applied.loads)
     thrusts = ((each.name, each.member.ends, motion.node(each.thrust).number) for each in applied.thrusts)
@@ -221,17 +196,14 @@ def pin_forces_under(motion: Motion, acting: Acting) -> PinForces:
 
 def thrust_from_forces(member: str, acting: Acting) -> LawRequest:
     """Return the request for what a driven length or a two-point element carries: of `pin_forces(motion).thrusts`, by its name."""
-    return force_request("thrust", [member], member, acting, partial(thrust_among_forces, member), thrust_in_plan)
 
+    def formula(motion: AnyMotion, acting: Acting) -> FloatArray:
+        return np.asarray(pin_forces_under(require_motion(motion), acting).thrusts[member])
 
-def thrust_among_forces(member: str, motion: AnyMotion, acting: Acting) -> FloatArray:
-    """Return what a member carries over a motion's poses [N], from all joint forces."""
-    return np.asarray(pin_forces_under(require_motion(motion), acting).thrusts[member])
+    def look_up(request: LawRequest, motion: TracedMotion) -> LawInPlan:
+        raise UntracedError(f"{motion.plan.title}: {request}: it has values, and no program that gives derivatives.")
 
-
-def thrust_in_plan(request: LawRequest, motion: TracedMotion) -> LawInPlan:
-    """Raise UntracedError: it has values alone."""
-    raise UntracedError(f"{motion.plan.title}: {request}: it has values, and no program that gives derivatives.")
+    return force_request("thrust", [member], member, acting, formula, look_up)
 
 
 # What is said of any machine's forces: that it is not held, and what the drives of strokes give that no cylinder holds.

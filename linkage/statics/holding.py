@@ -50,18 +50,9 @@ class PressureLine:
     """How a single cylinder's length follows its stroke, where it is driven in proportion to that and to no other; else 0."""
 
     @property
-    def is_steady(self) -> bool:
-        """Whether its length follows its own stroke alone, in proportion."""
-        return self.steady != 0.0
-
-    @property
     def changes_shares(self) -> bool:
         """Whether its cylinders carry other shares while it pulls than while it pushes: several, one of which works with both sides."""
         return self.tie is None and len(self.cylinders) > 1 and any(each.works_both for each in self.cylinders)
-
-    def has(self, member: TwoPoint) -> bool:
-        """Return whether a cylinder is on this line."""
-        return any(same(member, each) for each in self.cylinders)
 
 
 @final
@@ -97,14 +88,9 @@ class Holders:
         """The quantities that closed lines give."""
         return frozenset(line.tie.gives for line in self.closed if line.tie is not None)
 
-    @property
-    def is_steady(self) -> bool:
-        """Whether nothing is closed, and the lengths of all lines follow their own strokes alone, in proportion."""
-        return not self.closed and all(line.is_steady for line in self.lines)
-
     def line_of(self, cylinder: TwoPoint) -> PressureLine | None:
         """Return the line that a cylinder is on, one that holds where it can be; None where it does not hold."""
-        return next((line for line in self.every_line if line.has(cylinder)), None)
+        return next((line for line in self.every_line if is_among(cylinder, line.cylinders)), None)
 
 
 def holders_of(plan: Plan, elements: Iterable[ForceElement] = ()) -> Holders:
@@ -113,7 +99,7 @@ def holders_of(plan: Plan, elements: Iterable[ForceElement] = ()) -> Holders:
     DefinitionError, by name, for a cylinder that holds nothing and for one too many.
     """
     own = tuple(plan.of_kind(ForceElement).values())
-    extra = tuple(each for each in elements if not any(same(each, mine) for mine in own))
+    extra = tuple(each for each in elements if not is_among(each, own))
     if not any(each.holds or each.joined(plan.members) or each.feeds(plan.members) or each.tie(plan.members) for each in extra):
         return plan.made(("holders",), lambda _: assigned(plan, own))
     return assigned(plan, (*own, *extra))
@@ -124,11 +110,16 @@ def same(a: TwoPinned | Member, b: TwoPinned | Member) -> bool:
     return a is b or bool(a.name and a.name == b.name)
 
 
+def is_among(element: TwoPinned | Member, others: Iterable[TwoPinned | Member]) -> bool:
+    """Return whether an element is one of some: the same as it, or of its name in the class."""
+    return any(same(element, each) for each in others)
+
+
 def each_once(elements: Iterable[Kind]) -> tuple[Kind, ...]:
     """Return elements in their order, each once."""
     found: list[Kind] = []
     for each in elements:
-        found += [] if any(same(each, other) for other in found) else [each]
+        found += [] if is_among(each, found) else [each]
     return tuple(found)
 
 
@@ -240,11 +231,11 @@ def joined_lines(plan: Plan, elements: Sequence[ForceElement], ties: Sequence[Ti
     """Return the cylinders that hold, those of one pressure line together; without those whose thrust a tie tells."""
     fed = [member for each in elements for member in each.feeds(plan.members)]
     fed += [share.member for tie in ties for share in tie.shares]
-    free = [each for each in elements if each.holds and isinstance(each, TwoPoint) and not any(same(each, other) for other in fed)]
+    free = [each for each in elements if each.holds and isinstance(each, TwoPoint) and not is_among(each, fed)]
     lines: list[tuple[TwoPoint, ...]] = [(each,) for each in free]
     for circuit in elements:
         members = circuit.joined(plan.members)
-        on_it = [line for line in lines if any(same(each, other) for each in line for other in members)]
+        on_it = [line for line in lines if any(is_among(each, members) for each in line)]
         if len(on_it) > 1:
             lines = [line for line in lines if line not in on_it]
             lines.append(tuple(each for line in on_it for each in line))
@@ -392,7 +383,7 @@ def with_levers(poses: FlatPoses, holders: Holders, what: str) -> tuple[FlatPose
     SingularError at the others unless NaN was asked for; `what` opens the sentence.
     """
     lines = holders.lines
-    if holders.is_steady:
+    if not holders.closed and all(line.steady for line in lines):  # each length follows its own stroke alone, in proportion
         matrix, one = np.zeros((poses.count, len(lines), len(lines))), np.ones(poses.count)
         for i, line in enumerate(lines):
             matrix[:, i, i] = line.steady

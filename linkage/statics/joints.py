@@ -22,7 +22,7 @@ from ..quantities import FRAME_SIDE, Angle, Joint, JointSide, Quantity, Where, b
 from ..steps import Link, Point
 from ..vectors import Line
 from .applied import member_title
-from .holding import Holders, PressureLine, holders_of, same, sampled
+from .holding import Holders, PressureLine, holders_of, is_among, same, sampled
 from .poses import FlatPoses, quarter_turned
 
 
@@ -144,7 +144,7 @@ def two_point_members(
 ) -> tuple[tuple[Strut, ...], dict[str, FreeBody]]:
     """Return the two-point members, and by their names the declared bodies that they are together with the points along them."""
     cylinders = [Strut(member_title(each), *each.ends, line=holders.line_of(each)) for each in holders.every_cylinder]
-    given = [each for each in thrusts if not any(same(one, each.member) for one in holders.every_cylinder)]
+    given = [each for each in thrusts if not is_among(each.member, holders.every_cylinder)]
     found = []
     for bar in plan.cylinders:
         strokes = {name for name in plan.strokes if name == bar.length.name or name in plan.reaches(bar.length)}

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import DefinitionError, LawError, UntracedError, unwarned
-from ..loads import DIRECTIONS, PLAIN, Acting, Case, ForceElement, Load, LoadCase, Push, Rates
+from ..loads import DIRECTIONS, PLAIN, Acting, ForceElement, Load, LoadCase, Push, Rates
 from ..motion import Motion, OnePose, Request, SmoothPiece, require_motion
 from ..motion.grid import MotionLike
 from ..motion.requests import NO_TRAIT, Trait, identity_of, stroke_of
@@ -22,33 +22,14 @@ from ..program import FloatArray, Node, Notes, SparseSystem, Traced, interpret, 
 from ..quantities import Angle, Distance, Member, Quantity, Reference
 from ..steps import Arrow, Point
 from ..vectors import Scalar
-from .applied import AppliedElement, AppliedLoads, Parts, applied_loads, element_parts, motion_in_case, plan_in_case
+from .applied import AppliedElement, AppliedLoads, Parts, element_parts, motion_in_case, plan_in_case
 from .equilibrium import JointFriction, System
 from .holding import Levers
 from .joints import Structure
 from .poses import AnyMotion, FlatPoses
 from .solution import Equilibrium, held_in_case, refuse_loose
 
-# The laws of the loads as nodes of a program: each element's own `loads`, called once on a motion whose numbers are nodes.
-
 Made = TypeVar("Made")
-
-
-def traced_loads(motion: TracedMotion, acting: Acting, rates: Rates) -> AppliedLoads:
-    """Return what acts in a situation, as nodes; LawError, with the element's name, for a law that cannot be traced."""
-    return applied_loads(motion, acting, rates, parts_of=traced_parts)
-
-
-def traced_parts(each: AppliedElement, motion: AnyMotion, rates: Rates) -> Parts:
-    """Return the loads and the thrusts of one element, as nodes; LawError, with its name, for a law that cannot be traced."""
-    assert isinstance(motion, TracedMotion)
-    motion.notes.owner, motion.notes.tests = each.name, 0
-    try:
-        return element_parts(each, motion, rates, motion.fit)
-    except Exception as error:
-        what = f"{motion.plan.title}: the law of {each.name} cannot be traced: {str(error).rstrip('.')}"
-        remedy = "Write it in plain arithmetic of numbers at one pose, or take finite differences of driving_force and pin_forces"
-        raise LawError(f"{what}. {remedy}.") from error
 
 
 Told: TypeAlias = tuple[set[str], set[str], dict[Node, str], dict[Node, str], dict[Node, str]]
@@ -147,6 +128,16 @@ class TracedMotion(OnePose):
             remedy = f"what varies over poses or designs comes from a point, a quantity or a parameter of {owner} declared in the class"
             raise DefinitionError(f"its {what} has the shape {array.shape}, where {expected} is expected; {remedy}.")
         return self._array(array) if vector else self.number(array[()])
+
+    def parts_of(self, each: AppliedElement, rates: Rates) -> Parts:
+        """Return the loads and the thrusts of one element, as nodes: its own `loads` is called once, on traced numbers."""
+        self.notes.owner, self.notes.tests = each.name, 0
+        try:
+            return element_parts(self, self.fit, each, rates)
+        except Exception as error:
+            what = f"{self.plan.title}: the law of {each.name} cannot be traced: {str(error).rstrip('.')}"
+            remedy = "Write it in plain arithmetic of numbers at one pose, or take finite differences of driving_force and pin_forces"
+            raise LawError(f"{what}. {remedy}.") from error
 
     # -- what a motion tells ---------------------------------------------------------------------------------
 
@@ -332,8 +323,9 @@ class LawRequest(Request):
 
     On a traced motion it gives one number of a program. Where `acting` is None it hangs on no situation, and is `formula(motion)`.
     `text` is what one writes, of the situation where it hangs on one; `known` tells the formula from others, whatever the situation:
-    None where it may change. `mover` is the cylinder in whose directions it is judged, else these are the strokes'; `directions(plan)`
-    are those in which it is, None as without it: all where there is friction; `cases_in(plan, case)` whether it is in a load case.
+    None where it may change. `mover` is the cylinder in whose directions it is judged, else these are the strokes'; `directions`, or
+    `directions(plan)`, are those in which it is, None as without it: all where there is friction; `cases_in(plan, case)` whether it is in
+    a load case.
 
     The rest is for requests that have something of their own to say. `examine(plan)` raises DefinitionError if a plan has nothing of the
     kind. `measured_in(plan)` says what it measures there, `pieces_in(request, plan)` its smooth pieces. `unlimited_in(motion, acting)` is
@@ -347,7 +339,7 @@ class LawRequest(Request):
     acting: Acting | None = None
     measures: str = ""
     mover: Hashable = None
-    directions: Callable[[Plan], tuple[str, ...] | None] | None = None
+    directions: tuple[str, ...] | Callable[[Plan], tuple[str, ...] | None] | None = None
     cases_in: Callable[[Plan, str], bool] | None = None
     examine: Callable[[Plan], object] | None = None
     measured_in: Callable[[Plan], str] | None = None
@@ -394,7 +386,7 @@ class LawRequest(Request):
         return found if self.unlimited_in is None else found | Trait.MAY_BE_UNLIMITED
 
     def movements(self, plan: Plan, rubs: bool) -> tuple[str, ...]:
-        own = () if self.acting is None else None if self.directions is None else self.directions(plan)
+        own = () if self.acting is None else self.directions(plan) if callable(self.directions) else self.directions
         return own if own is not None else DIRECTIONS if rubs else DIRECTIONS[:1]
 
     def occurs_in(self, plan: Plan, case: str) -> bool:
@@ -512,11 +504,13 @@ def is_unchanging(thing: object) -> bool:
     return bool(thing._class) or (settings is not None and settings.frozen)
 
 
-def case_words(case: Case) -> list[str]:
-    """Return a load case as an argument in words; nothing of none."""
-    return [] if case is None else [f"case={case if isinstance(case, str) else case.name or case.label}"]
+def request_text(word: str, arguments: Sequence[str], acting: Acting, *, moves: bool = False) -> str:
+    """Return how a request is written in a situation: as a function of that name with some arguments and the load case.
 
-
-def request_text(word: str, arguments: Sequence[str], acting: Acting) -> str:
-    """Return how a request is written that hangs on the load case of a situation: as a function of that name with some arguments."""
-    return f"{word}({', '.join([*arguments, *case_words(acting.case)])})"
+    Behind them stand the direction and the drive, where it `moves` as these say.
+    """
+    given, case = [*arguments], acting.case
+    given += [] if case is None else [f"case={case if isinstance(case, str) else case.name or case.label}"]
+    given += [f"direction={acting.direction}"] if moves and acting.direction is not None else []
+    given += [f"drive={acting.drive}"] if moves and acting.drive else []
+    return f"{word}({', '.join(given)})"

@@ -19,7 +19,7 @@ from ..loads.rope import Pulley, RopePath, Station, pulls, stations_of, wraps
 from ..motion import Column, Condition, HasVerdicts, Judge, Motion, Tabled, least, require_motion
 from ..plan import Plan, strokes_alone
 from ..program import FloatArray
-from ..quantities import InnerQuantity, Member, Number, Quantity, Reference, Variable, is_number, label, name_of, quantity
+from ..quantities import InnerQuantity, Member, NamedMembers, Number, Quantity, Reference, Variable, is_number, label, name_of, quantity
 from ..steps import Point
 from ..units import show
 from ..verdict import Verdict
@@ -54,6 +54,8 @@ class Rope(ForceElement, Tabled, HasVerdicts):
         stretch: Parameter = 0.0, against: Reference | None = None,
     ) -> None:  # fmt: skip
         self.run, self.length, self.force, self.stretch, self.against = tuple(run), length, force, stretch, against
+        if weights is not None and not np.iterable(weights):
+            raise DefinitionError(f"Rope(weights={cited(weights)}): numbers are expected, one a part, such as weights=[1, 2].")
         self.weights = None if weights is None else tuple(weights)
         wrong = next(self._misgiven(), "")
         if wrong:
@@ -98,17 +100,17 @@ class Rope(ForceElement, Tabled, HasVerdicts):
         """How many falls each straight part stands for."""
         return (1.0,) * (len(self.run) - 1) if self.weights is None else self.weights
 
-    def stations(self, members: Mapping[str, Member]) -> tuple[Station, ...]:
+    def stations(self, members: NamedMembers) -> tuple[Station, ...]:
         """Return the points it runs over, with the pulleys there; the class's members by name."""
         return stations_of(self.run, members)
 
-    def examine(self, members: Mapping[str, Member], title: str) -> None:
+    def examine(self, members: NamedMembers, title: str) -> None:
         known = [name for name, member in members.items() if isinstance(member, (Point, Pulley))]
         for each in self.run:
             known_name("Point or pulley", name_of(each), known, where=f"{title}.{self.name}")
         Member.examine(self, members, title)
 
-    def faults(self, members: Mapping[str, Member]) -> Iterator[str]:
+    def faults(self, members: NamedMembers) -> Iterator[str]:
         stations, falls = self.stations(members), self.falls
         other = None if self.against is None else members.get(name_of(self.against))
         if self.against is not None and not (isinstance(other, Rope) and other.against is None):
@@ -137,18 +139,18 @@ class Rope(ForceElement, Tabled, HasVerdicts):
         """The distance of its last two points [m], as it gives it."""
         return InnerQuantity(self, "last")
 
-    def link_written(self, pin: str, members: Mapping[str, Member]) -> str:
+    def link_written(self, pin: str, members: NamedMembers) -> str:
         names = list(map(name_of, self.run))
         for end, (P, Q) in {"last": names[-2:], "first": names[:2]}.items() if self.force is None else ():
             if pin in (P, Q) and not any(isinstance(members.get(one), Pulley) for one in (P, Q)):
                 return f'Link("{P} {Q}", {P}{Q}=ref("{self.name}.{end}"))'
         return ""
 
-    def gives(self, members: Mapping[str, Member]) -> str:
+    def gives(self, members: NamedMembers) -> str:
         """Return the name of the length that it gives; "" where nothing asks for one."""
         return next((f"{self.name}.{end}" for end in self.inside if f"{self.name}.{end}" in members), "")
 
-    def inner(self, name: str, members: Mapping[str, Member]) -> Member | None:
+    def inner(self, name: str, members: NamedMembers) -> Member | None:
         if name not in self.inside:
             return None
         wanted, stations, falls, wrong = f"{self.name}.{name}", self.stations(members), self.falls, ""
@@ -179,26 +181,23 @@ class Rope(ForceElement, Tabled, HasVerdicts):
         """The input by which its length changes: itself, or how much longer it is than what it follows."""
         return f"{self.name}.{'length' if isinstance(quantity(self.given('length')), Number) else 'stretch'}"
 
-    def cuts(self, members: Mapping[str, Member]) -> tuple[str, ...]:
+    def cuts(self, members: NamedMembers) -> tuple[str, ...]:
         return (self.cut,) if self.length is not None and self.gives(members) else ()
 
     # -- in statics ------------------------------------------------------------------------------------------
 
     def loads(self, motion: Poses) -> list[Load]:
-        if self.force is None:
-            return []
-        tension = self.number(motion, "force")
-        return [Load(each.point, each.force * tension) for each in self.pulls(motion)]
+        return [] if self.force is None else self.pulls(motion, self.number(motion, "force"))
 
-    def pulls(self, motion: Poses) -> list[Load]:
-        """Return what a tension of one newton pulls with, at every point that it runs over [N]."""
-        return pulls(self.stations(motion.plan.members), self.falls, motion)
+    def pulls(self, motion: Poses, tension: FloatArray | float = 1.0) -> list[Load]:
+        """Return what a tension pulls with, at every point that it runs over [N]."""
+        return [Load(each.point, each.force * tension) for each in pulls(self.stations(motion.plan.members), self.falls, motion)]
 
     @property
     def scales(self) -> bool:
         return self.force is not None
 
-    def tie(self, members: Mapping[str, Member]) -> Tie | None:
+    def tie(self, members: NamedMembers) -> Tie | None:
         if self.force is not None:
             return None
         gives = self.gives(members)
@@ -214,7 +213,7 @@ class Rope(ForceElement, Tabled, HasVerdicts):
             run = replace(run, back=back.name, back_loads=back.back_pushes, back_share=back.share_against)
         return Tie(self.name, (), held=False, cut=self.cut, gives=gives, run=run)
 
-    def drawn_back_by(self, members: Mapping[str, Member]) -> Rope | None:
+    def drawn_back_by(self, members: NamedMembers) -> Rope | None:
         """Return the rope that pulls where this one would have to push; None where there is none."""
         ropes = [each for each in members.values() if isinstance(each, Rope) and each.against is not None]
         return next((each for each in ropes if name_of(cast(Reference, each.against)) == self.name), None)
@@ -227,11 +226,10 @@ class Rope(ForceElement, Tabled, HasVerdicts):
 
     def back_pushes(self, motion: Poses) -> list[Load]:
         """Return what it puts on points for each newton that the rope it draws back against would have to push with."""
-        share = self.share_against(motion)
-        return [Load(each.point, each.force * share) for each in self.pulls(motion)]
+        return self.pulls(motion, self.share_against(motion))
 
     def _pushes(self, motion: Poses) -> list[Load]:
-        return [Load(each.point, -1.0 * each.force) for each in self.pulls(motion)]
+        return self.pulls(motion, -1.0)
 
     @takes_situation
     def tension(self, motion: AnyMotion, loads: Loads = None, **situation: Unpack[ActingKeywords]) -> FloatArray:
@@ -273,7 +271,7 @@ class Rope(ForceElement, Tabled, HasVerdicts):
         if self.force is None and self.gives(written.plan.members):
             written.given(f"T_{self.name}", lambda motion: self.tension_in(require_motion(motion), Acting()), "kN")
 
-    def glyphs(self, members: Mapping[str, Member]) -> tuple[Glyph, ...]:
+    def glyphs(self, members: NamedMembers) -> tuple[Glyph, ...]:
         stations = self.stations(members)
 
         def radii(motion: Poses) -> list[FloatArray]:
@@ -313,7 +311,7 @@ class Rope(ForceElement, Tabled, HasVerdicts):
                 found.append(Verdict(rule, answer.ok if is_lost else value >= 0.0, words, answer=answer))
             return found
         except DefinitionError as error:
-            return [Verdict("tension", False, " ".join(str(error).split()))]
+            return [Verdict.refused("tension", error)]
 
 
 def rope_sentence(rule: str, value: float, place: str) -> str:
@@ -336,20 +334,16 @@ def rope_sentence(rule: str, value: float, place: str) -> str:
 def tension(rope: Rope | str, *, case: Case = None, acting: Acting | None = None) -> LawRequest:
     """Return the request for the tension of a rope [N], in `evaluate`, `answers` and searches; below zero it would have to push."""
     name = name_of(rope)
-    given = situation_of("tension", acting, case=case)
-    return LawRequest(
-        formula=partial(tension_over, name), text=partial(request_text, "tension", (name,)), known=("tension", name), acting=given,
-        measures="force", examine=partial(rope_in, name),
-    )  # fmt: skip
+    given, text = situation_of("tension", acting, case=case), partial(request_text, "tension", (name,))
+
+    def formula(motion: AnyMotion, acting: Acting) -> FloatArray:
+        return rope_in(name, motion.plan).tension_in(motion, acting)
+
+    known, examine = ("tension", name), partial(rope_in, name)
+    return LawRequest(formula=formula, text=text, known=known, acting=given, measures="force", examine=examine)
 
 
 def rope_in(name: str, plan: Plan | Declared) -> Rope:
     """Return the rope of a name; DefinitionError where a plan has no such."""
     found = plan.of_kind(Rope)
-    known_name("Rope", name, found, where=plan.title)
-    return found[name]
-
-
-def tension_over(name: str, motion: AnyMotion, acting: Acting) -> FloatArray:
-    """Return the tension of a rope over a motion's poses [N], shape (...)."""
-    return rope_in(name, motion.plan).tension_in(motion, acting)
+    return found[known_name("Rope", name, found, where=plan.title)]

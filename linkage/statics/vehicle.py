@@ -33,7 +33,7 @@ from ..verdict import Verdict
 from .applied import applied_loads, elements_of, rates_in
 from .holding import refused_where, where_negative
 from .joints import Wrench, frame_points
-from .law_requests import LawRequest, TracedMotion, request_text, situation_identity, traced_loads
+from .law_requests import LawRequest, TracedMotion, request_text, situation_identity
 from .poses import AnyMotion, FlatPoses, cross
 from .solution import Equilibrium, check_joints, held_in_case, locked_words, system_with_friction
 from .work import by_work
@@ -42,6 +42,8 @@ SAME_PLACE = 1e-9
 """m: supports that are nearer to each other stand at one place."""
 SMALLEST = 1e-30
 """Nm: supports that resist turning no more than this stand at one place."""
+AT_REST_ALONE = (FRICTIONLESS,)
+"""A vehicle is judged at rest: friction inside it puts nothing on its supports."""
 BEYOND = 1e-9
 """A resultant that lies beyond a support by less than this part of their distance lies above it."""
 
@@ -89,11 +91,7 @@ def standing_of(motion: AnyMotion, acting: Acting, supports: Mapping[str, Suppor
     """Return how a vehicle stands on some supports over a motion's poses, as numbers of a program where it is traced."""
     motion = held_in_case(motion, acting)
     poses = FlatPoses(motion, "The axle loads", set())
-    if isinstance(motion, TracedMotion):
-        applied = traced_loads(motion, acting, AT_REST)
-    else:
-        rests = acting.movement == FRICTIONLESS and acting.rates is None
-        applied = applied_loads(motion, acting, AT_REST if rests else rates_in(require_motion(motion), acting))
+    applied = applied_loads(motion, acting, AT_REST if isinstance(motion, TracedMotion) else rates_in(require_motion(motion), acting))
     first, right = next(iter(supports.values())), to_the_right(poses, supports)
     start, force, moment = poses.at(name_of(first.point)), poses.zeros(2).T, poses.zeros()
     for load in applied.loads:
@@ -128,7 +126,7 @@ def standing_supports(motion: Motion) -> dict[str, Support]:
 def standing_if_any(motion: AnyMotion, acting: Acting) -> Standing | None:
     """Return how a vehicle stands in a situation; None for a machine without supports under its frame, or that cannot stand on them."""
     try:
-        return standing_under(motion, acting)
+        return standing_under(motion, acting) if frame_supports(motion.plan, acting) else None
     except DefinitionError:
         return None
 
@@ -298,7 +296,7 @@ def by_stiffness(poses: FlatPoses, supports: Mapping[str, Support], balance: Bal
         centre = (w * a * b).sum(axis=0) / stiff  # about it the frame turns without sinking
         arms = b - a * centre
         resists = (w * arms * arms).sum(axis=0)
-        resists = where_below(SMALLEST - resists, resists, 0.0 * resists + 1.0)  # those at one place, which do not carry alone
+        resists = where_negative(SMALLEST - resists, resists, 0.0 * resists + 1.0)  # those at one place, which do not carry alone
         sinks, turns = balance.force / stiff, (balance.moment - centre * balance.force) / resists
         return np.asarray(0.0 - w * (a * sinks + arms * turns))
 
@@ -307,13 +305,13 @@ def by_stiffness(poses: FlatPoses, supports: Mapping[str, Support], balance: Bal
         places = b / a
         for gone in range(1, many - 1):
             last, (low, high) = (gone - 1, (gone, many)) if left else (many - gone, (0, many - gone))
-            fewer = where_below(SAME_PLACE - (places[high - 1] - places[low]), carried(low, high), found)
-            found = where_below(found[last], fewer, found)
+            fewer = where_negative(SAME_PLACE - (places[high - 1] - places[low]), carried(low, high), found)
+            found = where_negative(found[last], fewer, found)
         return found
 
     whole = carried(0, many)
-    found = where_below(whole[-1], lifted(whole, False), where_below(whole[0], lifted(whole, True), whole))
-    own = [where_below((order - number) ** 2 - 0.25, found, 0.0 * found).sum(axis=0) for number in range(many)]
+    found = where_negative(whole[-1], lifted(whole, False), where_negative(whole[0], lifted(whole, True), whole))
+    own = [where_negative((order - number) ** 2 - 0.25, found, 0.0 * found).sum(axis=0) for number in range(many)]
     return np.stack(own), balance.outer(order) if order.dtype != object else [None] * many
 
 
@@ -325,13 +323,8 @@ def by_place(*given: list[FloatArray]) -> tuple[FloatArray, ...]:
         for left in range(last):
             step = b[left + 1] / a[left + 1] - b[left] / a[left]
             for row in rows:
-                row[left], row[left + 1] = where_below(step, row[left + 1], row[left]), where_below(step, row[left], row[left + 1])
+                row[left], row[left + 1] = where_negative(step, row[left + 1], row[left]), where_negative(step, row[left], row[left + 1])
     return tuple(np.stack(row) for row in rows)
-
-
-def where_below(values: FloatArray, x: FloatArray, y: FloatArray) -> FloatArray:
-    """Return x where values are below zero, else y; of numbers of a program too."""
-    return where_negative(values, x, y) if values.dtype == object else np.where(values < 0.0, x, y)
 
 
 # Before any load: what the vehicle's own weight puts on its supports.
@@ -376,7 +369,7 @@ def axle_load(support: str | Support, *, case: Case = None, acting: Acting | Non
     given = situation_of("axle_load", acting, case=case)
     return LawRequest(
         formula=partial(load_over, name), text=partial(request_text, "axle_load", (name,)), known=("axle load", name), acting=given,
-        measures="force", directions=at_rest_alone, examine=partial(support_in, name),
+        measures="force", directions=AT_REST_ALONE, examine=partial(support_in, name),
     )  # fmt: skip
 
 
@@ -384,12 +377,7 @@ def slipping(*, case: Case = None, acting: Acting | None = None) -> LawRequest:
     """Return the request for how much of its friction with the ground a vehicle uses along it; at 1 it slips."""
     given = situation_of("slipping", acting, case=case)
     text = partial(request_text, "slipping", ())
-    return LawRequest(formula=used_over, text=text, known=("slipping",), acting=given, directions=at_rest_alone, examine=rough_in)
-
-
-def at_rest_alone(plan: Plan) -> tuple[str, ...]:
-    """Return that a vehicle is at rest: friction inside it puts nothing on its supports."""
-    return (FRICTIONLESS,)
+    return LawRequest(formula=used_over, text=text, known=("slipping",), acting=given, directions=AT_REST_ALONE, examine=rough_in)
 
 
 def support_in(name: str, plan: Plan) -> None:
@@ -477,7 +465,7 @@ class AxleLoad(Tabled, HasVerdicts):
                 found.append(Verdict(rule, answer.ok, f"{answer}." if np.isnan(answer.value) else words, answer=answer))
             return found
         except DefinitionError as error:
-            return [Verdict("axle load", False, " ".join(str(error).split()))] if self.is_first else []
+            return [Verdict.refused("axle load", error)] if self.is_first else []
 
 
 def load_sentence(found: Answer, bare: float) -> str:

@@ -20,8 +20,8 @@ from ..program import FloatArray, is_traced
 from ..quantities import needs
 from .applied import AppliedLoads, applied_elements, applied_loads, member_title, path_tangent, rates_in
 from .force_program import forces_at
-from .holding import Holders, Levers, PressureLine, holders_of, same, stroke_followed, where_negative, with_levers
-from .law_requests import TracedMotion, is_unchanging, situation_identity, traced_loads
+from .holding import Holders, Levers, PressureLine, holders_of, is_among, same, stroke_followed, where_negative, with_levers
+from .law_requests import TracedMotion, is_unchanging, situation_identity
 from .poses import AnyMotion, FlatPoses, plan_of
 from .solution import AGREES, LEAST, PoseForces, disagreeing, held_in_case, locked_words
 
@@ -100,7 +100,7 @@ def work_gap(poses: FlatPoses, applied: AppliedLoads, drives: Mapping[str, Float
 def without_held(applied: AppliedLoads, holders: Holders) -> AppliedLoads:
     """Return what acts without what laws put on members that hold: what these carry in all follows from the strokes they hold."""
     held = holders.every_cylinder
-    return replace(applied, thrusts=tuple(each for each in applied.thrusts if not any(same(each.member, one) for one in held)))
+    return replace(applied, thrusts=tuple(each for each in applied.thrusts if not is_among(each.member, held)))
 
 
 def work_misses(poses: FlatPoses, applied: AppliedLoads, drives: Mapping[str, FloatArray]) -> Iterator[tuple[str, FloatArray, float]]:
@@ -161,12 +161,12 @@ def member_thrust_on(motion: AnyMotion, member: TwoPoint, acting: Acting) -> Flo
     plan_of(motion)
     motion = held_in_case(motion, acting)
     plan, own = motion.plan, motion.plan.of_kind(TwoPoint).values()
-    if not any(same(member, each) for each in own):  # it is tried in the place of the machine's own one between the same points
+    if not is_among(member, own):  # it is tried in the place of the machine's own one between the same points
         member = next((each for each in own if each.holds and set(each.ends) == set(member.ends)), member)
     holders = holders_of(plan, [*(each.element for each in applied_elements(plan, replace(acting, case=None))), member])
     line, count = holders.line_of(member), len(holders.lines)
-    is_steady = all(each.is_steady for each in holders.lines)
-    if line is not None and isinstance(motion, TracedMotion) and count > MOST_WRITTEN and not is_steady:
+    is_written = count <= MOST_WRITTEN or all(each.steady for each in holders.lines)
+    if line is not None and isinstance(motion, TracedMotion) and not is_written:
         raise UntracedError(f"{count} lines of cylinders hold together, and a program is written for {MOST_WRITTEN} at the most.")
     rates = member_rates(motion, member, acting, line if line in holders.lines else None)
     applied = kept(motion, acting, rates, "applied", lambda: applied_on(motion, acting, rates))
@@ -185,7 +185,7 @@ def member_thrust_on(motion: AnyMotion, member: TwoPoint, acting: Acting) -> Flo
     thrusts = [each.thrust(holders, member, need, cuts) for each in levers]
     if len(levers) > 1:  # another one where the first cylinders pull
         changing = (k for k, each in enumerate(holders.lines) if each.changes_shares)
-        place = next((k for k, each in enumerate(holders.lines) if each.has(member)), None)
+        place = next((k for k, each in enumerate(holders.lines) if is_among(member, each.cylinders)), None)
         pulling = levers[0].thrusts(need)[:, next(changing) if place is None else place]
         thrusts = [where_negative(pulling, thrusts[1], thrusts[0])]
     return poses.full(sum(map(poses.flattened, laws), thrusts[0]))[()]
@@ -266,12 +266,10 @@ def kept(motion: AnyMotion, acting: Acting, rates: Rates, what: Hashable, make: 
 
 def applied_on(motion: AnyMotion, acting: Acting, rates: Rates) -> AppliedLoads:
     """Return the loads that act, at a motion's poses or as nodes; UntracedError where a program cannot follow what they follow."""
-    if not isinstance(motion, TracedMotion):
-        return applied_loads(motion, acting, rates)
-    applied = traced_loads(motion, acting, rates)
-    if rates and len(motion.plan.strokes) > 1:
+    applied = applied_loads(motion, acting, rates)
+    if isinstance(motion, TracedMotion) and rates and len(motion.plan.strokes) > 1:
         numbers = []
-        for some in (applied, traced_loads(motion, acting, AT_REST)):
+        for some in (applied, applied_loads(motion, acting, AT_REST)):
             parts = [*(part for each in some.loads for part in each.force), *(each.thrust for each in some.thrusts)]
             numbers.append([motion.node(each) for each in parts])
         if numbers[0] != numbers[1]:

@@ -125,8 +125,8 @@ def test_load_cases_and_chosen_loads_count():
 
 
 def test_what_acts_is_looked_up_once_for_all_joints_and_anew_for_given_loads(monkeypatch):
-    known, look = [], force_requests.traced_loads
-    monkeypatch.setattr(force_requests, "traced_loads", lambda motion, acting, rates: known.append(acting) or look(motion, acting, rates))
+    known, look = [], force_requests.applied_loads
+    monkeypatch.setattr(force_requests, "applied_loads", lambda motion, acting, rates: known.append(acting) or look(motion, acting, rates))
     plan = type("Own", (Hitch,), {}).plan
     first = [bound(plan, pin_force(point)) for point in "BDE"]
     assert len(known) == 1 and len({each.key for each in first}) == 3

@@ -278,6 +278,7 @@ def test_what_cannot_be_is_said_with_the_remedy():
     for words, call in {
         "leave one out": lambda: Rope("A", "B", length=1.0, force=2.0),
         "1 numbers above zero are expected": lambda: Rope("A", "B", weights=[1, 2]),
+        "numbers are expected, one a part": lambda: Rope("A", "B", weights=2.0),
         "it runs from one to another one": lambda: Rope("A"),
         "say side=LEFT": lambda: Pulley("A", radius=0.1, side="up"),
         "negative": lambda: Pulley("A", radius=-0.1, side=LEFT),

@@ -5,7 +5,7 @@ import re
 import subprocess
 import sys
 import threading
-from functools import partial
+from functools import cache, partial
 from html.parser import HTMLParser
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
@@ -25,6 +25,7 @@ from linkage.plugins import COMMANDS, entry_points  # noqa: E402
 from tests.for_all import for_all  # noqa: E402
 from tests.tools.catalogues import messages  # noqa: E402
 from tests.tools.prose import LONGEST_MEAN, docstrings, mean_length, riddles, sentences  # noqa: E402
+from tests.tools.sources import sources  # noqa: E402
 
 PAGES = [ROOT / "README.md", *sorted(DOCS.glob("*.md")), *sorted(DOCS.glob("howto/*.md"))]
 LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
@@ -35,7 +36,6 @@ DRAWN = {
     for name, script in SCRIPTS.items()
     for picture, make in script.PICTURES.items()
 }
-PACKAGES = ("linkage", "hydraulics", "mechanisms")
 LONGEST_MESSAGE = 32
 """The words that one sentence of a message may have: more than that nobody reads beside a machine."""
 LONGEST_SENTENCE, LONGEST_IN_SOURCE = 36, 40
@@ -55,12 +55,6 @@ def test_sentences_are_short(page):
     text = page.read_text(encoding="utf-8")
     assert mean_length(text) <= LONGEST_MEAN, [sentence for count, sentence in sentences(text) if count > 2 * LONGEST_MEAN]
     assert [sentence for count, sentence in sentences(text) if count > LONGEST_SENTENCE] == []
-
-
-def sources():
-    """Return the sources of the packages by their paths."""
-    paths = [path for package in PACKAGES for path in sorted((ROOT / package).rglob("*.py"))]
-    return {path.relative_to(ROOT).as_posix(): path.read_text(encoding="utf-8") for path in paths}
 
 
 def test_docstrings_and_what_is_said_are_short_too():
@@ -102,12 +96,18 @@ def named(page):
     return page.with_suffix("").relative_to(DOCS if page.is_relative_to(DOCS) else ROOT).as_posix()
 
 
+@cache
+def searched():
+    """Return each page, its text and its headings in small letters."""
+    texts = {page: page.read_text(encoding="utf-8").lower() for page in PAGES}
+    code = re.compile(r"```.*?```", re.DOTALL)
+    return [(page, text, re.findall(r"^#+ (.*)$", code.sub("", text), re.MULTILINE)) for page, text in texts.items()]
+
+
 def found_by(words):
     """Return the pages that have all words, by how much they are about them: as a search of these pages ranks title, headings and text."""
     ranked = []
-    for page in PAGES:
-        text = page.read_text(encoding="utf-8").lower()
-        headings = re.findall(r"^#+ (.*)$", re.sub(r"```.*?```", "", text, flags=re.DOTALL), re.MULTILINE)
+    for page, text, headings in searched():
         stems = [word[:-1] if word.endswith("s") and len(word) > 3 else word for word in words.split()]
         if not all(stem in text for stem in stems):
             continue

@@ -11,6 +11,7 @@ import pytest
 
 from linkage import steps
 from tests.for_all import for_all
+from tests.tools.sources import nodes, parsed, sources
 
 ROOT = Path(__file__).parents[1]
 
@@ -104,10 +105,10 @@ def import_faults(path: PurePosixPath, tree: ast.AST) -> Iterator[str]:
             yield f"{where}: {module} is imported inside a function, which is for heavy libraries only: import it at the top"
 
 
-def print_faults(path: PurePosixPath, tree: ast.AST) -> Iterator[str]:
+def print_faults(path: PurePosixPath, source: str) -> Iterator[str]:
     """Yield a sentence for each `print(` outside the command and the demo."""
     if MAY_PRINT.isdisjoint(path.with_suffix("").parts):
-        for node in ast.walk(tree):
+        for node in nodes(source):
             if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "print":
                 yield f"{path}:{node.lineno}: print( in library code: return the text"
 
@@ -120,7 +121,7 @@ def circles(sources: dict[str, str]) -> list[list[str]]:
     modules = {path.removesuffix(".py").removesuffix("/__init__").replace("/", "."): path for path in sources}
     graph = nx.DiGraph()
     for path, text in sources.items():
-        for node in ast.walk(ast.parse(text, path)):
+        for node in nodes(text):
             if isinstance(node, ast.Import):
                 names = [alias.name for alias in node.names]
             elif isinstance(node, ast.ImportFrom):
@@ -134,14 +135,8 @@ def circles(sources: dict[str, str]) -> list[list[str]]:
 
 def faults(path: str, source: str) -> list[str]:
     """Return every breach of the house's rules in the text of one file, its path counted from the checkout."""
-    tree, place = ast.parse(source, path), PurePosixPath(path)
-    return list(dict.fromkeys([*import_faults(place, tree), *print_faults(place, tree)]))
-
-
-def sources() -> dict[str, str]:
-    """Return the text of every file of the three packages by its path, counted from the checkout."""
-    files = sorted(file for package in MAY_IMPORT for file in (ROOT / package).rglob("*.py"))
-    return {file.relative_to(ROOT).as_posix(): file.read_text(encoding="utf-8") for file in files}
+    place = PurePosixPath(path)
+    return list(dict.fromkeys([*import_faults(place, parsed(source)), *print_faults(place, source)]))
 
 
 def test_files_keep_the_floors():
@@ -161,10 +156,9 @@ def named_steps(path: str, source: str) -> list[str]:
     In equations Offset is one of the words that all steps are written in, no kind among others.
     """
     kinds = step_kinds() - ({"Offset"} if path.startswith("linkage/formulas/") else set())
-    tree = ast.parse(source, path)
-    names = [node.id for node in ast.walk(tree) if isinstance(node, ast.Name)]
-    names += [node.attr for node in ast.walk(tree) if isinstance(node, ast.Attribute)]
-    names += [alias.name for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) for alias in node.names]
+    names = [node.id for node in nodes(source) if isinstance(node, ast.Name)]
+    names += [node.attr for node in nodes(source) if isinstance(node, ast.Attribute)]
+    names += [alias.name for node in nodes(source) if isinstance(node, ast.ImportFrom) for alias in node.names]
     return sorted(kinds.intersection(names))
 
 
@@ -273,17 +267,16 @@ def test_the_door_loads_numpy_only():
     assert (HEAVY | OPTIONAL).isdisjoint(loaded), sorted((HEAVY | OPTIONAL).intersection(loaded))
 
 
-def defined(path: str) -> set[str]:
+def defined(source: str) -> set[str]:
     """Return the public functions and classes at the top of a file."""
-    tree = ast.parse((ROOT / path).read_text(encoding="utf-8"))
-    names = {node.name for node in tree.body if isinstance(node, ast.FunctionDef | ast.ClassDef)}
+    names = {node.name for node in parsed(source).body if isinstance(node, ast.FunctionDef | ast.ClassDef)}
     return {name for name in names if not name.startswith("_")}
 
 
 def test_a_name_has_one_meaning_in_the_framework():
     owners: dict[str, list[str]] = {}
-    for path in sorted(sources()):
-        for name in defined(path) if path.split("/")[0] in ("linkage", "hydraulics") else ():
+    for path, source in sources().items():
+        for name in defined(source) if path.split("/")[0] in ("linkage", "hydraulics") else ():
             owners.setdefault(name, []).append(path)
     assert {name: paths for name, paths in owners.items() if len(paths) > 1} == {}
 

@@ -19,6 +19,7 @@ from linkage.cli.listing import registered
 from linkage.cli.machines import find
 from linkage.documents.inputs import own_texts
 from linkage.pictures.browser_file import said_in
+from tests.tools.sources import nodes, sources
 
 ROOT = Path(__file__).parents[2]
 BELOW = {"linkage": (), "hydraulics": ("linkage",), "mechanisms": ("linkage", "hydraulics")}
@@ -53,10 +54,9 @@ def called(node: ast.Call) -> str:
 
 def messages(path: str, source: str) -> Iterator[Message]:
     """Yield what a file says: the templates of said and said_of, what is noted, and the rules of verdicts that are literals."""
-    tree = ast.parse(source, path)
-    imports = [node for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) and str(node.module).split(".")[-1] == "language"]
+    imports = [node for node in nodes(source) if isinstance(node, ast.ImportFrom) and str(node.module).split(".")[-1] == "language"]
     ours = {alias.name for node in imports for alias in node.names} | {"Verdict", *(["said"] if path == "linkage/language.py" else [])}
-    for node in ast.walk(tree):
+    for node in nodes(source):
         if not isinstance(node, ast.Call) or called(node) not in ours:
             continue
         name, where = called(node), f"{path}:{node.lineno}"
@@ -71,9 +71,8 @@ def messages(path: str, source: str) -> Iterator[Message]:
 def source_messages(package: str) -> dict[Message, str]:
     """Return everything that a package says, in the order of its files, and where it is said first."""
     found: dict[Message, str] = {}
-    for file in sorted((ROOT / package).rglob("*.py")):
-        path = file.relative_to(ROOT).as_posix()
-        for each in messages(path, file.read_text(encoding="utf-8")):
+    for path, source in sources().items():
+        for each in messages(path, source) if path.startswith(f"{package}/") else ():
             found.setdefault(each, each.where)
     for file in sorted(each for each in (ROOT / package).rglob("*") if each.suffix in (".js", ".html")):
         for text in said_in(file.read_text(encoding="utf-8")):

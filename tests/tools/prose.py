@@ -3,8 +3,11 @@
 import ast
 import re
 import sys
+from functools import cache
 from pathlib import Path
 from statistics import mean
+
+from tests.tools.sources import nodes
 
 LONGEST_MEAN = 16.0
 """How many words a page's sentences have in the mean, at the most."""
@@ -58,11 +61,12 @@ def sentences(text):
     return [(len(WORD.findall(each)), each) for each in found if each.rstrip("\"')*_ ").endswith(".") and WORD.search(each)]
 
 
+@cache
 def docstrings(source):
-    """Yield the docstrings of a source, but those of private names, without their examples; each section and argument a paragraph."""
-    for node in ast.walk(ast.parse(source)):
-        if isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef)) and not getattr(node, "name", "").startswith("_"):
-            yield SECTION.sub("\n\n", ARGUMENT.sub("\n\n", EXAMPLE.sub("", ast.get_docstring(node) or "")))
+    """Return the docstrings of a source, but those of private names, without their examples; each section and argument a paragraph."""
+    kinds = ast.Module, ast.ClassDef, ast.FunctionDef
+    found = [each for each in nodes(source) if isinstance(each, kinds) and not getattr(each, "name", "").startswith("_")]
+    return [SECTION.sub("\n\n", ARGUMENT.sub("\n\n", EXAMPLE.sub("", ast.get_docstring(each) or ""))) for each in found]
 
 
 def riddles(text):

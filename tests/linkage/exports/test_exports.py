@@ -49,6 +49,7 @@ from mechanisms.three_point_hitch import ThreePointHitch
 from tests import shipped
 from tests.for_all import for_all
 from tests.linkage.exports.workbooks import by_office, needs_office, number_columns, row_of, same_numbers, stored, written
+from tests.tools.sources import sources
 
 PAPERS = {"hitch": ThreePointHitch, "header": HeaderBalancer, "mower": MowerLift}
 SHIPPED = shipped.MACHINES
@@ -477,12 +478,12 @@ def test_a_missing_extra_is_named(library, ending, extra, tmp_path, monkeypatch)
 def test_every_extra_is_imported_somewhere():
     root = Path(__file__).parents[3]
     extras = tomllib.loads((root / "pyproject.toml").read_text())["project"]["optional-dependencies"]
-    texts = [path.read_text() for room in ("linkage", "hydraulics", "mechanisms") for path in (root / room).rglob("*.py")]
     known = {"imageio-ffmpeg": "imageio_ffmpeg"}
     for extra in extras.keys() - {"docs", "test"}:
         for wanted in extras[extra]:
             library = known.get(wanted.split(">=")[0], wanted.split(">=")[0].lower())
-            assert any(re.search(rf"^\s*(import|from) {library}\b", text, re.MULTILINE) for text in texts), f"{extra}: {library}"
+            imported = re.compile(rf"^\s*(import|from) {library}\b", re.MULTILINE)
+            assert any(map(imported.search, sources().values())), f"{extra}: {library}"
     assert "myst_parser" in (root / "docs" / "conf.py").read_text() and "-m sphinx" in (root / "run").read_text()
 
 

@@ -7,7 +7,7 @@ import pytest
 from _pytest.doctest import DoctestModule
 from hypothesis import settings
 
-settings.register_profile("steady", deadline=None)
+settings.register_profile("steady", deadline=None, max_examples=40)
 settings.load_profile("steady")
 
 
@@ -23,6 +23,7 @@ def pytest_collection(session):
     """Keep what is compiled while tests are read, and look for no garbage then nor, ever after, among them: they stand until the end.
 
     Without bytecode on disk every run, and each worker of it, would compile all packages and rewrite all assertions anew.
+    Plans and formulas are many small objects that stay, among which garbage would be looked for every moment.
     """
     gc.disable()
     unwritten, sys.dont_write_bytecode = sys.dont_write_bytecode, False
@@ -32,4 +33,5 @@ def pytest_collection(session):
         sys.dont_write_bytecode = unwritten
         gc.collect()
         gc.freeze()
+        gc.set_threshold(20_000, 20, 20)
         gc.enable()

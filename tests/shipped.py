@@ -2,7 +2,8 @@
 
 Machines at work, which are made of these or of parts, have up to six strokes and tests of their own, `tests/mechanisms/test_at_work.py`:
 a law that samples every stroke would take them by the hundred thousand poses. `AT_WORK` are these, for what looks at some designs only.
-`DAILY` have every kind of member that any of `MACHINES` has, and the papers' machines are among them; the others run under `slow`.
+`DAILY` have every kind of member that any of `MACHINES` has, and the papers' machines are among them, the crane by its skeleton of three
+strokes; the others run under `slow`.
 """
 
 from collections.abc import Mapping
@@ -31,16 +32,16 @@ POINTS = {point.name: point for point in entry_points(group="hydrolinkage.machin
 MACHINES = Installed(POINTS)
 AT_WORK = Installed({f"at_work.{point.name}": point for point in entry_points(group="hydrolinkage.machines") if ".at_work" in point.value})
 DAILY = (
-    "arm_drive", "crane", "four_bar", "front_loader", "grapple", "header_balancer", "inverted_slider_crank", "jansen", "mower_lift",
-    "pantograph", "scotch_yoke", "stephenson_three_far", "three_point_hitch", "toggle_press",
+    "arm_drive", "crane_skeleton", "four_bar", "front_loader", "grapple", "header_balancer", "inverted_slider_crank", "jansen",
+    "mower_lift", "pantograph", "scotch_yoke", "stephenson_three_far", "three_point_hitch", "toggle_press",
 )  # fmt: skip
 OTHERS = tuple(name for name in MACHINES if name not in DAILY)
 
 
-def over_machines(more=tuple, among=None):
-    """Run a law of a `machine` over `DAILY` and what `more()` gives, and over the others under `slow`; `among` tells which it is about."""
+def over_machines(more=tuple, among=None, later=tuple):
+    """Run a law of a `machine` over `DAILY` and `more()`, the others and `later()` under `slow`; `among` tells which it is about."""
 
-    def chosen(names):
-        return [machine for machine in map(MACHINES.get, names) if among is None or among(machine)]
+    def chosen(names, others):
+        return [machine for machine in (*map(MACHINES.get, names), *others) if among is None or among(machine)]
 
-    return for_all("machine", lambda: [*chosen(DAILY), *filter(among, more())], slow=lambda: chosen(OTHERS))
+    return for_all("machine", lambda: chosen(DAILY, more()), slow=lambda: chosen(OTHERS, later()))

@@ -1,6 +1,10 @@
 """The benchmark of forces measures the same thing in every way."""
 
+import pytest
+
 from tests.benchmarks.bench_forces import answered, answers, measured, table
+
+pytestmark = pytest.mark.slow
 
 
 def test_all_find_the_same_forces():

@@ -1,6 +1,10 @@
 """The benchmark of groups measures the same thing three times."""
 
+import pytest
+
 from tests.benchmarks.bench_group import measured
+
+pytestmark = pytest.mark.slow
 
 
 def test_all_find_the_same_pins():

@@ -23,6 +23,7 @@ def test_table_has_a_row_for_every_case():
     assert text.count("\n") == len(CASES)
 
 
+@pytest.mark.slow
 def test_the_first_result_comes_without_heavy_modules():
     stages, heavy = first_result(1)
     assert heavy == []

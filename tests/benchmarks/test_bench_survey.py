@@ -1,9 +1,13 @@
 """The survey benchmark runs, and every executor gives the same results."""
 
+import pytest
+
 from linkage.study import Box
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.benchmarks import bench_survey
 from tests.benchmarks.bench_survey import OVER, bare, executors, measure, results, timed
+
+pytestmark = pytest.mark.slow
 
 
 def test_every_executor_is_timed(monkeypatch):

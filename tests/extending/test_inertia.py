@@ -108,7 +108,7 @@ TWO = Case(
 )  # fmt: skip
 
 
-@pytest.mark.parametrize("case", [CASE, TWO], ids=["one stroke", "two strokes"])
+@pytest.mark.parametrize("case", [pytest.param(CASE, marks=pytest.mark.slow), TWO], ids=["one stroke", "two strokes"])
 @pytest.mark.parametrize("read", READINGS)
 def test_readings_agree(read, case, tmp_path):
     read(case, tmp_path)

@@ -8,6 +8,7 @@ from hydraulics import Accumulator, AccumulatorBlock, Cylinder, FloatCircuit, Li
 from linkage import LEFT, RIGHT, DefinitionError, Dyad, Force, Ground, Guide, Link, Mechanism, OnGuide, OnLink, Stroke, Weight, pin_forces
 from linkage.statics import work
 from linkage.units import bar, deg, kN, litre, minute, mm
+from tests.for_all import for_all
 
 
 class Press(Mechanism):
@@ -252,7 +253,7 @@ def test_a_regenerative_line_has_bounds_and_holds():
     assert f"{0.5 * area / litre:.2f} l from end to end, {0.5 * area / (100 * litre / minute):.1f} s" in oil.sentence
 
 
-@pytest.mark.parametrize("seed", range(3))
+@for_all("seed", range(2), slow=range(2, 3))
 def test_halves_on_one_line_and_joined_lines_of_one_pressure_change_nothing(seed):
     rng = np.random.default_rng(seed)
     x, y, bore, pull = rng.uniform(0.7, 1.0), rng.uniform(-0.6, -0.4), rng.uniform(0.06, 0.1), rng.uniform(2e3, 9e3)

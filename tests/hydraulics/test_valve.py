@@ -7,6 +7,7 @@ from hydraulics import Cylinder, HoldingValve, LiftCircuit, OilLine, Pump, Tank,
 from linkage import LEFT, DefinitionError, Dyad, Force, Ground, Guide, LoadCase, Mechanism, OnGuide, OnLink, Stroke, Weight
 from linkage.files import load, to_toml
 from linkage.units import bar, deg, kN, litre, minute, mm
+from tests.for_all import for_all
 
 
 class Press(Mechanism):
@@ -70,7 +71,7 @@ def test_where_the_load_opens_the_valve_and_where_the_pump_does_not():
     assert Pulled.valve.pilot_pressure(motion) == pytest.approx(np.full(2, 300 * kN / ANNULUS))
 
 
-@pytest.mark.parametrize("seed", range(4))
+@for_all("seed", range(2), slow=range(2, 4))
 def test_lowering_balances_on_random_arms(seed):
     rng = np.random.default_rng(seed)
     bore, way, count = rng.uniform(0.08, 0.12), [-1.0, 1.0][seed % 2], 1 + seed // 2

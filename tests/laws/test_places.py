@@ -37,7 +37,7 @@ def size_of(motion):
     return float(np.ptp(places.reshape(-1, 2, motion.reached.size), axis=(0, 2)).max())
 
 
-@for_all("seed", range(24))
+@for_all("seed", range(10), slow=range(10, 24))
 def test_every_pose_is_among_the_answers_for_its_own_place(seed):
     machine, random = machine_of(seed), np.random.default_rng(seed)
     chosen = aims(machine, random)
@@ -101,7 +101,7 @@ def aimed(radius, direction):
 
 
 @for_all("first", [-pi, 0.0, 0.5])
-@for_all("seed", range(5))
+@for_all("seed", range(2), slow=range(2, 5))
 def test_two_cranks_have_two_branches_inside_the_ring_and_none_outside(seed, first):
     random = np.random.default_rng(seed)
     machine, a, b = two_cranks(random, first)
@@ -207,7 +207,7 @@ def cylinders(px, py, tilt):
     return away(C_, D), away(E, F), away(G, H)
 
 
-@pytest.mark.parametrize("seed", range(3))
+@for_all("seed", range(2), slow=range(2, 3))
 def test_cylinders_of_a_place_are_those_of_its_triangles(seed):
     machine, random = Excavator(), np.random.default_rng(seed)
     for _ in range(5):

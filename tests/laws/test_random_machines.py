@@ -21,7 +21,7 @@ from tests.laws.by_hand import FRAME, ByHand, by_point, full
 from tests.laws.plane import G0, PLAIN, Move, cross, facing, size, turned
 from tests.laws.random_machines import TAGS, random_machine, wants
 
-MANY, DAILY, BLOCK = 300, 20, 10
+MANY, DAILY, BLOCK = 300, 10, 10
 NOTHING = 1e-12  # of the largest force: what rounding leaves
 FRICTION = 1e-10  # of the largest force: where friction and joint forces are found by iteration
 

@@ -25,7 +25,7 @@ def is_closed(machine):
     return not machine.plan.groups
 
 
-ALL = over_machines(random_machines, among=is_closed)
+ALL = over_machines(lambda: random_machines()[::2], is_closed, lambda: random_machines()[1::2])
 
 
 @cache

@@ -71,7 +71,7 @@ def daily():
     return [*map(MACHINES.get, DAILY), *at_work, ChainCrane]
 
 
-def over_all(more=random_machines, later=tuple, among=None):
+def over_all(more=lambda: random_machines()[::2], later=lambda: random_machines()[1::2], among=None):
     """Run a law of a `machine` over `daily` and what `more()` gives, and over all others of the package and `later()` under `slow`."""
 
     def chosen(machines):
@@ -84,7 +84,7 @@ def over_all(more=random_machines, later=tuple, among=None):
 
 
 ALL = over_all()
-ONE = over_all(tuple, among=lambda machine: len(machine.plan.strokes) == 1)
+ONE = over_all(tuple, tuple, among=lambda machine: len(machine.plan.strokes) == 1)
 
 
 def weights(machine):

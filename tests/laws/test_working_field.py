@@ -423,7 +423,7 @@ def test_a_mirrored_part_lifts_the_same_at_the_mirrored_place():
     assert_allclose(part.area, alone.area, rtol=1e-12)
 
 
-@pytest.mark.parametrize("seed", range(4))
+@for_all("seed", range(2), slow=range(2, 4))
 def test_law_of_the_limiter_on_random_designs(seed):
     rng = np.random.default_rng(seed)
     names = ["OB", "OJ", "OC", "JD", "JK", "boom_mass.mass", "arm_mass.mass", "lifter.bore", "folder.bore"]
@@ -456,7 +456,7 @@ def sliding():
     return Sliding
 
 
-@pytest.mark.parametrize("seed", range(2))
+@for_all("seed", range(1), slow=range(1, 2))
 def test_law_of_the_limiter_with_a_group_inside(seed):
     rng = np.random.default_rng(seed)
     names = ["load.mass", "lift.bore", "push.bore", "D.x", "A.y"]

@@ -10,6 +10,7 @@ from linkage import AssemblyError, Crank, Ground, Guide, Link, Mechanism, Pin, S
 from linkage.assembly import group_continuation, newton
 from linkage.program import fixed_backend
 from mechanisms.classics.stephenson_three import StephensonThree, StephensonThreeFar
+from tests.for_all import for_all
 from tests.linkage.assembly.test_groups import Platform, platform
 from tests.linkage.random_parts import group_parts
 
@@ -63,7 +64,7 @@ def test_a_path_to_several_strokes_and_designs_at_once():
                 assert_allclose(motion[name][:, row, column], [corner.real, corner.imag], rtol=0, atol=1e-11)
 
 
-@pytest.mark.parametrize("seed", range(2))
+@for_all("seed", range(1), slow=range(1, 2))
 def test_rough_sketch_leads_to_the_same_pose(seed):
     """Damped steps: pins drawn some centimetres beside their place find it."""
     random = np.random.default_rng(seed)

@@ -27,7 +27,7 @@ def latin_share(machine, text):
     return len(latin) / len(words), latin
 
 
-QUICK = ("mower_lift", "grapple")
+QUICK = ("mower_lift",)
 MACHINES = [pytest.param(each, marks=() if each in QUICK else pytest.mark.slow) for each in OF_PAPERS]
 
 

@@ -51,6 +51,7 @@ from tests.for_all import for_all
 from tests.linkage.exports.workbooks import by_office, needs_office, number_columns, row_of, same_numbers, stored, written
 from tests.tools.sources import sources
 
+POSES = 21
 PAPERS = {"hitch": ThreePointHitch, "header": HeaderBalancer, "mower": MowerLift}
 SHIPPED = shipped.MACHINES
 CHANGED = {"hitch": ("OB", 0.305), "header": ("charge", 36 * kgf_cm2), "mower": ("OB", 0.176)}
@@ -71,9 +72,9 @@ class Turned(Mechanism):
 
 @pytest.fixture(scope="module")
 def books(tmp_path_factory):
-    """The workbooks of the papers' machines, at 101 poses."""
+    """The workbooks of the papers' machines."""
     folder = tmp_path_factory.mktemp("books")
-    return {name: export(machine(), folder / f"{name}.xlsx") for name, machine in PAPERS.items()}
+    return {name: export(machine(), folder / f"{name}.xlsx", count=POSES) for name, machine in PAPERS.items()}
 
 
 @pytest.fixture(scope="module")
@@ -124,7 +125,7 @@ def new_value(path, dimension, value):
 @pytest.mark.parametrize("name", PAPERS)
 def test_values_in_the_workbook_are_the_engines(books, name):
     machine = PAPERS[name]()
-    motion = machine.sweep(101)
+    motion = machine.sweep(POSES)
     table = results(machine, motion)
     book = stored(books[name])
     assert [cell.value for cell in book["Results"][1]] == [column.name for column in table]
@@ -165,7 +166,7 @@ def test_another_program_finds_the_same_numbers(books, recalculated, name):
 def test_a_changed_dimension_changes_the_workbook_as_the_machine(books, recalculated, name):
     dimension, value = CHANGED[name]
     changed = PAPERS[name]().replaced(**{dimension: value})
-    table = results(changed, changed.sweep(101))
+    table = results(changed, changed.sweep(POSES))
     for column, after in zip(table, number_columns(recalculated[f"{name} changed"]["Results"], 4), strict=True):
         if column.name != "of pin O":
             assert_allclose(after, column.shown, rtol=0, atol=1e-12 * max(np.abs(column.shown).max(), 1.0), err_msg=column.name)

@@ -98,8 +98,8 @@ def test_names_of_any_alphabet():
 
 
 def test_long_members_get_tables_of_their_own():
-    links = {f"point_{k:02}": Pin(at=(0.1 * k, 0.01 * k * k)) for k in range(2, 12)}
-    labels = {f"Opoint_{k:02}": 0.1 * k for k in range(2, 9)}
+    links = {f"point_of_a_long_name_{k}": Pin(at=(0.1 * k, 0.01 * k * k)) for k in range(2, 7)}
+    labels = {f"Opoint_of_a_long_name_{k}": 0.1 * k for k in range(2, 5)}
     base = {"S": Stroke(0.0, 1.0), "O": Ground(0.0, 0.0), "A": Crank("O", OA=0.1, angle="S")}
     machine = type("Long", (Mechanism,), {**base, "body": Link("O", "A", *links, **labels), **links})
     text = to_toml(machine)

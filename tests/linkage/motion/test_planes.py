@@ -83,7 +83,7 @@ def along_edges(corners, count=60):
     return np.concatenate([a + shares * (b - a) for a, b in zip(corners, np.roll(corners, -1, axis=0), strict=True)])
 
 
-@for_all("seed", range(12))
+@for_all("seed", range(5), slow=range(5, 12))
 def test_the_gap_of_outlines_against_points_along_them(seed):
     rng = np.random.default_rng(seed)
     one, other = star(rng, int(rng.integers(4, 13))), star(rng, int(rng.integers(3, 9)))
@@ -336,7 +336,7 @@ def test_what_is_no_plane_is_refused_in_words(make, words):
 # -- where they come nearest -------------------------------------------------------------------------------
 
 
-@for_all("seed", range(6))
+@for_all("seed", range(2), slow=range(2, 6))
 def test_the_nearest_places_are_as_far_apart_as_the_gap(seed):
     """The same number as the program's, between a place of the one and a place of the other; moved by it they just touch."""
     rng = np.random.default_rng(40 + seed)

@@ -1,6 +1,7 @@
 """Pictures: everything stands where the motion says, labels keep clear, and what cannot be drawn is said in words."""
 
 import contextlib
+from functools import cache
 from math import pi
 
 import numpy as np
@@ -301,6 +302,12 @@ def test_what_is_not_reached_is_said_on_the_picture():
 # -- labels ------------------------------------------------------------------------------------------------
 
 
+@cache
+def shown(cls):
+    """Return the picture of a machine as it comes, which several tests read."""
+    return draw(cls())
+
+
 def boxes(figure):
     """Return the boxes of the points' names [pixels]."""
     figure.canvas.draw()
@@ -309,7 +316,7 @@ def boxes(figure):
 
 @for_all("cls", ALL)
 def test_names_keep_clear_of_each_other_of_pins_and_of_the_edge(cls):
-    figure = draw(cls())
+    figure = shown(cls)
     names = boxes(figure)
     assert set(names) == set(cls.plan.points)
     ax = figure.axes[0]
@@ -327,7 +334,7 @@ def test_names_keep_clear_of_each_other_of_pins_and_of_the_edge(cls):
 
 @for_all("cls", ALL)
 def test_scales_are_equal_and_hold_every_pose(cls):
-    ax = draw(cls()).axes[0]
+    ax = shown(cls).axes[0]
     sizes = np.diff(ax.transData.transform([(0, 0), (1, 1)]), axis=0)[0]
     assert_allclose(sizes[0], sizes[1], rtol=1e-6)
     motion = one_motion(cls)
@@ -512,7 +519,7 @@ ASKED = {
 }
 
 
-@pytest.mark.parametrize("seed", range(3))
+@for_all("seed", range(2), slow=range(2, 3))
 def test_what_nobody_means_is_refused_in_words_or_taken(seed):
     rng, motion = np.random.default_rng(seed), one_motion(FourBar, 3)
     calls = {

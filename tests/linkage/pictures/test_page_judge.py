@@ -132,10 +132,9 @@ def check(machine, designs, n=9):
 @pytest.mark.parametrize(
     ("machine", "lengths"),
     [
-        *((each, 3) for each in (ThreePointHitch, MowerLift, Grapple)),
-        (Grab, 1),
-        (CorneredOnce, 0),  # two strokes: Python looks at many poses
-        *(pytest.param(each, 3, marks=SLOW) for each in (Grab, CorneredOnce, LostOnce, Cornered, Lost)),
+        *((each, 1) for each in (ThreePointHitch, MowerLift)),
+        *((each, 0) for each in (Grab, CorneredOnce)),  # two strokes: Python looks at many poses
+        *(pytest.param(each, 3, marks=SLOW) for each in (ThreePointHitch, Grapple, Grab, CorneredOnce, LostOnce, Cornered, Lost)),
     ],
 )
 def test_a_page_says_of_its_poses_what_python_says(machine, lengths):
@@ -147,7 +146,7 @@ def test_a_page_says_of_its_poses_what_python_says(machine, lengths):
 
 
 MACHINES = {name: each for name, each in {**SHIPPED, **dict(elsewhere())}.items() if each.plan.of_kind(HasVerdicts)}
-QUICK = ("boom_drive", "mower_lift", "scissor_lift", "toggle_press", "axle", "lifting_arm", "log_splitter", "mast_tilt", "plough")
+QUICK = ("scissor_lift", "toggle_press", "axle", "lifting_arm", "log_splitter", "mast_tilt", "plough")
 
 
 def near(machine, seed, count, spread=0.03):
@@ -164,8 +163,8 @@ def test_every_shipped_machine_that_judges_itself_is_among_them():
 @NEEDED
 @for_all("name", QUICK)
 def test_a_page_says_of_random_designs_what_python_says(name):
-    count, kept = check(MACHINES[name](), near(MACHINES[name], 31, 4))
-    assert count >= 4 and kept & {True, False}
+    count, kept = check(MACHINES[name](), near(MACHINES[name], 31, 2))
+    assert count >= 2 and kept & {True, False}
 
 
 @NEEDED

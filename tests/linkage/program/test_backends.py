@@ -127,7 +127,7 @@ def check_random(seed):
     agree(first.values[: len(steps), 0], steps, good)
 
 
-@pytest.mark.parametrize("start", [0, 20, *(pytest.param(n, marks=pytest.mark.slow) for n in range(40, 200, 20))])
+@pytest.mark.parametrize("start", [0, *(pytest.param(n, marks=pytest.mark.slow) for n in range(20, 200, 20))])
 def test_all_ways_agree_over_random_mechanisms(start):
     for seed in range(start, start + 20):
         check_random(seed)
@@ -192,7 +192,7 @@ def cache_folder(tmp_path, monkeypatch):
     return tmp_path / "kernels"
 
 
-@pytest.mark.parametrize("machine", [ThreePointHitch, SHIPPED[GROUPED[0]]])
+@pytest.mark.parametrize("machine", [pytest.param(ThreePointHitch, marks=pytest.mark.slow), SHIPPED[GROUPED[0]]])
 def test_the_compiled_loop_agrees_and_is_cached(machine, cache_folder):
     pytest.importorskip("numba")
     inputs = given(machine, 300)

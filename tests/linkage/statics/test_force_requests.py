@@ -93,8 +93,12 @@ def test_requests_are_the_forces_of_every_machine(machine):
     assert_allclose(found, wanted, rtol=0, atol=1e-11 * size)
 
 
-@for_all("machine", lambda: [Hitch, random_machines()[0], StephensonThreeFar])
-@for_all("backend", ["numpy", "floats", "numba"])
+def in_back_ends():
+    """Return machines with the back ends that work them out daily; compiling takes long."""
+    return [(each, way) for each in (Hitch, random_machines()[0], StephensonThreeFar) for way in ("numpy", "floats")] + [(Hitch, "numba")]
+
+
+@for_all(("machine", "backend"), in_back_ends, slow=lambda: [(random_machines()[0], "numba"), (StephensonThreeFar, "numba")])
 def test_every_back_end_has_the_same_forces(machine, backend):
     (name, stroke), *_ = machine.plan.strokes.items()
     at = {name: np.linspace(stroke.start, stroke.end, 61)[20:40]}

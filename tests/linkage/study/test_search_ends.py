@@ -1,5 +1,7 @@
 """Searches that end and say what binds: on an excavator's boom, a loader, a tipper and a scissor lift, against hand calculations."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -108,10 +110,17 @@ ENDING = {
 }  # fmt: skip
 
 
+@cache
+def boom_at_length():
+    """Return what a search without a limit finds, to which others are compared."""
+    machine, ask = ENDING["boom"]()
+    return optimise(machine, **ask)
+
+
 @pytest.mark.parametrize(
     ("name", "limit"),
     [
-        *[("boom", limit) for limit in (1, 30, 150)], ("tipper", 60), ("loader", 30),
+        ("boom", 1), ("boom", 30), ("loader", 30),
         *[pytest.param(name, limit, marks=pytest.mark.slow)
           for name in ("boom", "tipper", "loader", "excavator") for limit in (1, 40, 150)],
     ],
@@ -136,7 +145,7 @@ def test_a_limit_is_kept_told_and_gives_the_best_so_far_the_same_each_time(name,
 
 def test_more_designs_are_never_worse_and_no_limit_says_nothing():
     machine, ask = ENDING["boom"]()
-    few, all_of_them = (optimise(machine, **ask, limit=limit) for limit in (120, None))
+    few, all_of_them = optimise(machine, **ask, limit=120), boom_at_length()
     assert few.value <= all_of_them.value * (1.0 + 1e-9)
     assert few.limit == 120
     assert all_of_them.limit is None
@@ -147,7 +156,7 @@ def test_a_folder_goes_on_beyond_a_limit(tmp_path):
     machine, ask = ENDING["boom"]()
     cut = optimise(machine, **ask, limit=150, folder=tmp_path)
     assert cut.limit == 150
-    assert_allclose(optimise(machine, **ask, folder=tmp_path).value, optimise(machine, **ask).value, rtol=1e-12)
+    assert_allclose(optimise(machine, **ask, folder=tmp_path).value, boom_at_length().value, rtol=1e-12)
 
 
 def test_an_infinite_derivative_is_no_error():

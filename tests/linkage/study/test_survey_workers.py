@@ -62,7 +62,6 @@ def wanted():
     return functools.cache(lambda measure: survey(*next(given for given, each in GIVEN if each is measure), measure))
 
 
-
 @STUDIES
 def test_threads_give_what_one_process_gives(small, wanted, given, measure):
     with ThreadPoolExecutor(3) as pool:
@@ -178,6 +177,7 @@ if __name__ == "__main__":
 """
 
 
+@pytest.mark.slow
 def test_classes_of_a_script_are_sent_by_dask(client, tmp_path):
     script = tmp_path / "script.py"
     script.write_text(SCRIPT)
@@ -218,6 +218,7 @@ def test_pool_whose_worker_was_killed_tells_and_another_goes_on(small, tmp_path)
     same(found, survey(hitch, over, travel))
 
 
+@pytest.mark.slow
 def test_dask_goes_on_when_a_worker_is_killed(small, client, tmp_path):
     hitch, over = hitch_designs(1280)
     log = tmp_path / "log"

@@ -151,7 +151,7 @@ def settings_drawn(machine, random, count):
     return {}, {}
 
 
-@for_all("seed", range(8))
+@for_all("seed", range(3), slow=range(3, 8))
 def test_the_setting_of_a_random_machine_is_found(seed):
     machine, random = random_mechanism(seed)(), np.random.default_rng(seed)
     box, setting = settings_drawn(machine, random, 2 + seed % 2)
@@ -175,7 +175,7 @@ def moves(machine, name, last, end):
     return np.abs(machine.at(S=[0.0, end]).gradient(last, wrt=[name])).max() > 1e-9
 
 
-@pytest.mark.parametrize("seed", range(3))
+@for_all("seed", range(1), slow=range(1, 3))
 def test_nine_ranges_are_found_together(seed):
     """All dimensions and both pivots of a bar, by 18 points that a known one comes to."""
     random = np.random.default_rng(seed)

@@ -106,6 +106,7 @@ def test_an_answer_is_of_its_class(found):
     assert error <= 1e-20
 
 
+@pytest.mark.slow
 def test_the_same_seed_gives_the_same_bits():
     one, two = (synthesise([FourBar, SliderCrank], path=PathTask(POINTS), starts=4, seed=3, limit=14_000) for _ in range(2))
     assert one.solutions or one.misses

@@ -29,6 +29,7 @@ from linkage.synthesis.curve_class import CurveMeasure
 from mechanisms.classics.four_bar import FourBar, TripleRocker
 from mechanisms.classics.stephenson_one import StephensonOne
 from tests.benchmarks import bench_catalogue
+from tests.for_all import for_all
 from tests.linkage.synthesis.test_closed_curves import known_bars, pairs
 
 
@@ -48,10 +49,13 @@ class SixBar(Mechanism):
     Q = OnLink(P, F, PQ=0.15, FPQ=-30 * deg)
 
 
+COUNT = 1000
+
+
 @pytest.fixture(scope="module")
 def four_bars():
     """A catalogue of four-bars."""
-    return curve_catalogue(FourBar(), "P", count=3000)
+    return curve_catalogue(FourBar(), "P", count=COUNT)
 
 
 def turned(machine, of, count):
@@ -63,7 +67,7 @@ def test_all_that_is_in_it_runs_by_the_four_bars_own_rule(four_bars):
     """The crank passes both places where it lies along the frame: two triangles."""
     lengths = four_bars.kind.designs(four_bars.kind.values(four_bars.units))
     OA, AB, CB = (lengths[name] for name in ("OA", "AB", "CB"))
-    assert len(four_bars) == 3000
+    assert len(four_bars) == COUNT
     assert np.all((1.0 + OA < AB + CB) & (np.abs(1.0 - OA) > np.abs(AB - CB)))
 
 
@@ -105,8 +109,8 @@ def test_a_curve_finds_itself_whatever_place_turn_size_start_and_sense(four_bars
 
 def test_amplitudes_apart_keep_curves_apart(four_bars):
     """No shift, turn, size and start brings two curves nearer than their amplitudes are."""
-    curves = ClosedCurves.of(np.stack([turned(four_bars.design(number), "P", 128) for number in range(0, 3000, 60)]))
-    for number in range(0, 3000, 600):
+    curves = ClosedCurves.of(np.stack([turned(four_bars.design(number), "P", 128) for number in range(0, COUNT, COUNT // 50)]))
+    for number in range(0, COUNT, COUNT // 5):
         onto, _ = drawn_curve(pairs(turned(four_bars.design(number), "P", 360)))
         laid = laid_onto(curves, onto, np.array([[1e-9], [1e9]]))
         a, b = (each.amplitudes.reshape(len(each.size), 2, -1) for each in (curves, onto))
@@ -131,10 +135,10 @@ def test_the_nearest_of_all_is_found(four_bars):
 
 def test_the_same_seed_gives_the_same_bits_whoever_does_the_work(four_bars):
     with ThreadPoolExecutor(2) as pool:
-        again = curve_catalogue(FourBar(), "P", count=3000, executor=pool)
+        again = curve_catalogue(FourBar(), "P", count=COUNT, executor=pool)
     assert_array_equal(again.units, four_bars.units)
     assert_array_equal(again.amplitudes, four_bars.amplitudes)
-    other = curve_catalogue(FourBar(), "P", count=3000, seed=1)
+    other = curve_catalogue(FourBar(), "P", count=COUNT, seed=1)
     assert other.seed == 1 and not np.array_equal(other.units, four_bars.units)
 
 
@@ -155,7 +159,7 @@ def test_angles_that_are_held_stay():
     assert float(other.design(5)["BAP"]) == 0.3
 
 
-@pytest.mark.parametrize(("bar", "points"), known_bars(3, seed=29))
+@for_all(("bar", "points"), lambda: known_bars(3, seed=29)[:1], slow=lambda: known_bars(3, seed=29)[1:])
 def test_a_closed_curve_in_a_machine_out(four_bars, bar, points):
     vary = {"OA": (0.01, 0.08), "AB": (0.05, 0.2), "CB": (0.05, 0.2), "AP": (0.01, 0.15), "BAP": (-1.5, 1.5)}
     vary |= {f"{point}.{axis}": (-0.2, 0.2) for point in "OC" for axis in "xy"}
@@ -218,7 +222,7 @@ def test_what_cannot_be_a_catalogue_is_said(make, kind, words):
         (lambda found: found.nearest([(0, 0), (1, 0)]), "three different points"),
         (lambda found: found.nearest([1.0, 2.0]), "pairs"),
         (lambda found: found.nearest(POINTS, 0), "from 1 on"),
-        (lambda found: found.design(3000), "numbers go from 0 to 2999"),
+        (lambda found: found.design(COUNT), f"numbers go from 0 to {COUNT - 1}"),
     ],
 )
 def test_what_a_catalogue_cannot_be_asked(four_bars, ask, words):

@@ -59,7 +59,7 @@ def found_again(seed):
     return found
 
 
-@pytest.mark.parametrize("seed", range(3))
+@for_all("seed", range(2), slow=range(2, 3))
 def test_a_bar_is_found_from_five_of_its_points(seed):
     found = found_again(seed)
     for each in found.solutions:
@@ -147,7 +147,7 @@ def pairs_of(bar, phi, zeros):
 CASES = [(3, "follower", (0.0, 0.0)), (4, "follower", (0.0, 0.8)), (4, "crank", (-1.3, 0.0)), (5, "follower", (0.4, -2.2))]
 
 
-@for_all("seed", range(5))
+@for_all("seed", range(2), slow=range(2, 5))
 @for_all(("count", "free", "zeros"), CASES)
 def test_a_bar_is_found_from_pairs_of_its_angles(count, free, zeros, seed):
     bar, phi = bar_at(100 * count + seed, count, 2.0)

@@ -31,7 +31,7 @@ def by_freudenstein(phi, psi, slope, curvature):
     return a, np.sqrt(a * a + b * b + 0.01 - 2.0 * a * b * k3), b
 
 
-@pytest.mark.parametrize("phi", [0.6, 2.2, 4.0])
+@for_all("phi", [2.2], slow=[0.6, 4.0])
 def test_slope_and_curvature_at_a_stroke_decide_the_four_bar(phi):
     pose = FourBar().at(phi=[phi])
     wanted = [pose["psi"], pose.ratio("psi"), pose.ratio("psi", order=2)]

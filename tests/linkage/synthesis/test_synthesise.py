@@ -92,7 +92,7 @@ class PolarFrame(PolarBar):
     A = Crank(O, OA=1 * mm, angle="phi")
 
 
-@pytest.mark.parametrize("kind", [PolarBar, PolarFrame])
+@pytest.mark.parametrize("kind", [pytest.param(PolarBar, marks=pytest.mark.slow), PolarFrame])
 def test_eighteen_points_are_met_where_the_frame_is_a_length_and_an_angle(kind):
     """In the papers' box, 75 times as wide as the machine that is drawn."""
     names = {PolarBar: ("x0", "y0", "r1"), PolarFrame: ("O.x", "O.y", "OC")}[kind]
@@ -321,7 +321,7 @@ def bar_task(count, **task):
     return synthesise(FourBar(), path=path, vary=vary, starts=6, **task)
 
 
-@pytest.mark.parametrize(("count", "each"), [(1, 1), (1, 3), (2, 1), (5, 2)])
+@for_all(("count", "each"), [(1, 1), (5, 2)], slow=[(1, 3), (2, 1)])
 def test_few_points_and_points_given_twice(count, each):
     found = bar_task(count, each=each)
     assert found.best.most <= 1e-10
@@ -348,7 +348,7 @@ def test_a_point_that_is_timed_outside_the_stroke_is_said():
         synthesise(FourBar(), path=task, vary={"OA": (0.02, 0.05)}, over={"phi": (0.7, 2.0)})
 
 
-@pytest.mark.parametrize("turns", [0, 2, -3])
+@for_all("turns", [2], slow=[0, -3])
 def test_angles_count_modulo_a_turn(turns):
     phi, known = np.array([0.5, 1.0, 1.5]), FourBar(OA=0.03)
     pose = known.at(phi=phi)
@@ -374,7 +374,7 @@ def test_choices_and_steps_hold_the_known_bar(values):
     assert found.best.most <= 1e-10 and abs(found.machine["OA"] - 0.036) <= 1e-12
 
 
-@pytest.mark.parametrize("limit", [500, 2000])
+@for_all("limit", [500], slow=[2000])
 def test_a_limit_counts_designs(limit):
     known = FourBar(OA=0.036, AB=0.11, CB=0.085, AP=0.05)
     points = known.at(phi=np.linspace(0.3, 5.7, 10))["P"].T

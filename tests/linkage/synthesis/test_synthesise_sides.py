@@ -132,7 +132,7 @@ def test_sides_stand_in_tables_rows_of_catalogues_and_rounded_machines(tmp_path)
         pytest.param(Tipper, "G", "G.side", {"OG": (1.5, 2.0), "CG": (0.5, 0.8)}, marks=pytest.mark.slow),
     ],
 )
-@pytest.mark.parametrize("timed", [True, False])
+@pytest.mark.parametrize("timed", [True, pytest.param(False, marks=pytest.mark.slow)])
 def test_groups_and_parts_have_branches(kind, point, name, vary, timed):
     step = name.removesuffix(".side")
     middle = {each: 0.4 * low + 0.6 * high for each, (low, high) in vary.items()}

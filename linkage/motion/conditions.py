@@ -95,28 +95,6 @@ class PrecisionLeft:
 
 
 @final
-@dataclass(frozen=True)
-class Culprit:
-    """The member that comes nearest to a singular pose, by what: its loop's condition, or the least span of a direction it takes.
-
-    The span is in parts of the machine's size. Neither is given where nothing comes near, no name where what has none takes the direction.
-    """
-
-    member: str = ""
-    condition: float | None = None
-    span: float | None = None
-
-    def __str__(self) -> str:
-        """Return `condition 1.0e+07`, what is said of a direction, or nothing."""
-        if self.condition is not None:
-            return "condition infinite" if np.isinf(self.condition) else f"condition {self.condition:.1e}"
-        if self.span is not None:
-            apart = f"are {self.span:.1e} of the machine's size apart" if self.span > 1e-299 else "coincide"
-            return f"takes a direction between points that {apart}"
-        return ""
-
-
-@final
 @dataclass(frozen=True, eq=False)
 class Conditioning:
     """How far poses (n,) are from singular ones for a result.
@@ -151,17 +129,23 @@ class Conditioning:
         )
         return replace(self, conditions=conditions, spans=spans, error=self.error[mask])
 
-    def culprit(self) -> Culprit:
-        """Return the member that comes nearest to a singular pose."""
+    def culprit(self) -> tuple[str, str, bool]:
+        """Return the member that comes nearest to a singular pose, what is said of it, and whether its loop does, by that one's condition.
+
+        Else it is by the least span of a direction that it takes, in parts of the machine's size. No name where what has none takes the
+        direction, and no words where nothing comes near.
+        """
         near = {name: float(np.max(np.where(np.isnan(cond), np.inf, cond), initial=0.0)) for name, cond in self.conditions.items()}
         close = {name: 1.0 / max(float(np.min(span, initial=np.inf)), 1e-300) for name, span in self.spans.items()}
         if max([*near.values(), *close.values()], default=0.0) < FAR:
-            return Culprit()
+            return "", "", False
         loop = max(near, key=near.__getitem__, default="")
         direction = max(close, key=close.__getitem__, default="")
         if near.get(loop, 0.0) >= close.get(direction, 0.0):
-            return Culprit(loop, condition=near[loop])
-        return Culprit(direction, span=1.0 / close[direction])
+            return loop, "condition infinite" if np.isinf(near[loop]) else f"condition {near[loop]:.1e}", True
+        span = 1.0 / close[direction]
+        apart = f"are {span:.1e} of the machine's size apart" if span > 1e-299 else "coincide"
+        return direction, f"takes a direction between points that {apart}", False
 
 
 def conditioning(plan: Plan, reading: ArrayReading, steep: set[str], names: set[str], error: FloatArray, doubt: float) -> Conditioning:
@@ -202,15 +186,14 @@ def condition_of_sine(sine: FloatArray) -> FloatArray:
 def singular_error(found: Conditioning, mask: Mask, strokes: Mapping[str, object], what: str, motion: MotionLike) -> SingularError:
     """Return the error for a result asked at singular poses; `found` is of these alone, `mask` in the motion's shape."""
     plan = found.plan
-    near = found.culprit()
-    name = near.member
-    if near.condition is not None:
+    name, near, in_line = found.culprit()
+    if in_line:
         crossing = ", where its two branches cross" if crosses(motion, name) else ""
         where = f"{'change' if crossing else 'dead'} point{crossing}"
         why = f"{opening(plan, name)} stands at a {where}: its links are in line ({near}, refused above {REFUSE:.0e})"
     else:
         why = f"{opening(plan, name) if name else 'it'} {near}"
-        if near.span is None:
+        if not near:
             why = "its parts nearly cancel, as far from the origin or where several loops lose digits"
         most = float(np.max(found.error))
         why += f", and rounding leaves {f'an error of about {most:.0e}' if most < 1.0 else 'nothing'} of it"
@@ -222,8 +205,8 @@ def singular_error(found: Conditioning, mask: Mask, strokes: Mapping[str, object
 def lost_places(found: Conditioning, mask: Mask, strokes: Mapping[str, object]) -> SingularError:
     """Return the error for poses of which rounding leaves nothing; `found` is of these alone, `mask` in the motion's shape."""
     plan = found.plan
-    near = found.culprit()
-    name, why = near.member, str(near) if near.condition is None else f"has its links in line ({near})"
+    name, near, in_line = found.culprit()
+    why = f"has its links in line ({near})" if in_line else near
     where = f"stands at a change point {where_words(plan, mask, strokes)}: {opening(plan, name) if name else 'it'}"
     remedy = 'Stop before it, move a point, or ask with unreachable="nan" for the other poses.'
     lost = "so that its place is not settled by its geometry and lost in rounding"
@@ -247,9 +230,8 @@ def crosses(motion: MotionLike, name: str) -> bool:
 
 def warn_near(found: Conditioning, what: str, be: str = "is") -> None:
     """Warn of poses next to a singular one, with the estimate of what is lost; `found` is of these alone."""
-    near = found.culprit()
-    plan, name, estimate = found.plan, near.member, float(np.max(found.error))
-    how = str(near) if near.condition is None else f"{be} near a dead point ({near})"
+    plan, (name, near, in_line), estimate = found.plan, found.culprit(), float(np.max(found.error))
+    how = f"{be} near a dead point ({near})" if in_line else near
     who = f"{name_or_pins(plan, name) if name else 'it'} {how}" if how else ""
     text = f"{what}: {who or 'its parts nearly cancel'}; expect a relative error of about {estimate:.0e}."
     warn(SingularWarning(text, estimate=estimate))

@@ -209,7 +209,10 @@ def watch_of(plan: Plan, requests: Sequence[Request]) -> tuple[int, list[int], K
     Its outputs are the assumptions, what tells whether there is a place, how near each request is, and the gaps of each.
     """
     assumed = assumed_of(plan, requests)
-    near = [nearness_of(plan, each) for each in requests]
+    near = list[Node]()
+    for each in requests:
+        each.nodes(plan)  # directions of its own are noted then
+        near.append(plan.trace.nearness(each.names(plan)) - each.regular)
     gaps = [each.gaps(plan) for each in requests]
     kernel = Kernel([*assumed, *plan.trace.placeable(members_behind(plan, requests)), *near, *(node for each in gaps for node in each)])
     return len(assumed), list(map(len, gaps)), kernel
@@ -255,12 +258,6 @@ def near_singular(grid: Grid, what: Request) -> Mask:
     """Return the mask of poses at which a request has to be looked at closely."""
     _, unplaced, near, _ = guard_masks(grid.plan, (what,), grid.flat, grid.size)
     return (unplaced | near[0]).reshape(grid.shape)
-
-
-def nearness_of(plan: Plan, what: Request) -> Node:
-    """Return the node that is above zero where a request is far from every singular pose."""
-    what.nodes(plan)  # directions of its own are noted then
-    return plan.trace.nearness(what.names(plan)) - what.regular
 
 
 DIGITS = 3e-12

@@ -23,8 +23,11 @@ from linkage import (
     ratio,
     x,
 )
-from linkage.motion import evaluation
+from linkage.motion import condition, evaluation, gap
+from linkage.motion.stroke_search import limits
 from mechanisms.classics.four_bar import FourBar
+from mechanisms.classics.front_loader import FrontLoader
+from mechanisms.classics.toggle_press import TogglePress
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.for_all import for_all
 from tests.linkage.program.test_backends import GROUPED, MACHINES, SHIPPED
@@ -346,3 +349,21 @@ def test_a_place_at_the_very_end_of_reach_is_that_of_a_motion(monkeypatch):
             (found,) = machine.evaluate(["B"], S=[end, 0.5])
             assert_allclose(found, machine.at(S=[end, 0.5])["B"], rtol=0, atol=1e-15)
     assert mended
+
+
+def test_a_request_of_places_has_one_value_at_a_dead_point():
+    """A motion gives what the bulk call gives, where the points stand to rounding: a number wherever it is no ratio."""
+    for machine in (TogglePress(), FrontLoader()):
+        stroke, *others = machine.strokes
+        held = {name: 0.5 * (machine.strokes[name].start + machine.strokes[name].end) for name in others}
+        P, *_, Q = machine.plan.moving
+        requests = [gap(P, Q), condition(), condition(Q), 2.0 * gap(P, Q)]
+        for end, _ in limits(machine.sweep(**{stroke: 3}, **held))[stroke].dead_points:
+            strokes = {stroke: end + np.array([-1e-4, -1e-15, 0.0, 1e-15, 1e-4])} | held
+            motion = machine.at(**strokes, unreachable="nan")
+            assert 0 < motion.reached.sum() < 5
+            for request, found in zip(requests, machine.evaluate(requests, **strokes, unreachable="nan"), strict=True):
+                assert_array_equal(motion[request], np.where(motion.reached, found, np.nan))
+                assert_array_equal(np.isfinite(motion[request]), motion.reached)
+            at_end = machine.at(**{name: np.broadcast_to(value, 5)[motion.reached] for name, value in strokes.items()})
+            assert_array_equal(at_end[requests[0]], motion[requests[0]][motion.reached])

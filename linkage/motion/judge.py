@@ -55,7 +55,7 @@ from .motion import Motion
 from .over import ALLOWED, Over, Run, with_strokes
 from .requests import Request, SmoothPiece, Trait, identity_of
 from .search import assembly_error_at, extremum, least_margins, strokes_moved
-from .strokes import at_values
+from .strokes import at_values, strokes_over_axes
 
 Question: TypeAlias = "Measure | Condition"
 
@@ -199,8 +199,7 @@ class Domain:
                 along = np.linspace(0.0, 1.0, 101)
                 return self.motion.moved({name: np.interp(along, marks, value) for name, value in ends.items()})
             count = {1: 101, 2: 21}.get(len(self.running), 7)
-            axes = np.meshgrid(*(np.linspace(ends[name].min(), ends[name].max(), count) for name in self.running), indexing="ij")
-            values = dict(zip(self.running, axes, strict=True))
+            values = strokes_over_axes({name: np.linspace(ends[name].min(), ends[name].max(), count) for name in self.running})
             return self.motion.moved({name: values.get(name, value[0]) for name, value in ends.items()})
 
     def swept(self, count: int | None, unreachable: str) -> Motion:
@@ -619,9 +618,8 @@ class Judge:
     def pose(self) -> Motion | None:
         """A pose that is reached, of those that are looked at; None where none is found on a coarse grid."""
         for place in self.places:
-            axes = [np.linspace(np.min(value), np.max(value), COARSE) for value in place.motion.strokes.values()]
-            grid = dict(zip(place.motion.strokes, np.meshgrid(*axes, indexing="ij"), strict=True))
-            coarse = place.motion if place.over.shape != "box" else Motion(self.plan, self.designs, grid, "nan")
+            axes = {name: np.linspace(np.min(value), np.max(value), COARSE) for name, value in place.motion.strokes.items()}
+            coarse = place.motion if place.over.shape != "box" else Motion(self.plan, self.designs, strokes_over_axes(axes), "nan")
             for motion in (place.motion, coarse):
                 reached = motion.reached.reshape(-1, *motion._stroke_shape).all(axis=0)
                 if reached.any():

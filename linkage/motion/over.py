@@ -19,7 +19,7 @@ from ..quantities import Member, PoseCondition, Quantity, Stroke, is_number, key
 from ..units import Amount, amount_or_float
 from .grid import MotionLike
 from .limits import places_text, span_text, stroke_unit
-from .strokes import check_magnitude
+from .strokes import check_magnitude, strokes_over_axes
 
 OPTIONS = ("only", "cases", "lost")
 """What an `Over` takes beside strokes: no stroke of a machine may be called so."""
@@ -140,10 +140,8 @@ class Over(Member):
             return {name: np.array(value.reshape(-1, 1) if apart else np.atleast_1d(value)) for name, value in values.items()}
         ends = {name: self.ends(name, plan, number) for name in plan.strokes}
         moving = [name for name, (low, high) in ends.items() if high > low]
-        axes = np.meshgrid(*(np.array(ends[name]) for name in moving), indexing="ij") if moving else []
-        shape = axes[0].shape if axes else ()
+        values, shape = strokes_over_axes({name: np.array(ends[name]) for name in moving}), (2,) * len(moving)
         whole = (*shape, 1) if len(shape) == 1 and len(ends) > 1 else shape  # with an axis more these poses are no path
-        values = dict(zip(moving, axes, strict=True))
         return {name: np.array(np.broadcast_to(values.get(name, low), shape)).reshape(whole) for name, (low, _) in ends.items()}
 
     def ends(self, name: str, plan: Plan, number: Callable[[str | Quantity], float]) -> tuple[float, float]:

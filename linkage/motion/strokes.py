@@ -107,8 +107,12 @@ def sweep_values(count: int | None, given: Mapping[str, object], plan: Plan) -> 
     known_strokes(given, strokes, title)
     axes = {name: _axis(name, given[name], plan) for name in strokes}
     counted = {name: axis for name, axis in axes.items() if axis.ndim}
-    grids = dict(zip(counted, np.meshgrid(*counted.values(), indexing="ij"), strict=True)) if counted else {}
-    return dict(zip(strokes, np.broadcast_arrays(*(axes | grids).values()), strict=True))
+    return dict(zip(strokes, np.broadcast_arrays(*(axes | strokes_over_axes(counted)).values()), strict=True))
+
+
+def strokes_over_axes(axes: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
+    """Return the values of strokes over the grid of some axes (n,), by name, an axis for each of them."""
+    return dict(zip(axes, np.meshgrid(*axes.values(), indexing="ij"), strict=True))
 
 
 def _axis(name: str, given: object, plan: Plan) -> FloatArray:

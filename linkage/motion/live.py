@@ -60,83 +60,73 @@ def live_text(plan: Plan, requests: Mapping[str, RequestLike], name: str = "engi
             found[each] = bound(plan, request)
         except (LawError, UntracedError) as error:
             left_out[each] = str(error)
-    program = LiveProgram.of(plan, tuple(found.values()))
+    program, declared, dimensions = live_program(plan, tuple(found.values()))
     ends = np.cumsum([0, *(each.rows for each in found.values())]).tolist()
     rows = {each: (first, what.rows) for first, (each, what) in zip(ends, found.items(), strict=False)}
-    text = f"const {name}=(()=>{{{program.text}return {{{program.said},sweep}}}})();"
-    return LiveText(text, FrozenDict(rows), FrozenDict(left_out), program.dimensions, tuple(plan.strokes))
+    text = f"const {name}=(()=>{{{program}return {{{declared},sweep}}}})();"
+    return LiveText(text, FrozenDict(rows), FrozenDict(left_out), dimensions, tuple(plan.strokes))
 
 
 def live_source(plan: Plan, requests: Sequence[Request], name: str, design: Mapping[str, float]) -> str:
     """Return JavaScript that declares `poses(d, p)`, requests at one pose, found along the way from the sketch."""
-    program = LiveProgram.of(plan, tuple(requests))
-    stated = ", ".join(f"{each} = {design[each]!r}" for each in program.dimensions)
+    program, _, dimensions = live_program(plan, tuple(requests))
+    stated = ", ".join(f"{each} = {design[each]!r}" for each in dimensions)
     count = sum(each.rows for each in requests)
     head = f"/* d: {stated or 'none'}; p: {', '.join(plan.strokes)}; {count} outputs */"
-    return f"{head}\nconst {name}=(()=>{{{program.text}return (d,p)=>sweep(d,p.map(s=>[s])).values.map(v=>v[0])}})();\n"
+    return f"{head}\nconst {name}=(()=>{{{program}return (d,p)=>sweep(d,p.map(s=>[s])).values.map(v=>v[0])}})();\n"
 
 
-@final
-@dataclass(frozen=True)
-class LiveProgram:
-    """The text that declares `sweep`, what else is declared beside it, and the dimensions in their order."""
+def live_program(plan: Plan, requests: tuple[Request, ...]) -> tuple[str, str, tuple[str, ...]]:
+    """Return the text that declares `sweep`, what else is declared beside it, and the dimensions in their order, made once."""
+    return plan.made(("live", tuple(each.key for each in requests)), lambda twin: live_program_on(twin, requests))
 
-    text: str
-    said: str
-    dimensions: tuple[str, ...]
 
-    @classmethod
-    def of(cls, plan: Plan, requests: tuple[Request, ...]) -> LiveProgram:
-        """Return the program of some requests, made once."""
-        return plan.made(("live", tuple(each.key for each in requests)), lambda twin: cls.written(twin, requests))
-
-    @classmethod
-    def written(cls, plan: Plan, requests: Sequence[Request]) -> LiveProgram:
-        """Return the same, traced in a plan of its own."""
-        nodes = [true_nodes(plan, each) for each in requests]
-        rows = [node for each in nodes for node in each]
-        checks = list(checks_of(plan))
-        loops = loops_of(plan)
-        refused = refusals(plan, requests, list(loops))
-        ends = [*rows, *(node for _, node in checks), *(node for loop in loops.values() for node in loop)]
-        behind = set(ancestors(ends))
-        angles = [each for each in dict.fromkeys(plan.trace.angles) if each in behind and each.level is Level.POSE]
-        ends, angles = (found := clipped(plan, [*ends, *angles]))[: len(ends)], found[len(ends) :]
-        missing = gaps_of(plan, [name for name, _ in checks])
-        dimensions = tuple(plan.table.entries)
-        inputs = Inputs(
-            {each: place for place, each in enumerate(dimensions)},
-            {each: place for place, each in enumerate((*plan.strokes, *plan.solved))},
-        )
-        constants = {
-            "ROWS": json_of(len(rows)),
-            "CHECKS": json_of(len(checks)),
-            "REGULAR": json_of(REGULAR),
-            "REFUSE": json_of(REFUSE),
-            "fixed": f"new Set({json_of([k for k, node in enumerate(rows) if node.level is not Level.POSE])})",
-            "refused": json_of(refused),
-            "sketch": json_of([plan.sketch_strokes[each] for each in plan.strokes]),
-            "places": arrow_function(ends, inputs, angles),
-            "gaps": arrow_function(missing, inputs),
-        }
-        text = [part_text("live.js"), constants_text(constants)]
-        if plan.solved:
-            name, stroke = next(iter(plan.strokes.items()))
-            begin, low, high = plan.sketch_strokes[name], min(stroke.start, stroke.end), max(stroke.start, stroke.end)
-            text.append(constants_text({"reach": json_of([high - begin, begin - low])}))
-        solve = []
-        if plan.groups:
-            text += [groups_text(plan, inputs, dimensions), part_text("live_groups.js")]
-            solve.append("groupsOf(d)")
-        if plan.followed:
-            text += [angles_text(plan, clipped, inputs), part_text("live_angles.js")]
-            solve.append(f"anglesOf(d,{'groupsOf(d)' if plan.groups else '()=>{}'})")
-        text.append(f"const solved=d=>{{const f=[{','.join(solve)}];return p=>f.forEach(g=>g(p))}};" + part_text("live_sweep.js"))
-        names = {"d": list(dimensions), "p": list(plan.strokes), "steps": [name for name, _ in checks]}
-        words = {key: json.dumps(value, ensure_ascii=True, separators=(",", ":")) for key, value in names.items()}
-        said = [f"{key}:{value}".replace("<", "\\u003c") for key, value in words.items()]
-        said += [f"d0:{json_of([plan.defaults[each] for each in dimensions])}", "sketch", "rows:ROWS"]
-        return cls("".join(text), ",".join(said), dimensions)
+def live_program_on(plan: Plan, requests: Sequence[Request]) -> tuple[str, str, tuple[str, ...]]:
+    """Return the same, traced in a plan of its own."""
+    nodes = [true_nodes(plan, each) for each in requests]
+    rows = [node for each in nodes for node in each]
+    checks = list(checks_of(plan))
+    loops = loops_of(plan)
+    refused = refusals(plan, requests, list(loops))
+    ends = [*rows, *(node for _, node in checks), *(node for loop in loops.values() for node in loop)]
+    behind = set(ancestors(ends))
+    angles = [each for each in dict.fromkeys(plan.trace.angles) if each in behind and each.level is Level.POSE]
+    ends, angles = (found := clipped(plan, [*ends, *angles]))[: len(ends)], found[len(ends) :]
+    missing = gaps_of(plan, [name for name, _ in checks])
+    dimensions = tuple(plan.table.entries)
+    inputs = Inputs(
+        {each: place for place, each in enumerate(dimensions)},
+        {each: place for place, each in enumerate((*plan.strokes, *plan.solved))},
+    )
+    constants = {
+        "ROWS": json_of(len(rows)),
+        "CHECKS": json_of(len(checks)),
+        "REGULAR": json_of(REGULAR),
+        "REFUSE": json_of(REFUSE),
+        "fixed": f"new Set({json_of([k for k, node in enumerate(rows) if node.level is not Level.POSE])})",
+        "refused": json_of(refused),
+        "sketch": json_of([plan.sketch_strokes[each] for each in plan.strokes]),
+        "places": arrow_function(ends, inputs, angles),
+        "gaps": arrow_function(missing, inputs),
+    }
+    text = [part_text("live.js"), constants_text(constants)]
+    if plan.solved:
+        name, stroke = next(iter(plan.strokes.items()))
+        begin, low, high = plan.sketch_strokes[name], min(stroke.start, stroke.end), max(stroke.start, stroke.end)
+        text.append(constants_text({"reach": json_of([high - begin, begin - low])}))
+    solve = []
+    if plan.groups:
+        text += [groups_text(plan, inputs, dimensions), part_text("live_groups.js")]
+        solve.append("groupsOf(d)")
+    if plan.followed:
+        text += [angles_text(plan, clipped, inputs), part_text("live_angles.js")]
+        solve.append(f"anglesOf(d,{'groupsOf(d)' if plan.groups else '()=>{}'})")
+    text.append(f"const solved=d=>{{const f=[{','.join(solve)}];return p=>f.forEach(g=>g(p))}};" + part_text("live_sweep.js"))
+    names = {"d": list(dimensions), "p": list(plan.strokes), "steps": [name for name, _ in checks]}
+    words = {key: json.dumps(value, ensure_ascii=True, separators=(",", ":")) for key, value in names.items()}
+    said = [f"{key}:{value}".replace("<", "\\u003c") for key, value in words.items()]
+    said += [f"d0:{json_of([plan.defaults[each] for each in dimensions])}", "sketch", "rows:ROWS"]
+    return "".join(text), ",".join(said), dimensions
 
 
 def part_text(name: str) -> str:

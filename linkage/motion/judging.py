@@ -13,7 +13,7 @@ from ..assembly import sketch_words, width_words
 from ..errors import DefinitionError, unwarned
 from ..language import said
 from ..loads import TwoPoint
-from ..plan import name_or_pins
+from ..plan import Mask, name_or_pins
 from ..quantities import Member
 from ..units import deg, show
 from ..verdict import Remark, Verdict
@@ -22,7 +22,7 @@ from .answer import NONE_LOST, Answer, share_text
 from .judge import Domain, Judge, Question
 from .limits import BoxLimits, Limits, LoopMargin, StrokeLimits, place_text, places_text
 from .measures import Condition, Measure, least, reachable
-from .motion import Motion
+from .motion import Motion, require_motion
 from .over import Over
 from .requests import transmission
 from .search import least_margins
@@ -317,6 +317,58 @@ def limits_over(motion: Motion, overs: Sequence[Over | Motion] = (Over(),)) -> L
     margins = tuple(replace(each, step=name_or_pins(motion.plan, each.step)) for each in least.values())
     box = BoxLimits(title, lost.share, dict(lost.strokes), lost.sentence, margins)
     return Limits(strokes, box, width_words(motion.plan, motion.designs))
+
+
+# Which poses are among those that a judge looks at: in a box, or near a leg or a pose, and where its conditions hold.
+
+NEAR = 0.02
+"""Of a stroke's travel: a pose that is no farther from a leg, a pose or a held value, in every stroke, is looked at with it."""
+ROUNDING = 1e-9
+"""Of a stroke's travel: a pose that is no farther outside a box stands at its border."""
+
+
+def judged_poses(judge: Judge, motion: Motion) -> Mask:
+    """Return which poses of a motion a judge looks at.
+
+    Parameters
+    ----------
+    judge : Judge
+        Who looks, over its `Over`s: `machine.judge()`.
+    motion : Motion
+        Poses of the same machine.
+
+    Returns
+    -------
+    array of bool
+        Of the motion's shape: True in a box of strokes, or where no stroke is farther than 2 % of its travel from a leg of a path, a pose
+        or the value at which a box holds it; and where the conditions of that `Over` (`only`) are kept.
+    """
+    found = np.zeros(require_motion(motion).shape, bool)
+    for place in judge.places:
+        found |= covered(place, motion) & place.over.kept(motion)
+    return found
+
+
+def covered(place: Domain, motion: Motion) -> Mask:
+    """Return which poses lie in the box, or near a leg or a pose, of an `Over`."""
+    values, spans = (np.broadcast_arrays(*each.strokes.values()) for each in (motion, place.motion))
+    inside, low, high = np.ones((1,), bool), np.zeros(1), np.ones(1)
+    for stroke, of_poses, span in zip(motion.plan.strokes.values(), values, spans, strict=True):
+        travel, value, ends = abs(stroke.end - stroke.start), of_poses[..., None], np.ravel(span)
+        if place.over.shape == "box":
+            near = (ROUNDING if np.ptp(ends) > 0.0 else NEAR) * travel
+            inside = inside & (value >= ends.min() - near) & (value <= ends.max() + near)
+            continue
+        is_path = place.over.shape == "path" and ends.size > 1
+        start, step = (ends[:-1], np.diff(ends)) if is_path else (ends, np.zeros(ends.size))
+        # the shares of each leg at which this stroke is near enough: all strokes must be so at one of them
+        with np.errstate(divide="ignore", invalid="ignore"):
+            first, last = ((value - start + sign * NEAR * travel * np.sign(step)) / step for sign in (-1.0, 1.0))
+        moves = step != 0.0
+        inside = inside & (moves | (np.abs(value - start) <= NEAR * travel))
+        low = np.maximum(low, np.where(moves, first, 0.0))
+        high = np.minimum(high, np.where(moves, last, 1.0))
+    return np.broadcast_to((inside & (low <= high)).any(axis=-1), motion.shape)
 
 
 Motion._limits_of = limits_over  # a motion's limits ask the judge, who is made with motions

@@ -13,29 +13,11 @@ import numpy as np
 
 from hydraulics import Cylinder, CylinderSize, LiftCircuit, pressure, reserve, thrust
 from hydraulics.inputs import in_pascals, positive
-from linkage import (
-    RIGHT,
-    Column,
-    CosineAngle,
-    DefinitionError,
-    Dimension,
-    Dyad,
-    Featured,
-    ForceElement,
-    Ground,
-    Mechanism,
-    Motion,
-    OnLink,
-    Outline,
-    Stroke,
-    Weight,
-    angle,
-    distance,
-    ratio,
-    y,
-)
+from linkage import RIGHT, Column, CosineAngle, Dyad, Featured, Ground, Mechanism, Motion, OnLink, Outline, ratio
+from linkage.errors import DefinitionError
+from linkage.loads import ForceElement, Weight
 from linkage.loads.element import Formulas
-from linkage.quantities import Coordinate
+from linkage.quantities import Coordinate, Dimension, Stroke, angle, distance, y
 from linkage.units import cm, deg, g0, kgf, kgf_cm2, mm, show
 
 G_FROM_O = (1.07, -0.37)  # centre of gravity from O at S = 0.55 m, as the input says, m

@@ -13,9 +13,7 @@ from linkage import ISO_10567, LoadRule, Target, animate, plot, working_field
 from mechanisms import demo
 from mechanisms.at_work.excavator import HookExcavator
 from mechanisms.at_work.telehandler import Telehandler
-from mechanisms.crane import ArmDrive, BoomDrive
-from mechanisms.crane.drive_figures import drive_figure
-from mechanisms.crane.figures import crane_figure
+from mechanisms.crane import ArmDrive, BoomDrive, crane_figure, drive_figure
 from mechanisms.grapple import CrossheadGrapple
 from mechanisms.grapple import figures as grapple
 from mechanisms.mower_lift import MowerLift

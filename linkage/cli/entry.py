@@ -22,14 +22,12 @@ from .command import Command
 # The commands there are: the built-in ones, and those of other packages by entry point.
 
 HOMES = {
-    "list": "listing:machines", "show": "show", "table": "table", "follow": "follow", "chart": "follow",
+    "list": "listing", "show": "show", "table": "table", "follow": "follow", "chart": "follow",
     "limits": "table", "forces": "table", "draw": "plot", "plot": "plot", "animate": "plot", "page": "report", "report": "report",
     "export": "export", "save": "export", "optimise": "optimise", "synthesise": "optimise", "study": "optimise", "new": "export",
 }  # fmt: skip
-"""The built-in commands, in the order of the help, each with the file where it stands, by its name there."""
-BUILT_IN = {
-    name: EntryPoint(name, f"{__package__}.{home if ':' in home else f'{home}:{name}'}", plugins.COMMANDS) for name, home in HOMES.items()
-}
+"""The built-in commands, in the order of the help, each with its file."""
+BUILT_IN = {name: EntryPoint(name, f"{__package__}.{home}:{name}_command", plugins.COMMANDS) for name, home in HOMES.items()}
 
 
 def commands_for(arguments: Sequence[str]) -> list[Command]:

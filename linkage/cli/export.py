@@ -41,7 +41,7 @@ def declare_format(parser: ArgumentParser) -> None:
     option("--poses", metavar="N", type=whole_number, help="a drawing of so many poses over the first stroke"),
     repeatable("--path", "G", "draw this point's path; repeatable"),
 )
-def export(options: Namespace) -> int:
+def export_command(options: Namespace) -> int:
     """Write a file for another program."""
     machine = machine_of(options)
     from ..exports import ExportJob, export, exporter_of
@@ -65,7 +65,7 @@ def export(options: Namespace) -> int:
     *machine_options(),
     option("file", metavar="FILE", help="the file, named .toml or .json"),
 )
-def save(options: Namespace) -> int:
+def save_command(options: Namespace) -> int:
     """Write a machine into a file, and say what such a file does not hold."""
     from ..files import left_out, save
 
@@ -88,7 +88,7 @@ TEMPLATES = (".py", ".toml")
     option("name", metavar="NAME", help="the machine's name, such as loader, or its file, loader.toml"),
     option("-o", "--output", metavar="FILE", help=".py or .toml (default: NAME.py)"),
 )
-def new(options: Namespace) -> int:
+def new_command(options: Namespace) -> int:
     """Write a template."""
     given = Path(options.name)
     is_file = given.suffix.lower() in TEMPLATES

@@ -55,7 +55,7 @@ HEADING = re.compile(r"\s*(?P<name>.*?)\s*(?:,\s*(?P<unit>[^,\[\]()]+?)|\[\s*(?P
     option("-o", "--output", metavar="FILE", help=f"a picture, an animation along the path, its live page: {', '.join(ALONG)}"),
     *FORCES,
 )
-def follow(options: Namespace) -> int:
+def follow_command(options: Namespace) -> int:
     """Print the strokes along a path of places, and draw them."""
     machine = machine_of(options)
     path = None if options.output is None else picture(options, machine, ALONG)
@@ -181,7 +181,7 @@ AXIS = "0:6m:0.5m from, to and step, without a step 11 places; or each, 1m,1.5m,
     repeatable("--limit", '"rated load=20kN"', "a load that is not exceeded; repeatable", "limits"),
     option("-o", "--output", metavar="FILE", help=f"write it: {', '.join(CHARTS)}"),
 )
-def chart(options: Namespace) -> int:
+def chart_command(options: Namespace) -> int:
     """Print or write a load chart."""
     from ..study import working_field
 

@@ -32,7 +32,7 @@ def registered() -> Mapping[str, EntryPoint]:
 
 
 @Command("list", "the machines and the commands there are")
-def machines(options: Namespace) -> int:
+def list_command(options: Namespace) -> int:
     """Print every installed machine with its first line, kind by kind, and the commands."""
     entries = registered()
     packages = {name: package_of(entry) for name, entry in entries.items()}

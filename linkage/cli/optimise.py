@@ -87,7 +87,7 @@ def say_progress(done: int, total: int) -> None:
 
 
 @Command("optimise", "the best dimensions: the search that a file asks for", *STUDY)
-def optimise(options: Namespace) -> int:
+def optimise_command(options: Namespace) -> int:
     """Search the best design."""
     search = read_search(options.file, finder(options.trust), settings_of(options.settings))
     try:
@@ -153,7 +153,7 @@ STEP, TURN = 1.0 * mm, 0.1 * deg
     option("--page", metavar="FILE.html", help="write the live page of the best machine"),
     option("--answers", metavar="N", type=whole_number, default=ANSWERS, help=f"machines drawn (default {ANSWERS})"),
 )
-def synthesise(options: Namespace) -> int:
+def synthesise_command(options: Namespace) -> int:
     """Search machines for a path, a function or poses."""
     asked = read_synthesis(options.file, finder(options.trust), settings_of(options.settings))
     outputs = {name: [*paths] for name, paths in asked.outputs.items()}
@@ -202,7 +202,7 @@ def outputs_asked(options: Namespace) -> dict[str, Path]:
 
 
 @Command("study", "a survey, a zone, tolerances, a tornado or settings that a file asks for", *STUDY)
-def study(options: Namespace) -> int:
+def study_command(options: Namespace) -> int:
     """Run the studies of a file."""
     study = read_study(options.file, finder(options.trust), settings_of(options.settings))
     folder = Path(options.folder) if options.folder else None

@@ -49,7 +49,7 @@ from .settings import FORCES, LIMIT
     ),
     *FORCES,
 )
-def draw(options: Namespace) -> int:
+def draw_command(options: Namespace) -> int:
     """Draw a machine into a file."""
     machine = settings.machine_of(options)
     path = picture(options, machine)
@@ -83,7 +83,7 @@ def draw(options: Namespace) -> int:
     *FORCES,
     LIMIT,
 )
-def plot(options: Namespace) -> int:
+def plot_command(options: Namespace) -> int:
     """Draw curves into a file."""
     machine = settings.machine_of(options)
     path = picture(options, machine)
@@ -127,7 +127,7 @@ FILMS = (".gif", ".mp4", ".html")
     LIMIT,
     *run_options(60, "poses over the stroke"),
 )
-def animate(options: Namespace) -> int:
+def animate_command(options: Namespace) -> int:
     """Write an animation into a file."""
     machine = settings.machine_of(options)
     path = picture(options, machine, FILMS)

@@ -36,7 +36,7 @@ TITLE = {
         about="what is left out is an empty line to write on",
     ),
 )
-def report(options: Namespace) -> int:
+def report_command(options: Namespace) -> int:
     """Write a report."""
     from ..documents import report
 
@@ -69,7 +69,7 @@ def report(options: Namespace) -> int:
     OVER,
     *run_options(101, "poses of the curve"),
 )
-def page(options: Namespace) -> int:
+def page_command(options: Namespace) -> int:
     """Write a live page into a file."""
     machine = machine_of(options)
     path = picture(options, machine, (".html",))

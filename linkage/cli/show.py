@@ -43,7 +43,7 @@ if TYPE_CHECKING:
         picture_option("the modes, drawn; with --modes"),
     ),
 )
-def show(options: Namespace) -> int:
+def show_command(options: Namespace) -> int:
     """Print a machine in sections."""
     check_asked(options)
     machine = machine_of(options)

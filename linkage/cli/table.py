@@ -46,7 +46,7 @@ RICH_ROWS = 500  # a longer table is printed plain, which takes no time
     option("--limits", action="store_true", help="how far each stroke goes too, dead points, transmission angles"),
     CHECK,
 )
-def table(options: Namespace) -> int:
+def table_command(options: Namespace) -> int:
     """Print or write the table of results."""
     if options.csv == "-" and (options.pins or options.limits):
         raise DefinitionError("--pins and --limits do not go into CSV; leave them out, or write it into a file, --csv table.csv.")
@@ -149,7 +149,7 @@ def write_columns(columns: Sequence[Column], path: Path, labels: Sequence[str] =
     option("--on", metavar="BODY", help="all forces on this body at every pose, which balance, instead: for FEM"),
     CHECK,
 )
-def forces(options: Namespace) -> int:
+def forces_command(options: Namespace) -> int:
     """Print what a machine's drives, cylinders and pins carry."""
     machine = settings.machine_of(options)
     acting, motion = settings.acting_of(machine, options), settings.motion_at(machine, options)
@@ -195,7 +195,7 @@ def joint_columns(pins: PinForces) -> Iterator[Column]:
     OVER,
     CHECK,
 )
-def limits(options: Namespace) -> int:
+def limits_command(options: Namespace) -> int:
     """Print how far a machine goes."""
     machine = settings.machine_of(options)
     ensure(machine.strokes, f"{machine.plan.title} has no stroke, so there is nothing that goes; declare one, S = Stroke(0, 0.25).")

@@ -23,8 +23,7 @@ from ..quantities import as_mapping
 from ..reports import NOTHING, first_stroke, reached_motion, results, run_of, stroke_middles, write_csv
 from ..study import WorkingField
 from .calculation import Calculation
-from .drawing_dxf import dxf
-from .drawing_svg import svg
+from .drawing import dxf, svg
 from .geometry import DrawnPose, Part, path_parts, pose_parts
 from .load_chart import chart_content
 from .workbook import check_count, workbook

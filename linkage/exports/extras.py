@@ -1,13 +1,17 @@
-"""What is said where a library of an extra is not installed."""
+"""The libraries of the extras, which may be missing."""
 
 from __future__ import annotations
+
+from importlib import import_module
+from typing import Any
 
 from ..errors import DefinitionError
 
 
-def missing_extra(extra: str, what: str, library: str) -> DefinitionError:
-    """Return the error of a library that is missing, with the command that installs its extra."""
-    return DefinitionError(
-        f"{what} is written by {library}, which the extra `{extra}` brings: pip install 'hydrolinkage[{extra}]' "
-        f"(from a checkout: pip install -e '.[{extra}]')."
-    )
+def library(name: str, extra: str, what: str) -> Any:
+    """Return a library that writes a kind of file; DefinitionError, with the command that installs its extra, where it is missing."""
+    try:
+        return import_module(name.lower())
+    except ImportError:
+        remedy = f"pip install 'hydrolinkage[{extra}]' (from a checkout: pip install -e '.[{extra}]')"
+        raise DefinitionError(f"{what} is written by {name}, which the extra `{extra}` brings: {remedy}.") from None

@@ -15,7 +15,7 @@ from ..pictures.load_chart import ChartText
 from ..study import WorkingField
 from ..study.working_field import OUT_OF_REACH
 from ..units import factor, g0, shown_in
-from .extras import missing_extra
+from .extras import library
 from .workbook import MADE
 
 SUFFIXES = (".csv", ".xlsx")
@@ -50,11 +50,7 @@ def cell_table(field: WorkingField) -> list[list[Any]]:
 
 def chart_workbook(field: WorkingField, name: str) -> bytes:
     """Return the bytes of an .xlsx file: the chart, its legend, and the cells with limiters and strokes."""
-    try:
-        import xlsxwriter
-    except ImportError:
-        raise missing_extra("xlsx", "an .xlsx", "XlsxWriter") from None
-    stream, text = io.BytesIO(), ChartText(field)
+    xlsxwriter, stream, text = library("XlsxWriter", "xlsx", "an .xlsx"), io.BytesIO(), ChartText(field)
     with xlsxwriter.Workbook(stream, {"in_memory": True, "strings_to_formulas": False, "strings_to_urls": False}) as book:
         book.set_properties({"title": field.machine.plan.heading, "comments": f"hydrolinkage: {name}", "created": MADE})
         looks: tuple[dict[str, object], ...] = ({"bold": True}, {"num_format": "0.00"}, {"bold": True, "num_format": "0.00"})

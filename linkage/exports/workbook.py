@@ -19,11 +19,9 @@ from ..motion import stroke_display_unit, stroke_unit
 from ..pictures.strokes import column_among
 from ..reports import dimension_unit
 from ..units import deg, factor
-from .calculation import CalculatedColumn, Calculation
-from .extras import missing_extra
-from .formula_text import formula
-from .live_results import LiveResult, live_results
-from .names import cell_names
+from .calculation import CalculatedColumn, Calculation, LiveResult, live_results
+from .extras import library
+from .formula_text import cell_names, formula
 
 if TYPE_CHECKING:
     from xlsxwriter import Workbook
@@ -43,11 +41,7 @@ FITS = 1e-9
 
 def workbook(calculation: Calculation, name: str) -> bytes:
     """Return the bytes of an .xlsx file; DefinitionError where XlsxWriter is not installed."""
-    try:
-        import xlsxwriter
-    except ImportError:
-        raise missing_extra("xlsx", "an .xlsx", "XlsxWriter") from None
-    stream = io.BytesIO()
+    xlsxwriter, stream = library("XlsxWriter", "xlsx", "an .xlsx"), io.BytesIO()
     options = {"in_memory": True, "strings_to_formulas": False, "strings_to_urls": False, "strings_to_numbers": False}
     with xlsxwriter.Workbook(stream, options) as book:
         book.set_properties({"title": calculation.design.plan.heading, "comments": f"hydrolinkage: {name}", "created": MADE})

@@ -11,27 +11,8 @@ from math import atan2, hypot
 import numpy as np
 
 from hydraulics import Cylinder, LiftCircuit
-from linkage import (
-    LEFT,
-    RIGHT,
-    Carried,
-    Dyad,
-    Featured,
-    Force,
-    Ground,
-    Link,
-    LinkMass,
-    LoadCase,
-    Mechanism,
-    OnLink,
-    Outline,
-    Over,
-    Part,
-    Stroke,
-    Support,
-    Weight,
-    angle,
-)
+from linkage import LEFT, RIGHT, Carried, Dyad, Featured, Ground, Link, Mechanism, OnLink, Outline, Over, Part, Stroke, angle
+from linkage.loads import Force, LinkMass, LoadCase, Support, Weight
 from linkage.units import bar, mm
 
 

@@ -5,25 +5,8 @@ from __future__ import annotations
 from math import atan2, hypot
 
 from hydraulics import Cylinder, LiftCircuit
-from linkage import (
-    LEFT,
-    RIGHT,
-    Dyad,
-    Featured,
-    Ground,
-    Link,
-    LinkMass,
-    LoadCase,
-    Mechanism,
-    OnLink,
-    Outline,
-    Over,
-    Part,
-    Stroke,
-    Support,
-    Weight,
-    angle,
-)
+from linkage import LEFT, RIGHT, Dyad, Featured, Ground, Link, Mechanism, OnLink, Outline, Over, Part, Stroke, angle
+from linkage.loads import LinkMass, LoadCase, Support, Weight
 from linkage.units import bar, deg, mm
 
 

@@ -3,24 +3,8 @@
 from __future__ import annotations
 
 from hydraulics import Cylinder, LiftCircuit
-from linkage import (
-    LEFT,
-    RIGHT,
-    Dimension,
-    Dyad,
-    Featured,
-    Ground,
-    Link,
-    LinkMass,
-    Mechanism,
-    OnLink,
-    Outline,
-    Pin,
-    Stroke,
-    angle,
-    deg,
-    drawn,
-)
+from linkage import LEFT, RIGHT, Dimension, Dyad, Featured, Ground, Link, Mechanism, OnLink, Outline, Pin, Stroke, angle, deg, drawn
+from linkage.loads import LinkMass
 from linkage.units import bar, mm
 
 

@@ -7,23 +7,7 @@ dimensions are illustrative.
 from __future__ import annotations
 
 from hydraulics import Cylinder, LiftCircuit
-from linkage import (
-    LEFT,
-    RIGHT,
-    Dimension,
-    Dyad,
-    Featured,
-    Ground,
-    Guide,
-    Mechanism,
-    OnLink,
-    Outline,
-    SliderDyad,
-    Stroke,
-    Weight,
-    angle,
-    y,
-)
+from linkage import LEFT, RIGHT, Dimension, Dyad, Featured, Ground, Guide, Mechanism, OnLink, Outline, SliderDyad, Stroke, Weight, angle, y
 from linkage.units import bar, litre, minute, mm
 
 

@@ -20,17 +20,15 @@ from linkage.statics import table_text
 
 from ..paper import duty_set
 from . import DRIVE_FIGURES, FIGURES, crane_figure, drive_figure
-from .arm_drive import DrivenArm
-from .boom_drive import BoomDrive
 from .cylinders import arm_moment, boom_moment
 from .drive_design import SCHEMES
+from .drives import BoomDrive, DrivenArm
 from .duty import Duty
 from .flow import arm_drive_of, boom_drive_of, design_crane, design_skeleton
-from .load_map import envelope, load_map
+from .load_map import envelope, load_map, strength
 from .machine import Crane
 from .moments import arm_bound, boom_bound
 from .skeleton import CraneSkeleton
-from .strength import strength
 
 KINDS = {"M": "moment", "payload": "mass", "psi_0": "angle", "k_d": "", "rho_w": ""}
 """What the numbers of a duty measure; those not named here are lengths."""

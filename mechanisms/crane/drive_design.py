@@ -21,9 +21,8 @@ from linkage.quantities import is_number
 from linkage.study import InfeasibleError, Optimum
 from linkage.units import deg, kN, mm
 
-from .arm_drive import AngledBellCrankArmDrive, ArmDrive, DirectArmDrive, DirectArmDriveAbove, DrivenArm
-from .boom_drive import BoomDrive
-from .drive_duty import DriveCylinders, DriveDuty, clipped
+from .drives import AngledBellCrankArmDrive, ArmDrive, BoomDrive, DirectArmDrive, DirectArmDriveAbove, DrivenArm
+from .duty import DriveCylinders, DriveDuty, clipped
 
 GIVEN = -ref("lifts") * ratio("length", wrt="phi")
 """What the boom's drive gives [N m], a quantity over its poses."""

@@ -1,18 +1,27 @@
-"""What a forestry crane is to do, and whether that can be: the inputs of the skeleton's synthesis, (2.5)-(2.18).
+"""What a forestry crane is to do, what it asks of its drives, and the cylinders they are chosen from.
 
-Source: Syunyov, Seliverstov, Gerasimov, Sokolov, "Lesosechnye mashiny v fokuse bioenergetiki", chapter 2.
+Source: Syunyov, Seliverstov, Gerasimov, Sokolov, "Lesosechnye mashiny v fokuse bioenergetiki", chapter 2: the inputs of the skeleton's
+synthesis (2.5) to (2.18), and (2.19) to (2.27), (2.36), (2.39) to (2.43).
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
+from math import pi
 from typing import final
 
-from hydraulics.inputs import not_negative, one_number, positive
+import numpy as np
+
+from hydraulics import CylinderSize
+from hydraulics.inputs import efficient, in_pascals, not_negative, one_number, positive
 from linkage import DefinitionError
 from linkage.errors import ensure
-from linkage.units import deg, kN, mm
+from linkage.quantities import Function, Operand, Quantity, quantity
+from linkage.units import MPa, deg, kN, mm
+
+from .moments import LIFTING, boom_bound, moments
+from .skeleton import AT_ARM, AT_BOOM, AT_DRIVE, GRAVITY, JOINT, OF_DRIVE, CraneSkeleton
 
 LEAST_MOMENT, GREATEST_MOMENT = 23.5 * kN, 185.0 * kN
 """Rated lifting moments for which the regressions (2.5)-(2.9) hold [N m]."""
@@ -90,3 +99,138 @@ def check_metres(lengths: Mapping[str, float]) -> None:
     """Raise DefinitionError for a length by name [m] that was given in millimetres."""
     for name, given in lengths.items():
         ensure(not given > LONGEST_REACH, f"{name} = {given:.6g} m; no crane is so large, write {given:.6g} * mm if these are millimetres.")
+
+
+# -- what a crane asks of its drives ---------------------------------------------------------------------------
+
+def clipped(value: Operand, low: Operand | None, high: Operand | None = None) -> Quantity:
+    """Return a quantity kept from `low` up to `high`, as far as they are given."""
+    found = quantity(value)
+    found = found if high is None else Function("minimum", found, quantity(high))
+    return found if low is None else Function("maximum", found, quantity(low))
+
+
+@final
+@dataclass(frozen=True)
+class DriveDuty:
+    """The lengths, angles and moments that boom drive and arm drive are made for; by default those of the source's examples 2 and 3.
+
+    l_c, l_p, l_t, h_0 are the lengths of boom, arm, telescope stroke and column, b_0 and b_c the heights of column and boom [m]. The boom's
+    angle from the upward vertical goes from phi_0 to phi_k, the one between boom and arm from psi_0 to psi_k [rad]. The bounds of moments
+    [N m]: K_B of sin(phi) for the boom, K_A for the arm with its telescope out, K_A1 with it in.
+    """
+
+    l_c: float = 4.454601406907623
+    l_p: float = 3.165204914008807
+    l_t: float = 2.532163931207046
+    h_0: float = 1.85
+    b_0: float = 0.2736588
+    b_c: float = 0.3826715957639661
+    phi_0: float = 15.0 * deg
+    phi_k: float = 99.9262455066517 * deg
+    psi_0: float = 0.0
+    psi_k: float = pi
+    K_B: float = 85260.01232735414
+    K_A: float = 71905.17119002105
+    K_A1: float = 39947.317327789475
+
+    def __post_init__(self) -> None:
+        for each in fields(self):
+            object.__setattr__(self, each.name, one_number(getattr(self, each.name), each.name))
+        for name in ("l_c", "l_p", "h_0", "b_0", "b_c", "K_B", "K_A", "K_A1"):
+            positive(getattr(self, name), name)
+        not_negative(self.l_t, "l_t")
+        check_metres({name: getattr(self, name) for name in ("l_c", "l_p", "l_t", "h_0", "b_0", "b_c")})
+        for low, high, most in (("phi_0", "phi_k", pi), ("psi_0", "psi_k", 2.0 * pi)):
+            first, last = getattr(self, low), getattr(self, high)
+            if not 0.0 <= first < last <= most:
+                given = f"{low} = {first / deg:.6g} deg, {high} = {last / deg:.6g} deg"
+                raise DefinitionError(f"{given}: 0 <= {low} < {high} <= {most / deg:.0f} deg is expected; write 15 * deg for degrees.")
+        if self.K_A1 > self.K_A:
+            raise DefinitionError(
+                f"K_A1 = {self.K_A1:.6g} N m with the telescope in is above K_A = {self.K_A:.6g} N m with it out; exchange them."
+            )
+
+    @classmethod
+    def of_masses(
+        cls, *, l_c: float, l_p: float, l_t: float, W: float, W_c: float, W_p: float, W_t: float, Q: float, **others: float
+    ) -> DriveDuty:
+        """Return the duty of a crane of so many kilograms: W the whole, W_c boom, W_p arm, W_t telescope; Q the load's weight [N].
+
+        `others` are h_0, b_0, b_c [m] and the angles [rad]. G_i = 9.81 W_i, the boom's centre at 0.4 l_c, its drive's, 2.5 % of the
+        crane, at 0.7 l_c, the arm's at 0.45 of its length. (2.19), (2.22) to (2.27), (2.39) to (2.43)
+        """
+        for name, value in {"W": W, "W_c": W_c, "W_p": W_p, "W_t": W_t, "Q": Q}.items():
+            not_negative(value, name)
+        arm = GRAVITY * (W_p + W_t)
+        K_B = GRAVITY * (AT_BOOM * W_c + AT_DRIVE * OF_DRIVE * W) * l_c + (JOINT + arm + Q) * l_c
+        K_A, K_A1 = ((Q + AT_ARM * arm) * reach for reach in (l_p + l_t, l_p))
+        return cls(l_c=l_c, l_p=l_p, l_t=l_t, K_B=K_B, K_A=K_A, K_A1=K_A1, **others)
+
+
+FAITHFUL = 1e-6
+"""How closely, as a part of the greatest moment, a crane's own bound is met by the coefficients."""
+
+
+def duty_of(crane: CraneSkeleton) -> DriveDuty:
+    """Return what a crane asks of its drives, one design: its lengths and angles, and the moments of its own weights and load.
+
+    K_A, K_A1 and K_B are its drives' forces with the arm level, telescope out or in, and the boom level. DefinitionError where its bound
+    of moments is not of that form, as with loads of another kind.
+    """
+    limits = crane.limits_of()
+    (phi_0, phi_k), (psi_0, psi_k), (_, t_k) = limits["phi"], limits["psi"], limits["t"]
+    level, straight = np.array([90 * deg]), np.array([180 * deg])
+    K_A, K_A1 = (float(moments(crane, "psi", level, straight, t, LIFTING)[0]) for t in (t_k, 0.0))
+    K_B = -float(moments(crane, "phi", level, straight, t_k, LIFTING)[0]) - K_A
+    lengths = {name: float(crane[name]) for name in ("l_c", "l_p", "l_t", "h_0")}
+    sections = {name: crane.output(name) for name in ("b_0", "b_c")}
+    duty = DriveDuty(**lengths, **sections, phi_0=phi_0, phi_k=phi_k, psi_0=psi_0, psi_k=psi_k, K_B=K_B, K_A=K_A, K_A1=K_A1)
+    phi = np.linspace(phi_0, phi_k, 5)
+    asked = K_B * np.sin(phi) + K_A * np.sin(psi_k - np.maximum(phi, psi_k - 90 * deg))
+    off = float(np.abs(boom_bound(crane, phi) - asked).max())
+    if off > FAITHFUL * (K_A + K_B):
+        what = f"{crane.plan.title}: its bound of moments is {off / kN:.3g} kN m off K_B sin(phi) + K_A"
+        raise DefinitionError(f"{what}; give the moments of its loads yourself, DriveDuty(K_B=..., K_A=..., K_A1=...).")
+    return duty
+
+
+SIZES_MM = ((63, 36), (70, 40), (80, 45), (90, 50), (100, 56), (110, 63), (125, 70), (140, 80))
+"""Bores and rods of the source's examples."""
+
+
+@final
+@dataclass(frozen=True)
+class DriveCylinders:
+    """The cylinders a drive is chosen from: (bore, rod) [m] in ascending order, what they are fed with and how long they are.
+
+    `pressure` is gauge [Pa], `efficiency` the cylinder's. One of bore D with the stroke S is S + f_0 + f_1 D long closed (2.36) and comes
+    out by no more than `longest` bores.
+    """
+
+    sizes: Sequence[tuple[float, float]] = tuple((bore * mm, rod * mm) for bore, rod in SIZES_MM)
+    pressure: float = 22.0 * MPa
+    efficiency: float = 0.95
+    f_0: float = 200.0 * mm
+    f_1: float = 1.6
+    longest: float = 10.0
+
+    def __post_init__(self) -> None:
+        ensure(self.sizes, "DriveCylinders: sizes= names no cylinder; give pairs of bore and rod, [(125 * mm, 70 * mm)].")
+        for bore, rod in self.sizes:
+            CylinderSize(bore, rod)
+        object.__setattr__(self, "sizes", tuple((float(bore), float(rod)) for bore, rod in self.sizes))
+        in_pascals(positive(one_number(self.pressure, "pressure"), "pressure"), "pressure")
+        efficient(one_number(self.efficiency, "efficiency"), "efficiency")
+        not_negative(one_number(self.f_0, "f_0"), "f_0")
+        not_negative(one_number(self.f_1, "f_1"), "f_1")
+        positive(one_number(self.longest, "longest"), "longest")
+
+    def dimensions(self, bore: float, rod: float) -> Mapping[str, float]:
+        """Return what a drive's class takes of one of them."""
+        return {"D": bore, "d": rod, "p": self.pressure, "n": self.efficiency, "f_0": self.f_0, "f_1": self.f_1}
+
+    def swallowed(self, bore: float, rod: float = 0.0) -> float:
+        """Return the greatest work [J] of a bore over its longest stroke: its piston's, or with a rod its annulus's."""
+        area = pi / 4.0 * (bore**2 - rod**2)
+        return self.pressure * self.efficiency * area * self.longest * bore

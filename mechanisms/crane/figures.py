@@ -1,9 +1,10 @@
-"""The crane's figures, one call each: `crane_figure("map")`. They load matplotlib, and are loaded when one is drawn."""
+"""The figures of a crane and of its drives, by name. They load matplotlib, and are loaded when one is drawn."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -11,15 +12,15 @@ from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from linkage import draw, plot
+from linkage import Motion, draw, plot
+from linkage.motion import Answer
 from linkage.pictures import style
-from linkage.pictures.sheet import panels, sheet
-from linkage.units import kN
+from linkage.pictures.sheet import sheet
+from linkage.units import deg, kN
 
-from ..paper import named_figure
-from .drive_figures import drive_figure as drive_figure
-from .drive_figures import one_movement
-from .drive_report import worst_movements
+from ..sheets import CURVES, axis_words, beside, headed, titled
+from .drive_report import Movement, WorstMovement, angle_of, worst_movements
+from .drives import BoomDrive, DrivenArm
 from .flow import arm_drive_of, boom_drive_of
 from .load_map import envelope, load_map
 from .machine import Crane
@@ -29,25 +30,15 @@ COUNT = 361
 REACHED = "#dbe8f4"
 
 
-def crane_figure(name: str, crane: Crane | None = None) -> Figure:
-    """Return a figure of a crane, by default the shipped one; DefinitionError for an unknown name, a batch of designs.
-
-    "positions" are those that its skeleton is laid out by, "moments" what boom and arm are given and asked for, "map" the load map,
-    "reach" all that the tip reaches.
-    """
-    return named_figure(DRAWN, name, crane if crane is not None else Crane())
-
-
 # -- positions ---------------------------------------------------------------------------------------------
 
 
 def positions(crane: CraneSkeleton) -> Figure:
     """Return the crane in the positions that its skeleton is laid out by, with the heights that it has to keep."""
     bare = CraneSkeleton(**{name: crane[name] for name in CraneSkeleton.plan.defaults})
-    page, axes = panels((13.4, 9.6), 2, 2, rect=(0.005, 0.01, 0.99, 0.96), w_pad=0.06, h_pad=0.06)
     lengths = ", ".join(f"{words} {float(crane[name]):.3f} m" for name, words in LENGTHS.items())
     title = f"Crane {float(crane['L']):.4g} m, {float(crane['M']) / kN:.4g} kNm: {lengths}"
-    page.suptitle(title, fontsize=style.TITLE + 2, fontweight="bold", color=style.INK, x=0.012, ha="left")
+    page, axes = titled(title, (13.4, 9.6), 2, 2, rect=(0.005, 0.01, 0.99, 0.96), w_pad=0.06, h_pad=0.06)
     most = float(crane["L"])
     top = float(crane["H_p"] + crane["h_0"] + crane["l_c"])
     for ax, (number, words) in zip(axes, POSITIONS.items(), strict=True):
@@ -57,7 +48,7 @@ def positions(crane: CraneSkeleton) -> Figure:
         (start, end) = motion["K"], motion["T"]
         ax.plot(*zip(start, end, strict=True), color=style.BODIES[2], linewidth=5.0, solid_capstyle="round", zorder=8.0)
         draw(motion, ax=ax)
-        ax.set_title(f"{number}: {words}", loc="left", fontsize=style.TEXT, color=style.INK, pad=6)
+        headed(ax, f"{number}: {words}")
     return page
 
 
@@ -74,18 +65,12 @@ def surroundings(ax: Axes, crane: CraneSkeleton) -> None:
         height = float(crane[name])
         ax.axhline(height, color=style.ACCENT if name == "H_max" else style.MUTED, linewidth=0.8, linestyle=(0, (5, 4)), zorder=2.0)
         below = name == "h_s"  # stakes and cab are often nearly as high
-        ax.annotate(
-            words, (left, height), xytext=(4, -2 if below else 2), textcoords="offset points",
-            va="top" if below else "bottom", fontsize=style.SMALL, color=style.MUTED, zorder=12.0,
-        )  # fmt: skip
+        beside(ax, words, (left, height), (4, -2 if below else 2), va="top" if below else "bottom", zorder=12.0)
     platform, top = float(crane["H_p"]), float(crane["H_p"] + crane["h_0"])
     ax.add_patch(Rectangle((-0.12, platform), 0.24, top - platform, facecolor=style.BARREL, edgecolor=style.INK, linewidth=0.9, zorder=3.0))
     guard, stakes = float(crane["c"]), float(crane["h_s"])
     ax.plot([guard, guard], [platform, stakes], color=style.PISTON, linewidth=2.2, solid_capstyle="butt", zorder=3.0)
-    ax.annotate(
-        "guard", (guard, 0.5 * (platform + stakes)), xytext=(4, 0), textcoords="offset points",
-        fontsize=style.SMALL, color=style.MUTED, va="center", zorder=12.0,
-    )  # fmt: skip
+    beside(ax, "guard", (guard, 0.5 * (platform + stakes)), (4, 0), va="center", zorder=12.0)
 
 
 # -- moments -----------------------------------------------------------------------------------------------
@@ -93,9 +78,8 @@ def surroundings(ax: Axes, crane: CraneSkeleton) -> None:
 
 def crane_moments(crane: Crane) -> Figure:
     """Return what boom and arm are given by their cylinders and asked for at worst, over their angles."""
-    page, axes = panels((17.0, 5.4), 3, rect=(0.005, 0.01, 0.985, 0.98), w_pad=0.12, h_pad=0.08)
     title = "Moments of boom and arm: given by the cylinder, asked for at worst"
-    page.suptitle(title, fontsize=style.TITLE + 2, fontweight="bold", color=style.INK, x=0.012, ha="left")
+    page, axes = titled(title, (17.0, 5.4), 3, rect=(0.005, 0.01, 0.985, 0.98), w_pad=0.12, h_pad=0.08)
     motions = [drive.working(COUNT) for drive in (boom_drive_of(crane), arm_drive_of(crane))]
     worst = [(motion, each) for motion in motions for each in worst_movements(motion)]
     for ax, (motion, each) in zip(axes, worst, strict=True):
@@ -122,9 +106,7 @@ def reach_figure(crane: Crane) -> Figure:
     """Return all that the tip reaches, the crane at its longest and folded in it."""
     found = envelope(crane)
     edges = found.border.reshape(-1, 2)
-    page, (ax,) = panels((10.4, 9.6), 1, rect=(0.005, 0.01, 0.985, 0.96))
-    title = f"Reach of the tip: {found.area:.1f} m²"
-    page.suptitle(title, fontsize=style.TITLE + 2, fontweight="bold", color=style.INK, x=0.012, ha="left")
+    page, (ax,) = titled(f"Reach of the tip: {found.area:.1f} m²", (10.4, 9.6), 1, rect=(0.005, 0.01, 0.985, 0.96))
     (left, low), (right, high) = edges.min(axis=0), edges.max(axis=0)
     sheet(ax, (left - 0.4, right + 0.4, low - 0.4, high + 0.4))
     middle = 0.5 * (found.heights[1:] + found.heights[:-1])
@@ -142,3 +124,107 @@ def reach_figure(crane: Crane) -> Figure:
 DRAWN: Mapping[str, Callable[[Crane], Figure]] = MappingProxyType(
     {"positions": positions, "moments": crane_moments, "map": shipped_map, "reach": reach_figure}
 )
+
+
+# -- a drive's moments ---------------------------------------------------------------------------------------
+
+
+def drive_moments(drive: BoomDrive | DrivenArm) -> Figure:
+    """Return the moment given and the moment asked for over the angle, the band between them, and where it is narrowest and widest."""
+    motion = drive.working(COUNT)
+    worst = worst_movements(motion)
+    shape = 5.6 * len(worst) + 0.6, 5.2
+    page, cells = titled(title_of(drive), shape, len(worst), rect=(0.005, 0.01, 0.98, 0.98), w_pad=0.12, h_pad=0.08)
+    for ax, each in zip(cells, worst, strict=True):
+        one_movement(ax, motion, each)
+    return page
+
+
+def title_of(drive: BoomDrive | DrivenArm) -> str:
+    """Return what is drawn, with its cylinder."""
+    what = "Boom drive" if isinstance(drive, BoomDrive) else "Arm drive"
+    return f"{what}, cylinder {drive['D'] * 1e3:.0f}/{drive['d'] * 1e3:.0f} mm, stroke {drive['S'] * 1e3:.0f} mm"
+
+
+def one_movement(ax: Axes, motion: Motion, worst: WorstMovement) -> None:
+    """Draw one movement's moments over the angle."""
+    name, movement = angle_of(motion), worst.movement
+    angle, given, asked = motion.strokes[name] / deg, movement.given(motion) / kN, movement.asked(motion) / kN
+    ax.fill_between(angle, asked, given, where=given >= asked, color=style.CURVE, alpha=0.16, linewidth=0, zorder=3.0, label="over")
+    if worst.short:
+        ax.fill_between(angle, asked, given, where=given < asked, color=style.ACCENT, alpha=0.35, linewidth=0, zorder=3.0, label="missing")
+    index = {"lifting": "", "folding": "1", "opening": "2"}[movement.name]
+    ax.plot(angle, given, color=style.CURVE, linewidth=2.0, zorder=6.0, label=f"given, $M_{{g{index}}}$")
+    ax.plot(angle, asked, color=style.INK, linewidth=2.0, zorder=6.0, label=f"asked, $M_{{l{index}}}$")
+    ax.set(xlim=(angle.min(), angle.max()), ylim=(min(0.0, float(given.min())), 1.18 * float(max(given.max(), asked.max()))))
+    marked(ax, motion, movement, worst.least, "least")
+    if worst.most.value > 0.0:
+        marked(ax, motion, movement, worst.most, "most")
+    headed(ax, movement.name.capitalize(), fontsize=style.TITLE, fontweight="bold", pad=9)
+    axis = "boom from the upward vertical, $\\varphi$" if name == "phi" else "between boom and arm, $\\psi$"
+    axis_words(ax, f"{axis}, deg", "moment, kNm")
+    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.13), ncols=4, **CURVES)
+
+
+def marked(ax: Axes, motion: Motion, movement: Movement, found: Answer, word: str) -> None:
+    """Mark where most or least is over, as a line between the two curves with its size: above them, or below them."""
+    name, above = angle_of(motion), word == "most"
+    there = motion.moved(found.strokes)
+    at, asked, given = (float(each) for each in (found.strokes[name] / deg, movement.asked(there) / kN, movement.given(there) / kN))
+    colour = style.CURVE if above else style.ACCENT
+    ax.plot([at, at], [asked, given], color=colour, linewidth=1.2, zorder=7.0)
+    ax.plot([at, at], [asked, given], "o", color=colour, markersize=5, markeredgecolor=style.PAPER, zorder=8.0, clip_on=False)
+    (low, high), (bottom, top) = ax.get_xlim(), ax.get_ylim()
+    place = (at - low) / (high - low)
+    side = "left" if place < AT_EDGE else "right" if place > 1.0 - AT_EDGE else "center"
+    curve = (movement.given if above else movement.asked)(motion) / kN
+    angle = motion.strokes[name] / deg
+    rise = np.abs(curve - np.interp(at, angle, curve))[np.abs(angle - at) < AT_EDGE * (high - low)]
+    off = 8.0 + PANEL * float(rise.max(initial=0.0)) / (top - bottom)
+    aside = {"left": 4.0, "right": -4.0}.get(side, 0.0)
+    text, end = f"{word} {float(found.value) / kN:z.1f} kNm\nat {at:.1f}°", max(asked, given) if above else min(asked, given)
+    va, off = ("bottom", off) if above else ("top", -off)
+    beside(ax, text, (at, end), (aside, off), ha=side, va=va, color=colour, zorder=8.0)
+
+
+AT_EDGE = 0.07
+"""Of the axis: half of what a mark's words take."""
+PANEL = 260.0
+"""How high a panel is, printer's points."""
+
+
+# -- a drive's positions -------------------------------------------------------------------------------------
+
+
+def drive_positions(drive: BoomDrive | DrivenArm) -> Figure:
+    """Return the drive at both ends and where each movement has least over, a panel each, in one scale."""
+    motion = drive.working(COUNT)
+    name, worst = angle_of(motion), worst_movements(motion)
+    ends = [(float(motion.strokes[name][place]), text) for place, text in ((0, "start"), (-1, "end"))]
+    poses: list[tuple[float, str]] = []  # those that are the same as one, with all its words
+    for at, text in sorted([*ends, *((float(each.least.strokes[name]), f"{each.movement.name}: least over") for each in worst)]):
+        if poses and at - poses[-1][0] < SAME:
+            poses[-1] = poses[-1][0], ", ".join(sorted({poses[-1][1], text}, key=lambda each: each not in ("start", "end")))
+        else:
+            poses.append((at, text))
+    strokes: dict[str, Any] = {name: [at for at, _ in poses]}
+    short = isinstance(drive, DrivenArm)  # an arm drawn as long as it is would dwarf its drive
+    shown = (drive.replaced(l_p=min(SHORT_ARM, float(drive["l_p"]))) if short else drive).at(**strokes)
+    title, size = f"{title_of(drive)}{'; the arm is drawn short' if short else ''}", (4.6 * len(poses), 3.7 if short else 5.4)
+    page, cells = titled(title, size, len(poses), rect=(0.005, 0.01, 0.99, 0.98), w_pad=0.05, h_pad=0.05)
+    for pose, (ax, (at, text)) in enumerate(zip(cells, poses, strict=True)):
+        draw(shown, ax=ax, pose=pose)
+        symbol = "\\varphi" if name == "phi" else "\\psi"
+        headed(ax, f"${symbol}$ = {at / deg:.1f}°: {text}")
+    return page
+
+
+SHORT_ARM = 0.9
+"""m: how long an arm is drawn, whose drive is meant."""
+
+
+SAME = 0.2 * deg
+"""Poses nearer to each other than this are one picture."""
+
+
+DRIVES: Mapping[str, Callable[[BoomDrive | DrivenArm], Figure]] = MappingProxyType({"moments": drive_moments, "positions": drive_positions})

@@ -15,11 +15,9 @@ from linkage import DefinitionError, least, optimise, ref
 from linkage.study import Optimum
 from linkage.units import deg
 
-from .arm_drive import ArmDrive, BellCrankArmDrive, DirectArmDrive, DirectArmDriveAbove, DrivenArm
-from .boom_drive import BoomDrive
 from .drive_design import DriveDesign, design_arm_drive, design_boom_drive
-from .drive_duty import DriveCylinders, duty_of
-from .duty import Duty
+from .drives import ArmDrive, BellCrankArmDrive, BoomDrive, DirectArmDrive, DirectArmDriveAbove, DrivenArm
+from .duty import DriveCylinders, Duty, duty_of
 from .machine import BellCrankCrane, Crane, DirectCrane, DirectCraneAbove
 from .skeleton import BackBrokenSkeleton, CraneSkeleton
 

@@ -12,27 +12,11 @@ from typing import Any, ClassVar, Literal
 
 import numpy as np
 
-from linkage import (
-    Column,
-    Crank,
-    DefinitionError,
-    Dimension,
-    Ground,
-    Link,
-    LinkMass,
-    LoadCase,
-    Mechanism,
-    Motion,
-    OnLink,
-    Outline,
-    Stroke,
-    Weight,
-    angle,
-    ref,
-)
+from linkage import Column, Crank, DefinitionError, Dimension, Ground, Link, Mechanism, Motion, OnLink, Outline, Stroke, angle, ref
 from linkage.checks import require
 from linkage.errors import cited, ensure
 from linkage.language import noted, said, translated
+from linkage.loads import LinkMass, LoadCase, Weight
 from linkage.program import FloatArray
 from linkage.units import deg, kN, mm, show
 from linkage.verdict import Verdict

@@ -10,19 +10,9 @@ from typing import TYPE_CHECKING
 
 from linkage.star import declare_public
 
-from .design import Combination as Combination
-from .design import design as design
-from .design import feasible as feasible
-from .duty import Duty as Duty
-from .duty import assumed_moment as assumed_moment
-from .duty import grapple_for as grapple_for
-from .machine import CrossheadGrapple as CrossheadGrapple
-from .machine import Grapple as Grapple
-from .machine import InnerGrapple as InnerGrapple
-from .report import GrappleState as GrappleState
-from .report import gripping as gripping
-from .report import moment_ratio as moment_ratio
-from .report import travelling as travelling
+from .design import Combination, Duty, assumed_moment, design, feasible, grapple_for
+from .machine import CrossheadGrapple, Grapple, InnerGrapple
+from .report import GrappleState, gripping, moment_ratio, travelling
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -36,9 +26,10 @@ def figure(name: str, grapple: Grapple | None = None) -> Figure:
     "stems" is the grapple open, at the largest and at the smallest stem, with the rosette of stems that rest on T. "moments" is what
     its lever gives and what the stems need, over their diameter.
     """
-    from .figures import figure
+    from ..sheets import named_figure
+    from .figures import DRAWN
 
-    return figure(name, grapple)
+    return named_figure(DRAWN, name, grapple if grapple is not None else Grapple())
 
 
 declare_public(globals())

@@ -17,9 +17,8 @@ from linkage.units import show, shown_number, unit_sign
 
 from ..paper import duty_set, figure_options
 from . import FIGURES, figure
-from .design import OBJECTIVES
+from .design import OBJECTIVES, Duty
 from .design import design as design_for
-from .duty import Duty
 from .machine import Grapple
 
 LEGEND = """theta lever's angle, 0 at the largest stem; D stem it holds; EC cylinder's length; H = |dEC/dtheta|; M_g moment that the full

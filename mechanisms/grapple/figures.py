@@ -17,11 +17,10 @@ from matplotlib.patches import Circle, Polygon
 from hydraulics import Cylinder
 from linkage import Motion, ref
 from linkage.pictures import style
-from linkage.pictures.sheet import panels
 from linkage.program import FloatArray
 from linkage.units import deg, mm
 
-from ..paper import named_figure
+from ..sheets import CURVES, axis_words, beside, headed, titled
 from .machine import Grapple
 from .report import GrappleState, gripping, moment_ratio, require_placed, travelling
 
@@ -31,11 +30,6 @@ WOOD = ("#e9dcc3", "#b59a6a")
 """A stem's face and its bark."""
 THICK = 0.055
 """How thick the lever is drawn at its hinge, in shares of D_0."""
-
-
-def figure(name: str, grapple: Grapple | None = None) -> Figure:
-    """Return a figure of a grapple, by default the shipped one, as a matplotlib figure; DefinitionError for an unknown name, a batch."""
-    return named_figure(DRAWN, name, grapple if grapple is not None else Grapple())
 
 
 # -- three positions with the rosette of stems -------------------------------------------------------------
@@ -51,18 +45,17 @@ def stems(grapple: Grapple) -> Figure:
     low = min(-half, *(float(way.y(point).min()) for point in "AC")) - 1.8 * pad
     high = max(half, *(float(way.y(point).max()) for point in ("C", "E", rod_end(way)))) + 2.2 * pad
     left = -right
-    page, axes = panels((14.4, 1.2 + 4.6 * (high - low) / (right - left)), 3, rect=(0.005, 0.0, 0.99, 0.985), w_pad=0.06, h_pad=0.06)
     named, drawn_in = (("bore", "bore"), ("rod", "rod"), ("stroke", "S")), grapple.at(theta=0.0)
     size = ", ".join(f"{word} {float(drawn_in.value(ref(name))) / mm:.0f}" for word, name in named)
     stems_held = f"{float(grapple['d_0']) / mm:.0f} to {float(grapple['D_0']) / mm:.0f} mm"
     title = f"The grapple and its stems, {stems_held}; cylinder, mm: {size}"
-    page.suptitle(title, fontsize=style.TITLE + 2, fontweight="bold", color=style.INK, x=0.012, ha="left")
+    shape = 14.4, 1.2 + 4.6 * (high - low) / (right - left)
+    page, axes = titled(title, shape, 3, rect=(0.005, 0.0, 0.99, 0.985), w_pad=0.06, h_pad=0.06)
     for ax, theta, title in zip(axes, (start, 0.0, end), ("open", "largest stem", "smallest stem"), strict=True):
         motion = grapple.at(theta=theta)
         ax.set(xlim=(left, right), ylim=(low, high))
         ax.set_aspect("equal")
-        ax.set_xlabel("x, m", fontsize=style.TEXT, color=style.MUTED)
-        ax.set_ylabel("y, m", fontsize=style.TEXT, color=style.MUTED)
+        axis_words(ax, "x, m", "y, m")
         _rosette(ax, motion, theta)
         _frame(ax, motion)
         for sense in (-1.0, 1.0):
@@ -71,7 +64,7 @@ def stems(grapple: Grapple) -> Figure:
         _names(ax, motion)
         held = "" if theta > 0.0 else f", D = {float(motion['D']) / mm:.0f} mm"
         text = f"{title}{held}: theta = {theta / deg:.1f} deg".replace("-", "\N{MINUS SIGN}")
-        ax.set_title(text, loc="left", fontsize=style.TITLE, color=style.INK, pad=8)
+        headed(ax, text, fontsize=style.TITLE, pad=8)
     return page
 
 
@@ -171,10 +164,8 @@ def _names(ax: Axes, motion: Motion) -> None:
     if rod_end(motion) != "C":
         aside[rod_end(motion)] = (14.0, 6.0)
     for name, offset in aside.items():
-        ax.annotate(
-            name, (float(motion.x(name)), float(motion.y(name))), xytext=offset, textcoords="offset points", ha="center", va="center",
-            fontstyle="italic", fontsize=style.LABEL, color=style.INK, zorder=10.0,
-        )  # fmt: skip
+        look = {"fontsize": style.LABEL, "fontstyle": "italic", "color": style.INK}
+        beside(ax, name, (float(motion.x(name)), float(motion.y(name))), offset, ha="center", va="center", zorder=10.0, **look)
 
 
 # -- moments over the diameter -----------------------------------------------------------------------------
@@ -184,16 +175,15 @@ def moments(grapple: Grapple) -> Figure:
     """Return M_g and M_1 over the stem's diameter, and below them their ratio."""
     over = gripping(require_placed(grapple.at(theta=0.0)), 201)
     state, ratio = GrappleState(over), moment_ratio(over)
-    page, (above, below) = panels((8.4, 7.2), 1, 2, rect=(0.005, 0.005, 0.985, 0.985), h_pad=0.08)
     stems_held = f"stems of {float(grapple['d_0']) / mm:.0f} to {float(grapple['D_0']) / mm:.0f} mm"
     title = f"Moments of one lever over {stems_held}"
-    page.suptitle(title, fontsize=style.TITLE + 2, fontweight="bold", color=style.INK, x=0.012, ha="left")
+    page, (above, below) = titled(title, (8.4, 7.2), 1, 2, rect=(0.005, 0.005, 0.985, 0.985), h_pad=0.08)
     D = state.D / mm
     above.fill_between(D, state.needed / 1e3, state.given / 1e3, color=style.CURVE, alpha=0.12, linewidth=0)
     above.plot(D, state.given / 1e3, color=style.CURVE, linewidth=2.0, label="M_g, what the lever gives")
     above.plot(D, state.needed / 1e3, color=style.ACCENT, linewidth=2.0, label="M_1, what the stem needs")
     above.set_ylim(0.0, None)
-    above.legend(loc="upper left", fontsize=style.SMALL, frameon=False, labelcolor=style.INK)
+    above.legend(loc="upper left", **CURVES)
     for ax in (above, below):
         ax.set_xlim(float(D.min()), float(D.max()))
     below.plot(D, ratio, color=style.INK, linewidth=2.0)
@@ -201,9 +191,8 @@ def moments(grapple: Grapple) -> Figure:
     below.set_ylim(min(0.9, 0.95 * float(ratio.min())), None)
     for place, word in ((int(np.argmin(ratio)), "least"), (int(np.argmax(ratio)), "greatest")):
         _mark(below, float(D[place]), float(ratio[place]), f"{word} {ratio[place]:.3f} at {D[place]:.0f} mm")
-    for ax, words in ((above, "moment about the hinge, kNm"), (below, "M_g / M_1")):
-        ax.set_ylabel(words, fontsize=style.TEXT, color=style.MUTED)
-    below.set_xlabel("diameter of the stem, mm", fontsize=style.TEXT, color=style.MUTED)
+    axis_words(above, "", "moment about the hinge, kNm")
+    axis_words(below, "diameter of the stem, mm", "M_g / M_1")
     return page
 
 
@@ -212,9 +201,7 @@ def _mark(ax: Axes, D: float, ratio: float, text: str) -> None:
     share = (D - low) / (high - low)
     side, aside = ("left", 9) if share < 0.2 else ("right", -9) if share > 0.8 else ("center", 0)
     ax.plot(D, ratio, "o", color=style.INK, markersize=7, markeredgecolor=style.PAPER, zorder=8.0, clip_on=False)
-    ax.annotate(
-        text, (D, ratio), xytext=(aside, -18), textcoords="offset points", ha=side, fontsize=style.SMALL, color=style.INK, zorder=8.0,
-    )  # fmt: skip
+    beside(ax, text, (D, ratio), (aside, -18), ha=side, color=style.INK, zorder=8.0)
 
 
 DRAWN: Mapping[str, Callable[[Grapple], Figure]] = MappingProxyType({"stems": stems, "moments": moments})

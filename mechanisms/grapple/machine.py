@@ -8,32 +8,11 @@ import numpy as np
 
 from hydraulics import Cylinder, LiftCircuit
 from hydraulics.inputs import positive
-from linkage import (
-    RIGHT,
-    Column,
-    Crank,
-    DefinitionError,
-    Dimension,
-    Dyad,
-    Featured,
-    Force,
-    Ground,
-    Guide,
-    LoadCase,
-    Mechanism,
-    Motion,
-    OnLink,
-    Outline,
-    Over,
-    SliderDyad,
-    Stroke,
-    distance,
-    ref,
-    x,
-    y,
-)
+from linkage import RIGHT, Column, Crank, Dyad, Featured, Ground, Guide, Mechanism, Motion, OnLink, Outline, Over, SliderDyad
+from linkage.errors import DefinitionError
 from linkage.language import said
-from linkage.quantities import Quantity
+from linkage.loads import Force, LoadCase
+from linkage.quantities import Dimension, Quantity, Stroke, distance, ref, x, y
 from linkage.units import MPa, deg, mm
 from linkage.verdict import Verdict
 

@@ -11,22 +11,13 @@ from typing import TYPE_CHECKING
 
 from linkage.star import declare_public
 
-from .charge import HEADERS as HEADERS
-from .charge import WAYS as WAYS
-from .charge import Way as Way
-from .charge import charge_for as charge_for
-from .charge import largest_charge as largest_charge
-from .criteria import criteria as criteria
-from .following import over_following as over_following
-from .following import relief as relief
-from .machine import HeaderBalancer as HeaderBalancer
-from .machine import ImprovedBalancer as ImprovedBalancer
-from .measured import Deviation as Deviation
-from .measured import deviations as deviations
-from .measured import read_measured as read_measured
-from .settings import setting_table as setting_table
-from .settings import with_header as with_header
-from .side_by_side import ThreeHeaders as ThreeHeaders
+from .charge import HEADERS, WAYS, Way, charge_for, largest_charge
+from .criteria import criteria
+from .following import over_following, relief
+from .machine import HeaderBalancer, ImprovedBalancer
+from .measured import Deviation, deviations, read_measured
+from .settings import setting_table, with_header
+from .side_by_side import ThreeHeaders
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

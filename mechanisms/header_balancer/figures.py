@@ -30,6 +30,7 @@ from linkage.program import FloatArray
 from linkage.statics import reaction
 from linkage.units import kgf, kgf_cm2, litre, mm
 
+from ..sheets import WORDS, beside, headed
 from .charge import HEADERS
 from .following import BEARING, PLAIN, SHOE, HeaderState, dry_frictions, over_following, own_loads
 from .machine import HeaderBalancer, ImprovedBalancer
@@ -136,10 +137,7 @@ def bearings(ax: Axes, motion: Motion, measured: Sequence[Deviation] = ()) -> No
     ratio = balance.of_bearing(PLAIN) / balance.of_bearing(0.0)
     ax.axhline(0.0, color=style.MUTED, linewidth=0.8, zorder=2.0)
     says = f"r = {radius / mm:.0f} mm, mu = {PLAIN:g}: hysteresis x{ratio.min():.2f} to x{ratio.max():.2f} of rolling bearings'"
-    ax.annotate(
-        says, (0.5, 0.5), xycoords="axes fraction", xytext=(0, 8), textcoords="offset points", ha="center",
-        fontsize=style.SMALL, color=style.MUTED,
-    )  # fmt: skip
+    beside(ax, says, (0.5, 0.5), (0, 8), xycoords="axes fraction", ha="center")
     ax.set_ylabel("added at a shoe, kgf")
 
 
@@ -228,10 +226,9 @@ def _charges(ax: Axes, balance: HeaderState) -> None:
         if works and works[-1].end["h"] < motion.strokes["h"][-1]:
             height = float(motion.moved({"h": np.array([works[-1].end["h"]])}).y("R")[0]) / mm
             ax.plot(height, gas / kgf_cm2, "o", color=style.CURVE, markersize=7, markeredgecolor=style.PAPER, zorder=8.0)
-            ax.annotate(
-                "the pair joins: a kink", (height, gas / kgf_cm2), xytext=(-10, -22), textcoords="offset points", ha="right",
-                fontsize=style.SMALL, color=style.CURVE, arrowprops={"arrowstyle": "-", "color": style.CURVE, "linewidth": 0.8},
-            )  # fmt: skip
+            line = {"arrowstyle": "-", "color": style.CURVE, "linewidth": 0.8}
+            text, at = "the pair joins: a kink", (height, gas / kgf_cm2)
+            beside(ax, text, at, (-10, -22), ha="right", color=style.CURVE, arrowprops=line)
 
 
 # -- the sheet ---------------------------------------------------------------------------------------------
@@ -256,12 +253,10 @@ def _sheet(titles: Mapping[str, str], name: str) -> tuple[Figure, list[Axes]]:
     sheet, cells = panels(SIZE if len(titles) == 1 else PAIR, len(titles))
     for (part, title), ax in zip(titles.items(), cells, strict=True):
         number = f"{part[0]} {part[1:]}".strip()
-        ax.set_title(f"{number}   {title}", loc="left", fontsize=style.TITLE, fontweight="bold", color=style.INK, pad=26)
-        ax.annotate(
-            name, (0.0, 1.0), xycoords="axes fraction", xytext=(0, 8), textcoords="offset points", fontsize=style.TEXT, color=style.MUTED
-        )  # fmt: skip
-        ax.set_xlabel("height of the shoe above the horizon, mm", fontsize=style.TEXT, color=style.MUTED)
-        ax.yaxis.label.set(fontsize=style.TEXT, color=style.MUTED)
+        headed(ax, f"{number}   {title}", fontsize=style.TITLE, fontweight="bold", pad=26)
+        beside(ax, name, (0.0, 1.0), (0, 8), xycoords="axes fraction", fontsize=style.TEXT)
+        ax.set_xlabel("height of the shoe above the horizon, mm", **WORDS)
+        ax.yaxis.label.set(**WORDS)
     return sheet, cells
 
 
@@ -272,10 +267,7 @@ def _curve(ax: Axes, height: FloatArray, values: FloatArray, colour: str, label:
 def _level(ax: Axes, value: float, text: str) -> None:
     """Draw a pressure that matters as a line across, with its name."""
     ax.axhline(value, color=style.MUTED, linewidth=1.0, linestyle=(0, (4, 3)), zorder=2.0)
-    ax.annotate(
-        text, (1.0, value), xycoords=("axes fraction", "data"), xytext=(-4, 3), textcoords="offset points", ha="right", va="bottom",
-        fontsize=style.SMALL, color=style.MUTED,
-    )  # fmt: skip
+    beside(ax, text, (1.0, value), (-4, 3), xycoords=("axes fraction", "data"), ha="right", va="bottom")
 
 
 def _hanging(ax: Axes) -> None:
@@ -285,7 +277,5 @@ def _hanging(ax: Axes) -> None:
     ax.axhspan(low, 0.0, color=style.ACCENT, alpha=0.10, linewidth=0, zorder=1.0)
     ax.set_ylim(low, high)
     ax.axhline(0.0, color=style.ACCENT, linewidth=1.0, zorder=2.0)
-    ax.annotate(
-        "the shoe hangs", (1.0, 0.0), xycoords=("axes fraction", "data"), xytext=(-4, -3), textcoords="offset points",
-        ha="right", va="top", fontsize=style.SMALL, color=style.ACCENT,
-    )  # fmt: skip
+    look = {"ha": "right", "va": "top", "color": style.ACCENT}
+    beside(ax, "the shoe hangs", (1.0, 0.0), (-4, -3), xycoords=("axes fraction", "data"), **look)

@@ -8,28 +8,12 @@ import numpy as np
 
 from hydraulics import Accumulator, AccumulatorBlock, Cylinder, FloatCircuit, isothermal
 from hydraulics.inputs import in_pascals, positive
-from linkage import (
-    LEFT,
-    Column,
-    DefinitionError,
-    Dimension,
-    Dyad,
-    Featured,
-    Ground,
-    Link,
-    Mechanism,
-    Motion,
-    OnLink,
-    Outline,
-    Stroke,
-    Vector,
-    angle,
-    distance,
-    y,
-)
+from linkage import LEFT, Column, Dyad, Featured, Ground, Link, Mechanism, Motion, OnLink, Outline, Vector
+from linkage.errors import DefinitionError
 from linkage.language import said
 from linkage.loads import PinFriction, Support, Weight
 from linkage.loads.element import Formulas
+from linkage.quantities import Dimension, Stroke, angle, distance, y
 from linkage.units import deg, kg, kgf_cm2, litre, mm
 from linkage.verdict import Remark, Verdict
 

@@ -9,26 +9,10 @@ from typing import TYPE_CHECKING
 
 from linkage.star import declare_public
 
-from .capacity import Weakest as Weakest
-from .capacity import at_hitch_points as at_hitch_points
-from .capacity import behind as behind
-from .capacity import capacity as capacity
-from .capacity import weakest as weakest
-from .machine import CATEGORIES as CATEGORIES
-from .machine import Category as Category
-from .machine import HitchCategory1 as HitchCategory1
-from .machine import HitchCategory2 as HitchCategory2
-from .machine import ThreePointHitch as ThreePointHitch
-from .report import capacity_columns as capacity_columns
-from .report import upper_link_force as upper_link_force
-from .tractor import front_axle as front_axle
-from .tractor import largest_mass as largest_mass
-from .tractor import tipping_mass as tipping_mass
-from .tractor import tipping_slope as tipping_slope
-from .zones import capacity_zone as capacity_zone
-from .zones import tilt_zone as tilt_zone
-from .zones import vertical_mast as vertical_mast
-from .zones import zone_columns as zone_columns
+from .capacity import Weakest, at_hitch_points, behind, capacity, capacity_zone, tilt_zone, vertical_mast, weakest, zone_columns
+from .machine import CATEGORIES, Category, HitchCategory1, HitchCategory2, ThreePointHitch
+from .report import capacity_columns, upper_link_force
+from .tractor import front_axle, largest_mass, tipping_mass, tipping_slope
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -42,9 +26,10 @@ def figure(name: str, hitch: ThreePointHitch | None = None) -> Figure:
     "zones" is figure 2 of the paper, over the admissible settings. "capacity" is the capacity curve with its weakest point and
     the tractor's limits, "lift" the hitch at the ends of its lift range.
     """
-    from .figures import figure
+    from ..sheets import named_figure
+    from .figures import DRAWN
 
-    return figure(name, hitch)
+    return named_figure(DRAWN, name, hitch if hitch is not None else ThreePointHitch())
 
 
 declare_public(globals())

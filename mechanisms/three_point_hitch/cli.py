@@ -13,9 +13,9 @@ from linkage.statics import table_text
 
 from ..paper import figure_options
 from . import FIGURES, figure
+from .capacity import capacity_zone, mast_words, tilt_zone, zone_columns
 from .machine import CATEGORIES, ThreePointHitch
 from .report import capacity_columns, pressure_words
-from .zones import capacity_zone, mast_words, tilt_zone, zone_columns
 
 LEGEND = """S stroke; F_y height of the hitch points; I = dG_y/dS; capacity at G at the full pressure;
 F 90%, 610 90%: at the hitch points and 610 mm behind them at 90 % of the pressure; MK force in the upper link, tension positive;

@@ -15,23 +15,16 @@ from matplotlib.figure import Figure
 
 from linkage import Motion, draw
 from linkage.pictures import style
-from linkage.pictures.sheet import panels
 from linkage.program import FloatArray
 from linkage.reports import closely
 from linkage.units import deg, g0, kN, mm
 
-from ..paper import named_figure
-from .capacity import at_hitch_points, behind, capacity, weakest
+from ..sheets import CURVES, WORDS, axis_words, beside, headed, titled
+from .capacity import admissible, at_hitch_points, behind, capacity, capacity_zone, tilt_zone, weakest
 from .machine import ThreePointHitch
 from .tractor import largest_mass, tipping_mass
-from .zones import admissible, capacity_zone, tilt_zone
 
 COUNT = 101
-
-
-def figure(name: str, hitch: ThreePointHitch | None = None) -> Figure:
-    """Return a figure of a hitch, by default the shipped one, as a matplotlib figure; DefinitionError for an unknown name, a batch."""
-    return named_figure(DRAWN, name, hitch if hitch is not None else ThreePointHitch())
 
 
 # -- figure 2 ----------------------------------------------------------------------------------------------
@@ -85,7 +78,7 @@ def curves(hitch: ThreePointHitch) -> Figure:
     _named(ax, "", "stroke S, mm", "load that can be lifted, kN")
     ax.set_ylim(0.0, None)
     _heights(ax, motion)
-    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=2, fontsize=style.SMALL, frameon=False, labelcolor=style.INK)
+    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=2, **CURVES)
     return sheet
 
 
@@ -97,11 +90,9 @@ def _mark(ax: Axes, motion: Motion) -> None:
     at = found.stroke / mm, found.capacity / kN
     ax.plot(*at, "o", color=style.CURVE, markersize=8, markeredgecolor=style.PAPER, zorder=8.0, clip_on=False)
     right = found.stroke / mm > np.mean(ax.get_xlim())
-    ax.annotate(
-        f"weakest: {found.capacity / kN:.1f} kN at S = {found.stroke / mm:.0f} mm,\nG rises {found.ratio:.2f} mm for 1 mm of stroke",
-        at, xytext=(-8 if right else 8, -10), textcoords="offset points",
-        ha="right" if right else "left", va="top", fontsize=style.SMALL, color=style.CURVE, zorder=8.0,
-    )  # fmt: skip
+    text = f"weakest: {found.capacity / kN:.1f} kN at S = {found.stroke / mm:.0f} mm,\nG rises {found.ratio:.2f} mm for 1 mm of stroke"
+    side, aside = ("right", -8) if right else ("left", 8)
+    beside(ax, text, at, (aside, -10), ha=side, va="top", color=style.CURVE, zorder=8.0)
 
 
 def _heights(ax: Axes, motion: Motion) -> None:
@@ -112,7 +103,7 @@ def _heights(ax: Axes, motion: Motion) -> None:
     there_and_back = (lambda s: np.interp(np.asarray(s), S, height), lambda h: np.interp(np.asarray(h), height, S))
     upper = ax.secondary_xaxis("top", functions=there_and_back)
     upper.set_xticks(np.arange(np.ceil(height[0] / 100.0), np.floor(height[-1] / 100.0) + 1.0) * 100.0)
-    upper.set_xlabel("height of the hitch points F, mm", fontsize=style.TEXT, color=style.MUTED)
+    upper.set_xlabel("height of the hitch points F, mm", **WORDS)
     upper.tick_params(colors=style.MUTED, labelsize=style.SMALL, length=3)
     upper.spines["top"].set_color(style.RULE)
 
@@ -131,11 +122,9 @@ def lift_range(hitch: ThreePointHitch) -> Figure:
         ax.plot([x, at + 0.02], [y, y], color=style.INK, linewidth=0.8, zorder=19.0)
     arrow = {"arrowstyle": "<->", "color": style.INK, "linewidth": 1.0, "shrinkA": 0, "shrinkB": 0}
     ax.annotate("", (at, high), xytext=(at, low), arrowprops=arrow, zorder=19.0)
-    ax.annotate(
-        f"{(high - low) / mm:.0f} mm", (at, 0.5 * (low + high)), xytext=(5, 0), textcoords="offset points", va="center",
-        fontsize=style.TEXT, color=style.INK, zorder=20.0,
-        bbox={"boxstyle": "square,pad=0.15", "facecolor": style.PAPER, "edgecolor": "none"},
-    )  # fmt: skip
+    box = {"boxstyle": "square,pad=0.15", "facecolor": style.PAPER, "edgecolor": "none"}
+    text = f"{(high - low) / mm:.0f} mm"
+    beside(ax, text, (at, 0.5 * (low + high)), (5, 0), va="center", fontsize=style.TEXT, color=style.INK, zorder=20.0, bbox=box)
     return sheet
 
 
@@ -148,9 +137,7 @@ DRAWN: Mapping[str, Callable[[ThreePointHitch], Figure]] = MappingProxyType({"zo
 def _sheet(count: int, title: str) -> tuple[Figure, list[Axes]]:
     """Return an empty figure with a title and so many axes."""
     size, below = ((10.6, 5.2), 0.05) if count == 2 else ((8.4, 6.2), 0.01)
-    sheet, cells = panels(size, count, rect=(0.005, below, 0.98, 0.985 - below), w_pad=0.08, h_pad=0.08)
-    sheet.suptitle(title, fontsize=style.TITLE + 2, fontweight="bold", color=style.INK, x=0.012, ha="left")
-    return sheet, cells
+    return titled(title, size, count, rect=(0.005, below, 0.98, 0.985 - below), w_pad=0.08, h_pad=0.08)
 
 
 def _curve(ax: Axes, along: FloatArray, values: FloatArray, colour: str, text: str, line: str = "-", width: float = 2.0) -> None:
@@ -160,7 +147,6 @@ def _curve(ax: Axes, along: FloatArray, values: FloatArray, colour: str, text: s
 
 def _named(ax: Axes, title: str, along: str, value: str) -> None:
     if title:
-        ax.set_title(title, loc="left", fontsize=style.TITLE, fontweight="bold", color=style.INK, pad=9)
-        ax.legend(loc="best", fontsize=style.SMALL, frameon=False, labelcolor=style.INK)
-    ax.set_xlabel(along, fontsize=style.TEXT, color=style.MUTED)
-    ax.set_ylabel(value, fontsize=style.TEXT, color=style.MUTED)
+        headed(ax, title, fontsize=style.TITLE, fontweight="bold", pad=9)
+        ax.legend(loc="best", **CURVES)
+    axis_words(ax, along, value)

@@ -11,26 +11,10 @@ import numpy as np
 
 from hydraulics import Cylinder, LiftCircuit
 from hydraulics.inputs import positive
-from linkage import (
-    LEFT,
-    RIGHT,
-    Column,
-    DefinitionError,
-    Dimension,
-    Dyad,
-    Featured,
-    Ground,
-    Mechanism,
-    Motion,
-    OnLink,
-    Outline,
-    Stroke,
-    Weight,
-    angle,
-    ratio,
-    y,
-)
+from linkage import LEFT, RIGHT, Column, Dimension, Dyad, Featured, Ground, Mechanism, Motion, OnLink, Outline, Stroke, angle, ratio, y
+from linkage.errors import DefinitionError
 from linkage.language import noted, said
+from linkage.loads import Weight
 from linkage.loads.element import Formulas
 from linkage.units import MPa, deg, g0, kg, litre, minute, mm
 from linkage.verdict import Verdict

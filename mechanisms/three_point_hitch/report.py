@@ -13,9 +13,8 @@ from linkage.reports import ranges_below_zero, spans_in_words
 from linkage.units import g0, show, shown_number
 from linkage.verdict import Verdict
 
-from .capacity import BEHIND, SHARE, at_hitch_points, behind, capacity, circuit_of, lifted, weakest
+from .capacity import BEHIND, SHARE, at_hitch_points, behind, capacity, circuit_of, lifted, mast_words, weakest
 from .tractor import balance_verdict, front_axle, largest_mass, tipping_mass, tipping_slope
-from .zones import mast_words
 
 
 def capacity_columns(motion: Motion) -> list[Column]:

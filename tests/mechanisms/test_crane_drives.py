@@ -9,19 +9,19 @@ from scipy.optimize import minimize
 from linkage import RIGHT, DefinitionError, Dyad, OnLink, Weight, deg, ratio
 from linkage.motion import lowest
 from linkage.study import Target, settings_for
-from mechanisms.crane.arm_drive import (
+from mechanisms.crane import drive_figure
+from mechanisms.crane.drive_design import ArmRules, arm_drive_front, design_arm_drive, design_boom_drive
+from mechanisms.crane.drive_report import OPENING, movements_of
+from mechanisms.crane.drives import (
     AngledBellCrankArmDrive,
     ArmDrive,
     BellCrankArmDrive,
     BellCrankArmDriveByCylinder,
+    BoomDrive,
     DirectArmDrive,
     DirectArmDriveAbove,
 )
-from mechanisms.crane.boom_drive import BoomDrive
-from mechanisms.crane.drive_design import ArmRules, arm_drive_front, design_arm_drive, design_boom_drive
-from mechanisms.crane.drive_duty import DriveCylinders, DriveDuty, duty_of
-from mechanisms.crane.drive_figures import drive_figure
-from mechanisms.crane.drive_report import OPENING, movements_of
+from mechanisms.crane.duty import DriveCylinders, DriveDuty, duty_of
 from mechanisms.crane.skeleton import CraneSkeleton
 from tests.for_all import for_all
 

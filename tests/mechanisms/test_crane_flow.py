@@ -36,7 +36,7 @@ from mechanisms.crane import (
     with_drives,
 )
 from mechanisms.crane.drive_report import movements_of
-from mechanisms.crane.strength import dragging
+from mechanisms.crane.load_map import dragging
 
 FOUND = {  # example 1 of the source, both readings of (2.13): W_m and the variables
     ">=": (3.755721473767066, (4.542413835813202, 3.116420231283486, 2.493136185026789, 1.85, 20.526019274994923 * deg)),

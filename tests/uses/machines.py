@@ -51,8 +51,12 @@ from mechanisms.header_balancer.measured import deviations, read_measured  # noq
 from mechanisms.header_balancer.settings import setting_table, with_header  # noqa: F401
 from mechanisms.mower_lift import MowerLift  # noqa: F401
 from mechanisms.three_point_hitch import ThreePointHitch
-from mechanisms.three_point_hitch.capacity import behind, capacity, stroke_per_newton  # noqa: F401
-from mechanisms.three_point_hitch.zones import vertical_mast  # noqa: F401
+from mechanisms.three_point_hitch.capacity import (  # noqa: F401
+    behind,
+    capacity,
+    stroke_per_newton,
+    vertical_mast,
+)
 
 
 class Lift(Mechanism):

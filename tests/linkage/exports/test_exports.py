@@ -35,10 +35,8 @@ from linkage import (
     export,
 )
 from linkage.cli import main
-from linkage.exports.calculation import Calculation
-from linkage.exports.formula_text import formula
-from linkage.exports.live_results import live_results
-from linkage.exports.names import cell_names
+from linkage.exports.calculation import Calculation, live_results
+from linkage.exports.formula_text import cell_names, formula
 from linkage.exports.workbook import from_si, to_si
 from linkage.reports import results, run_of
 from linkage.units import UNITS, deg, kgf_cm2, mm

@@ -1,14 +1,17 @@
-"""A drawing as SVG: true size in millimetres, words as words, a group for each pose and layer, parts by their members' names."""
+"""A drawing in true size, millimetres: as SVG, a group for each pose and layer; as DXF (R2010), a layer for each kind of part."""
 
 from __future__ import annotations
 
+import io
 from collections.abc import Sequence
 from math import copysign, hypot
+from typing import Any
 from xml.sax.saxutils import escape, quoteattr
 
 import numpy as np
 
 from ..program import FloatArray
+from .extras import library
 from .geometry import LAYERS, Circle, DrawnPose, Lettering, Measured, Part, Polyline
 
 PAGE_MARGIN = 0.05
@@ -105,3 +108,52 @@ def reach(part: Part) -> FloatArray:
             return np.array([part.place, part.place + part.height * np.array([0.7 * len(part.text), 1.0])])
         case Measured():
             return np.array([part.start, part.end])
+
+
+# DXF: with several poses each of them has layers of its own.
+
+MILLIMETRES = 4
+"""What $INSUNITS says."""
+
+
+def dxf(poses: Sequence[DrawnPose], paths: Sequence[Part], title: str) -> bytes:
+    """Return the bytes of a .dxf file; DefinitionError where ezdxf is not installed.
+
+    Of several poses the first has the plain layers, the others `pose2_bodies` and so on. The format has no place for a title.
+    """
+    document = library("ezdxf", "cad", "a .dxf").new("R2010", setup=["linetypes", "styles", "dimstyles"])
+    document.header["$INSUNITS"] = MILLIMETRES
+    document.header["$MEASUREMENT"] = 1
+    document.header["$LUNITS"] = 2
+    space = document.modelspace()
+    for number, parts in enumerate([*(parts for _, parts in poses), paths], 1):
+        prefix = f"pose{number}_" if 1 < number <= len(poses) else ""
+        for part in parts:
+            draw_part(document, space, part, f"{prefix}{part.layer}")
+    stream = io.StringIO()
+    document.write(stream)
+    return stream.getvalue().encode("utf-8")
+
+
+def draw_part(document: Any, space: Any, part: Part, layer: str) -> None:
+    """Put one part into a layer, which is made where it is new."""
+    if layer not in document.layers:
+        made = document.layers.add(layer, color=LAYERS[part.layer][0])
+        if part.layer == "centre_lines":
+            made.dxf.linetype = "CENTER"
+    look = {"layer": layer}
+    match part:
+        case Polyline():
+            rows = [(float(x), float(y), bulge) for (x, y), bulge in zip(part.vertices, part.bulges, strict=True)]
+            space.add_lwpolyline(rows, format="xyb", close=part.closed, dxfattribs=look)
+        case Circle():
+            space.add_circle(tuple(map(float, part.centre)), part.radius, dxfattribs=look)
+        case Lettering():
+            place = tuple(map(float, part.place))
+            space.add_text(part.text, height=part.height, dxfattribs={**look, "insert": place, "style": "OpenSans"})
+        case Measured():
+            high = part.height
+            style = {"dimtxt": high, "dimasz": high, "dimexe": 0.5 * high, "dimexo": 0.5 * high, "dimgap": 0.4 * high}
+            style |= {"dimtad": 1, "dimdec": 1, "dimlfac": 1.0, "dimclrd": 256, "dimclre": 256, "dimclrt": 256}
+            ends = tuple(map(float, part.start)), tuple(map(float, part.end))
+            space.add_aligned_dim(*ends, distance=part.aside, override=style, dxfattribs=look, text=f"{part.name} = <>").render()

@@ -1,0 +1,51 @@
+"""What the figures of the papers' machines share: figures by name, sheets with a title, words beside a place. They load matplotlib."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any, TypeVar
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from linkage import Mechanism
+from linkage.checks import require_one_design
+from linkage.errors import known_name
+from linkage.pictures import style
+from linkage.pictures.sheet import panels
+
+Machine = TypeVar("Machine", bound=Mechanism)
+WORDS: Mapping[str, Any] = {"fontsize": style.TEXT, "color": style.MUTED}
+"""The look of what stands along an axis."""
+CURVES: Mapping[str, Any] = {"fontsize": style.SMALL, "frameon": False, "labelcolor": style.INK}
+"""The look of a legend."""
+
+
+def named_figure(figures: Mapping[str, Callable[[Machine], Figure]], name: str, machine: Machine) -> Figure:
+    """Return a figure of a machine by its name; DefinitionError for an unknown name, a batch of designs."""
+    known_name("Figure", name, figures)
+    require_one_design(machine.dimensions, f"{machine.plan.title}: a figure shows one design")
+    return figures[name](machine)
+
+
+def titled(title: str, size: tuple[float, float], across: int, down: int = 1, **room: object) -> tuple[Figure, list[Axes]]:
+    """Return an empty figure with a title above its axes, as `panels` makes it."""
+    figure, axes = panels(size, across, down, **room)
+    figure.suptitle(title, fontsize=style.TITLE + 2, fontweight="bold", color=style.INK, x=0.012, ha="left")
+    return figure, axes
+
+
+def headed(ax: Axes, text: str, **look: Any) -> None:
+    """Write what axes show above them, on the left."""
+    ax.set_title(text, loc="left", **{"fontsize": style.TEXT, "color": style.INK, "pad": 6, **look})
+
+
+def axis_words(ax: Axes, along: str, up: str) -> None:
+    """Write what stands along both axes, with units."""
+    ax.set_xlabel(along, **WORDS)
+    ax.set_ylabel(up, **WORDS)
+
+
+def beside(ax: Axes, text: str, at: tuple[float, float], off: tuple[float, float], **look: Any) -> None:
+    """Write a text so many points off a place."""
+    ax.annotate(text, at, xytext=off, textcoords="offset points", **{"fontsize": style.SMALL, "color": style.MUTED, **look})

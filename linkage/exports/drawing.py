@@ -1,18 +1,199 @@
-"""A drawing in true size, millimetres: as SVG, a group for each pose and layer; as DXF (R2010), a layer for each kind of part."""
+"""A drawing of a mechanism in true size, millimetres: its lines, circles and words by layers, as SVG and as DXF (R2010).
+
+Centre lines run from pin to pin. A body's outline goes around its outermost pins at a distance, its corners true arcs.
+"""
 
 from __future__ import annotations
 
 import io
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import combinations
 from math import copysign, hypot
-from typing import Any
+from types import MappingProxyType
+from typing import Any, final
 from xml.sax.saxutils import escape, quoteattr
 
 import numpy as np
 
+from ..errors import known_name
+from ..loads import PinFriction
+from ..motion import Motion
+from ..pictures.scene import DrawnMark, Places, Scene
+from ..pictures.shapes import left_of
 from ..program import FloatArray
+from ..quantities import body_name, joined_names
+from ..units import mm
 from .extras import library
-from .geometry import LAYERS, Circle, DrawnPose, Lettering, Measured, Part, Polyline
+
+LAYERS: Mapping[str, tuple[int, str]] = MappingProxyType(
+    {
+        "frame": (8, "#6B7785"),
+        "bodies": (5, "#1F5FA8"),
+        "centre_lines": (1, "#C0392B"),
+        "cylinders": (3, "#2E7D4F"),
+        "elements": (30, "#B8660B"),
+        "pins": (7, "#1F2933"),
+        "paths": (6, "#8E44AD"),
+        "text": (7, "#1F2933"),
+        "dimensions": (4, "#0E7C86"),
+    }
+)
+"""The layers, each with its colour by the index of CAD programs, and as a page shows it."""
+ROUND = 0.9
+"""The distance of an outline from its pins, in sizes of the picture."""
+STAND_OFF, HEIGHT = 3.2, 1.3
+"""How far a dimension's line stands from what it measures, and the height of its letters, in sizes."""
+PIN = 0.5
+"""The radius of a pin whose bearing is not declared, in sizes."""
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Polyline:
+    """A line through vertices, shape (n, 2) [mm]; `arcs` are the tangents of a quarter of the arcs that follow each, 0 straight."""
+
+    layer: str
+    name: str
+    vertices: FloatArray
+    arcs: tuple[float, ...] = ()
+    closed: bool = False
+
+    @property
+    def bulges(self) -> tuple[float, ...]:
+        """The tangent of a quarter of the arc that follows each vertex."""
+        return self.arcs or (0.0,) * len(self.vertices)
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Circle:
+    """A circle [mm]."""
+
+    layer: str
+    name: str
+    centre: FloatArray
+    radius: float
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Lettering:
+    """A text whose lower left corner stands at a place, with its height [mm]."""
+
+    layer: str
+    name: str
+    place: FloatArray
+    text: str
+    height: float
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Measured:
+    """The distance of two places [mm] with the name of the dimension, its line so far to the left, its letters so high [mm]."""
+
+    layer: str
+    name: str
+    start: FloatArray
+    end: FloatArray
+    aside: float
+    height: float
+
+
+Part = Polyline | Circle | Lettering | Measured
+DrawnPose = tuple[str, Sequence[Part]]
+"""A pose in words, and the parts of the mechanism there."""
+
+
+def pose_parts(motion: Motion, pose: int) -> Iterator[Part]:
+    """Yield the parts of a mechanism at a pose of a motion, by its flat index. DefinitionError for a batch of designs."""
+    scene = Scene(motion)
+    there = scene.at(pose)
+    at, size = {name: place / mm for name, place in there.items()}, scene.size / mm
+    for name in scene.grounds:  # a triangle under each pin on the frame, then the tracks
+        foot = at[name] + size * np.array([[-1.9, -3.2], [1.9, -3.2]])
+        yield Polyline("frame", name, np.array([at[name], *foot]), closed=True)
+    for track in scene.tracks:
+        yield Polyline("frame" if track.fixed else "bodies", track.name, np.array([at[name] for name in track.ends]))
+    yield from mark_parts("bodies", scene.blocks, there)
+    for corners, points in zip(scene.hulls, scene.bodies, strict=True):  # an outline, and centre lines from pin to pin
+        name, places = body_name(points), np.array([at[point] for point in corners])
+        yield outline_around(name, places, ROUND * size)
+        if len(corners) > 1:
+            yield Polyline("centre_lines", name, places, closed=len(corners) > 2)
+    for cylinder in scene.cylinders:
+        mark = cylinder.mark(scene.size)
+        yield from mark_parts("cylinders", [mark], there)
+        ends = mark.placed(np.array([[0.0, cylinder.aside], [mark.axes(there)[2], cylinder.aside]]), there)
+        yield Polyline("centre_lines", mark.name, ends / mm)
+    yield from mark_parts("elements", scene.straights, there)
+    bearings = {str(getattr(each.point, "name", each.point)): each for each in motion.plan.of_kind(PinFriction).values()}
+    for name in motion.plan.points:  # pins of their bearing's radius where friction declares one; other points are small
+        declared = float(np.ravel(bearings[name].number(motion, "radius"))[0]) / mm if name in bearings else 0.0
+        yield Circle("pins", name, at[name], declared or (PIN if name in scene.pins else 0.5 * PIN) * size)
+    for name in motion.plan.points:
+        yield Lettering("text", name, at[name] + 0.9 * size, name, 1.6 * size)
+    yield from dimension_parts(scene, at, size)
+
+
+def path_parts(motion: Motion, points: Sequence[str]) -> tuple[Part, ...]:
+    """Return the paths of points over a motion, where they are reached. DefinitionError for an unknown name."""
+    found = []
+    for name in points:
+        known_name("Point", name, motion.plan.points, where=motion.plan.title)
+        path = motion[name].reshape(2, -1).T / mm
+        found.append(Polyline("paths", name, path[np.isfinite(path).all(axis=1)]))
+    return tuple(found)
+
+
+def outline_around(name: str, corners: FloatArray, distance: float) -> Polyline:
+    """Return the line around a convex polygon at a distance [mm], its corners arcs; `corners`, shape (k, 2), counter-clockwise."""
+    along = np.roll(corners, -1, axis=0) - corners
+    along = along / np.hypot(*along.T)[:, None]
+    out = distance * np.column_stack([along[:, 1], -along[:, 0]])
+    before = np.roll(out, 1, axis=0)
+    swing = np.arctan2(before[:, 0] * out[:, 1] - before[:, 1] * out[:, 0], (before * out).sum(axis=1)) % (2.0 * np.pi)
+    vertices = np.stack([corners + before, corners + out], axis=1).reshape(-1, 2)
+    bulges = np.column_stack([np.tan(swing / 4.0), np.zeros(len(corners))]).ravel()
+    return Polyline("bodies", name, vertices, tuple(bulges.tolist()), closed=True)
+
+
+def mark_parts(layer: str, marks: Iterable[DrawnMark], at: Places) -> Iterator[Part]:
+    """Yield the lines of marks at the places of their points [m]."""
+    for mark in marks:
+        for line, drawn in zip(mark.lines, mark.drawn(at), strict=True):
+            yield Polyline(layer, mark.name, drawn / mm, closed=line.closed)
+
+
+def dimension_parts(scene: Scene, at: Places, size: float) -> Iterator[Part]:
+    """Yield the lengths that a label gives, each once, read from the left; the longer of two along one line stands further out."""
+    labelled = scene.motion.plan.table.lengths
+    pairs = [each for each in combinations(scene.motion.plan.points, 2) if frozenset(each) in labelled]
+    placed: list[tuple[FloatArray, FloatArray, float]] = []
+    for P, Q in sorted(pairs, key=lambda pair: float(np.hypot(*(at[pair[1]] - at[pair[0]])))):
+        name, start, end = joined_names(P, Q), at[P], at[Q]
+        if not np.hypot(*(end - start)) > 0.0:
+            continue
+        if (end[0], end[1]) < (start[0], start[1]):
+            start, end = end, start
+        aside = STAND_OFF * size
+        while any(aside == other and along_one_line((start, end), (a, b), size) for a, b, other in placed):
+            aside += 0.75 * STAND_OFF * size
+        placed.append((start, end, aside))
+        yield Measured("dimensions", name, start, end, aside, HEIGHT * size)
+
+
+def along_one_line(one: tuple[FloatArray, FloatArray], other: tuple[FloatArray, FloatArray], size: float) -> bool:
+    """Return whether two stretches lie along one line and overlap; closer than a size [mm] counts as on it."""
+    along = (one[1] - one[0]) / (np.hypot(*(one[1] - one[0])) or 1.0)
+    across = left_of(along)
+    off = [abs(float((place - one[0]) @ across)) for place in other]
+    reach = sorted(float((place - one[0]) @ along) for place in other)
+    return max(off) < size and reach[0] < float((one[1] - one[0]) @ along) and reach[1] > 0.0
+
+
+# SVG: words as words, a group for each pose and layer, parts by their members' names.
 
 PAGE_MARGIN = 0.05
 """Room around the drawing, as a share of its greater side."""

@@ -23,10 +23,8 @@ from ..quantities import as_mapping
 from ..reports import NOTHING, first_stroke, reached_motion, results, run_of, stroke_middles, write_csv
 from ..study import WorkingField
 from .calculation import Calculation
-from .drawing import dxf, svg
-from .geometry import DrawnPose, Part, path_parts, pose_parts
-from .load_chart import chart_content
-from .workbook import check_count, workbook
+from .drawing import DrawnPose, Part, dxf, path_parts, pose_parts, svg
+from .workbook import chart_content, check_count, workbook
 
 MOST_ROWS, ROW = 500_000, 2000
 """The rows of a table that is written, and about how many bytes one takes on its way."""

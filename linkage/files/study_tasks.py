@@ -17,17 +17,18 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from contextlib import suppress
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Annotated, Any, final
 
 import numpy as np
 
-from ..errors import DefinitionError, ensure, known_name, unknown
+from ..errors import DefinitionError, LinkageError, ensure, known_name, unknown
 from ..loads import Acting
 from ..mechanism import Mechanism
 from ..motion import Column, Request, stroke_display_unit, stroke_measure
-from ..motion.measures import At, Constraint, Given, Measure, in_case, measure_of
+from ..motion.measures import At, Condition, Constraint, Given, Integral, Leaf, Measure, in_case, measure_of
 from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import is_number
@@ -38,16 +39,102 @@ from ..study.checks import unit_of
 from ..study.measured import measured_title
 from ..study.monte_carlo import limits_listed
 from ..study.optimise import constraint_in_case
+from ..study.optimum import unit_of_measure
+from ..study.problem import NOWHERE, Problem, missed
 from ..study.space import Around, coordinates
 from ..study.survey import Progress
 from ..units import display_unit, parse_span, show
 from . import study_file
-from .criterion import condition_said, criterion_of, measure_said, quantity_said
-from .names import Keywords, by_whole_names, entry_as, require_entry
+from .criterion import condition_said, criterion_of, measure_or_constant, measure_said, quantity_said
+from .names import Keywords, by_whole_names, entry_as, require_entry, shortened
 from .source import each_of
 from .study_file import FindMachine, Settings, StudyHead, amount_said
-from .survey_measures import TextMeasures, named_measures
 
+# -- what a survey measures: measures and conditions as text, of many designs at once -----------------------------
+
+MET_TO_ROUNDING = 1e-12
+
+
+@final
+@dataclass(frozen=True)
+class TextMeasures:
+    """The function that a survey measures with: measures and conditions by name, as text, at so many poses of a stroke.
+
+    Extremes are those of the poses; of several strokes `poses` is for all of them together. A design that cannot be assembled over the
+    whole stroke has no value, and keeps no condition.
+    """
+
+    texts: Mapping[str, str]
+    poses: int
+    over: Mapping[str, Any] = field(default_factory=dict)
+
+    def __call__(self, machine: Mechanism) -> dict[str, Any]:
+        """Return a number or a truth value for each design of a machine, shape (m,), by name."""
+        said = self.said(machine)
+        problem = self.problem(machine, said)
+        drawn = {name: entry.default for name, entry in machine.plan.table.entries.items()}
+        for leaf in problem.leaves:  # panels are those of the machine as its class has it, whatever the batch
+            if isinstance(leaf, Integral):
+                with suppress(LinkageError):
+                    problem.refined_panels(leaf, drawn)
+        look = problem.evaluated(machine.dimensions)
+        numbers, count = look.numbers, max(np.size(value) for value in machine.dimensions.values())
+        found: dict[str, Any] = {}
+        for name, each in said.items():
+            leaves = each.leaves if isinstance(each, Measure) else [leaf for one in each for leaf in one.margin.leaves]
+            sound = look.whole & ~np.any([np.zeros(count, bool), *(look.rows[leaf].lost for leaf in leaves)], axis=0)
+            if isinstance(each, Measure):
+                found[name] = np.where(sound, design_values(each, numbers, count), np.nan)
+            else:
+                found[name] = sound & keeps(each, numbers, count)
+        return found
+
+    def said(self, machine: Mechanism) -> dict[str, Measure | list[Constraint]]:
+        """Return the measures, and the constraints of the conditions, by name; DefinitionError for a text that says none."""
+        found = {name: criterion_of(text, machine) for name, text in self.texts.items()}
+        return {
+            name: [*each.constraints(machine)] if isinstance(each, Condition) else measure_or_constant(each, machine)
+            for name, each in found.items()
+        }
+
+    def problem(self, machine: Mechanism, said: Mapping[str, Measure | list[Constraint]]) -> Problem:
+        """Return what looks at them; DefinitionError where they ask for what a machine has not."""
+        measures = [each for each in said.values() if isinstance(each, Measure)]
+        kept = [one for each in said.values() if not isinstance(each, Measure) for one in each]
+        counts = {0: 1} | {each: max(3, round(self.poses ** (1.0 / each))) for each in range(1, 6)}
+        return Problem(machine, measures, kept, NOWHERE, over=dict(self.over), counts=counts)
+
+    def units(self, machine: Mechanism) -> dict[str, str]:
+        """Return the units that they are shown in, by name; raises as `problem` does."""
+        said = self.said(machine)
+        self.problem(machine, said)
+        return {name: unit_of_measure(machine.plan, each) if isinstance(each, Measure) else "" for name, each in said.items()}
+
+
+def design_values(measure: Measure, numbers: Mapping[Leaf, FloatArray], count: int) -> FloatArray:
+    """Return a measure of designs, shape (count,), from the numbers of its leaves."""
+    with np.errstate(all="ignore"):
+        return np.broadcast_to(np.asarray(measure.of(lambda leaf: numbers[leaf]), float), (count,))
+
+
+def keeps(constraints: list[Constraint], numbers: Mapping[Leaf, FloatArray], count: int) -> Any:
+    """Return which designs keep all of some constraints, shape (count,)."""
+    with np.errstate(all="ignore"):
+        kept = np.ones(count, bool)
+        for each in constraints:
+            size = np.maximum(*(np.abs(design_values(side, numbers, count)) for side in (each.left, each.right)))
+            kept &= missed(each, numbers, 1.0) <= MET_TO_ROUNDING * size
+    return kept
+
+
+def named_measures(given: Any) -> dict[str, str]:
+    """Return the texts of a table of measures by name; those of a list by themselves."""
+    if isinstance(given, list):
+        return {str(text): text for text in given}
+    return {shortened(str(name), quote=False): text for name, text in given.items()}
+
+
+# -- the studies ---------------------------------------------------------------------------------------------
 
 @final
 @dataclass(frozen=True, eq=False)

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 
 from linkage.star import declare_public
 
-from .cylinders import arm_moment, boom_moment, drive_limits
 from .drive_design import ArmRules, DriveDesign, arm_drive_front, design_arm_drive, design_boom_drive
 from .drives import (
     AngledBellCrankArmDrive,
@@ -24,7 +23,7 @@ from .drives import (
 )
 from .duty import DriveCylinders, DriveDuty, Duty, duty_of
 from .flow import CraneDesign, arm_drive_of, boom_drive_of, design_crane, design_skeleton, with_drives
-from .load_map import envelope, load_map, strength
+from .load_map import arm_moment, boom_moment, drive_limits, envelope, load_map, strength
 from .machine import BellCrankCrane, ChainCrane, Crane, DirectCrane, DirectCraneAbove
 from .moments import arm_bound, boom_bound
 from .skeleton import BackBrokenSkeleton, CraneSkeleton

@@ -20,12 +20,11 @@ from linkage.statics import table_text
 
 from ..paper import duty_set
 from . import DRIVE_FIGURES, FIGURES, crane_figure, drive_figure
-from .cylinders import arm_moment, boom_moment
 from .drive_design import SCHEMES
 from .drives import BoomDrive, DrivenArm
 from .duty import Duty
 from .flow import arm_drive_of, boom_drive_of, design_crane, design_skeleton
-from .load_map import envelope, load_map, strength
+from .load_map import arm_moment, boom_moment, envelope, load_map, strength
 from .machine import Crane
 from .moments import arm_bound, boom_bound
 from .skeleton import CraneSkeleton

@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING
 
 from linkage.star import declare_public
 
-from .charge import HEADERS, WAYS, Way, charge_for, largest_charge
-from .criteria import criteria
+from .criteria import HEADERS, WAYS, Way, charge_for, criteria, largest_charge
 from .following import over_following, relief
 from .machine import HeaderBalancer, ImprovedBalancer
 from .measured import Deviation, deviations, read_measured

@@ -14,7 +14,7 @@ from linkage.plan import Plan
 from linkage.units import kgf, parse, show
 
 from . import FIGURES, figure
-from .charge import HEADERS, charge_for
+from .criteria import HEADERS, charge_for
 from .following import kgf_cm2_text, over_following, reaction_columns
 from .machine import HeaderBalancer
 from .measured import deviations, read_measured

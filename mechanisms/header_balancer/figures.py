@@ -31,7 +31,7 @@ from linkage.statics import reaction
 from linkage.units import kgf, kgf_cm2, litre, mm
 
 from ..sheets import WORDS, beside, headed
-from .charge import HEADERS
+from .criteria import HEADERS
 from .following import BEARING, PLAIN, SHOE, HeaderState, dry_frictions, over_following, own_loads
 from .machine import HeaderBalancer, ImprovedBalancer
 from .measured import ALLOWED, Deviation

@@ -13,7 +13,7 @@ from linkage.errors import cited
 from linkage.language import noted
 from linkage.quantities import is_whole, real
 
-from .charge import HEADERS, SLOW, Way, charge_for, largest_charge
+from .criteria import HEADERS, SLOW, Way, charge_for, largest_charge
 from .following import HeaderState, over_following
 from .machine import HeaderBalancer
 

@@ -11,7 +11,7 @@ from linkage import Crank, Dimension, Ground, LoadCase, Mechanism, OnLink, Strok
 from linkage.quantities import Quantity
 from linkage.units import deg, kg, kgf_cm2, litre, mm
 
-from .charge import HEADERS
+from .criteria import HEADERS
 
 
 def towards_shoe(height: Any, O_y: Any, L_OR: float) -> Quantity:

@@ -11,8 +11,7 @@ from linkage.star import declare_public
 
 from .capacity import Weakest, at_hitch_points, behind, capacity, capacity_zone, tilt_zone, vertical_mast, weakest, zone_columns
 from .machine import CATEGORIES, Category, HitchCategory1, HitchCategory2, ThreePointHitch
-from .report import capacity_columns, upper_link_force
-from .tractor import front_axle, largest_mass, tipping_mass, tipping_slope
+from .report import capacity_columns, front_axle, largest_mass, tipping_mass, tipping_slope, upper_link_force
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

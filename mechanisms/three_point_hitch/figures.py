@@ -22,7 +22,7 @@ from linkage.units import deg, g0, kN, mm
 from ..sheets import CURVES, WORDS, axis_words, beside, headed, titled
 from .capacity import admissible, at_hitch_points, behind, capacity, capacity_zone, tilt_zone, weakest
 from .machine import ThreePointHitch
-from .tractor import largest_mass, tipping_mass
+from .report import largest_mass, tipping_mass
 
 COUNT = 101
 

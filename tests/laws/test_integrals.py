@@ -6,7 +6,7 @@ from numpy.testing import assert_allclose
 
 from hydraulics import pressure
 from linkage import LEFT, Crank, Dyad, Ground, Mechanism, Over, Stroke, Weight, drive_force, integral, optimise, ref, y
-from linkage.files.survey_measures import TextMeasures
+from linkage.files.study_tasks import TextMeasures
 from linkage.study import monte_carlo, tornado
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.linkage.study.test_search_ends import Boom, Scissor

@@ -25,8 +25,7 @@ from mechanisms.header_balancer import (
     setting_table,
     with_header,
 )
-from mechanisms.header_balancer.charge import FAST, HEADERS, PAPER, SLOW
-from mechanisms.header_balancer.criteria import criteria, hang_up, matching, rises
+from mechanisms.header_balancer.criteria import FAST, HEADERS, PAPER, SLOW, criteria, hang_up, matching, rises
 from mechanisms.header_balancer.following import PLAIN, HeaderState, at_horizon, stroke_of
 from tests.for_all import for_all
 from tests.mechanisms.balancer_reference import REFERENCE

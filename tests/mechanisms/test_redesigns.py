@@ -11,7 +11,7 @@ from hydraulics import reserve
 from linkage import DefinitionError, driving_force, gap, optimise, pin_forces
 from linkage.units import deg, kgf_cm2, mm
 from mechanisms.header_balancer import ThreeHeaders, largest_charge, over_following, relief, with_header
-from mechanisms.header_balancer.charge import FAST, PAPER, SLOW
+from mechanisms.header_balancer.criteria import FAST, PAPER, SLOW
 from mechanisms.header_balancer.following import HeaderState
 from mechanisms.mower_lift import BELOW, DELFI, MowerLift
 from mechanisms.redesigns import (

@@ -45,7 +45,7 @@ from linkage.motion import below_zero, greatest, lowest  # noqa: F401
 from linkage.pictures import page_html  # noqa: F401
 from linkage.units import bar, litre, parse, show  # noqa: F401
 from mechanisms.header_balancer import HeaderBalancer
-from mechanisms.header_balancer.charge import charge_for, largest_charge  # noqa: F401
+from mechanisms.header_balancer.criteria import charge_for, largest_charge  # noqa: F401
 from mechanisms.header_balancer.following import over_following, stroke_of  # noqa: F401
 from mechanisms.header_balancer.measured import deviations, read_measured  # noqa: F401
 from mechanisms.header_balancer.settings import setting_table, with_header  # noqa: F401

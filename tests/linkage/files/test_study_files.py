@@ -50,7 +50,7 @@ from linkage.cli import main
 from linkage.files import load, save
 from linkage.files.criterion import condition_said, measure_said, quantity_said
 from linkage.files.study_file import range_said, tolerance_said
-from linkage.files.survey_measures import TextMeasures
+from linkage.files.study_tasks import TextMeasures
 from linkage.pictures import style
 from linkage.study import Target, Tolerance, monte_carlo, settings_for, tornado, zone
 from linkage.study.space import Around

@@ -6,8 +6,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from linkage import FileError, FunctionTask, Outline, PathTask, PoseTask, deg, mm, outside
 from linkage.cli.optimise import finder
-from linkage.files.points import PointColumn, points_said, units_said
-from linkage.files.synthesis_file import read_synthesis
+from linkage.files.synthesis_file import PointColumn, points_said, read_synthesis, units_said
 from linkage.motion.regions import region_of
 
 HEAD = """machine = "four_bar"

@@ -37,7 +37,7 @@ from linkage import (
     y,
 )
 from linkage.files.criterion import condition_said, measure_said
-from linkage.files.survey_measures import TextMeasures
+from linkage.files.study_tasks import TextMeasures
 from linkage.motion.measures import conditions_of, measure_unit
 from linkage.program import Kernel
 from linkage.study import InfeasibleError, Target, monte_carlo, settings_for

@@ -146,6 +146,10 @@ class DrivenArm(Mechanism):
         """Return the motion from psi_0 to psi_k, at `count` poses."""
         return self.at(psi=np.linspace(self["psi_0"], self["psi_k"], count))
 
+    def columns(self, motion: Motion) -> list[Column]:
+        """Return angle, length, lever, and the moments asked for and given, folding and opening."""
+        return drive_columns(motion)
+
     def featured(self) -> Featured:
         """Return what the drive has over the moment asked for, which may not fall below zero, folding, and opening."""
         return featured_drive("folding", "opening")
@@ -190,10 +194,6 @@ class ArmDrive(DrivenArm):
     folds, opens = ref("push"), -ref("pull")
     fold = Cylinder(C, L, bore="D", rod="d", works="both", closed="l", stroke="S")
     circuit = LiftCircuit(fold, pressure="p", mechanical_efficiency="n")
-
-    def columns(self, motion: Motion) -> list[Column]:
-        """Return angle, length, lever, and the moments asked for and given: folding by the piston side, opening by the rod side."""
-        return drive_columns(motion)
 
 
 class ArmDriveByCylinder(ArmDrive):
@@ -285,10 +285,6 @@ class DirectArmDrive(DrivenArm):
     folds, opens = -ref("pull"), ref("push")
     fold = Cylinder(A, B, bore="D", rod="d", works="both", closed="l", stroke="S")
     circuit = LiftCircuit(fold, pressure="p", mechanical_efficiency="n")
-
-    def columns(self, motion: Motion) -> list[Column]:
-        """Return angle, length, lever, and the moments asked for and given: opening by the piston side, folding by the rod side."""
-        return drive_columns(motion)
 
 
 class DirectArmDriveAbove(DirectArmDrive):

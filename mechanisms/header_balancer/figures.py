@@ -42,7 +42,7 @@ COLOURS: Mapping[str, str] = MappingProxyType({"moving up": style.CURVE, "withou
 WAYS: Mapping[str, str] = MappingProxyType({"moving up": "extending", "without friction": "frictionless", "moving down": "retracting"})
 CURVES: Mapping[str, str] = MappingProxyType({"F_R up": "moving up", "F_R down": "moving down"})
 IMPROVED = ", improved mechanism"
-Drawing: TypeAlias = Callable[[Axes, Motion, Sequence[Deviation]], None]
+Drawing: TypeAlias = Callable[[Axes, Motion], None]
 """What draws half a figure."""
 
 
@@ -61,10 +61,15 @@ def figure(number: int | str, machine: HeaderBalancer | None = None, measured: S
     improved = "" if isinstance(shown, ImprovedBalancer) else IMPROVED
     sheet, cells = _sheet({name: title.removesuffix(improved) for name, (title, _) in parts.items()}, _name(shown))
     for (name, (_, draw)), ax in zip(parts.items(), cells, strict=True):
-        draw(ax, motion, measured)
+        draw(ax, motion)
+        is_reaction = draw in (seals_alone, reactions, against_measured)
+        if is_reaction:
+            _measured(ax, motion, measured)
+        if draw is against_measured and not measured:
+            beside(ax, "no measured values given", (0.98, 0.10), (0, 0), xycoords="axes fraction", ha="right")
         if key[0] == "6" and machine is None:
             _as_it_stands(ax, name)
-        if draw in (seals_alone, reactions, with_measured):  # it may fall below zero
+        if is_reaction:  # it may fall below zero
             _hanging(ax)
         along = np.concatenate([x for x in (np.asarray(line.get_xdata(), float) for line in ax.get_lines()) if len(x) > 2])
         ax.set_xlim(float(along.min()), float(along.max()))
@@ -75,13 +80,13 @@ def figure(number: int | str, machine: HeaderBalancer | None = None, measured: S
 # -- reactions ---------------------------------------------------------------------------------------------
 
 
-def seals_alone(ax: Axes, motion: Motion, measured: Sequence[Deviation] = ()) -> None:
+def seals_alone(ax: Axes, motion: Motion) -> None:
     """Draw figure 2 a: the reaction with no friction in any pin."""
-    reactions(ax, motion, measured, dry_frictions(motion))
+    reactions(ax, motion, dry_frictions(motion))
 
 
-def reactions(ax: Axes, motion: Motion, measured: Sequence[Deviation] = (), without: Sequence[str] = ()) -> None:
-    """Draw the reaction of a shoe over its height: up, down, without friction; the paper's gas law thin beside; measured values dashed."""
+def reactions(ax: Axes, motion: Motion, without: Sequence[str] = ()) -> None:
+    """Draw the reaction of a shoe over its height: up, down, without friction; the paper's gas law thin beside."""
     paper = Motion(motion.plan, {**motion.designs, "atmosphere": 0.0}, motion.strokes, motion.unreachable)
     curves, printed, height = _reactions(motion, without), _reactions(paper, without), HeaderState(motion).height
     _ways(ax, height, curves)
@@ -91,11 +96,10 @@ def reactions(ax: Axes, motion: Motion, measured: Sequence[Deviation] = (), with
         for values in printed.values():
             ax.plot(height / mm, values, color=style.INK, linewidth=0.9, linestyle=(0, (5, 6)), zorder=6.0, label=text)
             text = "_"
-    _measured(ax, motion, measured)
 
 
-def with_measured(ax: Axes, motion: Motion, measured: Sequence[Deviation] = ()) -> None:
-    """Draw figure 7: calculated solid, with the band of the paper's 7 %, measured dashed."""
+def against_measured(ax: Axes, motion: Motion) -> None:
+    """Draw figure 7: calculated solid, with the band of the paper's 7 %."""
     height, curves, text = HeaderState(motion).height, _reactions(motion), f"{ALLOWED:g} % about the calculated ones"
     moving = {label: curves[label] for label in CURVES.values()}
     for label, values in moving.items():
@@ -103,11 +107,6 @@ def with_measured(ax: Axes, motion: Motion, measured: Sequence[Deviation] = ()) 
         ax.fill_between(height / mm, values - share, values + share, color=COLOURS[label], alpha=0.14, linewidth=0, label=text)
         text = "_"
     _ways(ax, height, moving)
-    _measured(ax, motion, measured)
-    if not measured:
-        ax.annotate(
-            "no measured values given", (0.98, 0.10), xycoords="axes fraction", ha="right", fontsize=style.SMALL, color=style.MUTED
-        )  # fmt: skip
 
 
 def _ways(ax: Axes, height: FloatArray, curves: Mapping[str, FloatArray]) -> None:
@@ -127,7 +126,7 @@ def _measured(ax: Axes, motion: Motion, measured: Sequence[Deviation]) -> None:
             ax.plot(height, values, "--o", label=text, zorder=7.0, color=colour, markersize=5.5, markeredgecolor=style.PAPER)
 
 
-def bearings(ax: Axes, motion: Motion, measured: Sequence[Deviation] = ()) -> None:
+def bearings(ax: Axes, motion: Motion) -> None:
     """Draw figure 2 b: what plain bearings at O add to the reaction, up and down, as a force at a shoe."""
     balance, shoes = HeaderState(motion), float(motion.inputs["shoes"])
     radius = float(motion.inputs[f"{BEARING}.radius"])
@@ -144,7 +143,7 @@ def bearings(ax: Axes, motion: Motion, measured: Sequence[Deviation] = ()) -> No
 # -- pressures ---------------------------------------------------------------------------------------------
 
 
-def given_pressure(ax: Axes, motion: Motion, measured: Sequence[Deviation] = ()) -> None:
+def given_pressure(ax: Axes, motion: Motion) -> None:
     """Draw the pressure in the accumulators over the shoe's height, and the charges of the pairs about there."""
     balance = HeaderState(motion)
     _curve(ax, balance.height, balance.pressure / kgf_cm2, style.CURVE, "in the accumulators")
@@ -152,7 +151,7 @@ def given_pressure(ax: Axes, motion: Motion, measured: Sequence[Deviation] = ())
     _charges(ax, balance)
 
 
-def needed_pressure(ax: Axes, motion: Motion, measured: Sequence[Deviation] = ()) -> None:
+def needed_pressure(ax: Axes, motion: Motion) -> None:
     """Draw figure 3 b: the pressure at which the shoes carry nothing, up and down, from the shoe's lowest place to the stroke's end."""
     lowest, end = motion.strokes["h"][0], motion.plan.strokes["h"].end
     balance = HeaderState(motion.moved({"h": np.linspace(lowest, end, 101)}))
@@ -165,7 +164,7 @@ def needed_pressure(ax: Axes, motion: Motion, measured: Sequence[Deviation] = ()
     ax.set_ylabel("pressure, kgf/cm²")
 
 
-def both_pressures(ax: Axes, motion: Motion, measured: Sequence[Deviation] = ()) -> None:
+def both_pressures(ax: Axes, motion: Motion) -> None:
     """Draw given and needed pressure over the shoe's height, the latter with friction as a band."""
     balance = HeaderState(motion)
     up, down = (balance.required_while(way) / kgf_cm2 for way in ("extending", "retracting"))
@@ -188,7 +187,7 @@ PARTS: Mapping[str, tuple[str, Drawing]] = MappingProxyType(
         "5b": ("Given and needed pressure", both_pressures),
         "6a": (f"Reaction of a shoe{IMPROVED}", reactions),
         "6b": (f"Given and needed pressure{IMPROVED}", both_pressures),
-        "7": ("Reaction of a shoe, calculated and measured", with_measured),
+        "7": ("Reaction of a shoe, calculated and measured", against_measured),
     }
 )
 

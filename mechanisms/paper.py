@@ -1,20 +1,21 @@
-"""What the machines of the papers share: their commands' options, duties as `--set` says them, answers over one motion."""
+"""What the machines of the papers share: their commands' options, duties as `--set` says them, figures by name, answers over one motion."""
 
 from __future__ import annotations
 
 from argparse import Namespace
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import fields
 from typing import TYPE_CHECKING, TypeVar
 
 from linkage import Mechanism, Motion
+from linkage.checks import require_one_design
 from linkage.cli.command import CSV, Option, option, picture_option, pose_options
 from linkage.cli.settings import CHECK, OVER, pair, si_value
 from linkage.errors import known_name
 from linkage.motion import Answer, Judge, Question
 
 if TYPE_CHECKING:
-    pass
+    from matplotlib.figure import Figure
 
 Machine = TypeVar("Machine", bound=Mechanism)
 Duty = TypeVar("Duty")
@@ -34,6 +35,13 @@ def duty_set(duty: type[Duty], options: Namespace, example: str, kinds: Mapping[
         known_name("Number of the duty", name, names)
         given[name] = si_value(value, kinds.get(name, "length"), f"--set {name}")
     return duty(**given)
+
+
+def named_figure(figures: Mapping[str, Callable[[Machine], Figure]], name: str, machine: Machine) -> Figure:
+    """Return a figure of a machine by its name; DefinitionError for an unknown name, a batch of designs."""
+    known_name("Figure", name, figures)
+    require_one_design(machine.dimensions, f"{machine.plan.title}: a figure shows one design")
+    return figures[name](machine)
 
 
 def answers_over(motion: Motion, questions: Sequence[Question]) -> list[Answer]:

@@ -1,31 +1,20 @@
-"""What the figures of the papers' machines share: figures by name, sheets with a title, words beside a place. They load matplotlib."""
+"""What the figures of the papers' machines share: sheets with a title, words along axes and beside a place. They load matplotlib."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from typing import Any, TypeVar
+from collections.abc import Mapping
+from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from linkage import Mechanism
-from linkage.checks import require_one_design
-from linkage.errors import known_name
 from linkage.pictures import style
 from linkage.pictures.sheet import panels
 
-Machine = TypeVar("Machine", bound=Mechanism)
 WORDS: Mapping[str, Any] = {"fontsize": style.TEXT, "color": style.MUTED}
 """The look of what stands along an axis."""
 CURVES: Mapping[str, Any] = {"fontsize": style.SMALL, "frameon": False, "labelcolor": style.INK}
 """The look of a legend."""
-
-
-def named_figure(figures: Mapping[str, Callable[[Machine], Figure]], name: str, machine: Machine) -> Figure:
-    """Return a figure of a machine by its name; DefinitionError for an unknown name, a batch of designs."""
-    known_name("Figure", name, figures)
-    require_one_design(machine.dimensions, f"{machine.plan.title}: a figure shows one design")
-    return figures[name](machine)
 
 
 def titled(title: str, size: tuple[float, float], across: int, down: int = 1, **room: object) -> tuple[Figure, list[Axes]]:

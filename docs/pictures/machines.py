@@ -10,14 +10,13 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from linkage import ISO_10567, LoadRule, Target, animate, plot, working_field
-from mechanisms import demo
+from mechanisms import demo, grapple
+from mechanisms import three_point_hitch as hitch
 from mechanisms.at_work.excavator import HookExcavator
 from mechanisms.at_work.telehandler import Telehandler
 from mechanisms.crane import ArmDrive, BoomDrive, crane_figure, drive_figure
 from mechanisms.grapple import CrossheadGrapple
-from mechanisms.grapple import figures as grapple
 from mechanisms.mower_lift import MowerLift
-from mechanisms.three_point_hitch import figures as hitch
 
 IMAGES = Path(__file__).parents[1] / "images"
 

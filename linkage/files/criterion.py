@@ -19,27 +19,8 @@ import numpy as np
 
 from ..errors import DefinitionError, ensure, unknown
 from ..mechanism import Mechanism
-from ..motion import Request
-from ..motion.measures import (
-    KINDS,
-    Condition,
-    Given,
-    Measure,
-    MeasureKind,
-    Worst,
-    as_measure,
-    at,
-    common_kind,
-    integral,
-    kind_of_quantity,
-    least,
-    most,
-    reachable,
-    strokes_behind,
-    traced,
-    words_of,
-    worst,
-)
+from ..motion import Condition, Measure, Request, at, integral, least, most, reachable, worst
+from ..motion.measures import KINDS, Given, MeasureKind, Worst, as_measure, common_kind, kind_of_quantity, strokes_behind, traced, words_of
 from ..motion.requests import Combined
 from ..quantities import Number, Quantity, angle, distance, is_number, x, y
 from ..steps import Point

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from linkage.star import declare_public
 
+from .. import paper
 from .drive_design import ArmRules, DriveDesign, arm_drive_front, design_arm_drive, design_boom_drive
 from .drives import (
     AngledBellCrankArmDrive,
@@ -40,10 +41,9 @@ def drive_figure(name: str, drive: BoomDrive | DrivenArm) -> Figure:
 
     "moments" is what it gives and what is asked of it over its angle, "positions" the drive at its ends and where it has least to spare.
     """
-    from ..sheets import named_figure
     from .figures import DRIVES
 
-    return named_figure(DRIVES, name, drive)
+    return paper.named_figure(DRIVES, name, drive)
 
 
 def crane_figure(name: str, crane: Crane | None = None) -> Figure:
@@ -52,10 +52,9 @@ def crane_figure(name: str, crane: Crane | None = None) -> Figure:
     "positions" are those that its skeleton is laid out by, "moments" what boom and arm are given and asked for, "map" the load map,
     "reach" all that the tip reaches.
     """
-    from ..sheets import named_figure
     from .figures import DRAWN
 
-    return named_figure(DRAWN, name, crane if crane is not None else Crane())
+    return paper.named_figure(DRAWN, name, crane if crane is not None else Crane())
 
 
 declare_public(globals())

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from linkage.star import declare_public
 
+from .. import paper
 from .design import Combination, Duty, assumed_moment, design, feasible, grapple_for
 from .machine import CrossheadGrapple, Grapple, InnerGrapple
 from .report import GrappleState, gripping, moment_ratio, travelling
@@ -26,10 +27,9 @@ def figure(name: str, grapple: Grapple | None = None) -> Figure:
     "stems" is the grapple open, at the largest and at the smallest stem, with the rosette of stems that rest on T. "moments" is what
     its lever gives and what the stems need, over their diameter.
     """
-    from ..sheets import named_figure
     from .figures import DRAWN
 
-    return named_figure(DRAWN, name, grapple if grapple is not None else Grapple())
+    return paper.named_figure(DRAWN, name, grapple if grapple is not None else Grapple())
 
 
 declare_public(globals())

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from linkage.star import declare_public
 
+from .. import paper
 from .capacity import Weakest, at_hitch_points, behind, capacity, capacity_zone, tilt_zone, vertical_mast, weakest, zone_columns
 from .machine import CATEGORIES, Category, HitchCategory1, HitchCategory2, ThreePointHitch
 from .report import capacity_columns, front_axle, largest_mass, tipping_mass, tipping_slope, upper_link_force
@@ -25,10 +26,9 @@ def figure(name: str, hitch: ThreePointHitch | None = None) -> Figure:
     "zones" is figure 2 of the paper, over the admissible settings. "capacity" is the capacity curve with its weakest point and
     the tractor's limits, "lift" the hitch at the ends of its lift range.
     """
-    from ..sheets import named_figure
     from .figures import DRAWN
 
-    return named_figure(DRAWN, name, hitch if hitch is not None else ThreePointHitch())
+    return paper.named_figure(DRAWN, name, hitch if hitch is not None else ThreePointHitch())
 
 
 declare_public(globals())

@@ -53,6 +53,7 @@ from linkage.statics import drive_remarks, looseness
 from linkage.study import zone
 from linkage.units import bar, deg, litre, mm
 from linkage.verdict import Remark
+from tests.for_all import for_all
 from tests.laws.test_oil_twins import Double
 from tests.laws.test_statics_laws import shipped
 from tests.linkage.random_mechanisms import random_mechanism
@@ -165,22 +166,13 @@ def loosened(seed):
     return type(f"Loose{seed}", (base,), members), "Z9", ram
 
 
-def check_seeds(seeds):
-    for seed in seeds:
-        machine, point, ram = loosened(seed)
-        assert not looseness(machine.__base__.plan).sentence, "the generator's own machine is held"
-        words = check_not_held(machine(), point, ram)
-        assert "with its drives locked it can still move in" in words and "held by nothing" in words, seed
-        assert machine().freedom.loose and f"{', '.join(machine().freedom.loose)}" in str(machine().freedom)
-
-
-def test_loosened_machines_have_no_forces_at_any_door():
-    check_seeds(range(5))
-
-
-@pytest.mark.slow
-def test_many_loosened_machines_have_no_forces_at_any_door():
-    check_seeds(range(5, 60))
+@for_all("seed", range(5), slow=range(5, 60))
+def test_loosened_machines_have_no_forces_at_any_door(seed):
+    machine, point, ram = loosened(seed)
+    assert not looseness(machine.__base__.plan).sentence, "the generator's own machine is held"
+    words = check_not_held(machine(), point, ram)
+    assert "with its drives locked it can still move in" in words and "held by nothing" in words
+    assert machine().freedom.loose and f"{', '.join(machine().freedom.loose)}" in str(machine().freedom)
 
 
 class Exchanged(Mechanism):

@@ -48,6 +48,7 @@ from linkage import (
 from linkage.formulas import equations
 from linkage.motion import least, most
 from linkage.units import bar, deg, kN, litre
+from tests.for_all import for_all
 
 AREA = math.pi / 4 * 0.08**2
 ANNULUS = math.pi / 4 * (0.08**2 - 0.045**2)
@@ -83,20 +84,19 @@ def spelled(seed):
     return first, made("Tank", supply=Pump(given, **losses), valve=Relief(1.1 * given), **lines, **common)
 
 
-@pytest.mark.parametrize("seeds", [range(3), pytest.param(range(3, 15), marks=pytest.mark.slow)], ids=["daily", "many"])
-def test_a_back_pressure_and_a_tank_give_the_same_forces(seeds):
-    for seed in seeds:
-        numbers = []
-        for structure in spelled(seed):
-            machine, ram, line = structure(), structure.ram, structure.line
-            motion, way = machine.at(S=np.array([0.02, 0.11, 0.19])), "extending" if ram.works == "piston" else "retracting"
-            asked = [most(drive_force()), least(drive_force()), least(reserve("ram")), most(pressure("ram", direction=way))]
-            found = [driving_force(motion), driving_force(motion, case="heavy"), driving_force(motion, direction="extending")]
-            found += [pin_forces(motion).drives["S"], np.ravel(machine.evaluate([drive_force()], S=0.1)[0])]
-            found += [ram.thrust(motion), ram.pressure(motion, direction=way)]
-            found += [line.rod_force(motion), line.reserve(motion), line.largest(motion), np.ravel(ram.bounds(motion, True))]
-            numbers.append(np.concatenate([*map(np.ravel, found), [each.value for each in machine.answers(asked)]]))
-        assert_allclose(*numbers, rtol=1e-11, err_msg=str(seed))
+@for_all("seed", range(3), slow=range(3, 15))
+def test_a_back_pressure_and_a_tank_give_the_same_forces(seed):
+    numbers = []
+    for structure in spelled(seed):
+        machine, ram, line = structure(), structure.ram, structure.line
+        motion, way = machine.at(S=np.array([0.02, 0.11, 0.19])), "extending" if ram.works == "piston" else "retracting"
+        asked = [most(drive_force()), least(drive_force()), least(reserve("ram")), most(pressure("ram", direction=way))]
+        found = [driving_force(motion), driving_force(motion, case="heavy"), driving_force(motion, direction="extending")]
+        found += [pin_forces(motion).drives["S"], np.ravel(machine.evaluate([drive_force()], S=0.1)[0])]
+        found += [ram.thrust(motion), ram.pressure(motion, direction=way)]
+        found += [line.rod_force(motion), line.reserve(motion), line.largest(motion), np.ravel(ram.bounds(motion, True))]
+        numbers.append(np.concatenate([*map(np.ravel, found), [each.value for each in machine.answers(asked)]]))
+    assert_allclose(*numbers, rtol=1e-11)
 
 
 def test_the_drive_of_a_cylinder_beside_a_tank_is_its_thrust_in_the_equations_too():

@@ -2,9 +2,7 @@
 
 import ast
 import re
-import sys
 from functools import cache
-from pathlib import Path
 from statistics import mean
 
 from tests.tools.sources import nodes
@@ -81,9 +79,3 @@ def mean_length(*texts):
     """Return how many words the sentences of some texts have in the mean; 0 where there is none."""
     found = [count for text in texts for count, _ in sentences(text)]
     return mean(found) if found else 0.0
-
-
-if __name__ == "__main__":
-    for name in sys.argv[1:]:
-        found = sentences(Path(name).read_text(encoding="utf-8"))
-        print(f"{mean_length(Path(name).read_text(encoding='utf-8')):5.1f} {len(found):4} {name}")

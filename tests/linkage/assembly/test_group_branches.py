@@ -6,6 +6,7 @@ from numpy.testing import assert_allclose
 
 from linkage import AssemblyError, Crank, Dimension, Dyad, Ground, Link, Mechanism, OnLink, Pin, SingularError, Stroke, distance
 from linkage.quantities import ref
+from tests.for_all import for_all
 from tests.linkage.random_parts import group_parts, span_of
 
 
@@ -161,35 +162,26 @@ def test_many_groups_beside_a_change_point_are_those_of_dyads():
     assert check_near_crossings(range(6, 300)) > 100
 
 
-def check_same_whatever(seeds):
-    """Ask groups' poses in several ways: all together, backwards, one by one, few, beside others, by evaluate and as a function."""
-    for seed in seeds:
-        cls, _ = group_parts(seed)
-        span, _ = span_of(cls)
-        if not span:
-            continue
-        rng, machine = np.random.default_rng(seed), cls()
-        pins = [pin for group in cls.plan.groups.values() for pin in group.pins]
-        values = rng.uniform(-span, span, 9)
-        known = machine.at(S=values)
-        f = cls().function(pins)
-        for k in (0, 8):
-            fresh = type(f"Again{seed}", (cls,), {})()
-            places = np.concatenate([fresh.at(S=float(values[k]))[pin] for pin in pins])
-            assert_allclose(places, np.concatenate([known[pin][:, k] for pin in pins]), rtol=0, atol=2e-12)
-            assert_allclose(f(float(values[k])), places, rtol=0, atol=2e-12)
-        for others in (values[::-1], np.append(values[:3], values), np.sort(values), np.linspace(-span, span, 301)):
-            found = machine.at(S=np.append(others, values))
-            for pin in pins:
-                assert_allclose(found[pin][:, -9:], known[pin], rtol=0, atol=2e-12)
-        for pin, found in zip(pins, cls().evaluate(pins, S=values), strict=True):
-            assert_allclose(found, known[pin], rtol=0, atol=2e-12)
-
-
-def test_a_pose_of_a_group_is_the_same_whatever_else_is_asked():
-    check_same_whatever(range(2))
-
-
-@pytest.mark.slow
-def test_poses_of_many_groups_are_the_same_whatever_else_is_asked():
-    check_same_whatever(range(2, 200))
+@for_all("seed", range(2), slow=range(2, 200))
+def test_a_pose_of_a_group_is_the_same_whatever_else_is_asked(seed):
+    """All together, backwards, one by one, few, beside others, by evaluate and as a function."""
+    cls, _ = group_parts(seed)
+    span, _ = span_of(cls)
+    if not span:
+        return
+    rng, machine = np.random.default_rng(seed), cls()
+    pins = [pin for group in cls.plan.groups.values() for pin in group.pins]
+    values = rng.uniform(-span, span, 9)
+    known = machine.at(S=values)
+    f = cls().function(pins)
+    for k in (0, 8):
+        fresh = type(f"Again{seed}", (cls,), {})()
+        places = np.concatenate([fresh.at(S=float(values[k]))[pin] for pin in pins])
+        assert_allclose(places, np.concatenate([known[pin][:, k] for pin in pins]), rtol=0, atol=2e-12)
+        assert_allclose(f(float(values[k])), places, rtol=0, atol=2e-12)
+    for others in (values[::-1], np.append(values[:3], values), np.sort(values), np.linspace(-span, span, 301)):
+        found = machine.at(S=np.append(others, values))
+        for pin in pins:
+            assert_allclose(found[pin][:, -9:], known[pin], rtol=0, atol=2e-12)
+    for pin, found in zip(pins, cls().evaluate(pins, S=values), strict=True):
+        assert_allclose(found, known[pin], rtol=0, atol=2e-12)

@@ -86,9 +86,9 @@ def test_equations_are_printed(rule):
     assert found.latex().count("begin{align}") == found.latex().count("end{align}")
 
 
-def test_a_report_has_them():
-    for rule in ("place + vector", "length", "components"):
-        assert html_text(report_document(machine_with(rule), count=3))
+@for_all("rule", ["components"], slow=["place + vector", "length"])
+def test_a_report_has_them(rule):
+    assert html_text(report_document(machine_with(rule), count=3))
 
 
 def test_what_is_said_of_a_vector_of_numbers():

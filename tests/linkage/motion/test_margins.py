@@ -8,6 +8,7 @@ from linkage import LEFT, AssemblyError, Crank, Dimension, Dyad, Ground, Mechani
 from linkage.motion.search import assembly_error_at, least_margins
 from mechanisms.classics.stephenson_one import StephensonOne
 from tests import shipped
+from tests.for_all import for_all
 
 
 class One(Mechanism):
@@ -74,8 +75,10 @@ def of(found, step="D"):
     return next(each for each in found if each.step == step)
 
 
-def check_hole(seed, k):
-    """Check that a hole is found where it is, and that its machine with the links longer by as much has none."""
+@for_all("seed", range(5), slow=range(5, 568))
+@for_all("k", [1, 2, 3])
+def test_holes_are_found(seed, k):
+    """Each where it is; its machine with the links longer by as much has none."""
     motion, at, short = hole(seed, k)
     found = of(least_margins(motion))
     assert found.is_hole and found.value < 0.0
@@ -85,19 +88,6 @@ def check_hole(seed, k):
     longer, _, _ = hole(seed, k, depth=-1.0)
     found = of(least_margins(longer))
     assert not found.is_hole and found.value > 0.0
-
-
-@pytest.mark.parametrize("k", [1, 2, 3])
-def test_holes_are_found(k):
-    for seed in range(12):
-        check_hole(seed, k)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("k", [1, 2, 3])
-def test_many_holes_are_found(k):
-    for seed in range(12, 568):
-        check_hole(seed, k)
 
 
 @shipped.over_machines()

@@ -58,7 +58,6 @@ from linkage.quantities import name_of
 from linkage.reports import results
 from linkage.units import MPa, bar, mm, unit_system
 from mechanisms.at_work.telehandler import Telehandler
-from mechanisms.classics.jansen import Jansen
 from mechanisms.classics.stephenson_three import StephensonThree, StephensonThreeFar
 from mechanisms.grapple import Grapple
 from mechanisms.header_balancer import HeaderBalancer
@@ -1091,13 +1090,13 @@ def test_a_pin_with_several_joints_and_a_torque_has_the_arrows_that_can_be_told_
         assert shown.said == [] and len(shown("hydrolinkage.data.arrows")) >= 4
 
 
-def test_what_a_balancer_and_a_grapple_are_about_is_followed(tmp_path):
-    for machine, names in ((HeaderBalancer(), {"H", "P", "F_R free"}), (Grapple(), {"D", "H", "M_g", "M_1", "M_g/M_1"})):
-        data = data_of(page_html(machine, at={}))
-        rows = {name: row for name, _, row, *_ in data["columns"]}
-        assert names <= {name for name, row in rows.items() if row >= 0}
-        limits = list(data["limits"].values())
-        assert limits and all(re.search("[\u0430-\u044f]", each[3]) for each in limits)
+@for_all(("machine", "names"), [(HeaderBalancer, {"H", "P", "F_R free"})], slow=[(Grapple, {"D", "H", "M_g", "M_1", "M_g/M_1"})])
+def test_what_a_balancer_and_a_grapple_are_about_is_followed(machine, names):
+    data = data_of(page_html(machine(), at={}))
+    rows = {name: row for name, _, row, *_ in data["columns"]}
+    assert names <= {name for name, row in rows.items() if row >= 0}
+    limits = list(data["limits"].values())
+    assert limits and all(re.search("[\u0430-\u044f]", each[3]) for each in limits)
 
 
 # -- along a path ------------------------------------------------------------------------------------------
@@ -1372,13 +1371,7 @@ def opens(chromium, machine, file):
         assert shown("document.documentElement.scrollWidth") <= LAPTOP[0]
 
 
-@pytest.mark.parametrize("machine", [Jansen], ids=lambda each: each.__name__)
-def test_a_few_machines_open(chromium, machine, tmp_path):
-    opens(chromium, machine(), tmp_path / "machine.html")
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", registered())
+@pytest.mark.parametrize("name", [pytest.param(name, marks=() if name == "jansen" else pytest.mark.slow) for name in registered()])
 def test_every_shipped_machine_opens(chromium, name, tmp_path):
     opens(chromium, find(name)(), tmp_path / "machine.html")
 

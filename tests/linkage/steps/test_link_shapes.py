@@ -66,21 +66,18 @@ def check_kept(sheet, seed):
         assert_allclose(motion.distance(P, Q), sheet.length(P, Q), rtol=0, atol=1e-9, err_msg=f"{seed} {P}{Q}")
 
 
-FEW = range(5)
-MANY = pytest.param(range(1000, 1200), marks=pytest.mark.slow)
+SEEDS = for_all("seed", range(4), slow=range(1000, 1200))
 
 
-@pytest.mark.parametrize("seeds", [FEW, MANY])
-def test_group_stands_as_sketched_however_its_links_are_said(seeds):
+@SEEDS
+def test_group_stands_as_sketched_however_its_links_are_said(seed):
     """Class III and IV groups: the shape is said of loose pins, so that Newton's method alone finds it."""
-    for seed in seeds:
-        check_kept(group_sheet(seed), seed)
+    check_kept(group_sheet(seed), seed)
 
 
-@pytest.mark.parametrize("seeds", [FEW, MANY])
-def test_dyads_stand_as_sketched_however_their_links_are_said(seeds):
-    for seed in seeds:
-        check_kept(dyad_sheet(seed), seed)
+@SEEDS
+def test_dyads_stand_as_sketched_however_their_links_are_said(seed):
+    check_kept(dyad_sheet(seed), seed)
 
 
 # -- the cosine rule, straight links, drawings ----------------------------------------------------------------

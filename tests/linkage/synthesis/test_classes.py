@@ -106,16 +106,6 @@ def test_an_answer_is_of_its_class(found):
     assert error <= 1e-20
 
 
-@pytest.mark.slow
-def test_the_same_seed_gives_the_same_bits():
-    one, two = (synthesise([FourBar, SliderCrank], path=PathTask(POINTS), starts=4, seed=3, limit=14_000) for _ in range(2))
-    assert one.solutions or one.misses
-    assert [(each.machine.plan.title, each.error, *each.at) for each in one.solutions] == [
-        (each.machine.plan.title, each.error, *each.at) for each in two.solutions
-    ]
-    assert one.evaluations == two.evaluations and one.table == two.table
-
-
 def test_every_class_has_an_equal_part_of_what_is_left_of_a_limit():
     asked = []
 

@@ -357,7 +357,7 @@ class OilLine(PumpLine, GasLine):
     def faults(self, members: NamedMembers) -> Iterator[str]:
         filling = self.filling(members)
         for ram, chamber in filling:
-            if not isinstance(ram, Ram):
+            if not isinstance(cast(Member, ram), Ram):
                 yield f"{chamber} is no chamber, as {ram} is no Cylinder"
             if chamber.side not in SIDES:
                 yield f"{ram.name} works with both sides; say which, {ram.name}.piston_side"

@@ -184,13 +184,13 @@ class Evaluation:
         look.refused[:, bad], look.doubtful[:, bad] = refused, doubtful
         look.broken[bad] &= ~lost & ~refused.any(axis=0)
         for number, rows in self._starts():  # to rounding where they stand at a dead point, NaN where a request has no value
-            found, without = block[rows, bad], lost | refused[number]
-            at_end = ~without & ~np.isfinite(found).all(axis=0)
+            values, without = block[rows, bad], lost | refused[number]
+            at_end = ~without & ~np.isfinite(values).all(axis=0)
             if not self.requests[number].order and at_end.any():
                 at = {name: value[at_end] for name, value in inputs.items()}
-                found = to_rounding(found, at_end, self.program.kernel.plan.outputs[rows], at)
-            look.missing[number, bad] = without = without | ~np.isfinite(found).all(axis=0)
-            block[rows, bad] = np.where(without, np.nan, found)
+                values = to_rounding(values, at_end, self.program.kernel.plan.outputs[rows], at)
+            look.missing[number, bad] = without = without | ~np.isfinite(values).all(axis=0)
+            block[rows, bad] = np.where(without, np.nan, values)
 
     def _unwrap(self, found: FloatArray) -> None:
         """Make the angles in requests continuous along the stroke, in place."""
@@ -232,7 +232,7 @@ def guard_masks(
     hold, placed, far, present = np.split(above, np.cumsum([assumed, count - assumed - len(requests) - sum(gaps), len(requests)]))
     near = ~far & ~keeps_digits(plan, requests, inputs, ~far)
     empty = np.array([~each.all(axis=0) for each in np.split(present, np.cumsum(gaps)[:-1])])
-    return ~hold.all(axis=0), ~placed.all(axis=0), near, empty
+    return np.asarray(~hold.all(axis=0)), np.asarray(~placed.all(axis=0)), near, empty
 
 
 def grid_blocks(m: int, n: int, most: int = PIECE) -> Iterator[tuple[slice, slice]]:
@@ -257,7 +257,7 @@ def part_of_input(value: Any, band: slice, part: slice, of_design: bool) -> Any:
 def near_singular(grid: Grid, what: Request) -> Mask:
     """Return the mask of poses at which a request has to be looked at closely."""
     _, unplaced, near, _ = guard_masks(grid.plan, (what,), grid.flat, grid.size)
-    return (unplaced | near[0]).reshape(grid.shape)
+    return np.asarray(unplaced | near[0]).reshape(grid.shape)
 
 
 DIGITS = 3e-12

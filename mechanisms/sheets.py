@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -11,9 +10,9 @@ from matplotlib.figure import Figure
 from linkage.pictures import style
 from linkage.pictures.sheet import panels
 
-WORDS: Mapping[str, Any] = {"fontsize": style.TEXT, "color": style.MUTED}
+WORDS: Mapping[str, object] = {"fontsize": style.TEXT, "color": style.MUTED}
 """The look of what stands along an axis."""
-CURVES: Mapping[str, Any] = {"fontsize": style.SMALL, "frameon": False, "labelcolor": style.INK}
+CURVES: Mapping[str, object] = {"fontsize": style.SMALL, "frameon": False, "labelcolor": style.INK}
 """The look of a legend."""
 
 
@@ -24,7 +23,7 @@ def titled(title: str, size: tuple[float, float], across: int, down: int = 1, **
     return figure, axes
 
 
-def headed(ax: Axes, text: str, **look: Any) -> None:
+def headed(ax: Axes, text: str, **look: object) -> None:
     """Write what axes show above them, on the left."""
     ax.set_title(text, loc="left", **{"fontsize": style.TEXT, "color": style.INK, "pad": 6, **look})
 
@@ -35,6 +34,6 @@ def axis_words(ax: Axes, along: str, up: str) -> None:
     ax.set_ylabel(up, **WORDS)
 
 
-def beside(ax: Axes, text: str, at: tuple[float, float], off: tuple[float, float], **look: Any) -> None:
+def beside(ax: Axes, text: str, at: tuple[float, float], off: tuple[float, float], **look: object) -> None:
     """Write a text so many points off a place."""
     ax.annotate(text, at, xytext=off, textcoords="offset points", **{"fontsize": style.SMALL, "color": style.MUTED, **look})

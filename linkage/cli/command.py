@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import sys
-from argparse import Action, ArgumentParser, ArgumentTypeError, Namespace
+from argparse import Action, ArgumentParser, ArgumentTypeError, Namespace, _ActionsContainer
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from functools import partial
 from operator import methodcaller
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias, final
+from typing import TYPE_CHECKING, TypeAlias, final
 from urllib.parse import parse_qsl
 
 from ..disk import check_place
@@ -21,16 +20,39 @@ if TYPE_CHECKING:
 
 MOST = 100_000_000
 """Poses of a command."""
-Option: TypeAlias = Callable[[Any], object]
+Option: TypeAlias = Callable[[_ActionsContainer], object]
 """What declares an option, or a group of them, with a parser."""
-option = partial(methodcaller, "add_argument")
-"""Return an option from what argparse's `add_argument` takes."""
+
+
+def option(*names: str, **how: object) -> Option:
+    """Return an option of a command.
+
+    Parameters
+    ----------
+    *names : str
+        How it is written, "-o", "--output"; a name without dashes is a value that stands by its place.
+    **how : object
+        What argparse's `add_argument` takes beside them: `metavar`, `default`, `type`, `help` and others.
+
+    Returns
+    -------
+    Option
+        What declares it with a parser.
+    """
+    return methodcaller("add_argument", *names, **how)
 
 
 class Command:
     """A command of `hydrolinkage`: its name, its words for the help, its options, and the function that does it, which it decorates.
 
     The function takes the options' values and returns the exit code; a LinkageError ends it with one line and exit code 2.
+
+    Parameters
+    ----------
+    name, help : str
+        What stands behind `hydrolinkage`, and what the help says of it.
+    *options : Option
+        What it takes, each as `option` returns it.
     """
 
     name: str
@@ -54,7 +76,7 @@ class Command:
 def group(title: str, *options: Option, about: str | None = None) -> Option:
     """Return options that stand together under a title in the help."""
 
-    def declare(parser: ArgumentParser) -> None:
+    def declare(parser: _ActionsContainer) -> None:
         made = parser.add_argument_group(title, about)
         for each in options:
             each(made)
@@ -90,7 +112,7 @@ COLUMNS = "only these columns (default: all), or what is asked for in words: 'pr
 def machine_options(default: str | None = None) -> tuple[Option, ...]:
     """Return what every command on a machine takes; with a `default` the machine need not be named."""
     what = "a machine of `list`, package.module:Class, file.py, file.py:Class or file.toml"
-    named: dict[str, Any] = {"help": what}
+    named: dict[str, object] = {"help": what}
     if default is not None:
         named = {"nargs": "?", "default": default, "help": f"{what} (default {default})"}
     change = "change a design variable, with its unit (without: SI); a point: M=0.22,0.95 or M.x=220mm; repeatable"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace, _ActionsContainer
 from pathlib import Path
 from string import Template
 
@@ -18,7 +18,7 @@ from .settings import machine_of, strokes_given, tell_gaps
 OWN_FORMATS = ("xlsx", "csv", "dxf", "svg")
 
 
-def declare_format(parser: ArgumentParser) -> None:
+def declare_format(parser: _ActionsContainer) -> None:
     """Declare the option that names a format, those that packages bring among them."""
     formats = ", ".join([*OWN_FORMATS, *plugins.entry_points(plugins.EXPORTERS)])
     parser.add_argument("--format", metavar="NAME", help=f"{formats}: one of them, whatever the file's name ends in")

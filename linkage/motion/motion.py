@@ -641,9 +641,8 @@ class Motion(Shown):
     ) -> None:
         """Raise or warn, as asked, where a result is refused or doubtful; `near` tells how near such poses are to singular ones."""
         if refused.any() and self.unreachable == "raise":
-            if are_places:
-                raise conditions.lost_places(near(refused), refused, self.strokes)
-            raise conditions.singular_error(near(refused), refused, self.strokes, words, self)
+            there = near(refused), refused, self.strokes
+            raise conditions.lost_places(*there) if are_places else conditions.singular_error(*there, words, self)
         if doubtful.any():
             conditions.warn_near(near(doubtful), f"{words} {where_words(self.plan, doubtful, self.strokes)}")
 

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, NoReturn, TypeVar
+from typing import Any, NoReturn, TypeVar, dataclass_transform
 
 import numpy as np
 import numpy.typing as npt
@@ -80,3 +81,9 @@ def refuses_changes(kind: Kind) -> Kind:
     setattr(kind, "__setattr__", refuse)  # noqa: B010 - what the dataclass made says nothing of the remedy
     setattr(kind, "__delattr__", refuse)  # noqa: B010
     return kind
+
+
+@dataclass_transform(frozen_default=True, eq_default=False, field_specifiers=(field,))
+def immutable(kind: Kind) -> Kind:
+    """Make a class a frozen dataclass whose objects are told apart by identity, and which refuses changes in words: a class decorator."""
+    return refuses_changes(dataclass(frozen=True, eq=False)(kind))

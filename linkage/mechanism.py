@@ -22,9 +22,10 @@ from .frozen import FrozenDict
 from .loads import PLAIN_CASE, Acting, ForceElement, LoadCase, check_together
 from .loads.element import Formulas
 from .mobility import FourBar, Mobility, chain_graph, check, four_bars, mobility
-from .motion import Answer, Featured, Positions, RequestLike, Target, at_values, followed, judge_verdicts, positions_for, sweep_values
+from .motion import Answer, Featured, Positions, RequestLike, Target, at_values, followed, from_above, positions_for, sweep_values
 from .motion.functions import PoseFunction, evaluate, source_of
 from .motion.judge import Judge, Question
+from .motion.judging import HELD, judge_verdicts
 from .motion.motion import Motion, require_motion
 from .motion.over import OPTIONS, Over
 from .motion.table import Column, columns_of
@@ -32,7 +33,6 @@ from .plan import Body, Part, Plan, check_circuits, require_kinds, with_parts
 from .program import BackendName, FloatArray, Language, RunOptions
 from .quantities import Member, Stroke, is_name, keywords, needs
 from .shown import Shown, ShownList
-from .statics import drive_remarks, held_verdict, looseness
 from .steps import Drawn
 from .vectors import Numbers
 from .verdict import Remark, Verdict
@@ -87,7 +87,7 @@ def played_along(motion: Motion, at: object) -> tuple[Mechanism, Motion]:
 
 def verdicts_of(machine: Mechanism, judge: Judge, motion: Motion | None = None) -> list[Verdict]:
     """Return what a judge and the machine's own rules say; asked again, in other words or units, the judge looks for nothing anew."""
-    fault = held_verdict(judge)
+    fault: Verdict | None = from_above(HELD)(judge)
     try:
         own: object = machine.rules(judge.places[0].sampled if motion is None else motion)
     except DefinitionError:
@@ -96,7 +96,7 @@ def verdicts_of(machine: Mechanism, judge: Judge, motion: Motion | None = None) 
         own = []
     if not isinstance(own, (list, tuple)) or not all(isinstance(each, str) for each in own):
         raise DefinitionError(f"{machine.plan.title}: rules(motion) gives {cited(own)}; a list of Verdicts and sentences is expected.")
-    general = [*judge_verdicts(judge), *drive_remarks(judge)] if fault is None else [fault, *judge_verdicts(judge, fault.sentence)]
+    general = judge_verdicts(judge) if fault is None else [fault, *judge_verdicts(judge, fault.sentence)]
     return ShownList([*general, *(each if isinstance(each, Verdict) else Remark(each) for each in own)])
 
 
@@ -494,7 +494,7 @@ class Mechanism(Shown, metaclass=MechanismType):
     def freedom(self) -> Mobility:
         """The mobility by rank and by count, with the links that are redundant and what is loose while the drives are locked, in words."""
         found = mobility(self.plan)
-        return found if found.dead else replace(found, loose=looseness(self.plan).bodies)
+        return found if found.dead else replace(found, loose=from_above(LOOSE)(self.plan).bodies)
 
     @property
     def gruebler(self) -> int:
@@ -529,6 +529,8 @@ def strokes_for(machine: Mechanism, targets: Sequence[Target], *, hold: Mapping[
     return positions_for(machine.plan, machine.dimensions, targets, hold)
 
 
+LOOSE = "linkage.statics:looseness"
+"""What says which bodies are loose while the drives are locked: in the room of forces, which stands above."""
 WORDS = frozenset({"plan", "graph"})
 """Words of the framework that no member may have for its name, beside those of Mechanism itself."""
 

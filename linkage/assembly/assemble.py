@@ -2,22 +2,159 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass
-from itertools import combinations
+from itertools import combinations, permutations, starmap
 from typing import Any, final
 
 import numpy as np
 
 from ..errors import DefinitionError, about, unknown
+from ..loads import ForceElement
 from ..plan import needed_names, with_inner
-from ..quantities import Member, Number, Quantity, Reference, Stroke, Variable, name_of, needs, of_kind
-from ..steps import Group, Guide, Link, OnLink, Pin, Point, Slide, Step
+from ..quantities import Member, Number, Quantity, Reference, Stroke, Variable, joined_names, name_of, needs, of_kind, quantity
+from ..steps import Dyad, Group, Guide, GuideCross, Link, OnLink, Pin, PinSlotDyad, Point, Slide, SliderDyad, Step, YokeDyad
 from ..vectors import Side
-from .part_sketch import all_behind, with_begun_pins
-from .parts import Parts, Shape, check_held, next_step
-from .sketch import Sketch, missing_labels, sided, with_measured_labels
+from .sketch import ONE_PLACE, Sketch, all_behind, missing_labels, sided, with_begun_pins, with_measured_labels
+
+# The shape of a link: the distances and angles of its points, from its labels or a drawing.
+
+@final
+class Shape:
+    """What is known of a link's shape, from its own labels and those of links of the same body. Lengths in m, angles in rad."""
+
+    def __init__(self, link: Link, parts: Parts) -> None:
+        self.points, self.parts, self.pins = link.point_names, parts, parts.pins
+        bodied = [link, *(each for each in parts.links.values() if len({*each.point_names} & {*self.points}) > 1)]
+        self.labels = {name: quantity(value) for each in reversed(bodied) for name, value in each.labels.items()}
+
+    def given(self, *points: str) -> tuple[str, Quantity] | None:
+        """Return the label of a distance (two points) or an angle (three points) as it is spelled, if it is given."""
+        spelling = next((each for each in (joined_names(*points), joined_names(*reversed(points))) if each in self.labels), "")
+        if not spelling:
+            return None
+        found, drawn = self.labels[spelling], None if self.labels[spelling].is_constant else self.measured(*points)
+        return spelling, found if len(points) > 2 or drawn is None else quantity(self.parts.sketch().extended(found, drawn.number))
+
+    def distance(self, P: str, Q: str) -> Quantity | None:
+        """Return the distance of two points: given, by the cosine rule from two sides and their angle, or measured [m]."""
+        found = self.given(P, Q)
+        if found is not None:
+            return found[1]
+        for R in self.points:
+            first, second, angle = self.given(R, P), self.given(R, Q), self.given(P, R, Q)
+            if first is not None and second is not None and angle is not None:
+                p, q = first[1], second[1]
+                derived: Quantity = np.sqrt(p * p + q * q - 2.0 * p * q * np.cos(angle[1]))
+                return derived
+        return self.measured(P, Q)
+
+    def settled_link(self, link: Link) -> Link:
+        """Return the link with its labels as they are given, the drawn lengths of cylinders among them."""
+        pairs = combinations(self.points, 2) if any(not each.is_constant for each in self.labels.values()) else ()
+        found = {spelling: value for spelling, value in filter(None, starmap(self.given, pairs)) if spelling in link.labels}
+        changed = {spelling: value for spelling, value in found.items() if value is not self.labels[spelling]}
+        return link.renewed(labels={**link.labels, **changed}) if changed else link
+
+    def is_straight(self, P: str, Q: str, R: str) -> bool:
+        """Return whether three distances put three points in one line: such a link has no sides."""
+        sides = [self.distance(*pair) for pair in ((P, Q), (P, R), (Q, R))]
+        if not all(isinstance(side, Number) for side in sides):
+            return False
+        longest = max(lengths := [side.number for side in sides if isinstance(side, Number)])
+        return abs(2.0 * longest - sum(lengths)) <= 1e-9 * longest
+
+    def coincide(self, P: str, Q: str) -> bool:
+        """Return whether two points of the body stand at one place, measured by its longest distance and by where they are."""
+        known = [found.number for found in starmap(self.distance, combinations(self.points, 2)) if isinstance(found, Number)]
+        if self.measured(P, Q) is not None:
+            known += [abs(each) for point in (P, Q) for each in self.drawn(point) or ()]
+        between = self.distance(P, Q)
+        return isinstance(between, Number) and between.number <= ONE_PLACE * max(known)
+
+    def measured(self, P: str, Q: str, *_: str) -> Number | None:
+        """Return the distance of two points in the drawing [m]; None unless one of them is drawn."""
+        if not any(point in self.pins and self.pins[point].drawn_at for point in (P, Q)):
+            return None
+        first, second = self.drawn(P), self.drawn(Q)
+        return None if first is None or second is None else Number(float(np.hypot(first[0] - second[0], first[1] - second[1])))
+
+    def drawn(self, point: str) -> tuple[float, float] | None:
+        """Return a point's place in the drawing, or where it is placed [m]; None for what is neither drawn nor placed."""
+        is_placed = point in self.parts.settled
+        if point in self.pins and (self.pins[point].drawn_at or not is_placed):
+            return self.pins[point].drawn_at
+        return self.parts.sketch().at(point) if is_placed else None
+
+    def attachment(self, firm: Sequence[str], pin: str) -> Step | None:
+        """Return the step that places a point of this body from two placed ones, if the labels allow it."""
+        near = self.pins[pin].near
+        pairs = [(P, Q) for P, Q in permutations(firm, 2) if not self.coincide(P, Q)]
+        for P, Q in pairs:
+            length = self.given(P, pin)
+            angle = self.given(Q, P, pin)
+            if length is None:
+                continue
+            if angle is not None:
+                return OnLink(P, Q, **labelled(length, angle))
+            other = self.given(Q, pin)
+            if other is not None:
+                return OnLink(P, Q, near=self.pins[pin].sketched, **labelled(length, other))
+        if near is None and pairs:
+            apart = [(P, Q) for P, Q in pairs if not self.coincide(P, pin)] or pairs
+            said = [(P, Q) for P, Q in apart if self.given(P, pin)] or [(P, Q) for P, Q in apart if self.given(Q, P, pin)]
+            P, Q = (said or apart)[0]
+            own = filter(None, (self.given(P, pin), self.given(Q, P, pin)))
+            return OnLink(P, Q, at=self.pins[pin].drawn_at, **labelled(*own))
+        for P, Q in pairs:
+            p, q = self.distance(P, pin), self.distance(Q, pin)
+            if p is not None and q is not None:
+                return OnLink(P, Q, near=near, **labelled((P + pin, p), (Q + pin, q)))
+        return None
+
+def labelled(*labels: tuple[str, Quantity]) -> dict[str, Any]:
+    """Return labels as a step's keywords."""
+    return dict(labels)
+
+
+def placements(parts: Parts, pin: str) -> Iterator[Step]:
+    """Yield the steps that can place a pin now: on a body two of whose points are placed, then the dyads by their patterns."""
+    near = parts.pins[pin].sketched
+    for name, link in parts.links.items():
+        firm = parts.firm(link)
+        if pin in link.point_names and len(firm) >= 2 and (step := parts.shapes[name].attachment(firm, pin)) is not None:
+            yield step
+    arms = list(parts.arms(pin))
+    for (P, p), (Q, q) in combinations(arms, 2):  # RRR
+        if P != Q:
+            yield Dyad(P, Q, near=near, **labelled((P + pin, p), (Q + pin, q)))
+    guides = parts.guides_of(pin)
+    for P, length in arms if guides else ():  # RRP
+        yield SliderDyad(P, guides[0], near=near, **labelled((P + pin, length)))
+    if len(guides) > 1:  # PRP
+        yield GuideCross(guides[0], guides[1])
+    for P, length in arms:  # RPR: the slot goes through P and this pin
+        for slide in parts.slides.values():
+            guide, held = parts.guides[name_of(slide.guide)], name_of(slide.point)
+            if set(guide.points) == {P, pin} and held in parts.settled:
+                yield PinSlotDyad(P, held, near=near, **labelled((P + pin, length)))
+    for guide_name in guides:  # RPP
+        yield from yoke_dyads(parts, pin, guide_name)
+
+
+def yoke_dyads(parts: Parts, pin: str, guide: str) -> Iterator[YokeDyad]:
+    """Yield the RPP dyads of a body that slides on a placed guide with two points while its slot holds a placed pin."""
+    for name, link in parts.links.items():
+        partners = [each for each in parts.loose(link) if each != pin and guide in parts.guides_of(each)]
+        for slide in parts.slides.values():
+            slot, held = parts.guides[name_of(slide.guide)], name_of(slide.point)
+            ends = [each for each in slot.points if each != pin]
+            if pin in slot.points and set(slot.points) <= set(link.point_names) and held in parts.settled and partners:
+                angle = parts.shapes[name].given(partners[0], pin, ends[0])
+                if angle is not None:
+                    yield YokeDyad(held, guide, angle=angle[1] if angle[0].startswith(partners[0]) else -angle[1])
+
 
 # What a parts list refers to, looked at before its pins are placed: names, kinds, labels.
 
@@ -55,7 +192,7 @@ class PinEquation:
     """The link that it comes from, if one."""
 
 
-def link_equations(parts: Parts, name: str, title: str) -> list[PinEquation]:
+def link_equations(parts: Parts, name: str) -> list[PinEquation]:
     """Return a link's equations: one length, and two for every further point that is rigid with two points before it."""
     link, shape = parts.links[name], parts.shapes[name]
     points = [*parts.firm(link), *parts.loose(link)]
@@ -66,16 +203,16 @@ def link_equations(parts: Parts, name: str, title: str) -> list[PinEquation]:
     fault = "" if length is not None else f"the length {first}{second} of {name} = {link} is missing; give it, or draw both pins at=(x, y)."
 
     def loose(*pins: str) -> tuple[str, ...]:
-        return tuple(pin for pin in pins if pin not in parts.placed)
+        return tuple(pin for pin in pins if pin not in parts.settled)
 
     measured = None if length is None else (first, second, length)
     rows = [PinEquation(loose(first, second), length=measured, fault=fault, link=name)] if loose(first, second) else []
-    for pin, step in attachments(points, shape, f"{title}: the shape of {name} = {link}", parts.one_place):
+    for pin, step in attachments(points, shape, f"{parts.title}: the shape of {name} = {link}", parts.one_place):
         rough = [name_of(parent) for parent in step.parents if step.drawn_at and shape.drawn(name_of(parent)) is None]
         if rough:
             fault = f"{pin} of {name} = {link} cannot be measured from {' '.join(rough)}; draw them at=(x, y) too, or give the lengths."
         else:
-            fault, step = "", as_sketched(parts, pin, step, f"{title}: {name} = {link}", shape)
+            fault, step = "", as_sketched(parts, pin, step, f"{parts.title}: {name} = {link}", shape)
         held = (*map(name_of, step.parents), pin)
         rows += [PinEquation(loose(*held), attached=(pin, step), half=half, fault=fault, link=name) for half in (0, 1)]
     return rows
@@ -113,7 +250,7 @@ def as_sketched(parts: Parts, pin: str, step: OnLink, what: str, shape: Shape) -
     return found
 
 
-def next_group(parts: Parts, title: str) -> Group:
+def next_group(parts: Parts) -> Group:
     """Return the first set of loose pins that its own equations determine: an Assur group.
 
     Raises DefinitionError where the equations leave a pin free.
@@ -124,13 +261,13 @@ def next_group(parts: Parts, title: str) -> Group:
     for name, link in parts.links.items():
         if parts.loose(link):
             with about(name):
-                rows += link_equations(parts, name, title)
+                rows += link_equations(parts, name)
     for slide in parts.slides.values():
         held = (name_of(slide.point), *parts.guides[name_of(slide.guide)].points)
-        loose = tuple(point for point in held if point in parts.pins and point not in parts.placed)
+        loose = tuple(point for point in held if point in parts.pins and point not in parts.settled)
         if loose:
             rows.append(PinEquation(loose, slide=slide))
-    matched = matching(rows, parts, title)
+    matched = matching(rows, parts)
     graph = nx.DiGraph()
     graph.add_nodes_from(dict.fromkeys(pin for pin, _ in matched))  # a set would be in another order in every run
     for (pin, _), row in matched.items():
@@ -141,16 +278,16 @@ def next_group(parts: Parts, title: str) -> Group:
         own = sorted(row for (pin, _), row in matched.items() if pin in pins)
         faulty = next((rows[row] for row in own if rows[row].fault), None)
         if faulty is not None:
-            raise DefinitionError(f"{title}: {faulty.fault}", member=faulty.link)
-        return grouped([pin for pin in parts.pins if pin in pins], [rows[row] for row in own], title)
-    raise DefinitionError(f"{title}: no pin is left to place.")
+            raise DefinitionError(f"{parts.title}: {faulty.fault}", member=faulty.link)
+        return grouped([pin for pin in parts.pins if pin in pins], [rows[row] for row in own], parts.title)
+    raise DefinitionError(f"{parts.title}: no pin is left to place.")
 
 
-def matching(rows: list[PinEquation], parts: Parts, title: str) -> dict[tuple[str, int], int]:
+def matching(rows: list[PinEquation], parts: Parts) -> dict[tuple[str, int], int]:
     """Return which equation determines which coordinate; DefinitionError for a pin that is left free."""
     import networkx as nx
 
-    loose = [pin for pin in parts.pins if pin not in parts.placed]
+    loose = [pin for pin in parts.pins if pin not in parts.settled]
     graph = nx.Graph()
     coordinates = [(pin, axis) for pin in loose for axis in (0, 1)]
     # whole numbers as nodes: names would be matched in an order that changes from run to run
@@ -163,7 +300,7 @@ def matching(rows: list[PinEquation], parts: Parts, title: str) -> dict[tuple[st
     if free:
         remedy = parts.one_place() or parts.lengths_given(free) or parts.driveless()
         raise DefinitionError(
-            f"{title}: the parts leave {' '.join(free)} free: {len(rows)} conditions for {2 * len(loose)} coordinates of the pins "
+            f"{parts.title}: the parts leave {' '.join(free)} free: {len(rows)} conditions for {2 * len(loose)} coordinates of the pins "
             f"{' '.join(loose)}.{remedy or ' Add a link, a slide or a length that follows a stroke.'}",
             member=free[0],
         )
@@ -204,7 +341,7 @@ def assembled(members: Mapping[str, Member], title: str) -> dict[str, Member]:
     inner = {name: drawn_in(member, defaults) for name, member in among.items() if name not in members}
     check_names({**members, **inner}, title)
     held = frozenset(name for name, each in inner.items() if not isinstance(each, Quantity))
-    return {name: member for name, member in Assembler({**members, **inner}, title, held).run().items() if name not in inner}
+    return {name: member for name, member in Parts({**members, **inner}, title, held).run().items() if name not in inner}
 
 
 def drawn_in(value: object, defaults: Mapping[str, float]) -> Any:
@@ -236,49 +373,100 @@ def sketched(member: Member) -> bool:
 
 
 @final
-class Assembler:
-    """Settles one member after another, numerically at the sketch where positions choose."""
+class Parts:
+    """What is settled so far, and the pins, links and slides that are still to be used; settled at the sketch where positions choose."""
 
     def __init__(self, members: Mapping[str, Member], title: str, held: frozenset[str] = frozenset()) -> None:
         """Take all members; `held` are those that others hold by names of their own: a sketch brings them along with their owners."""
-        self.title, self.held = title, held
+        self.members, self.title, self.held = members, title, held
         self.known: set[str] = set()
         self.settled: dict[str, Member] = {}
         self.drawing = Sketch({}, title)
         self.pending = {name: member for name, member in members.items() if not (is_loose(member) or is_open(member))}
         used = all_behind(members, [name for name, member in members.items() if isinstance(member, (Point, Link, Guide))])
-        self.parts = Parts(
-            placed=set(),
-            pins={name: pin for name, pin in of_kind(members, Pin).items() if is_loose(pin)},
-            links={name: link for name, link in of_kind(members, Link).items() if name not in held},
-            slides=of_kind(members, Slide),
-            guides=of_kind(members, Guide),
-            sketch=self.sketch,
-            idle=tuple(name for name in of_kind(members, Stroke) if name not in used),
-            elements=members,
-        )
+        self.idle = [name for name in of_kind(members, Stroke) if name not in used]
+        self.pins = {name: pin for name, pin in of_kind(members, Pin).items() if is_loose(pin)}
+        self.links = {name: link for name, link in of_kind(members, Link).items() if name not in held}
+        self.slides, self.guides = of_kind(members, Slide), of_kind(members, Guide)
+        self.shapes = {name: Shape(link, self) for name, link in self.links.items()}
+
+    # -- what is still to be used ------------------------------------------------------------------------------
+
+    def loose(self, link: Link) -> list[str]:
+        """Return a link's points that are not placed."""
+        return [point for point in link.point_names if point not in self.settled]
+
+    def firm(self, link: Link) -> list[str]:
+        """Return a link's points that are placed."""
+        return [point for point in link.point_names if point in self.settled]
+
+    def sketched(self, point: str) -> tuple[float, float]:
+        """Return where a point is in the sketch [m]: where it is placed, or a loose pin's own position."""
+        return self.sketch().at(point) if point in self.settled else self.pins[point].sketched
+
+    def one_place(self) -> str:
+        """Return which two points of a link that is not placed stand at one place, in words; "" where none do."""
+        for name, link in self.links.items():
+            for pair in combinations(link.point_names, 2) if self.loose(link) else ():
+                if self.shapes[name].coincide(*pair):
+                    return f" {' and '.join(pair)} of {name} = {link} stand at one place: use one pin for both."
+        return ""
+
+    def driveless(self) -> str:
+        """Return which stroke moves nothing, and how a link follows it, in words; "" where each moves something."""
+        if not self.idle:
+            return ""
+        stroke = self.idle[0]
+        text = f" The stroke {stroke} moves nothing."
+        for link in self.links.values():
+            if len(self.firm(link)) == len(self.loose(link)) == 1:
+                P, X = *self.firm(link), *self.loose(link)
+                crank, ram = f"{X} = Crank({P}, at=(x, y), angle={stroke})", f'Link("{P} {X}", {P}{X}={stroke})'
+                return f"{text} For a crank write {crank}, for a cylinder {ram}."
+        return f"{text} Let a length or an angle follow it."
+
+    def lengths_given(self, pins: Iterable[str]) -> str:
+        """Return by which link one of some pins follows a rope or a closed line, in words; "" where none of these has it."""
+        giving = of_kind(self.members, ForceElement).values()
+        found = next(filter(None, (each.link_written(pin, self.members) for each in giving for pin in pins)), "")
+        return f" Let a link follow the length that is given to it: {found}." if found else ""
+
+    def guides_of(self, pin: str) -> list[str]:
+        """Return the placed guides a pin slides on."""
+        found = [name_of(slide.guide) for slide in self.slides.values() if name_of(slide.point) == pin]
+        return [guide for guide in found if set(self.guides[guide].points) <= self.settled.keys()]
+
+    def arms(self, pin: str) -> Iterator[tuple[str, Quantity]]:
+        """Yield the points and the lengths of the links by which a pin hangs on one placed point."""
+        for name, link in self.links.items():
+            firm = self.firm(link)
+            if pin in link.point_names and len(firm) == 1:
+                length = self.shapes[name].distance(firm[0], pin)
+                if length is not None and not self.shapes[name].coincide(firm[0], pin):
+                    yield firm[0], length
+
+    # -- one after another -------------------------------------------------------------------------------------
 
     def run(self) -> dict[str, Member]:
-        """Return all members, settled."""
-        check_held(self.parts, self.title)
-        points = {point for link in self.parts.links.values() for point in link.point_names}
+        """Return all members, settled; DefinitionError for a pin that nothing holds."""
+        points = {point for link in self.links.values() for point in link.point_names}
+        for pin in self.pins:
+            if pin not in points and pin not in [name_of(slide.point) for slide in self.slides.values()]:
+                raise DefinitionError(f"{self.title}: nothing holds the pin {pin}; say Link(...) or Slide(...) with it.", member=pin)
         while True:
-            progress = True
-            while progress:
-                ready = [name for name, member in self.pending.items() if set(needs(member)) <= self.known and not self.waits(member)]
+            while ready := [name for name, member in self.pending.items() if set(needs(member)) <= self.known and not self.waits(member)]:
                 for name in ready:
                     self.settle(name, self.pending.pop(name))
-                progress = bool(ready)
-            loose = [pin for pin in self.parts.pins if pin not in self.settled]
+            loose = [pin for pin in self.pins if pin not in self.settled]
             if not loose:
                 return self.settled | self.pending
-            found = next_step(self.parts)
+            found = next(((pin, step) for pin in loose for step in placements(self, pin)), None)
             if found is not None:
                 self.settle(*found)
-            elif any(name in points and name not in self.parts.pins for name in self.pending):
-                return self.settled | self.pending | self.parts.pins  # they hang on a step that never comes: a cycle or an unknown name
+            elif any(name in points and name not in self.pins for name in self.pending):
+                return self.settled | self.pending | self.pins  # they hang on a step that never comes: a cycle or an unknown name
             else:
-                self.add_group(next_group(self.parts, self.title))
+                self.add_group(next_group(self))
 
     def waits(self, member: Member) -> bool:
         """Return whether a load case that something runs in is not settled yet, for the loads of the case are not."""
@@ -294,25 +482,22 @@ class Assembler:
             object.__setattr__(named, "_name", name)
             with about(name):
                 member = sided(name, with_measured_labels(name, named, self.sketch), self.settled, self.title)
-            if name in self.parts.pins:
-                member.drawn_at = self.parts.pins[name].drawn_at
-        if isinstance(member, Link) and name in self.parts.links:
-            member = self.parts.shapes[name].settled_link(member)
+            if name in self.pins:
+                member.drawn_at = self.pins[name].drawn_at
+        if isinstance(member, Link) and name in self.links:
+            member = self.shapes[name].settled_link(member)
         self.settled[name] = member
-        self.parts.placed.add(name)
 
     def add_group(self, group: Group) -> None:
         """Settle the pins of a group together."""
-        name = next(f"group{k}" for k in range(1, len(self.parts.pins) + 2) if f"group{k}" not in self.settled)
+        name = next(f"group{k}" for k in range(1, len(self.pins) + 2) if f"group{k}" not in self.settled)
         object.__setattr__(group, "_name", name)
-        self.settled[name] = group
-        self.known.add(name)
+        found: dict[str, Member] = {name: group}
         for pin in group.pins:
-            member = copy(self.parts.pins[pin])
+            found[pin] = member = copy(self.pins[pin])
             member.group = group
-            self.settled[pin] = member
-            self.known.add(pin)
-            self.parts.placed.add(pin)
+        self.settled |= found
+        self.known |= found.keys()
 
     def sketch(self) -> Sketch:
         """Return the sketch of all that is settled."""

@@ -2,18 +2,277 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import final
+from functools import cached_property
+from typing import Any, final
 
 import numpy as np
 import numpy.typing as npt
 
-from ..program import BACKEND, FloatArray
+from ..plan import Plan
+from ..program import BACKEND, FLOATS, GUARDED, Dialect, FloatArray, Level, Node, ancestors, compiled, expanded, lowered, replaced
+from ..program.numba_backend import compiled_loop, pays_compiled
+from ..program.text import HEAD, NUMBA, lane_loop
+from ..steps import Group
 from ..vectors import Numbers
-from .batched_continuation import STUCK, Program, place_rows, state_rows
-from .newton import Newton, at_poses
-from .rules import FIRST, TOUCH, goes_on, interpolated, predicted, step_judged
+from .newton import ITERATIONS, Newton, Programs, at_poses, largest_of, size_of
+from .rules import FIRST, TINY, TOUCH, goes_on, interpolated, newton_ended, predicted, step_judged
+
+WIDTH = 16
+"""How many lanes go side by side where they are compiled: some vectors of them."""
+FIRST_PLACES = 64
+FloatNode = Node | float
+
+STUCK = 2.0
+"""In the row `going`: 1 where a lane is on its way, 0 where it has ended."""
+
+
+def state_rows(count: int) -> list[str]:
+    """Return what is remembered of a lane with so many coordinates, row by row; the first rows are kept of every place."""
+    return [*place_rows(count), "good", "before", "earlier", "step", "going", *row_names("w", count), *row_names("x", count)]
+
+
+def place_rows(count: int) -> list[str]:
+    """Return what is kept of a place: where it is, the clearance with its sign, the size and the pins [m]."""
+    return ["t", "sense", "size", *row_names("u", count)]
+
+
+def row_names(letter: str, count: int) -> list[str]:
+    """Return names of a letter and a number."""
+    return [f"{letter}{k}" for k in range(count)]
+
+
+@final
+class Program:
+    """The loops of a group's continuation: the rows of the lanes' memory that they read and write, and what each row becomes."""
+
+    def __init__(self, plan: Plan, group: Group) -> None:
+        programs, self.graph = Programs.of(plan, group), plan.trace.graph
+        pins, known = [self.graph.input(name, Level.POSE) for name in group.inputs[:-1]], programs.known
+        given = [node for node in ancestors(known) if node.op == "input"]
+        self.inputs, self.count = tuple(node.value for node in given), len(pins)
+        self.work, self.spent = 3 * len(programs.step.plan.pose), 0.0  # about how many operations a step is, and those done
+        rows = [*state_rows(len(pins)), "goal", "limit", "largest", "ahead", "active", "last", "near", "settled", "stuck", "now", "extent"]
+        rows += [name for letter in "gvy" for name in row_names(letter, len(pins))]
+        rows += [name for letter, nodes in (("a", given), ("b", given), ("k", known)) for name in row_names(letter, len(nodes))]
+        self.places = {name: k for k, name in enumerate([*rows, "right", "sense1", "size1", "bound"])}
+        on = replaced(programs.nodes, {pin: self.row(f"v{k}") for k, pin in enumerate(pins)})
+        lines = {node: self.row(f"a{k}") + self.row("ahead") * self.row(f"b{k}") for k, node in enumerate(given)}
+        self.loops = self._rules(on)
+        self.loops["hold"] = {f"k{k}": node for k, node in enumerate(replaced(known, lines))}
+
+    def row(self, name: str) -> Node:
+        """Return the node of a row."""
+        return self.graph.input(f"@{name}", Level.POSE)
+
+    def _loop(self, results: Mapping[str, FloatNode], width: int, dialect: Dialect) -> str:
+        """Return the loop that writes rows from others."""
+        nodes = lowered(expanded(list(map(self.graph.node, results.values()))))
+        rows = {self.row(name): place for name, place in self.places.items()}
+        written = [(self.places[name], node) for name, node in zip(results, nodes, strict=True)]
+        return "\n    ".join(lane_loop(rows, written, width, dialect))
+
+    def _rules(self, outputs: Sequence[Node]) -> dict[str, Mapping[str, FloatNode]]:
+        """Return the rules as what rows become; `outputs` are the nodes of a group's programs on its rows."""
+        pick, count, row = self.graph.pick, self.count, self.row
+        u, w, x, g, v, y = ([row(name) for name in row_names(letter, count)] for letter in "uwxgvy")
+        on, (change, pivot, clear, size) = outputs[:count], outputs[count:]
+        ahead, line, start = predicted(row("step"), row("limit"), [row("t"), row("before"), row("earlier")], [u, w, x], pick)
+        moves = pick(row("going"), 0.5, 0.0, pick(row("going"), 1.5, 1.0, 0.0))
+        place = {"ahead": ahead, "active": pick(row("goal"), row("t"), 0.0, moves)}
+        place |= dict(zip(row_names("g", count), line, strict=True)) | dict(zip(row_names("v", count), start, strict=True))
+
+        begin: dict[str, FloatNode] = {"settled": 1.0 - row("active"), "last": np.inf, "near": 0.0, "stuck": 0.0}
+
+        finite = pick(largest_of([size_of(each) for each in v]), 1.0 / TINY, 1.0, 0.0)
+        weak = pick(TINY, pivot, 0.0, finite)
+        ended, near = newton_ended(change, row("last"), row("size"), pick)
+        found = {"last": change, "near": near, "stuck": weak, "settled": pick(ended, weak, weak, ended)}
+        found |= dict(zip(row_names("v", count), on, strict=True))
+        iterate = {name: pick(row("settled"), 0.5, node, row(name)) for name, node in found.items()}
+
+        clearance = {"now": clear, "extent": size, "stuck": row("active") * largest_of([row("stuck"), weak])}
+
+        miss = largest_of([size_of(a - b) for a, b in zip(v, g, strict=True)])
+        good, step = step_judged(row("ahead") - row("t"), row("sense"), row("largest"), row("near"), miss, row("now"), row("extent"), pick)
+        acts = pick(row("stuck"), 0.5, row("active"), 0.0)
+        good = pick(acts, 0.5, 0.0, good)
+        news = {"t": row("ahead"), "sense": row("now"), "size": row("extent"), "before": row("t"), "earlier": row("before")}
+        news |= dict(zip(row_names("u", count), v, strict=True)) | dict(zip(row_names("w", count), u, strict=True))
+        news |= dict(zip(row_names("x", count), w, strict=True))
+        land: dict[str, FloatNode] = {name: pick(good, 0.5, row(name), node) for name, node in news.items()}
+        step = pick(acts, 0.5, row("step"), step)
+        going = pick(acts, 0.5, row("going"), goes_on(land["t"], land["sense"], step, row("largest"), pick))
+        land |= {"good": good, "step": step, "going": pick(row("stuck"), 0.5, going, STUCK)}
+
+        ends = [row("sense"), row("sense1")], [row("size"), row("size1")]
+        expected, bound = interpolated(row("ahead"), [row("before"), row("t"), row("right")], [w, u, y], *ends, pick)
+        halfway = {f"{letter}{k}": node for letter in "gv" for k, node in enumerate(expected)} | {"bound": bound}
+        close = {"good": pick(row("near"), 0.5, 0.0, pick(row("stuck"), 0.5, pick(miss, row("bound"), 1.0, 0.0), 0.0))}
+        rules: dict[str, Mapping[str, FloatNode]] = {"place": place, "begin": begin, "iterate": iterate, "clearance": clearance}
+        return rules | {"land": land, "between": halfway, "close": close}
+
+    def text(self, width: int, dialect: Dialect, mark: str = "") -> str:
+        """Return the functions `solve(s)` and `advance(s)`: Newton's method from a guess, and a step of all lanes that are on their way."""
+        loop, row = {name: self._loop(results, width, dialect) for name, results in self.loops.items()}, self.places
+        inner = {name: text.replace("\n", "\n    ") for name, text in loop.items()}
+        return f"""
+{mark}def solve(s):
+    {loop["hold"]}
+    {loop["begin"]}
+    for iteration in range({ITERATIONS}):
+        left = 0.0
+        {inner["iterate"]}
+            left += 1.0 - s[{row["settled"] * width} + b]
+        if left == 0.0:
+            break
+
+
+{mark}def advance(s):
+    active = 0.0
+    {loop["place"]}
+        active += s[{row["active"] * width} + b]
+    if active == 0.0:
+        return False
+    solve(s)
+    {loop["clearance"]}
+    {loop["land"]}
+    return True
+
+
+{mark}def between(s):
+    {loop["between"]}
+    solve(s)
+    {loop["close"]}
+"""
+
+    @cached_property
+    def floats(self) -> Callable[[list[float]], bool]:
+        """A step of one lane, in plain floats."""
+        found: Callable[[list[float]], bool] = compiled(self.text(1, GUARDED), FLOATS)["advance"]
+        return found
+
+    @cached_property
+    def compiled_text(self) -> str:
+        """The module for Numba: `follow` and `fill`."""
+        row, count = self.places, self.count
+        names = {"W": WIDTH, "STATE": len(state_rows(count)), "PLACE": len(place_rows(count)), "GIVEN": len(self.inputs), "ROWS": len(row),
+                 "PINS": count, "FIRST_PLACES": FIRST_PLACES, **{name.upper(): place for name, place in row.items()}}  # fmt: skip
+        constants = "".join(f"{name} = {value}\n" for name, value in names.items())
+        mark = '@njit(fastmath={"contract", "arcp", "nsz", "reassoc"}, error_model="numpy")\n'
+        return f"{HEAD}{constants}{self.text(WIDTH, NUMBA, mark)}\n{DRIVERS}"
+
+    @cached_property
+    def follow(self) -> Callable[..., tuple[int, int]]:
+        """The compiled continuation of lanes."""
+        return compiled_loop(self.compiled_text, "follow", lambda t: (*(t.float64[:, ::1],) * 5, t.int64[::1], t.int64, t.boolean))
+
+    @cached_property
+    def fill(self) -> Callable[..., None]:
+        """The compiled solution of poses between the places of lanes."""
+
+        def arguments(t: Any) -> tuple[Any, ...]:
+            whole, row, rows = t.int64[::1], t.float64[::1], t.float64[:, ::1]
+            return whole, row, rows, rows, whole, rows, row, rows, row
+
+        return compiled_loop(self.compiled_text, "fill", arguments)
+
+    def is_compiled(self, lanes: float) -> bool:
+        """Return whether so many steps, and those before them, are done by compiled loops."""
+        self.spent += lanes * self.work
+        return pays_compiled(self.spent, "follow" in vars(self), lambda: self.compiled_text)
+
+
+DRIVERS = '''
+def follow(a, b, state, ends, out, count, start, begins):
+    """Follow lanes from `start` on to their ends; return the first lane that finds no room in `out`, and how many places are there.
+
+    With `begins` the places where they stand are written too.
+    """
+    lanes, used = state.shape[1], 0
+    s = np.zeros(ROWS * W)
+    record = np.empty((FIRST_PLACES, (PLACE + 1) * W))
+    for first in range(start, lanes, W):
+        here = min(W, lanes - first)
+        for c in range(W):
+            lane = first + min(c, here - 1)
+            for k in range(STATE):
+                s[k * W + c] = state[k, lane]
+            for k in range(GIVEN):
+                s[(A0 + k) * W + c] = a[k, lane]
+                s[(B0 + k) * W + c] = b[k, lane]
+            s[GOAL * W + c], s[LIMIT * W + c], s[LARGEST * W + c] = ends[0, lane], ends[1, lane], ends[2, lane]
+            if c >= here:
+                s[GOING * W + c] = 0.0
+        steps, total = 0, 0
+        if begins:
+            for c in range(W):
+                s[GOOD * W + c] = 1.0
+            record[0] = s[: (PLACE + 1) * W]
+            steps, total = 1, here
+        while advance(s):
+            if steps == len(record):
+                more = np.empty((2 * steps, (PLACE + 1) * W))
+                more[:steps] = record
+                record = more
+            for k in range((PLACE + 1) * W):
+                record[steps, k] = s[k]
+            for c in range(here):
+                total += 1 if s[GOOD * W + c] > 0.5 else 0
+            steps += 1
+        if used + total > out.shape[1]:
+            return first, used
+        for c in range(here):
+            before = used
+            for step in range(steps):
+                if record[step, GOOD * W + c] > 0.5:
+                    for k in range(PLACE):
+                        out[k, used] = record[step, k * W + c]
+                    used += 1
+            count[first + c] = used - before
+            for k in range(STATE):
+                state[k, first + c] = s[k * W + c]
+    return lanes, used
+
+
+def fill(lane, place, a, b, first, places, ended, found, close):
+    """Solve poses between the places of lanes; `close` is 1 where one is found that is near enough, -1 beyond a lane's end."""
+    s = np.zeros(ROWS * W)
+    total = len(place)
+    for start in range(0, total, W):
+        here = min(W, total - start)
+        for c in range(W):
+            pose = start + min(c, here - 1)
+            line, at = lane[pose], place[pose]
+            low, high = first[line], first[line + 1] - 1
+            last = high
+            while high - low > 1:
+                middle = (low + high) // 2
+                if places[0, middle] <= at:
+                    low = middle
+                else:
+                    high = middle
+            left, right, before = low, min(low + 1, last), max(low - 1, first[line])
+            s[AHEAD * W + c] = at
+            s[BEFORE * W + c], s[T * W + c], s[RIGHT * W + c] = places[0, before], places[0, left], places[0, right]
+            s[SENSE * W + c], s[SENSE1 * W + c] = abs(places[1, left]), abs(places[1, right])
+            s[SIZE * W + c], s[SIZE1 * W + c] = places[2, left], places[2, right]
+            for k in range(PINS):
+                s[(W0 + k) * W + c], s[(U0 + k) * W + c] = places[3 + k, before], places[3 + k, left]
+                s[(Y0 + k) * W + c] = places[3 + k, right]
+            for k in range(GIVEN):
+                s[(A0 + k) * W + c] = a[k, line]
+                s[(B0 + k) * W + c] = b[k, line]
+            s[ACTIVE * W + c] = 1.0 if at <= ended[line] else 0.0
+        between(s)
+        for c in range(here):
+            pose = start + c
+            close[pose] = s[GOOD * W + c] if s[ACTIVE * W + c] > 0.5 else -1.0
+            for k in range(PINS):
+                found[k, pose] = s[(V0 + k) * W + c]
+'''
+
 
 Index = npt.NDArray[np.intp]
 CROSSING = 0.75
@@ -157,7 +416,7 @@ class GroupPath:
     def _program(self) -> Program | None:
         """Return the program of lanes; None where another group comes first."""
         plan, group = self.newton.plan, self.newton.group
-        return plan.made(("lanes", group.name), lambda twin: Program.of(twin, group)) if self._is_first else None
+        return plan.made(("lanes", group.name), lambda twin: Program(twin, group)) if self._is_first else None
 
     def _compiled_program(self, steps: float) -> Program | None:
         """Return the program where so many steps are done by compiled loops."""
@@ -175,7 +434,7 @@ class GroupPath:
     def _in_floats(self, program: Program, lanes: Index) -> None:
         """Follow some lanes one after the other."""
         a, b = self._lines(program, lanes)
-        places, good, width = program.memory.places, self._row["good"], len(self._row)
+        places, good, width = program.places, self._row["good"], len(self._row)
         ends = self.lanes.ends
         for k, lane in enumerate(lanes):
             s = [0.0] * len(places)

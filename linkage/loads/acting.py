@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from ..checks import require_number, require_type
 from ..errors import DefinitionError, cited, known_name, unknown
-from ..frozen import keep_own, refuses_changes
+from ..frozen import immutable, keep_own, refuses_changes
 from ..quantities import Member, Reference, in_degrees, name_of
 from ..quantities.quantity import plain
 from ..units import deg, require_measure
@@ -26,8 +26,7 @@ STEEPEST = 0.5 * pi * (1.0 + 1e-9)
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class LoadCase(Member):
     """A named choice of loads: `transport = LoadCase("transport", scale={"load": 2.0}, slope=10 * deg)`.
 

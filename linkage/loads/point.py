@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Mapping
-from dataclasses import dataclass
 from math import cos, sin
 from types import MappingProxyType
 from typing import ClassVar, Self, TypeAlias, final
@@ -12,7 +11,7 @@ import numpy as np
 
 from ..checks import require, require_type
 from ..errors import DefinitionError, cited, unknown
-from ..frozen import refuses_changes, unmasked
+from ..frozen import immutable, unmasked
 from ..quantities import Axes, Member, Reference, is_number, label, name_of, real
 from ..quantities.quantity import plain
 from ..steps import Link, Point
@@ -23,8 +22,7 @@ DOWN = (0.0, -g0)  # gravity, m/s2
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class Weight(ForceElement):
     """The weight of a mass [kg] at a point: `load = Weight(G, mass=1200)`.
 
@@ -96,8 +94,7 @@ class Directed(ForceElement):
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class Force(Directed):
     """A force (x, y) [N] at a point, its direction fixed to the frame: `pull = Force(F, (-5 * kN, 0))`.
 
@@ -137,8 +134,7 @@ class Force(Directed):
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class Support(Directed):
     """A support that pushes a point along a direction (x, y), such as the ground under a shoe: `shoe = Support(R, (0, 1))`.
 
@@ -276,8 +272,7 @@ class OnBody(ForceElement):
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class Moment(OnBody):
     """A moment M [Nm] on a body, counter-clockwise: `drag = Moment(arm, M=-250)` or `Moment("O B", M=-250)`."""
 
@@ -299,8 +294,7 @@ class Moment(OnBody):
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class LinkMass(OnBody):
     """A body's own mass [kg] at its centre of gravity: `own = LinkMass("E D F", mass=30)`.
 
@@ -353,8 +347,7 @@ THICKEST = 3.0
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class PinFriction(ForceElement):
     """Friction in a pin of a radius [m]: the moment coefficient * radius * pin force, against the relative turning.
 
@@ -384,8 +377,7 @@ class PinFriction(ForceElement):
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class GuideFriction(ForceElement):
     """Friction of a point on the guides and slots it runs on: coefficient * normal force, against the relative sliding.
 

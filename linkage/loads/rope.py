@@ -19,15 +19,14 @@ from typing import Any, ClassVar, final
 import numpy as np
 
 from ..errors import DefinitionError, cited
-from ..frozen import refuses_changes
+from ..frozen import immutable
 from ..quantities import Axes, Member, Number, Quantity, Reference, Where, label, name_of
 from ..vectors import Scalar, Side, Vec
 from .element import Array, ForceElement, Glyph, Load, Parameter, Poses
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class Pulley(ForceElement):
     """A pulley that turns freely about a point, for a Rope: `sheave = Pulley(B, radius=80 * mm, side=LEFT)`.
 
@@ -106,8 +105,7 @@ def stations_of(run: Sequence[Reference], members: Mapping[str, Member]) -> tupl
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class RopePath(Quantity):
     """The length of a rope's path over points [m], of pulleys of some radii and senses, each straight part so often as its weight says."""
 

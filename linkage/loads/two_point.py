@@ -15,7 +15,7 @@ from typing import Any, ClassVar, Literal, TypeAlias, cast, final, get_args
 import numpy as np
 
 from ..errors import DefinitionError, cited, told
-from ..frozen import refuses_changes
+from ..frozen import immutable
 from ..quantities import Distance, Joint, Member, Reference, name_of, pinned
 from .element import AT_REST, Array, ForceElement, Formulas, Glyph, Load, Parameter, Poses, Push, Rate, Rates
 
@@ -140,8 +140,7 @@ def refuse_coincidence(push: Push, length: Array) -> None:
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class Spring(TwoPoint):
     """A straight spring from A to B: `relief = Spring(A, B, stiffness=20e3, free_length=0.4)`; thrust -stiffness (AB - free_length) [N].
 
@@ -173,8 +172,7 @@ class Spring(TwoPoint):
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class Damper(TwoPoint):
     """A viscous damper from A to B: thrust -coefficient d(AB)/dt [N], the coefficient in N s/m; nothing at rest."""
 
@@ -190,8 +188,7 @@ class Damper(TwoPoint):
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class Actuator(TwoPoint):
     """A thrust that is known, from A to B: `push = Actuator(A, B, force=12 * kN)` [N], positive where it pushes the ends apart."""
 
@@ -205,8 +202,7 @@ class Actuator(TwoPoint):
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class Between(TwoPoint):
     """A law of one's own from A to B: `strut = Between(A, B, law)`, `law(length, rate)` gives the thrust [N] from m and m/s.
 

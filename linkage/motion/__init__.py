@@ -22,6 +22,6 @@ from .requests import MotionFunction, NodeRequest, Request, RequestLike, SmoothP
 from .search import Span, below_zero, greatest, lowest, reached
 from .stroke_search import out_of_reach
 from .strokes import at_values, check_any, float_array, rates_of, sweep_values
-from .table import Column, Featured, Tabled, columns_of, speakers
+from .table import Column, Featured, Tabled, columns_of, from_above, speakers
 
 declare_public(globals())

@@ -27,7 +27,7 @@ from .over import Over
 from .requests import transmission
 from .search import least_margins
 from .stroke_search import out_of_reach
-from .table import speakers
+from .table import from_above, speakers
 
 POOR = 40.0 * deg
 """A transmission angle below which textbooks advise against a loop that carries load [rad]."""
@@ -66,6 +66,10 @@ class HasVerdicts(Member):
         """
 
 
+HELD, DRIVES = "linkage.statics:held_verdict", "linkage.statics:drive_remarks"
+"""What says of any machine whether it is held, and what its drives give: in the room of forces, which stands above."""
+
+
 def judge_verdicts(judge: Judge, fault: str = "") -> list[Verdict]:
     """Return what can be said of any machine over all that it runs, and where it is not as drawn; of a batch, how many designs fail.
 
@@ -82,7 +86,7 @@ def judge_verdicts(judge: Judge, fault: str = "") -> list[Verdict]:
             judge.answers([reachable, *transmissions(judge).values(), *(each for member in members for each in member.questions(judge))])
         found, said_of = geometry_verdicts(judge), member_verdicts(judge.lost_allowed(), fault)
         found += said_of if fault or not all(found) else map(valued_everywhere, said_of)
-    return [*found, *map(Remark, filter(None, told))]
+    return [*found, *map(Remark, filter(None, told)), *([] if fault else from_above(DRIVES)(judge))]
 
 
 def valued_everywhere(verdict: Verdict) -> Verdict:

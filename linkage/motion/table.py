@@ -122,14 +122,19 @@ def columns_of(motion: Motion) -> list[Column]:
 Kind = TypeVar("Kind", bound=Member)
 
 
+def from_above(place: str) -> Any:
+    """Return what is written in a room above, "module:name": the room is loaded when it is first asked."""
+    module, name = place.split(":")
+    return getattr(import_module(module), name)
+
+
 def speakers(plan: Plan, kind: type[Kind]) -> dict[str, Kind]:
     """Return the members of a plan that show or judge themselves, `Tabled` or `HasVerdicts`, and what does so for others, by name."""
     found: dict[str, Kind] = {}
     for name, member in plan.members.items():
         speaker: object = member
         if isinstance(member, ForceElement) and member.shown_by and not isinstance(member, kind):  # by a class above its own room
-            module, shown_by = member.shown_by.split(":")
-            speaker = getattr(import_module(module), shown_by).of(member, plan)
+            speaker = from_above(member.shown_by).of(member, plan)
         if isinstance(speaker, kind):
             found[name] = speaker
     return found

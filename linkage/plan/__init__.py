@@ -1,14 +1,14 @@
 """The ordered steps, their dimensions, and their program."""
 
 from ..star import declare_public
-from .bodies import Body, merged
 from .chain import ChainBody, KinematicChain, Pair, arm_joint, arm_points, gruebler, holds_an_arm, strokes_alone
-from .measure import plan_measure, require_kind, require_kinds
 from .members import (
+    Body,
     as_written,
     carrying_pairs,
     construction_order,
     member_sides,
+    merged,
     needed_names,
     printed,
     strokes_text,
@@ -17,7 +17,7 @@ from .members import (
 )
 from .missing import Mask, failures, missing_words, name_or_pins, negative, opening
 from .part import Part, check_circuits, has_no_axes, with_parts
-from .plan import TRACING, Plan
+from .plan import TRACING, Plan, plan_measure, require_kind, require_kinds
 from .reading import ArrayReading, Reading
 from .table import DesignVariable, Table
 from .trace import NEAR, REGULAR, Guard, Loop, Nearness, Trace

@@ -13,8 +13,7 @@ from typing import final
 
 from ..quantities import Joint, JointSide, Member, Quantity, Stroke, body_name, joined_names, needed_behind, needs, of_kind
 from ..steps import Point
-from .bodies import FRAME, Body
-from .members import Members, carrying_pairs, member_sides
+from .members import FRAME, Body, Members, carrying_pairs, member_sides
 
 
 @final

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from graphlib import CycleError, TopologicalSorter
 from math import pi
@@ -13,13 +14,49 @@ from typing import Any, TypeVar, final
 from ..errors import DefinitionError, about, unknown
 from ..frozen import FrozenDict
 from ..language import translated
-from ..quantities import Dimension, Distance, Joint, Jointed, JointSide, Length, Stroke, Variable
+from ..quantities import Dimension, Distance, Joint, Jointed, JointSide, Length, Stroke, Variable, body_name
 from ..quantities.member import Member, name_of, needed_behind, needs, of_kind, unnamed
 from ..quantities.quantity import Function, Negative, Number, Operation, Quantity, Sum, in_degrees, signed_terms
 from ..steps import Arrow, Bar, Drawn, Group, Guide, Link, Point, strokes_drawn, with_bodies
 from ..units import Amount, deg, require_measure
-from .bodies import Body, merged
 from .table import Table
+
+FRAME = "frame"
+
+
+@final
+@dataclass(frozen=True)
+class Body:
+    """Points that move as one. The frame holds all fixed points."""
+
+    points: tuple[str, ...]
+    fixed: bool = False
+
+    @property
+    def name(self) -> str:
+        """The points' names joined, or `frame`."""
+        return FRAME if self.fixed else body_name(self.points)
+
+    def __contains__(self, point: object) -> bool:
+        return point in self.points
+
+    def __str__(self) -> str:
+        return f"frame {' '.join(self.points)}" if self.fixed else " ".join(self.points)
+
+
+def merged(groups: Iterable[Sequence[str]], ground: Sequence[str]) -> tuple[Body, ...]:
+    """Return the bodies: groups that share two points are one. The frame comes first."""
+    bodies: list[list[str]] = [list(ground)]
+    for group in groups:
+        body = list(dict.fromkeys(group))
+        while (other := next((each for each in bodies if len(set(each) & set(body)) > 1), None)) is not None:
+            bodies.remove(other)
+            body = list(dict.fromkeys([*other, *body]))
+        bodies.append(body)
+    frame = max(bodies, key=lambda body: len(set(body) & set(ground)) if ground else 0) if ground else []
+    others = [body for body in bodies if body is not frame and body]
+    return (Body(tuple(frame), fixed=True), *(Body(tuple(body)) for body in others))
+
 
 Kind = TypeVar("Kind", bound=Member)
 

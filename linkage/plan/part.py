@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from copy import copy
 from dataclasses import fields, is_dataclass
@@ -253,14 +252,31 @@ def pair_of(given: object, what: str) -> tuple[Operand, Operand]:
     return x, y
 
 
-class Renaming(ABC):
-    """What members hold, under other names: the walk through their arguments."""
+class Renaming:
+    """Members with other names for some of what they refer to."""
 
-    names: Mapping[str, str]
+    def __init__(self, names: Mapping[str, str]) -> None:
+        self.names = names
 
-    @abstractmethod
+    def member(self, given: Member) -> Member:
+        """Return a member that refers to what the names stand for; itself, where it uses none of them."""
+        try:
+            if not any(each in self.names for each in needs(given)):
+                return given
+        except DefinitionError:  # its names are not all known yet: those behind the first are not asked for
+            return given
+        held = {name: value for name, value in vars(given).items() if name not in ("_name", "_class", "spoken", "plan", "machine")}
+        return given.renewed(**{name: self.attribute(given, name, value) for name, value in held.items()})
+
     def named_member(self, given: Member) -> Any:
         """Return what replaces a member that an argument is or holds."""
+        return given if given.name and not isinstance(given, Group) else self.member(given)
+
+    def attribute(self, given: Member, name: str, value: Any) -> Any:
+        """Return what an attribute holds under the other names; the keys of labels, and of what a part is given, are names of its own."""
+        if name == "labels" or (isinstance(given, Part) and name == "given"):
+            return {key: self.value(each, is_word=False) for key, each in value.items()}
+        return self.value(value, name in word_arguments(type(given)))
 
     def value(self, given: Any, is_word: bool) -> Any:
         """Return what an argument holds under the other names; a word is no name."""
@@ -356,7 +372,6 @@ class Renamed(Renaming):
         known = self.memo.get(id(given))
         if known is not None:
             return known
-        words = word_arguments(type(given))
         found = object.__new__(type(given))
         self.memo[id(given)] = found
         for attribute, value in vars(given).items():
@@ -365,13 +380,11 @@ class Renamed(Renaming):
             if attribute == "_name":
                 value = self.names.get(value, value) if value else value
             elif attribute == "labels" and isinstance(given, (Step, Link)):
-                value = {f"{self.part.name}.{spelling}": self.value(each, is_word=False) for spelling, each in value.items()}
+                value = {f"{self.part.name}.{spelling}": each for spelling, each in self.attribute(given, attribute, value).items()}
             elif attribute == "variable" and isinstance(given, Variable):  # a coordinate of a part's own fixed point
                 value = f"{self.part.name}.{value}"
-            elif isinstance(given, Part) and attribute == "given":  # its keys are the inner part's own names
-                value = {name: self.value(each, is_word=False) for name, each in value.items()}
             elif not (isinstance(given, Part) and attribute in ("plan", "machine")):
-                value = self.value(value, attribute in words)
+                value = self.attribute(given, attribute, value)
             object.__setattr__(found, attribute, value)
         if isinstance(found, Step):  # what its sketch chose and measured is settled
             vars(found).update(near=None, drawn_at=None)
@@ -455,7 +468,7 @@ def with_parts(members: Mapping[str, Member], title: str) -> dict[str, Member]:
     aliases = aliases_among(found)
     if not aliases:
         return dict(found)
-    renaming = Unaliased(aliases)
+    renaming = Renaming(aliases)
     return {name: renaming.member(member) for name, member in found.items()}
 
 
@@ -490,31 +503,3 @@ def check_circuits(members: Mapping[str, Member], title: str) -> None:
                 part, _, own = inner[0].rpartition(".")
                 remedy = f"leave the part's own out, {part} = Part(..., {own}=None)"
                 raise DefinitionError(f"{title}: {first} and {name} both feed {fed.name}; {remedy}.", member=part)
-
-
-@final
-class Unaliased(Renaming):
-    """Members with other names for some of what they refer to."""
-
-    def __init__(self, names: Mapping[str, str]) -> None:
-        self.names = names
-
-    def member(self, given: Member) -> Member:
-        """Return a member that refers to what the names stand for; itself, where it uses none of them."""
-        try:
-            if not any(each in self.names for each in needs(given)):
-                return given
-        except DefinitionError:  # its names are not all known yet: those behind the first are not asked for
-            return given
-        words = word_arguments(type(given))
-        changes = {}
-        for attribute, value in vars(given).items():
-            if attribute == "labels" or (isinstance(given, Part) and attribute == "given"):  # its keys are the part's own names
-                changes[attribute] = {name: self.value(each, is_word=False) for name, each in value.items()}
-            elif attribute not in ("_name", "_class", "spoken", "plan", "machine"):
-                changes[attribute] = self.value(value, attribute in words)
-        return given.renewed(**changes)
-
-    def named_member(self, given: Member) -> Any:
-        return given if given.name and not isinstance(given, Group) else self.member(given)
-

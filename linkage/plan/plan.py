@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Hashable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from functools import cached_property
 from threading import RLock
 from typing import TypeVar, cast, final
@@ -13,15 +13,82 @@ from weakref import WeakValueDictionary
 import numpy as np
 
 from ..errors import DefinitionError, unknown
-from ..program import Kernel, Level, Node
-from ..quantities import Member, Quantity
+from ..program import Kernel, Level, Node, ancestors
+from ..quantities import Angle, Function, Member, Quantity, unnamed
 from ..steps import Arrow, Point
+from ..units import Amount, amounts_in, require_measure
 from ..vectors import Scalar
 from .chain import KinematicChain, chain_of
 from .members import Members, named_by
 from .reading import ArrayReading, Reading
 from .trace import Trace
-from .tracked_angles import angles_that_count, followed_angles, has_angles
+
+WHOLE = 1e-14
+"""A multiple so near to a whole number, for its size, is one."""
+
+
+def has_angles(plan: Members, asked: Iterable[str | Member]) -> bool:
+    """Return whether some members are built from directions of points."""
+    parts = [part for each in asked if isinstance(each, Quantity) for part in (each, *unnamed(each))]
+    parts += [part for name in plan.reaches(*asked) for part in plan.with_parts(name)]
+    return any(isinstance(part, Angle) or (isinstance(part, Function) and part.symbol == "arctan2") for part in parts)
+
+
+def followed_angles(plan: Members, trace: Trace, loads: Sequence[Quantity]) -> tuple[str, ...]:
+    """Return the angles of a trace, as yet not followed, whose whole turns change where points are or what loads are.
+
+    DefinitionError where one of them changes the pins of a group.
+    """
+    ends = [node for place in trace.positions.values() for node in trace.components(place)]
+    ends += [guard.node for guard in trace.guards] + [trace.graph.node(trace.value(each)) for each in loads]
+    found = angles_that_count(trace, ends)
+    places = [trace.at(pin) for group in plan.groups.values() for pin in group.pins]
+    closures = dict.fromkeys(root.closure for place in places for root in trace.components(place))
+    grouped = angles_that_count(trace, [residual for closure in closures if closure for residual in closure.residuals])
+    if grouped:
+        pins = ", ".join(pin for group in plan.groups.values() for pin in group.pins)
+        raise DefinitionError(
+            f"{plan.title}: {grouped[0]} is used in another way than by a whole multiple, its cosine or its sine, and the pins {pins} "
+            "hang on it. Such an angle and pins that are found by iteration cannot both be followed from the sketch; use a whole multiple, "
+            "or drive the angle by a Stroke.",
+            member=grouped[0],
+        )
+    return found
+
+
+def angles_that_count(trace: Trace, ends: Sequence[Node]) -> tuple[str, ...]:
+    """Return the moving angles of a trace whose whole turns change some nodes, in the order in which they were worked out."""
+    nodes = ancestors(ends)
+    behind, wanted = set(nodes), {end.origin for end in ends}
+    found = []
+    for name, vector in trace.directions.items():
+        angle = trace.graph.node(np.arctan2(vector.y, vector.x))
+        if angle in behind and angle.level is Level.POSE:
+            changes: dict[Node, float | None] = {}  # by how many turns each changes where the angle turns once; None: in another way
+            for node in nodes:
+                turns = [changes[each.origin] for each in node.args]
+                known = [each for each in turns if each is not None]
+                changes[node] = 1.0 if node is angle else None if len(known) < len(turns) else turns_of_operation(node, known)
+            if any(changes[end] != 0.0 for end in wanted):
+                found.append(name)
+    return tuple(found)
+
+
+def turns_of_operation(node: Node, turns: Sequence[float]) -> float | None:
+    """Return by how many turns an operation changes where its arguments change by so many; None where it changes in another way."""
+    if not any(turns):
+        return 0.0
+    if node.op in ("add", "subtract"):
+        return turns[0] + turns[1] if node.op == "add" else turns[0] - turns[1]
+    if node.op == "negative":
+        return -turns[0]
+    if node.op == "multiply":
+        factor, other = (each.origin for each in node.args)
+        return factor.value * turns[1] if factor.op == "constant" else turns[0] * other.value if other.op == "constant" else None
+    if node.op in ("sin", "cos", "tan") and abs(turns[0] - round(turns[0])) <= WHOLE * abs(turns[0]):
+        return 0.0
+    return None
+
 
 Made = TypeVar("Made")
 
@@ -228,3 +295,53 @@ def restored(key: str, kind: type[Plan], parts: Mapping[str, object]) -> Plan:
         plan = REGISTRY.setdefault(key, plan)
         RECENT.append(plan)
     return plan
+
+
+def plan_measure(plan: Plan, variable: str) -> str:
+    """Return what a design variable measures ("length", "angle", "pressure", ...); "" where nothing says so.
+
+    A dimension without a unit of its own measures what it is added to: `L0` in `AB=L0 + S` is a length.
+    """
+    found = plan.table.entries[variable].measures
+    if found:
+        return found
+    if any(variable in plan.terms(length) for length in plan.table.lengths.values()):
+        return "length"
+    return "angle" if variable in plan.turning else ""
+
+
+def require_kinds(plan: Plan, given: Mapping[str, object]) -> None:
+    """Refuse amounts of another kind than the strokes and dimensions measure that they are given for, by name; see `require_kind`."""
+    for name, value in given.items():
+        if isinstance(value, (Amount, list, tuple)):  # arrays and plain numbers know nothing
+            require_kind(plan, name, value, f"{plan.title}: {name}")
+
+
+def require_kind(plan: Plan, name: str, value: object, what: str) -> None:
+    """Refuse an amount of another kind than a dimension, a fixed point or a stroke of a machine measures.
+
+    Parameters
+    ----------
+    plan : Plan
+        What the machine is made of.
+    name : str
+        The name of a dimension, of a fixed point, whose coordinates are lengths, or of a stroke; any other one passes.
+    value : object
+        What was given for it, or several values in a list or a tuple.
+    what : str
+        What it was given for, for the message: `Arm: S`.
+
+    Raises
+    ------
+    DefinitionError
+        An amount measures something else. A plain number is SI, whatever was meant.
+    """
+    if next(amounts_in(value), None) is None:
+        return
+    if name in plan.strokes:
+        kind = plan.known_stroke_kind(name)
+    else:
+        spelling = name if name in plan.table.spellings else f"{name}.x"
+        kind = plan_measure(plan, plan.table.spellings[spelling][0]) if spelling in plan.table.spellings else ""
+    if kind:
+        require_measure(value, kind, what)

@@ -10,10 +10,9 @@ from types import MappingProxyType
 from typing import final
 
 from .elimination import expanded
-from .loop import lettered, loop_text
 from .node import Node
 from .schedule import Schedule, schedule
-from .text import TEMPLATES, Dialect, NodeNames
+from .text import TEMPLATES, Dialect, NodeNames, lettered, loop_text
 
 NOTHING: Mapping[str, float] = MappingProxyType({})
 

@@ -16,8 +16,10 @@ from string import ascii_lowercase, ascii_uppercase
 from types import MappingProxyType
 from typing import final
 
+from .. import plugins
+from ..plugins import Plugins
 from .elimination import expanded
-from .foreign import NOTHING, inputs_text, number_text
+from .foreign import NOTHING, C, Language, inputs_text, number_text
 from .node import Level, Node
 from .schedule import ancestors, lowered, schedule
 
@@ -221,3 +223,13 @@ class JavaScript:
         own = "".join(f"    const {each} = {rule};\n" for each, rule in OWN.items() if f"{each}(" in text)
         lines = re.sub(r",(?=\w+=[^=])", ",\n        ", text[1:-1]).replace(";return", ";\n    return ")
         return f"/* {inputs_text(plan, design)} */\nfunction {name}(d, p) {{\n{own}    {lines};\n}}\n"
+
+
+LANGUAGES = Plugins[Language | JavaScript](
+    plugins.LANGUAGES,
+    "The language",
+    lambda found: found if isinstance(found, Language) else found() if isinstance(found, type) and issubclass(found, Language) else None,
+    "no subclass of linkage.program.Language",
+    {"c": C(), "javascript": JavaScript()},
+)
+"""The languages there are, by name."""

@@ -1,9 +1,10 @@
-"""A program made ready to run: floats for a handful of poses, NumPy blocks or a compiled loop for more."""
+"""A program made ready to run: plain floats for a handful of poses, NumPy blocks or a compiled loop for more."""
 
 from __future__ import annotations
 
 import math
 import threading
+from array import array
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -16,14 +17,116 @@ import numpy as np
 from .. import plugins
 from ..checks import require_whole
 from ..errors import DefinitionError, quoted
+from ..frozen import FrozenDict
 from ..plugins import Plugins
 from ..vectors import FloatArray, Numbers
+from .cache import compiled
 from .elimination import expanded
-from .float_backend import PlainFloats
 from .node import Node
 from .numba_backend import NumbaLoop
-from .numpy_backend import LARGEST, NumpyBlocks, is_array, is_table, with_half_angles
+from .numpy_backend import LARGEST, NumpyBlocks, columns_of, is_array, is_table, rows_of, with_half_angles
+from .operations import FLOATS, NO_VALUE, QUICK
 from .schedule import Schedule, schedule
+from .text import GUARDED, PYTHON, Dialect, function_text
+
+
+@final
+class PlainFloats:
+    """A program as two functions of floats: the design part and the pose part."""
+
+    def __init__(self, plan: Schedule) -> None:
+        self.plan = plan
+        self._latest: tuple[bytes, tuple[float, ...]] = b"none", ()
+        self._latest_of: tuple[Mapping[str, float], tuple[float, ...]] = {}, ()
+        self._strokes = tuple(node.value for node in plan.pose_inputs)
+
+    @cached_property
+    def quick(self) -> Mapping[str, Callable[..., tuple[float, ...]]]:
+        """The functions that raise where a division or a root has no value."""
+        return compiled(self._text(PYTHON), QUICK)
+
+    @cached_property
+    def careful(self) -> Mapping[str, Callable[..., tuple[float, ...]]]:
+        """The functions that return NaN and infinity there, as NumPy does."""
+        return compiled(self._text(GUARDED), FLOATS)
+
+    def _text(self, dialect: Dialect) -> str:
+        plan = self.plan
+        text = function_text("design", plan.design_inputs, plan.design, plan.passed, dialect)
+        return text + function_text("pose", [*plan.passed, *plan.pose_inputs], plan.pose, (*plan.outputs, *plan.guards), dialect)
+
+    def design(self, values: Sequence[float]) -> tuple[float, ...]:
+        """Return what the pose part needs of a design; that of the latest is kept."""
+        key, (known, passed) = array("d", values).tobytes(), self._latest  # bytes tell 0.0 from -0.0
+        if key == known:
+            return passed
+        try:
+            passed = self.quick["design"](*values)
+        except NO_VALUE:
+            passed = self.careful["design"](*values)
+        self._latest = key, passed
+        return passed
+
+    def pose(self, design: FrozenDict[str, float], strokes: Mapping[str, FloatArray]) -> tuple[float, ...]:
+        """Return outputs and guards of one design, floats by name, at one pose, arrays of one number by name.
+
+        What the pose part needs of the latest design is kept by the dictionary itself, which does not change.
+        """
+        known, passed = self._latest_of
+        if known is not design:
+            passed = self.design([design[node.value] for node in self.plan.design_inputs])
+            self._latest_of = design, passed
+        row = [strokes[name].item() for name in self._strokes]
+        try:
+            return self.quick["pose"](*passed, *row)
+        except NO_VALUE:
+            return self.careful["pose"](*passed, *row)
+
+    def poses(self, passed: Sequence[float], columns: Sequence[Sequence[float]], n: int) -> list[tuple[float, ...]]:
+        """Return outputs and guards pose by pose."""
+        quick = self.quick["pose"]
+        found = []
+        for row in zip(*columns, strict=True) if columns else [()] * n:
+            try:
+                found.append(quick(*passed, *row))
+            except NO_VALUE:
+                found.append(self.careful["pose"](*passed, *row))
+        return found
+
+    def turns(self, m: int, n: int) -> bool:
+        """Return whether designs, not poses, are best contiguous in the result."""
+        return False
+
+    def run(self, design: Sequence[Numbers], poses: Sequence[Numbers], values: FloatArray, guards: FloatArray) -> None:
+        """Fill values, shape (outputs, designs, poses), and the least value of each guard."""
+        count, m, n = values.shape
+        if m == n == 1:
+            (row,) = self.poses(self.design(list(map(one_float, design))), [(one_float(value),) for value in poses], 1)
+            values[:, 0, 0] = row[:count]
+            guards[:] = row[count:]  # of one pose each is its own least
+            return
+        designs = [float_list(value, m) for value in design]
+        for place in range(m):
+            here = [value[place % len(value)] if is_table(value) else value for value in poses]
+            rows = self.poses(self.design([each[place] for each in designs]), [float_list(value, n) for value in here], n)
+            values[:, place] = np.array([row[:count] for row in rows], float).T.reshape(count, n)
+            for k in range(len(guards)):
+                seen = [guards[k], *(row[count + k] for row in rows)]
+                guards[k] = math.nan if any(map(math.isnan, seen)) else min(seen)  # no comparison sees NaN
+
+
+def one_float(value: Numbers) -> float:
+    """Return a number, or an array of one, as a float."""
+    return value if type(value) is float else value.item() if isinstance(value, np.ndarray) else float(value)
+
+
+def float_list(value: Numbers, count: int) -> list[float]:
+    """Return a number or an array as so many floats."""
+    if type(value) is float:
+        return [value] * count
+    floats: list[float] = np.asarray(value, float).ravel().tolist()
+    return floats * count if len(floats) == 1 else floats
+
 
 FEW = 20
 """Up to so many poses of one design run in plain floats."""
@@ -196,10 +299,10 @@ def run_threads(
         try:
             with np.errstate(all="ignore"):
                 if m >= n:
-                    tables = [value[here] if is_table(value) and len(value) > 1 else value for value in poses]
-                    backend.run([part(value, here) for value in design], tables, values[:, here], least[k])
+                    tables = [rows_of(value, here) for value in poses]
+                    backend.run([columns_of(value, here) for value in design], tables, values[:, here], least[k])
                 else:
-                    backend.run(design, [part(value, here) for value in poses], values[:, :, here], least[k])
+                    backend.run(design, [columns_of(value, here) for value in poses], values[:, :, here], least[k])
         except Exception as error:
             errors.append(error)
 
@@ -211,8 +314,3 @@ def run_threads(
     if errors:
         raise errors[0]
     guards[:] = np.min(least, axis=0)
-
-
-def part(value: Numbers, here: slice) -> Numbers:
-    """Return the part of an input that belongs to some designs or poses, which stand last."""
-    return value if np.size(value) == 1 else np.asarray(value)[..., here]

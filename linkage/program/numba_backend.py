@@ -13,9 +13,9 @@ import numpy as np
 from ..errors import LinkageError
 from ..vectors import FloatArray, Numbers
 from .cache import CompiledFile, compiled_in_file, is_cached
-from .loop import numba_text
-from .numpy_backend import NumpyBlocks, as_floats, has_many, is_table
+from .numpy_backend import NumpyBlocks, as_floats, columns_of, is_table, rows_of
 from .schedule import Schedule
+from .text import numba_text
 
 #: NaN stays NaN: a pose out of reach is told by it.
 FLAGS = {"contract", "arcp", "nsz", "reassoc"}
@@ -103,7 +103,7 @@ class NumbaLoop:
                 constants = np.array(np.broadcast_to(constants, (len(constants), part.stop - left)))
             for first in range(0, n, WIDE):
                 here = slice(first, min(first + WIDE, n))
-                inputs = input_cube([seen(value, part, here) for value in poses], here.stop - first)
+                inputs = input_cube([columns_of(rows_of(value, part), here) for value in poses], here.stop - first)
                 if turned:
                     inputs = np.array(inputs.transpose(0, 2, 1))
                 self._part(loop, constants, inputs, target[:, here, part] if turned else target[:, part, here], bad)
@@ -113,7 +113,7 @@ class NumbaLoop:
         """Return the design part as one array, shape (count, designs or 1); that of the last single design is kept."""
         key = as_floats(design)
         if key is None:
-            return constant_table(self.arrays.passed([value[part] if has_many(value) else value for value in design]), part)
+            return constant_table(self.arrays.passed([columns_of(value, part) for value in design]), part)
         last, found = self._last
         if last != key or not found.size:
             found = constant_table(self.arrays.passed(key), part)
@@ -126,14 +126,6 @@ class NumbaLoop:
         loop(constants, inputs, memory(inside), bad, np.array(inside.strides[:2]) // inside.itemsize, np.array(inside.shape[1:]))
         if inside is not block:
             block[...] = inside
-
-
-def seen(value: Numbers, part: slice, here: slice) -> Numbers:
-    """Return what some designs and poses see of an input of the poses."""
-    if is_table(value):
-        table: FloatArray = value[part if len(value) > 1 else slice(None), here if value.shape[1] > 1 else slice(None)]
-        return table
-    return value[here] if has_many(value) else value
 
 
 def memory(block: FloatArray) -> FloatArray:

@@ -1,7 +1,6 @@
 """Scalars of a mechanism: strokes, dimensions, outputs, and arithmetic of them."""
 
 from ..star import declare_public
-from .arithmetic import TAKEN, Arithmetic
 from .axes import FRAME_AXES, Axes
 from .curve import Curve, CurveValue
 from .inputs import Dimension, Stroke, Variable
@@ -26,6 +25,8 @@ from .member import (
 )
 from .outputs import Angle, AtPose, Coordinate, Distance, InnerQuantity, Length, angle, distance, label, x, y
 from .quantity import (
+    TAKEN,
+    Arithmetic,
     Function,
     Negative,
     Number,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import cached_property
 from math import pi
 from typing import Any, final
@@ -13,7 +12,7 @@ import numpy.typing as npt
 
 from ..checks import require, require_number
 from ..errors import DefinitionError
-from ..frozen import read_only, refuses_changes
+from ..frozen import immutable, read_only, refuses_changes
 from ..vectors import FloatArray, Scalar, pick
 from .member import Pick, Reference, Where
 from .quantity import Quantity, quantity, real, spelled
@@ -161,8 +160,7 @@ def column(what: str, given: npt.ArrayLike) -> FloatArray:
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class CurveValue(Quantity):
     """What a curve, or a derivative of it, gives for a quantity."""
 

@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import ClassVar, final
 
 from ..errors import DefinitionError, cited
-from ..frozen import refuses_changes
+from ..frozen import immutable
 from ..units import UNITS, require_measure, unit_or_none
 from ..vectors import Scalar
 from .member import Where
 from .quantity import Quantity, in_degrees, is_number, plain
 
 
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class Stroke(Quantity):
     """A driven coordinate with its range: a cylinder's stroke [m] or a crank's angle [rad]."""
 
@@ -46,8 +44,7 @@ class Stroke(Quantity):
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class Variable(Quantity):
     """A design variable that a label or a coordinate made: `OB`, `M.x`."""
 
@@ -60,8 +57,7 @@ class Variable(Quantity):
         return self.variable
 
 
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class Dimension(Quantity):
     """A number of the design that has a name of its own [SI]; `unit` is the one it is shown and checked in, such as "kgf"."""
 

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal, TypeAlias, final
 
-from ..frozen import refuses_changes
+from ..frozen import immutable, refuses_changes
 from ..vectors import Line, Scalar
 from .member import Member, Where
 from .quantity import Quantity
@@ -48,8 +48,7 @@ class Driven:
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class Joint:
     """What the body `on` gets from the body `by` at a point, in the directions that it `holds`.
 

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Hashable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import final
 
 import numpy as np
 
 from ..errors import DefinitionError
-from ..frozen import refuses_changes
+from ..frozen import immutable
 from ..vectors import Scalar
 from .axes import FRAME_AXES, Axes
 from .member import Member, Reference, Turning, Where, as_mapping, name_of
@@ -48,8 +48,7 @@ class Output(Quantity):
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class Angle(Output):
     """The direction of P -> Q [rad], counter-clockwise from the x axis."""
 
@@ -76,8 +75,7 @@ class Angle(Output):
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class Distance(Output):
     """The distance of P and Q [m]."""
 
@@ -91,8 +89,7 @@ class Distance(Output):
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class Coordinate(Output):
     """A point's x or y [m]."""
 
@@ -114,8 +111,7 @@ class Coordinate(Output):
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class Length(Quantity):
     """The length of a vector [m]: `abs(AO)`."""
 
@@ -151,8 +147,7 @@ def y(P: Reference) -> Quantity:
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class AtPose(Quantity):
     """What a quantity is at one pose of the strokes, whatever the pose; strokes that are not named are at the sketch.
 
@@ -176,8 +171,7 @@ class AtPose(Quantity):
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class InnerQuantity(Quantity):
     """What a member holds by a name of its own, as the class tells it: `lift.length`."""
 

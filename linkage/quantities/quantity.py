@@ -6,7 +6,7 @@ Each says its rule once, in plain arithmetic; a reading (arrays, traced nodes) s
 from __future__ import annotations
 
 import operator
-from abc import abstractmethod
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Hashable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar, NoReturn, TypeAlias, cast, final
@@ -15,11 +15,38 @@ import numpy as np
 
 from ..checks import is_number, is_whole
 from ..errors import DefinitionError, cited
-from ..frozen import refuses_changes, unmasked
+from ..frozen import immutable, unmasked
 from ..units import amount_or_float, deg
 from ..vectors import FloatArray, Operators, Scalar, Vec
-from .arithmetic import Arithmetic
 from .member import Member, Reference, Turning, Where, is_reference
+
+TAKEN = (
+    "add", "subtract", "multiply", "divide", "power", "negative", "absolute", "minimum", "maximum", "hypot", "sqrt", "sin", "cos", "tan",
+    "arctan2", "exp", "log",
+)  # fmt: skip
+"""NumPy's functions that are taken of it, by name."""
+
+
+class Arithmetic(Operators[Any, Any], ABC):
+    """The base of what is added, multiplied and given to NumPy's functions beside numbers and quantities. A subclass says `applied`."""
+
+    def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: object, **options: object) -> Any:
+        name = {"true_divide": "divide", "fabs": "absolute"}.get(ufunc.__name__, ufunc.__name__)
+        if method != "__call__" or options or name not in TAKEN:
+            raise DefinitionError(f"np.{ufunc.__name__} of {self} is not provided in this form; use one of: {', '.join(TAKEN)}.")
+        return self.applied(name, *inputs)
+
+    def _not_provided(self, *others: object) -> NoReturn:
+        raise DefinitionError(f"{self}: what is asked for takes + - * / ** and NumPy's functions: {', '.join(TAKEN)}.")
+
+    __mod__ = __rmod__ = __floordiv__ = __rfloordiv__ = __matmul__ = __rmatmul__ = __divmod__ = __rdivmod__ = __round__ = _not_provided
+
+    def __bool__(self) -> NoReturn:
+        raise DefinitionError(f"{self} has no value before it is asked of a motion, so that `if`, `and`, `or` cannot choose by it.")
+
+    def __float__(self) -> NoReturn:
+        raise DefinitionError(f"{self} has no value before it is asked of a motion; take NumPy's functions, np.sqrt(...), not math's.")
+
 
 # The operators and functions that quantities know: what they compute, and how they are written.
 
@@ -251,8 +278,7 @@ def quantity(value: Operand) -> Quantity:
     raise DefinitionError(f"{cited(value)} {'is not a finite number; give a value in SI' if is_endless else fault}.")
 
 
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class Number(Quantity):
     """A number, in SI; one that was given with its unit is an `Amount` still."""
 
@@ -283,8 +309,7 @@ class Number(Quantity):
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class Ref(Quantity):
     """A quantity by its name, for one that is not bound yet."""
 
@@ -315,8 +340,7 @@ def ref(name: str) -> Quantity:
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class Sum(Expression):
     """The sum of two quantities; of two angles it is carried as cosine and sine."""
 
@@ -345,8 +369,7 @@ class Sum(Expression):
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class Negative(Expression):
     """A quantity with its sign changed."""
 

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from dataclasses import dataclass
 from types import MappingProxyType
 from typing import final
 
 import numpy as np
 
 from ..errors import DefinitionError
-from ..frozen import refuses_changes
+from ..frozen import immutable
 from ..quantities import FRAME_AXES, Axes, Driven, Joint, JointSide, Length, Operand, Quantity, label, quantity, spelled
 from ..quantities.member import Member, Reference, Turning, Where, joined_names, name_of
 from ..vectors import Line, Scalar, Vec
@@ -150,8 +149,7 @@ class CosineAngle(Quantity):
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class OffsetLinks:
     """What an offset point keeps by construction; nothing where it is a mere construction.
 

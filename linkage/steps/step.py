@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import DefinitionError, cited
-from ..frozen import refuses_changes
+from ..frozen import immutable, refuses_changes
 from ..quantities import Jointed, Member, Number, Operand, Quantity, Reference, Where, is_number, joined_names, label, name_of, quantity
 from ..units import deg, require_measure
 from ..vectors import Scalar, Side, Vec
@@ -47,8 +47,7 @@ class Bar:
     length: Quantity
 
 
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class Contour:
     """A closed line that is drawn and moves with the points P and Q: its corners along P -> Q and to its left from P, shape (2, n) [m]."""
 
@@ -57,8 +56,7 @@ class Contour:
     corners: npt.NDArray[np.float64]
 
 
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class Assignment:
     """A name given to a primitive of the vector method, `OAB = CosineAngle(...)`; to a quantity, it is the label of a length."""
 

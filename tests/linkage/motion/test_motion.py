@@ -30,7 +30,7 @@ from linkage import (
     y,
 )
 from linkage.motion.grid import unwrapped
-from linkage.program.float_backend import PlainFloats
+from linkage.program.kernel import PlainFloats
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.for_all import for_all
 

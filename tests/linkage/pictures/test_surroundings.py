@@ -21,7 +21,7 @@ from linkage.pictures.browser_data import mark_data
 from linkage.pictures.drawing import MarkPart, read_picture
 from linkage.pictures.scene import Scene
 from linkage.statics import driving_force
-from linkage.surroundings.dxf import dxf_lines
+from linkage.surroundings.outline import dxf_lines
 from mechanisms.classics.front_loader import FrontLoader
 from mechanisms.classics.scissor_lift import ScissorLift
 from mechanisms.crane import Crane

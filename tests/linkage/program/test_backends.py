@@ -20,9 +20,9 @@ from linkage.program import kernel as kernel_module
 from linkage.program.cache import CompiledFile, compiled
 from linkage.program.elimination import expanded
 from linkage.program.interpret import noise
-from linkage.program.loop import numba_text
 from linkage.program.numpy_backend import aligned, cache_size, with_half_angles
 from linkage.program.schedule import ancestors, lowered, schedule
+from linkage.program.text import numba_text
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests import shipped
 from tests.for_all import for_all

@@ -9,6 +9,7 @@ from typing import TypeGuard, TypeVar, cast
 import numpy as np
 
 from .errors import DefinitionError, cited
+from .vectors import Scalar
 
 Kind = TypeVar("Kind")
 
@@ -26,6 +27,12 @@ def is_number(value: object) -> TypeGuard[float]:
 def is_whole(value: object) -> TypeGuard[int]:
     """Return whether a value is one whole number, Python's or NumPy's."""
     return isinstance(value, (int, np.integer)) and not isinstance(value, bool)
+
+
+def two_of(given: object) -> tuple[Scalar, ...]:
+    """Return both parts of a list, a tuple or an array of two, such as the coordinates of a place; nothing for anything else."""
+    parts = tuple(given) if isinstance(given, (list, tuple)) or (isinstance(given, np.ndarray) and given.ndim) else ()
+    return parts if len(parts) == 2 else ()
 
 
 def unfit(what: str, value: object, expected: str) -> DefinitionError:

@@ -268,7 +268,6 @@ class Mechanism(Shown, metaclass=MechanismType):
             self.plan.table.settings({name: 0.0})
         return sign * self._values[owner]
 
-    @of_a_design
     def replaced(self, **dimensions: npt.ArrayLike) -> Self:
         """Return the same design with some dimensions changed."""
         given, spellings = self._settings(dimensions), self.plan.table.spellings
@@ -285,7 +284,6 @@ class Mechanism(Shown, metaclass=MechanismType):
         part._values = FrozenDict({name: value if isinstance(value, float) else value[start:stop] for name, value in values})
         return part
 
-    @of_a_design
     def sweep(self, count: int | None = None, /, *, over: object = None, unreachable: str = "raise", **strokes: object) -> Motion:
         """Return the motion over the whole stroke, at `count` poses.
 
@@ -307,7 +305,6 @@ class Mechanism(Shown, metaclass=MechanismType):
             return self.judge((over,)).places[0].swept(count, unreachable)
         return Motion(self.plan, self._values, sweep_values(count, strokes, self.plan), unreachable)
 
-    @of_a_design
     def at(self, *unnamed: object, unreachable: str = "raise", per_design: object = False, **strokes: object) -> Motion:
         """Return the motion at chosen strokes [SI]: `at(S=[0.0, 0.1])`. They may lie beyond the declared range.
 
@@ -321,7 +318,6 @@ class Mechanism(Shown, metaclass=MechanismType):
             raise DefinitionError(f"{text}; write {ways or 'at()'}.")
         return Motion(self.plan, self._values, at_values(strokes, self.plan), unreachable, per_design=is_yes("per_design", per_design))
 
-    @of_a_design
     def follow(
         self,
         targets: Sequence[Target],
@@ -340,7 +336,6 @@ class Mechanism(Shown, metaclass=MechanismType):
         """
         return followed(self.plan, self._values, targets, hold, start, unreachable)
 
-    @of_a_design
     def evaluate(
         self,
         of: Sequence[RequestLike],
@@ -364,7 +359,6 @@ class Mechanism(Shown, metaclass=MechanismType):
         options = RunOptions(backend, threads)
         return evaluate(self.plan, self._values, strokes, of, out, options, unreachable, is_yes("per_design", per_design))
 
-    @of_a_design
     def function(self, of: Sequence[RequestLike]) -> PoseFunction:
         """Return values, ratios and forces of this design as a function of the strokes, in floats: `f = function(["G", ratio("G")])`.
 
@@ -373,7 +367,6 @@ class Mechanism(Shown, metaclass=MechanismType):
         """
         return PoseFunction(self.plan, self._values, of)
 
-    @of_a_design
     def source(self, of: Sequence[RequestLike], *, language: str | Language = "c", name: str = "poses") -> str:
         """Return values and ratios as the text of a function in "c" or "javascript", for a controller or a page of one's own.
 
@@ -383,12 +376,10 @@ class Mechanism(Shown, metaclass=MechanismType):
         """
         return source_of(self.plan, self._values, of, language, name)
 
-    @of_a_design
     def columns(self, motion: Motion) -> list[Column]:
         """Return the table of results: strokes, moving points, named outputs. A machine replaces it by its own."""
         return columns_of(motion)
 
-    @of_a_design
     def verdicts(self, motion: Motion | None = None, *, over: object = None, acting: Acting | None = None) -> list[Verdict]:
         """Return what an engineer should know of this design, as `Verdict`s and `Remark`s; of a batch, how many designs fail.
 
@@ -402,7 +393,6 @@ class Mechanism(Shown, metaclass=MechanismType):
             check_motion(self, motion, "verdicts")
         return verdicts_of(self, self.judge(over if motion is None else motion, acting), motion)
 
-    @of_a_design
     def rules(self, motion: Motion) -> Sequence[str]:
         """Return what this machine's own rules say of a motion, added to the general ones: `Verdict`s; a plain sentence is a `Remark`."""
         return []
@@ -412,7 +402,6 @@ class Mechanism(Shown, metaclass=MechanismType):
         """Where this machine is looked at: what its class declares as `Over`s, else the box of all strokes."""
         return tuple(self.plan.of_kind(Over).values()) or (Over(),)
 
-    @of_a_design
     def answers(
         self, questions: Sequence[Question], over: Over | Mapping[str, object] | Sequence[Over] | None = None, acting: Acting | None = None
     ) -> list[Answer]:
@@ -445,12 +434,10 @@ class Mechanism(Shown, metaclass=MechanismType):
                 raise DefinitionError(f"{self.plan.title}: over={cited(each)}: {what}.")
         return Judge(self.plan, self._values, overs, acting, self)
 
-    @of_a_design
     def featured(self) -> Featured:
         """Return what pictures show of this design where nothing else is asked for: `about`, unless a machine says more here."""
         return self.about
 
-    @of_a_design
     def formulas(self, written: Formulas) -> None:
         """Write what the equations of forces say beyond the driving forces: that of its elements. A machine replaces it by its own."""
         for element in self.plan.of_kind(ForceElement).values():
@@ -462,7 +449,6 @@ class Mechanism(Shown, metaclass=MechanismType):
         """The strokes by name."""
         return dict(self.plan.strokes)
 
-    @of_a_design
     def assemblies(self, **strokes: float) -> list[Assembly]:
         """Return all assembly modes that exist at a stroke, `assemblies(S=0.1)`; default the start of each. `draw` shows them.
 
@@ -514,6 +500,11 @@ class Mechanism(Shown, metaclass=MechanismType):
     def __repr__(self) -> str:
         changed = {name: value for name, value in self._values.items() if np.ndim(value) or value != self.plan.table.entries[name].default}
         return f"{type(self).__name__}({', '.join(f'{name}={value!r}' for name, value in changed.items())})"
+
+
+for _name, _method in [*vars(Mechanism).items()]:
+    if isfunction(_method) and not _name.startswith("_"):
+        type.__setattr__(Mechanism, _name, of_a_design(_method))
 
 
 def strokes_for(machine: Mechanism, targets: Sequence[Target], *, hold: Mapping[str, float] | None = None) -> Positions:

@@ -71,12 +71,12 @@ class Newton:
         with np.errstate(all="ignore"):
             return residual / size, rows / size[:, None], size
 
-    def start(self, inputs: Mapping[str, Numbers], sketch: FloatArray, iterations: int = 100) -> tuple[FloatArray, bool, float]:
+    def start(self, inputs: Mapping[str, Numbers], sketch: FloatArray) -> tuple[FloatArray, bool, float]:
         """Return the solution nearest a rough sketch by damped steps, whether it was found, and what is missing [m]."""
         u = sketch
         with np.errstate(all="ignore"):
             residual, rows, size = self.system(inputs, u)
-            for _ in range(iterations):
+            for _ in range(100):
                 change = solve_arrays(*rows.reshape(-1, 1), *residual)
                 if not np.isfinite(change).all():
                     break

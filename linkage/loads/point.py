@@ -9,7 +9,7 @@ from typing import ClassVar, Self, TypeAlias, final
 
 import numpy as np
 
-from ..checks import require, require_type
+from ..checks import require, require_type, two_of
 from ..errors import DefinitionError, cited, unknown
 from ..frozen import immutable, unmasked
 from ..quantities import Axes, Member, Reference, is_number, label, name_of, real
@@ -202,8 +202,8 @@ def vector(size: Array | float, direction: tuple[Array | float, Array | float]) 
 
 def two_parts(given: object, what: str) -> tuple[Parameter, Parameter]:
     """Return a vector's parts; DefinitionError unless there are two."""
-    parts = list(given) if isinstance(given, (list, tuple)) or (isinstance(given, np.ndarray) and given.ndim) else []
-    if len(parts) != 2 or np.ma.is_masked(given):
+    parts = two_of(given)
+    if not parts or np.ma.is_masked(given):
         raise DefinitionError(f"{what}: {cited(given)} is not a vector; write (x, y).")
     x, y = parts
     return x, y

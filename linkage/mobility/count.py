@@ -25,22 +25,11 @@ from ..vectors import Numbers, Scalar, Vec
 Places = Mapping[str, tuple[float, float]]
 
 
-@final
-@dataclass(frozen=True)
-class ConstraintRows:
-    """Constraint rows, each of length one, by the coordinates of the points and the strokes; `owner` names their source."""
+def step_rows(plan: Plan, places: Places, inputs: Mapping[str, Numbers]) -> tuple[FloatArray, list[str], tuple[str, ...]]:
+    """Return the rows of the steps' own constraints at a pose, each of length one, the members that they come from, and their unknowns.
 
-    matrix: FloatArray
-    owners: tuple[str, ...]
-    unknowns: tuple[str, ...]
-
-    def without(self, owner: str) -> FloatArray:
-        """Return the rows that do not come from one source."""
-        return self.matrix[[each != owner for each in self.owners]]
-
-
-def step_rows(plan: Plan, places: Places, inputs: Mapping[str, Numbers]) -> ConstraintRows:
-    """Return the rows of the steps' own constraints at a pose; points that no body holds are left out."""
+    These are the coordinates of the points, without those that no body holds, and the strokes.
+    """
     levels = dict.fromkeys((*plan.strokes, *plan.solved), Level.POSE) | dict.fromkeys(plan.table.entries, Level.DESIGN)
     trace = Trace(plan.members, plan.table.lengths, levels)
     for name in plan.points:  # which are inputs: `@B.x`, `@B.y`
@@ -66,7 +55,7 @@ def step_rows(plan: Plan, places: Places, inputs: Mapping[str, Numbers]) -> Cons
     matrix = np.zeros((len(nodes), len(seeds)))
     for (row, column, _), value in zip(behind, interpret([tangents[column].of(node) for _, column, node in behind], at), strict=True):
         matrix[row, column] = float(value)
-    return ConstraintRows(unit_rows(matrix), tuple(owner for owner, _ in nodes), tuple(seeds))
+    return unit_rows(matrix), [owner for owner, _ in nodes], tuple(seeds)
 
 
 def rigid_rows(points: tuple[str, ...], places: Places, unknowns: tuple[str, ...]) -> list[FloatArray]:
@@ -184,26 +173,24 @@ def mobility(plan: Plan) -> Mobility:
 
 def mobility_at(plan: Plan, places: Places, inputs: Mapping[str, Numbers]) -> Mobility:
     """Return the mobility at a pose."""
-    steps = step_rows(plan, places, inputs)
+    rows, owners, unknowns = step_rows(plan, places, inputs)
     # A link of more points whose length between two of them is driven is a cylinder with points on it: each goes with its own side.
     found: list[FloatArray] = []
-    owners: list[str] = []
     for name, link in plan.of_kind(Link).items():
         if len(link.point_names) == 2 and plan.is_cylinder(link):
             continue
         sides = cylinder_sides(plan, link)
-        rows = sided_rows(sides, places, steps.unknowns) if sides else rigid_rows(link.point_names, places, steps.unknowns)
-        found += rows
-        owners += [name] * len(rows)
-    links = ConstraintRows(unit_rows(np.array(found).reshape(len(found), len(steps.unknowns))), tuple(owners), steps.unknowns)
-    both = ConstraintRows(np.vstack([steps.matrix, links.matrix]), (*steps.owners, *links.owners), steps.unknowns)
-    active = np.abs(both.matrix).sum(axis=0) > 0.0
-    free = int((active | np.array([name not in plan.strokes for name in both.unknowns], bool)).sum())
-    full = rank(both.matrix)
-    extra = [name for name in dict.fromkeys((*links.owners, *plan.sliding)) if name not in implied(plan)]
-    needed = len(steps.unknowns) - len(plan.strokes)
-    locking = tuple(name for name in extra if rank(both.without(name)) < full and full > needed)
-    redundant = tuple(name for name in extra if name not in locking and rank(both.without(name)) == full)
+        own = sided_rows(sides, places, unknowns) if sides else rigid_rows(link.point_names, places, unknowns)
+        found += own
+        owners += [name] * len(own)
+    matrix = np.vstack([rows, unit_rows(np.array(found).reshape(len(found), len(unknowns)))])
+    active = np.abs(matrix).sum(axis=0) > 0.0
+    free = int((active | np.array([name not in plan.strokes for name in unknowns], bool)).sum())
+    full, needed = rank(matrix), len(unknowns) - len(plan.strokes)
+    extra = [name for name in dict.fromkeys((*owners[len(rows) :], *plan.sliding)) if name not in implied(plan)]
+    without = {name: rank(matrix[[owner != name for owner in owners]]) for name in extra}
+    locking = tuple(name for name in extra if without[name] < full and full > needed)
+    redundant = tuple(name for name in extra if name not in locking and without[name] == full)
     return Mobility(free - full, plan.gruebler, len(plan.strokes), redundant, locking)
 
 

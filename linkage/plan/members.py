@@ -162,8 +162,16 @@ class Members:
         return tuple(name for name, point in self.points.items() if point.is_fixed)
 
     def _check_kinds(self, name: str, member: Member) -> None:
-        """Raise DefinitionError where a point, a vector, a quantity or an amount is given for another kind."""
-        self._check_amounts(name, member)
+        """Raise DefinitionError where a point, a vector, a quantity or an amount is given for another kind, as in `20 * mm + phi`."""
+        if isinstance(member, Stroke) and (isinstance(member.start, Amount) or isinstance(member.end, Amount)):
+            require_measure((member.start, member.end), self.known_stroke_kind(name), f"{self.title}: {name}")
+        for each, value in member.strokes.items() if isinstance(member, Drawn) else ():
+            if each in self.strokes and isinstance(value, Amount):
+                require_measure(value, self.known_stroke_kind(each), f"{self.title}: {name} = drawn(...): {each}")
+        for _, coordinate in member.coordinates():
+            self._check_terms(coordinate, "length", f"{self.title}: {name} = {member}")
+        for angle in (each for part in self.with_parts(name) for each in part.in_radians()):
+            self._check_terms(angle, "angle", f"{self.title}: {name} = {member}")
         member.examine(self.members, self.title)
         for part in self.with_parts(name):
             for length in part.lengths():
@@ -180,19 +188,6 @@ class Members:
         if member.is_fixed and self.moves(member):
             remedy = "drive a point by OnGuide, Dyad or Crank"
             raise DefinitionError(f"{self.title}: {name} = {member} follows a stroke, but is fixed; {remedy}.")
-
-    def _check_amounts(self, name: str, member: Member) -> None:
-        """Raise DefinitionError for an amount that stands for a length or an angle and measures something else, `20 * mm + phi`."""
-        if isinstance(member, Stroke) and (isinstance(member.start, Amount) or isinstance(member.end, Amount)):
-            require_measure((member.start, member.end), self.known_stroke_kind(name), f"{self.title}: {name}")
-        for each, value in member.strokes.items() if isinstance(member, Drawn) else ():
-            if each in self.strokes and isinstance(value, Amount):
-                require_measure(value, self.known_stroke_kind(each), f"{self.title}: {name} = drawn(...): {each}")
-        for _, coordinate in member.coordinates():
-            self._check_terms(coordinate, "length", f"{self.title}: {name} = {member}")
-        for part in self.with_parts(name):
-            for angle in part.in_radians():
-                self._check_terms(angle, "angle", f"{self.title}: {name} = {member}")
 
     def _check_terms(self, given: Quantity, measures: str, what: str) -> None:
         """Raise DefinitionError where a number or a dimension that a length or an angle is a sum of measures something else."""

@@ -10,6 +10,7 @@ from typing import Any, final
 
 import numpy as np
 
+from ..checks import two_of
 from ..errors import DefinitionError, about, cited, is_yes, unknown
 from ..frozen import FrozenDict
 from ..quantities import FRAME_AXES, Axes, Coordinate, Dimension, Operand, Quantity, Ref, Stroke, Variable, is_number, label, quantity
@@ -242,8 +243,8 @@ def given_text(value: object) -> str:
 
 def pair_of(given: object, what: str) -> tuple[Operand, Operand]:
     """Return two coordinates; DefinitionError for anything else."""
-    pair = tuple(given) if (isinstance(given, (list, tuple, np.ndarray)) and np.ndim(given) != 0) or isinstance(given, tuple) else ()
-    if len(pair) != 2:
+    pair = two_of(given)
+    if not pair:
         raise DefinitionError(f"{what}: {cited(given)} is no place; write (x, y) in m, or name a point of the machine.")
     for each in pair:
         quantity(each)
@@ -389,7 +390,10 @@ class Renamed(Renaming):
         if isinstance(found, Step):  # what its sketch chose and measured is settled
             vars(found).update(near=None, drawn_at=None)
         if isinstance(found, (Step, Link, Group)):
-            object.__setattr__(found, "spoken", self._spoken(given))
+            before: Spoken | None = getattr(given, "spoken", None)
+            owner = self.part.name if before is None else f"{self.part.name}.{before.owner}"
+            letters = {name: name for name in self.plan.members} if before is None else before.letters
+            object.__setattr__(found, "spoken", Spoken(owner, {self.names.get(name, name): letter for name, letter in letters.items()}))
         placed = found
         if self.axes is not None:
             coordinate = self._own_coordinate(given)
@@ -412,15 +416,6 @@ class Renamed(Renaming):
         if each.is_constant:
             return Variable(f"{self.part.name}.{own}.{given.axis}")
         return each if own in self.part.given else self.member(each)  # type: ignore[return-value]
-
-    def _spoken(self, given: Any) -> Spoken:
-        """Return how the labels of a member are spoken in the whole."""
-        before = given.spoken
-        owner = self.part.name if before is None else f"{self.part.name}.{before.owner}"
-        letters = {self.names[name]: name for name in self.plan.members} if before is None else {
-            self.names.get(name, name): letter for name, letter in before.letters.items()
-        }  # fmt: skip
-        return Spoken(owner, letters)
 
     def _in_axes(self, given: Member, found: Member) -> Member:
         """Return a member where the part stands; DefinitionError for one of another package that does not say how it is mirrored."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from copy import copy
 from functools import cached_property, reduce
-from typing import final
+from typing import Self, final
 
 import numpy as np
 
@@ -44,6 +44,12 @@ class Reading(Where):
             self.positions[name] = self.closed(step, self.positions[name])
             self.placing.pop()
         return self.positions[name]
+
+    def copied(self) -> Self:
+        """Return the same reading, to go on from: what is worked out and noted there stays there."""
+        found = copy(self)
+        vars(found).update({name: value.copy() for name, value in vars(self).items() if type(value) in (dict, list)})
+        return found
 
     @property
     def owner(self) -> str:
@@ -188,12 +194,6 @@ class ArrayReading(Reading):
         self.rounding: dict[str, Scalar] = {}
         self.spans: dict[str, Scalar] = {}
         self.outside: dict[str, str] = {}
-
-    def copied(self) -> ArrayReading:
-        """Return the same reading, to go on from: what is worked out and noted there stays there."""
-        found = copy(self)
-        vars(found).update({name: value.copy() for name, value in vars(self).items() if type(value) in (dict, list)})
-        return found
 
     def curve(self, curve: Tabulated, x: Scalar, order: int = 0) -> Scalar:
         if curve.ends is not None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Container, Mapping, Sequence
-from copy import copy
 from dataclasses import dataclass, fields
 from functools import cached_property, reduce
 from typing import Any, final
@@ -98,11 +97,8 @@ class Trace(Reading):
 
     def view(self) -> Trace:
         """Return this trace as it stands, for reading more: what is read there leaves nothing here but nodes."""
-        view = copy(self)
-        view.guards, view.measures, view.loops, view.angles = list(self.guards), dict(self.measures), list(self.loops), list(self.angles)
-        view.placing = []
-        view.positions, view.noted, view._values = dict(self.positions), dict(self.noted), dict(self._values)
-        view.directions = dict(self.directions)
+        view = self.copied()
+        view.kept, view._tangents, view.placing = self.kept, self._tangents, []
         return view
 
     def alone(self, member: Member | None) -> Trace:

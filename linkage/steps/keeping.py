@@ -14,7 +14,8 @@ from functools import reduce
 from math import isclose, pi, remainder
 from typing import TypeAlias, final
 
-from ..quantities import Angle, Axes, CurveValue, Distance, Jointed, Length, Member, Reference, Stroke, Variable, name_of, needs, of_kind
+from ..quantities import Angle, Axes, CurveValue, Distance, Jointed, Length, Member, Reference, Stroke, Variable, name_of, of_kind
+from ..quantities.member import needed_behind, needs
 from ..quantities.quantity import Negative, Number, Operation, Quantity, Ref, Sum
 from .link import Link
 from .primitives import Arrow, Axis, CosineAngle, Offset, OffsetLinks, Turn, Vector
@@ -107,14 +108,8 @@ class Construction:
 
     def _points_behind(self, starts: Iterable[Member]) -> dict[str, Point]:
         """Return the points that some members hang on, at once or through vectors and quantities."""
-        stack = [each for member in starts for each in needs(member)]
-        found: set[str] = set()
-        while stack:
-            name = stack.pop()
-            if name not in found:
-                found.add(name)
-                stack += needs(self.members[name]) if isinstance(self.members[name], (Arrow, Quantity)) else ()
-        return {name: member for name in found if isinstance(member := self.members[name], Point)}
+        names = needed_behind((each for member in starts for each in needs(member)), self.members, barred=Point)
+        return {name: member for name in names if isinstance(member := self.members[name], Point)}
 
     # -- points in turn --------------------------------------------------------------------------------------
 

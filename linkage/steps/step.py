@@ -13,6 +13,7 @@ from typing import ClassVar, Self, TypeAlias, final
 import numpy as np
 import numpy.typing as npt
 
+from ..checks import two_of
 from ..errors import DefinitionError, cited
 from ..frozen import immutable, refuses_changes
 from ..quantities import Jointed, Member, Number, Operand, Quantity, Reference, Where, is_number, joined_names, label, name_of, quantity
@@ -286,10 +287,10 @@ def position(value: Position | None, what: str) -> tuple[float, float] | None:
     """Return a sketch position as two floats; raise DefinitionError unless it is a pair of finite numbers."""
     if value is None:
         return None
-    pair = tuple(value) if isinstance(value, (list, tuple)) or (isinstance(value, np.ndarray) and value.ndim == 1) else ()
-    if len(pair) != 2 or not all(map(is_number, pair)):
+    pair = two_of(value)
+    if not pair or not all(map(is_number, pair)):
         is_real = [isinstance(part, (int, float, np.integer, np.floating)) and not isinstance(part, bool) for part in pair]
-        fault = "is not a finite position" if len(pair) == 2 and all(is_real) else "is not a position; write (x, y) in m"
+        fault = "is not a finite position" if pair and all(is_real) else "is not a position; write (x, y) in m"
         raise DefinitionError(f"{what}: {cited(value)} {fault}.")
     require_measure(pair, "length", what)
     return float(pair[0]), float(pair[1])

@@ -16,9 +16,9 @@ from typing import Any, ClassVar, Self, TypeAlias, final
 import numpy as np
 import numpy.typing as npt
 
-from ..checks import require_number, require_type
+from ..checks import require_number, require_type, two_of
 from ..errors import DefinitionError, FileError, cited, is_yes
-from ..quantities import Axes, Member, Number, Operand, Reference, Stroke, is_number, label, name_of, needs, spelled
+from ..quantities import Axes, Member, Number, Operand, Reference, Stroke, is_number, label, name_of, needed_behind, needs, of_kind, spelled
 from ..quantities.axes import NOTHING, plus
 from ..quantities.quantity import Quantity, plain, quantity
 from ..steps import Link
@@ -93,9 +93,9 @@ class Outline(Member):
             if members[name].kind != "point":
                 yield f"{name} is not a point; name two points of the body that carries it"
         for each in self.numbers():
-            stroke = stroke_behind(each, members)
-            if stroke:
-                yield f"{spelled(each)} follows the stroke {stroke}; give a fixed size, and carry it with on="
+            behind = needed_behind([each.name] if each.name else needs(each), members)
+            if strokes := sorted(behind & of_kind(members, Stroke).keys()):
+                yield f"{spelled(each)} follows the stroke {strokes[0]}; give a fixed size, and carry it with on="
 
     def in_axes(self, axes: Axes) -> Self:
         if len(self.carriers) == 2:  # the axes of a body go with its points, which are mirrored
@@ -314,8 +314,8 @@ def outline_corners(given: object, what: str) -> tuple[tuple[Quantity, ...], ...
 
 def corner_of(given: object, what: str) -> tuple[Quantity, ...]:
     """Return two coordinates as quantities; DefinitionError for anything else."""
-    pair = tuple(given) if isinstance(given, (list, tuple)) or (isinstance(given, np.ndarray) and given.ndim == 1) else ()
-    if len(pair) != 2 or not all(isinstance(each, (str, Quantity)) or is_number(each) for each in pair):
+    pair = two_of(given)
+    if not pair or not all(isinstance(each, (str, Quantity)) or is_number(each) for each in pair):
         raise DefinitionError(f"{what}: {cited(given)} is not a place; write (x, y) in m, numbers or dimensions.")
     require_measure(pair, "length", what)
     return tuple(quantity(plain(each)) for each in pair)
@@ -339,19 +339,6 @@ def carrying_points(given: object, what: str) -> tuple[Reference, ...]:
     if not isinstance(found, (tuple, list)) or not 1 <= len(found) <= 2 or not all(isinstance(each, (str, Member)) for each in found):
         raise DefinitionError(f'{what}: on={cited(given)} is no carrier; name two points of a body, on=("B", "C"), or one point.')
     return tuple(found)
-
-
-def stroke_behind(given: Quantity, members: Mapping[str, Member]) -> str:
-    """Return the name of a stroke that a quantity follows, "" where it follows none."""
-    stack, seen = list(needs(given)) if not given.name else [given.name], set[str]()
-    while stack:
-        name = stack.pop()
-        if isinstance(members.get(name), Stroke):
-            return name
-        if name not in seen and name in members:
-            seen.add(name)
-            stack += needs(members[name])
-    return ""
 
 
 def numbers_at(corners: Sequence[Sequence[Quantity]], value: Value) -> Array:

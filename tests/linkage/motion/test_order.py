@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from linkage import LEFT, DefinitionError, Dyad, Ground, Mechanism, Stroke, ref
-from linkage.plan import construction_order
+from linkage.plan.members import construction_order
 from tests.for_all import for_all
 from tests.linkage.random_mechanisms import random_mechanism
 

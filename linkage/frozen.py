@@ -86,4 +86,5 @@ def refuses_changes(kind: Kind) -> Kind:
 @dataclass_transform(frozen_default=True, eq_default=False, field_specifiers=(field,))
 def immutable(kind: Kind) -> Kind:
     """Make a class a frozen dataclass whose objects are told apart by identity, and which refuses changes in words: a class decorator."""
-    return refuses_changes(dataclass(frozen=True, eq=False)(kind))
+    dataclass(frozen=True, eq=False)(kind)
+    return refuses_changes(kind)

@@ -20,7 +20,7 @@ import numpy.typing as npt
 from ..plan import Plan
 from ..program import FloatArray, Kernel, Node
 from ..vectors import Mask, Numbers
-from .groups import GroupSolution, solve_groups
+from .groups import GroupSolution, singled, solve_groups
 
 Index = npt.NDArray[np.intp]
 PIECES = 128
@@ -77,12 +77,6 @@ def kept_paths(plan: Plan, designs: Mapping[str, Numbers], ways: StrokeLines) ->
     found = whole.tracks(plan, designs)
     KEPT[plan] = key, whole.length, found
     return found
-
-
-def singled(designs: Mapping[str, Numbers]) -> dict[str, Numbers]:
-    """Return dimensions as floats, and as arrays (m,) where they differ from design to design."""
-    flat = {name: np.ravel(np.asarray(value, float)) for name, value in designs.items()}
-    return {name: float(value[0]) if value.size == 1 else value for name, value in flat.items()}
 
 
 def ambiguous_angle(

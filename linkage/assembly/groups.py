@@ -50,8 +50,7 @@ def solve_groups(plan: Plan, designs: Mapping[str, Numbers], strokes: Mapping[st
         shape = (max(map(np.size, designs.values()), default=1), max(map(np.size, strokes.values()), default=1))
         return GroupSolution(dict.fromkeys(plan.grouped, np.full(shape, np.nan)), np.zeros(shape, int))
     newtons = [Newton(plan, group) for group in plan.groups.values()]
-    if all(np.size(value) == 1 for value in designs.values()):
-        designs = {name: float(np.ravel(value)[0]) if np.ndim(value) else value for name, value in designs.items()}
+    designs = singled(designs)
     start, tracks = known(plan, newtons, designs)
     n = max((np.size(value) for value in strokes.values()), default=1)
     shape = (start[0].shape[1], n)
@@ -68,6 +67,12 @@ def solve_groups(plan: Plan, designs: Mapping[str, Numbers], strokes: Mapping[st
         inputs |= dict(zip(newton.names, u.reshape(-1, *shape), strict=True))
         inputs[newton.group.inputs[-1]] = sine
     return GroupSolution(inputs, np.broadcast_to(crossed.reshape(shape), shape), stops)
+
+
+def singled(designs: Mapping[str, Numbers]) -> dict[str, Numbers]:
+    """Return dimensions as floats, and as arrays (m,) where they differ from design to design."""
+    flat = {name: np.ravel(np.asarray(value, float)) for name, value in designs.items()}
+    return {name: float(value[0]) if value.size == 1 else value for name, value in flat.items()}
 
 
 Known: TypeAlias = tuple[list[FloatArray], dict[tuple[str, float], list[GroupPath]]]

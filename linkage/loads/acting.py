@@ -204,16 +204,11 @@ class Acting:
             if value is None:
                 said[name] = other
             elif what and other is not None and other is not value and other != value:
-                inside, outside = f"{name}={named_or_cited(value)}", f"{name}={named_or_cited(other)}"
+                inside, outside = (f"{name}={getattr(each, 'name', '') or cited(each)}" for each in (value, other))
                 raise DefinitionError(f"{what}: {inside} stands in it, and acting= says {outside}; drop one of them.")
         if self.drive is None and said["direction"] == FRICTIONLESS:
             said["drive"] = None  # where there is no friction it is the same whichever stroke moves
         return type(self)(**said)
-
-
-def named_or_cited(value: object) -> str:
-    """Return what was given as text: a member by its name."""
-    return str(getattr(value, "name", "") or cited(value))
 
 
 PLAIN = Acting()

@@ -113,12 +113,12 @@ class Force(Directed):
     @property
     def x(self) -> Parameter:
         """The force's part to the right [N]."""
-        return two_parts(self.vector, "Force")[0]
+        return self.vector[0]
 
     @property
     def y(self) -> Parameter:
         """The force's part upwards [N]."""
-        return two_parts(self.vector, "Force")[1]
+        return self.vector[1]
 
     def having(self, values: Mapping[str, float]) -> Force:
         return self.renewed(vector=(values.get(f"{self.name}.x", self.x), values.get(f"{self.name}.y", self.y)))

@@ -5,15 +5,13 @@ from ..vectors import FloatArray, pick
 from .cache import compiled
 from .derivatives import Tangent, gradient, jacobian
 from .elimination import SparseSystem, eliminated, expanded, is_zero
-from .foreign import Language, ProgramText
 from .interpret import LAST, Iterated, disturbed, interpret, scatter
 from .intervals import Enclosure, enclosures
-from .javascript import LANGUAGES, Inputs, arrow_function, function_body, number, short_names
 from .kernel import BACKEND, QUICKEST, Backend, BackendName, Kernel, Result, RunOptions, fixed_backend
-from .linear import solve_arrays
+from .languages import LANGUAGES, Inputs, Language, ProgramText, arrow_function, function_body, number, short_names
 from .node import Closure, Graph, Level, Node
 from .numba_backend import compiled_loop, pays_compiled
-from .operations import ARRAYS, FLOATS, NO_VALUE
+from .operations import ARRAYS, FLOATS, NO_VALUE, solve_arrays
 from .schedule import Schedule, ancestors, lowered, replaced
 from .text import GUARDED, HEAD, NUMBA, TEMPLATES, Dialect, function_text, lane_loop
 from .traced import Comparison, Notes, Traced, claim, elementwise, is_traced, node_of

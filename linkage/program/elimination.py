@@ -12,8 +12,8 @@ from typing import final
 
 import numpy as np
 
-from .linear import unknowns
 from .node import Graph, Node
+from .operations import unknowns
 from .schedule import rewritten
 
 

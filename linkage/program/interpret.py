@@ -13,9 +13,8 @@ import numpy as np
 from ..vectors import FloatArray, Numbers
 from .derivatives import jacobian
 from .elimination import solution
-from .linear import solve_arrays
 from .node import Closure, Level, Node
-from .operations import OPERATIONS
+from .operations import OPERATIONS, solve_arrays
 from .schedule import ancestors, rewritten
 
 

@@ -24,7 +24,7 @@ from .cache import compiled
 from .elimination import expanded
 from .node import Node
 from .numba_backend import NumbaLoop
-from .numpy_backend import LARGEST, NumpyBlocks, columns_of, is_array, is_table, rows_of, with_half_angles
+from .numpy_backend import NumpyBlocks, columns_of, is_array, is_table, rows_of, with_half_angles
 from .operations import FLOATS, NO_VALUE, QUICK
 from .schedule import Schedule, schedule
 from .text import GUARDED, PYTHON, Dialect, function_text
@@ -130,7 +130,6 @@ def float_list(value: Numbers, count: int) -> list[float]:
 
 FEW = 20
 """Up to so many poses of one design run in plain floats."""
-BLOCK = LARGEST
 
 BACKEND: ContextVar[str | None] = ContextVar("linkage_backend", default=None)
 """The back end of all work that names none and is more than a few poses; None: the quickest, by the work done before."""

@@ -138,11 +138,7 @@ def memory(block: FloatArray) -> FloatArray:
 
 def constant_table(passed: Sequence[Numbers], part: slice) -> FloatArray:
     """Return the design part as one array, shape (count, designs or 1)."""
-    size = 1 if all(np.ndim(value) == 0 for value in passed) else part.stop - part.start
-    found = np.empty((len(passed), size))
-    for row, value in zip(found, passed, strict=True):
-        row[...] = value
-    return found
+    return stacked(passed, 1 if all(np.ndim(value) == 0 for value in passed) else part.stop - part.start)
 
 
 def input_cube(poses: Sequence[Numbers], n: int) -> FloatArray:
@@ -150,7 +146,12 @@ def input_cube(poses: Sequence[Numbers], n: int) -> FloatArray:
     rows = max((len(value) for value in poses if is_table(value)), default=1)
     if len(poses) == 1 and np.size(poses[0]) == rows * n:
         return np.ascontiguousarray(poses[0], float).reshape(1, rows, n)
-    found = np.empty((len(poses), rows, n))
-    for layer, value in zip(found, poses, strict=True):
+    return stacked(poses, rows, n)
+
+
+def stacked(values: Sequence[Numbers], *shape: int) -> FloatArray:
+    """Return values as the layers of one array, each of a shape."""
+    found = np.empty((len(values), *shape))
+    for layer, value in zip(found, values, strict=True):
         layer[...] = value
     return found

@@ -118,13 +118,7 @@ class Curve:
     def _pieces(self) -> FloatArray:
         """The polynomials between the rows, by powers of the distance from the row: shape (4, rows - 1)."""
         h, rise = np.diff(self.xs), np.diff(self.ys) / np.diff(self.xs)
-        bend = self._bend(h, rise)
-        slope = rise - h * (2.0 * bend[:-1] + bend[1:]) / 6.0
-        return np.array([self.ys[:-1], slope, bend[:-1] / 2.0, np.diff(bend) / (6.0 * h)])
-
-    def _bend(self, h: FloatArray, rise: FloatArray) -> FloatArray:
-        """Return the second derivative at every row, so that the first one is continuous."""
-        count = len(h) + 1
+        count = len(h) + 1  # the second derivative at every row is such that the first one is continuous
         A, b = np.eye(count), np.zeros(count)
         for row in range(1, count - 1):
             A[row, row - 1 : row + 2] = h[row - 1], 2.0 * (h[row - 1] + h[row]), h[row]
@@ -139,7 +133,9 @@ class Curve:
         elif count > 3:  # the third derivative goes on over the second row, and over the last but one
             A[0, :3] = h[1], -(h[0] + h[1]), h[0]
             A[-1, -3:] = h[-1], -(h[-2] + h[-1]), h[-2]
-        return np.asarray(np.linalg.solve(A, b))
+        bend = np.linalg.solve(A, b)
+        slope = rise - h * (2.0 * bend[:-1] + bend[1:]) / 6.0
+        return np.array([self.ys[:-1], slope, bend[:-1] / 2.0, np.diff(bend) / (6.0 * h)])
 
     def __str__(self) -> str:
         period = "" if self.period is None else f", period={self.period!r}"

@@ -95,13 +95,9 @@ class OnLink(Step):
             drives.append(Driven(self.QPX, "c", self.sense_of_turn))
         if self.QX is not UNBOUND:
             drives.append(Driven(self.QX, ""))
-        third = f"{self.sentence()}: its third side"
-        return (
-            Joint(
-                "telescope", P, JointSide((self.X,)), JointSide((P, Q)), "ntc", line,
-                drives=tuple(drives), arm=True, still=((self.QX, third),) if self.QX is not UNBOUND else (),
-            ),
-        )  # fmt: skip
+        on, by = JointSide((self.X,)), JointSide((P, Q))
+        still = () if self.QX is UNBOUND else ((self.QX, f"{self.sentence()}: its third side"),)
+        return (Joint("telescope", P, on, by, "ntc", line, drives=tuple(drives), arm=True, still=still),)
 
     def bodies(self) -> tuple[tuple[str, ...], ...]:
         return ((self.P, self.Q, self.X),)

@@ -100,12 +100,8 @@ class PinSlotDyad(Step):
         return [*super().arguments(), *given]
 
     def joints(self) -> tuple[Joint, ...]:
-        return (
-            Joint(
-                "guide", self.Q, JointSide((self.Q,), "runner"), JointSide((self.P, self.X)), "n", self.slot,
-                tuple(sorted((self.P, self.X))), still=((self.offset, f"{self.sentence()}: its offset"),),
-            ),
-        )  # fmt: skip
+        on, by, still = JointSide((self.Q,), "runner"), JointSide((self.P, self.X)), ((self.offset, f"{self.sentence()}: its offset"),)
+        return (Joint("guide", self.Q, on, by, "n", self.slot, tuple(sorted((self.P, self.X))), still=still),)
 
     def slot(self, where: Where) -> Line:
         """Return the line the pin slides on: parallel to P -> X, at the offset to its left."""

@@ -120,7 +120,6 @@ class Graph:
     def __init__(self) -> None:
         self.nodes: list[Node] = []
         self._known: dict[tuple[object, ...], int] = {}
-        self._constants: dict[float, Node] = {}
         self._lock = Lock()
         self.zero, self.one = self.constant(0.0), self.constant(1.0)
 
@@ -137,7 +136,6 @@ class Graph:
         for closure in closures:
             closure.enter(nodes)
         found._known = self._known.copy()
-        found._constants = {value: nodes[node.number] for value, node in self._constants.items()}
         found.zero, found.one = nodes[self.zero.number], nodes[self.one.number]
         return found
 
@@ -146,22 +144,23 @@ class Graph:
         self.nodes.append(node)
         return node
 
+    def _once(self, key: tuple[object, ...], args: tuple[Node, ...], value: float | str | None, level: Level) -> Node:
+        """Return the node that a key, which begins with its operation, is known by; made where there is none."""
+        number = self._known.get(key)
+        if number is None:
+            with self._lock:  # two threads must not give one number to two nodes
+                number = self._known.get(key)
+                if number is None:
+                    number = self._known[key] = self._new(str(key[0]), args, value, level).number
+        return self.nodes[number]
+
     def constant(self, value: float) -> Node:
         """Return the node of a number."""
-        found = self._constants.get(value)
-        if found is None:
-            with self._lock:  # two threads must not give one number to two nodes
-                found = self._constants.get(value) or self._new("constant", (), value, Level.CONSTANT)
-                self._constants[value] = found
-        return found
+        return self._once(("constant", value), (), value, Level.CONSTANT)
 
     def input(self, name: str, level: Level) -> Node:
         """Return the node of an input: a dimension (DESIGN) or a stroke (POSE)."""
-        with self._lock:
-            key = ("input", name)
-            if key not in self._known:
-                self._known[key] = self._new("input", (), name, level).number
-            return self.nodes[self._known[key]]
+        return self._once(("input", name), (), name, level)
 
     def node(self, value: Scalar) -> Node:
         """Return a value as a node of this graph."""
@@ -188,15 +187,10 @@ class Graph:
         """Return the node of an operation as it stands."""
         key = operation_key(op, args)
         number = self._known.get(key)
-        if number is None:
-            with self._lock:
-                number = self._known.get(key)
-                if number is None:
-                    ordered = args if len(args) != 2 or args[0].number == key[1] else args[::-1]
-                    node = self._new(op, ordered, None, max([each.level for each in args]))
-                    self._known[key] = node.number
-                    return node
-        return self.nodes[number]
+        if number is not None:
+            return self.nodes[number]
+        ordered = args if len(args) != 2 or args[0].number == key[1] else args[::-1]
+        return self._once(key, ordered, None, max([each.level for each in args]))
 
     def known(self, op: str, args: tuple[Node, ...]) -> Node | None:
         """Return the node of an operation where there is one already."""
@@ -207,11 +201,7 @@ class Graph:
         """Return a value that is known by another way: it reads the first node and is differentiated as the second."""
         if value is meaning:
             return value
-        with self._lock:
-            key = ("alias", value.number, meaning.number)
-            if key not in self._known:
-                self._known[key] = self._new("alias", (value, meaning), None, value.level).number
-            return self.nodes[self._known[key]]
+        return self._once(("alias", value.number, meaning.number), (value, meaning), None, value.level)
 
     def power(self, base: Node, exponent: Operand) -> Node:
         """Return base ** exponent; whole and half exponents become products and roots."""

@@ -9,11 +9,10 @@ from .interpret import LAST, Iterated, disturbed, interpret, scatter
 from .intervals import Enclosure, enclosures
 from .kernel import BACKEND, QUICKEST, Backend, BackendName, Kernel, Result, RunOptions, fixed_backend
 from .languages import LANGUAGES, Inputs, Language, ProgramText, arrow_function, function_body, number, short_names
-from .node import Closure, Graph, Level, Node
-from .numba_backend import compiled_loop, pays_compiled
+from .node import Graph, Level, Node
 from .operations import ARRAYS, FLOATS, NO_VALUE, solve_arrays
 from .schedule import Schedule, ancestors, lowered, replaced
-from .text import GUARDED, HEAD, NUMBA, TEMPLATES, Dialect, function_text, lane_loop
+from .text import GUARDED, TEMPLATES, Dialect
 from .traced import Comparison, Notes, Traced, claim, elementwise, is_traced, node_of
 
 declare_public(globals())

@@ -24,7 +24,7 @@ from .cache import compiled
 from .elimination import expanded
 from .node import Node
 from .numba_backend import NumbaLoop
-from .numpy_backend import NumpyBlocks, columns_of, is_array, is_table, rows_of, with_half_angles
+from .numpy_backend import NumpyBlocks, columns_part, is_array, is_table, rows_part, with_half_angles
 from .operations import FLOATS, NO_VALUE, QUICK
 from .schedule import Schedule, schedule
 from .text import GUARDED, PYTHON, Dialect, function_text
@@ -298,10 +298,10 @@ def run_threads(
         try:
             with np.errstate(all="ignore"):
                 if m >= n:
-                    tables = [rows_of(value, here) for value in poses]
-                    backend.run([columns_of(value, here) for value in design], tables, values[:, here], least[k])
+                    tables = [rows_part(value, here) for value in poses]
+                    backend.run([columns_part(value, here) for value in design], tables, values[:, here], least[k])
                 else:
-                    backend.run(design, [columns_of(value, here) for value in poses], values[:, :, here], least[k])
+                    backend.run(design, [columns_part(value, here) for value in poses], values[:, :, here], least[k])
         except Exception as error:
             errors.append(error)
 

@@ -13,7 +13,7 @@ import numpy as np
 from ..errors import LinkageError
 from ..vectors import FloatArray, Numbers
 from .cache import CompiledFile, compiled_in_file, is_cached
-from .numpy_backend import NumpyBlocks, as_floats, columns_of, is_table, rows_of
+from .numpy_backend import NumpyBlocks, as_floats, columns_part, is_table, rows_part
 from .schedule import Schedule
 from .text import numba_text
 
@@ -103,7 +103,7 @@ class NumbaLoop:
                 constants = np.array(np.broadcast_to(constants, (len(constants), part.stop - left)))
             for first in range(0, n, WIDE):
                 here = slice(first, min(first + WIDE, n))
-                inputs = input_cube([columns_of(rows_of(value, part), here) for value in poses], here.stop - first)
+                inputs = input_cube([columns_part(rows_part(value, part), here) for value in poses], here.stop - first)
                 if turned:
                     inputs = np.array(inputs.transpose(0, 2, 1))
                 self._part(loop, constants, inputs, target[:, here, part] if turned else target[:, part, here], bad)
@@ -113,7 +113,7 @@ class NumbaLoop:
         """Return the design part as one array, shape (count, designs or 1); that of the last single design is kept."""
         key = as_floats(design)
         if key is None:
-            return constant_table(self.arrays.passed([columns_of(value, part) for value in design]), part)
+            return constant_table(self.arrays.passed([columns_part(value, part) for value in design]), part)
         last, found = self._last
         if last != key or not found.size:
             found = constant_table(self.arrays.passed(key), part)

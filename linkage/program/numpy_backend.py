@@ -98,7 +98,7 @@ class NumpyBlocks:
         for left in range(0, length, columns):
             part = slice(left, min(left + columns, length))
             if turned:
-                constants = [in_block(value, 1) for value in self.passed([columns_of(value, part) for value in design])]
+                constants = [in_block(value, 1) for value in self.passed([columns_part(value, part) for value in design])]
             for top in range(0, rows, height):
                 band = slice(top, min(top + height, rows))
                 here = slice(0, part.stop - part.start) if turned else part
@@ -141,12 +141,12 @@ def is_table(value: Numbers) -> TypeGuard[FloatArray]:
     return type(value) is not float and np.ndim(value) == 2
 
 
-def rows_of(value: Numbers, here: slice) -> Numbers:
+def rows_part(value: Numbers, here: slice) -> Numbers:
     """Return what some designs see of an input of the poses, where it has rows of its own for them."""
     return value[here] if is_table(value) and len(value) > 1 else value
 
 
-def columns_of(value: Numbers, here: slice) -> Numbers:
+def columns_part(value: Numbers, here: slice) -> Numbers:
     """Return what belongs to some designs or poses, which stand last, of an input that has more than one value for them."""
     return value if not is_array(value) or value.shape[-1] == 1 else value[..., here]
 

@@ -109,13 +109,13 @@ from .synthesis import PathTask as PathTask
 from .synthesis import PoseTask as PoseTask
 from .synthesis.chains import chains as chains
 from .synthesis.curve_catalogue import curve_catalogue as curve_catalogue
-from .synthesis.exact_cognates import cognates as cognates
-from .synthesis.exact_functions import freudenstein as freudenstein
+from .synthesis.exact import cognates as cognates
+from .synthesis.exact import freudenstein as freudenstein
 from .synthesis.exact_paths import five_point as five_point
 from .synthesis.exact_poses import burmester as burmester
-from .synthesis.task_error import point_errors as point_errors
-from .synthesis.task_error import task_error as task_error
 from .synthesis.task_search import synthesise as synthesise
+from .synthesis.tasks import point_errors as point_errors
+from .synthesis.tasks import task_error as task_error
 from .units import MPa as MPa
 from .units import bar as bar
 from .units import cm as cm

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 Item = TypeVar("Item")
 
@@ -20,6 +20,23 @@ class Shown:
     def _repr_html_(self) -> str | None:
         """Return it as HTML for a notebook."""
         return None if load_writer is None else load_writer()(self)
+
+
+class Told:
+    """The base of what is printed as its `sentence`; a dataclass that says `repr=False` is shown as that too."""
+
+    __slots__ = ()
+
+    if TYPE_CHECKING:
+
+        @property
+        def sentence(self) -> str:
+            """What it is in words."""
+
+    def __str__(self) -> str:
+        return self.sentence
+
+    __repr__ = __str__
 
 
 class ShownList(list[Item], Shown):

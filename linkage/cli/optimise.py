@@ -24,7 +24,7 @@ from ..mechanism import Mechanism
 from ..motion import Column
 from ..study import Front, Tornado, Zone
 from ..study.checks import unit_of
-from ..study.result_tables import tried_names
+from ..study.optimum import tried_names
 from ..study.space import Space
 from ..study.survey import Progress as ProgressLike
 from ..units import deg, mm

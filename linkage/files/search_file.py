@@ -26,8 +26,7 @@ from ..quantities import is_number
 from ..study.optimise import METHODS as SEARCH_METHODS
 from ..study.optimise import SOLVERS, optimise
 from ..study.optimum import COARSEST
-from ..study.regions import point_regions
-from ..study.space import size_of_machine
+from ..study.space import point_regions, size_of_machine
 from ..study.survey import Progress
 from ..surroundings import Outline
 from . import study_file

@@ -27,9 +27,9 @@ from ..motion import Over, stroke_measure
 from ..plan import Plan, plan_measure
 from ..quantities import is_number, is_whole
 from ..study.problem import ranges_of
-from ..study.sides import is_side
 from ..study.space import Space, around, known_dimension
 from ..study.tolerances import Tolerance, tolerances_of
+from ..study.variants import is_side
 from ..units import parse, parse_span
 from .criterion import criterion_of
 from .names import FileTable, Keywords, by_whole_names, entry_as, listed, require_entry, shortened

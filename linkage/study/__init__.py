@@ -9,10 +9,9 @@ from .monte_carlo import Band, MonteCarlo, monte_carlo
 from .optimum import Optimum
 from .pareto import Front
 from .sensitivity import Effect, SobolIndices, Tornado, sobol, tornado
-from .settings import Settings, settings_for
+from .settings import Settings, Solutions, settings_for
 from .space import around
 from .survey import Survey, survey
-from .targets import Solutions
 from .tolerances import Tolerance, sigma, spread
 from .working_field import WorkingField, working_field
 from .zone import Zone, zone

@@ -11,7 +11,7 @@ from ..checks import require_one_design, unfit
 from ..errors import AssemblyError, DefinitionError
 from ..mechanism import Mechanism
 from ..plan import Plan
-from .sides import is_side
+from .variants import is_side
 
 
 def unit_of(plan: Plan, name: str) -> str:

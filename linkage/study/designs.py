@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from hashlib import blake2b
+from math import prod
 from time import perf_counter, thread_time
 from typing import Any, Protocol, TypeAlias, final
 
@@ -29,7 +30,8 @@ LOOKED_AT = 1 << 17
 class Designs:
     """Dimensions that vary, by name: one array (m,), of a point two, of which one may be a number; `count` is m.
 
-    The arrays are read part by part, so that they may be files mapped into memory.
+    The arrays are read part by part, so that they may be files mapped into memory. What else a worker is to know of each design, arrays
+    (m, ...), goes along.
     """
 
     columns: Mapping[str, tuple[Array, ...]]
@@ -77,7 +79,7 @@ class Designs:
     @property
     def width(self) -> int:
         """How many numbers a design has."""
-        return sum(part.ndim for parts in self.columns.values() for part in parts)
+        return sum(prod(part.shape[1:]) for parts in self.columns.values() for part in parts if part.ndim)
 
     def digests(self) -> dict[str, str]:
         """Return a word for the values of each dimension."""
@@ -154,21 +156,6 @@ class StudyWork(Protocol):
 
     def done(self, rows: Rows, start: int, stop: int) -> list[dict[str, Array]]:
         """Return the results of the designs from start to before stop, of each piece: arrays whose first axis is that of the designs."""
-
-
-class Dealt(Protocol):
-    """Designs that are given out in batches: how many there are, and how many numbers each has."""
-
-    @property
-    def count(self) -> int:
-        """How many designs there are."""
-
-    @property
-    def width(self) -> int:
-        """How many numbers a design has."""
-
-    def dimensions(self, start: int, stop: int) -> Rows:
-        """Return what a worker is to know of the designs from start to before stop."""
 
 
 @final

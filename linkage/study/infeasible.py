@@ -61,27 +61,27 @@ class InfeasibleError(StudyError):
 
 
 def infeasible_error(
-    problem: Problem, ended: Sequence[tuple[tuple[int, ...], SearchEnd]], looked: Mapping[tuple[int, ...], FloatArray] = NOTHING
+    problem: Problem, ended: Sequence[SearchEnd], looked: Mapping[tuple[int, ...], FloatArray] = NOTHING
 ) -> StudyError:
     """Return the error of a search that found no design which keeps everything.
 
     `ended` are the ends of local searches, `looked` the unit coordinates (m, n) of designs of each combination that were looked at.
     """
-    reached = sorted((each for each in ended if each[1].whole), key=lambda each: each[1].missing)
+    reached = sorted((each for each in ended if each.whole), key=lambda each: each.missing)
     title = problem.plan.title
     if not reached:
         return StudyError(f"{title}: no search came to a design that can be assembled over the whole stroke; widen vary=.")
     nowhere = list(problem.constraints)  # those that have no value of any
-    for combination, end in reached:
+    for end in reached:
         if not nowhere:
             break
-        look = problem.evaluated(problem.dimensions_at(end.unit, combination))
+        look = problem.evaluated(problem.dimensions_at(end.unit, end.combination))
         nowhere = [each for each in nowhere if look.lost(each.margin)[0]]
     if nowhere:
         why = " and ".join(no_value(problem.plan, leaf) for leaf in nowhere[0].margin.leaves)
         what = f"{shown(problem, nowhere[0])} is kept by no design that was found, for {why}"
         return StudyError(f"{title}: {what}. Ask for what has a value there, or widen vary=.")
-    tried = [each for combination, found in reached[:TRIED] if (each := given_way(problem, combination, found, problem.constraints))]
+    tried = [each for found in reached[:TRIED] if (each := given_way(problem, found, problem.constraints))]
     if not tried:
         return StudyError(f"{title}: no design in the box keeps all conditions.")
     best = min(tried, key=lambda each: each.total)
@@ -93,7 +93,7 @@ def infeasible_error(
         return StudyError(f"{title}: of all designs that were found {why}. Ask for what has a value there, or take vary= narrower.")
     limits = ", ".join(shown(problem, each) for each in pulling)
     against = f" It pulls against {limits}." if pulling else ""
-    alternatives = alternatives_to(problem, best, looked.get(best.combination))
+    alternatives = alternatives_to(problem, best, looked.get(best.found.combination))
     instead = "; or ".join(each.sentence for each in alternatives)
     alone = f" Or one condition gives way alone: {instead}." if instead else ""
     text = f"{title}: no design found in the box keeps all conditions. The one that misses least: {said}.{against}{alone}"
@@ -113,7 +113,6 @@ def shown(problem: Problem, constraint: Constraint) -> str:
 class GivenWay:
     """A design of which some conditions give way as little as they can: by how much in parts of their sizes, and what they are then."""
 
-    combination: tuple[int, ...]
     found: SearchEnd
     machine: Mechanism
     total: float
@@ -121,19 +120,19 @@ class GivenWay:
     pulling: tuple[Constraint, ...]
 
 
-def given_way(problem: Problem, combination: Sequence[int], start: SearchEnd, elastic: Sequence[Constraint]) -> GivenWay | None:
+def given_way(problem: Problem, start: SearchEnd, elastic: Sequence[Constraint]) -> GivenWay | None:
     """Return the design near a start of which the conditions that are `elastic` give way least; None where there is none.
 
     Over a box of several strokes it is judged by its samples: to look between them for each takes longer than all the rest.
     """
     is_line = len([one for one in problem.ranges.values() if not is_still(one)]) < 2
     try:
-        local = Local(problem, combination, start.unit, elastic=elastic)
+        local = Local(problem, start.combination, start.unit, elastic=elastic)
         with problem.count.without_limit(int(DESIGNS / (1.0 + problem.poses / POSES_AS_ONE))):
-            found = local.judged(start.unit) if not problem.space.variables else local.run(rounds=ROUNDS) if is_line else local.least()
+            found = local.run(rounds=ROUNDS) if is_line or not local.n else local.least()
         if found is None:
             return None
-        machine = problem.machine_of(found.unit, combination)
+        machine = problem.machine_of(found.unit, found.combination)
         problem.assembled(machine)
     except LinkageError:
         return None
@@ -154,7 +153,7 @@ def given_way(problem: Problem, combination: Sequence[int], start: SearchEnd, el
             total += short / scale
         elif price > 0.0:
             pulling.append(each)
-    return GivenWay(tuple(combination), found, machine, total, tuple(relaxations), tuple(pulling))
+    return GivenWay(found, machine, total, tuple(relaxations), tuple(pulling))
 
 
 def alternatives_to(problem: Problem, best: GivenWay, looked: FloatArray | None) -> list[Relaxation]:
@@ -166,7 +165,7 @@ def alternatives_to(problem: Problem, best: GivenWay, looked: FloatArray | None)
     if not problem.space.variables or many < 2:
         return []
     coarse = problem.changed(counts=COARSE)
-    missing = None if looked is None or not len(looked) else coarse.missing_of_each(best.combination, looked)
+    missing = None if looked is None or not len(looked) else coarse.missing_of_each(best.found.combination, looked)
     found: list[tuple[float, Relaxation]] = []
     for row, each in list(enumerate(problem.constraints))[:ALTERNATIVES]:
         if len(best.relaxations) == 1 and best.relaxations[0].condition is each:
@@ -175,8 +174,9 @@ def alternatives_to(problem: Problem, best: GivenWay, looked: FloatArray | None)
         if missing is not None and looked is not None:
             others = np.delete(missing, row, axis=0).max(axis=0)
             near = int(np.lexsort((missing[row], others))[0])
-            starts.insert(0, SearchEnd(looked[near], np.nan, float(missing[:, near].max()), bool(np.isfinite(others[near]))))
-        ends = [given_way(problem, best.combination, start, [each]) for start in starts if start.whole]
+            short, is_whole = float(missing[:, near].max()), bool(np.isfinite(others[near]))
+            starts.insert(0, SearchEnd(best.found.combination, looked[near], np.nan, short, is_whole))
+        ends = [given_way(problem, start, [each]) for start in starts if start.whole]
         alone = [end for end in ends if end is not None and [one.condition for one in end.relaxations] == [each]]
         if alone:
             least = min(alone, key=lambda end: end.total)

@@ -268,16 +268,14 @@ def eager(motion: Motion, quantity: Any) -> FloatArray:
     return np.asarray(np.broadcast_to(found, motion.shape))
 
 
-def nothing_limits(motion: Motion, quantity: Any) -> Mask | None:
-    """Return the mask of poses at which nothing limits a quantity, so that it has no value there; None for one that always has."""
-    if not isinstance(quantity, Request):
-        return None
-    try:
-        with unwarned(), np.errstate(all="ignore"):
+def nothing_limits(motion: Motion, quantity: Any) -> Mask:
+    """Return the mask of poses at which nothing limits a quantity, so that it has no value there."""
+    found: Any = None
+    if isinstance(quantity, Request):
+        # what it would say may be refused there, or depend on more than the pose
+        with suppress(AssemblyError, UntracedError), unwarned(), np.errstate(all="ignore"):
             found = quantity.unlimited(motion)
-    except (AssemblyError, UntracedError):  # what it would say is refused there, or depends on more than the pose
-        return None
-    return None if found is None else np.asarray(np.broadcast_to(found, motion.shape))
+    return np.asarray(np.broadcast_to(False if found is None else found, motion.shape), bool)
 
 
 # What a measure takes of its quantity, pose by pose.

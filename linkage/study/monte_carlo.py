@@ -13,7 +13,6 @@ from ..checks import require
 from ..errors import DefinitionError, cited, known_name, one_word, unwarned
 from ..frozen import FrozenDict, refuses_changes
 from ..mechanism import Mechanism
-from ..motion import Request
 from ..motion.measures import At, Condition, Constraint, Integral, Leaf, Measure, Worst, conditions_of, measure_of
 from ..numeric.line import Index
 from ..plan import Mask, Plan
@@ -22,7 +21,7 @@ from ..quantities import is_number
 from ..units import display_unit
 from ..vectors import Numbers
 from .measured import Measured, StudyPoses, fold, fold_start, measured_title, nothing_limits, number_bound
-from .tolerances import Tolerance, ToleranceLike, sampled_designs, shifted_designs, tolerance_words, tolerances_of
+from .tolerances import Tolerance, ToleranceLike, sampled_designs, tolerance_words, tolerances_of, values_shifted
 
 Task = TypeVar("Task")
 Found = TypeVar("Found")
@@ -153,14 +152,13 @@ def monte_carlo(
     with unwarned(), np.errstate(all="ignore"):
         run = MonteCarloRun(poses, machine.replaced(**designs), count, way, order)
         run.measure(asked, conditions)
-        ends = {title: worst_case(machine, poses, quantity, named) for title, quantity in asked.items()}
-        nominal = {title: poses.values(machine, quantity, RunOptions())[0] for title, quantity in asked.items()}
-    bands = {}
-    for title, quantity in asked.items():
-        share, mean, sigma, *cuts = map(poses.shaped, run.moments[title])
-        low, high, own = map(poses.shaped, (*ends[title], nominal[title]))
-        unit = display_unit(measure_of(plan, quantity), "mm")
-        bands[title] = Band(title, unit, own, mean, sigma, FrozenDict(zip(order, cuts, strict=True)), share, low, high)
+        bands = {}
+        for title, quantity in asked.items():
+            share, mean, sigma, *cuts = map(poses.shaped, run.moments[title])
+            own = poses.shaped(poses.values(machine, quantity, RunOptions())[0])
+            low, high = map(poses.shaped, worst_case(machine, poses, quantity, named))
+            unit = display_unit(measure_of(plan, quantity), "mm")
+            bands[title] = Band(title, unit, own, mean, sigma, FrozenDict(zip(order, cuts, strict=True)), share, low, high)
     kept = {str(each): float(np.mean(good)) for each, good in zip(conditions, run.kept, strict=True)}
     good = ~run.lost & np.all([np.ones(count, bool), *run.kept], axis=0)
     assembled = float(np.mean(~run.lost))
@@ -263,10 +261,9 @@ class MonteCarloRun:
         poses = self.poses.row(leaf)[0] if isinstance(leaf, Integral) else self.poses.at(leaf)
         parts = blocks(self.count, poses.pose_count)
         found = np.concatenate([self.poses.of_leaf(self._block(block), leaf, self.way) for block in parts])
-        free = None if isinstance(leaf, Integral) else self._free(poses, leaf.quantity, found[None])
-        if free is not None:
-            self._unlimited[leaf] = free[0].astype(int)
-        self.lost |= np.isnan(found) if free is None else np.isnan(found) & ~free[0]
+        free = np.zeros(self.count, bool) if isinstance(leaf, Integral) else self._free(poses, leaf.quantity, found[None])[0]
+        self._unlimited[leaf] = free.astype(int)
+        self.lost |= np.isnan(found) & ~free
         return found
 
     def _keeps(self, condition: Constraint) -> Mask:
@@ -277,18 +274,14 @@ class MonteCarloRun:
                 kept |= np.isnan(self._leaves[leaf]) & (self._unlimited[leaf] > 0)
         return kept
 
-    def _free(self, poses: StudyPoses, quantity: Measured | Worst, values: FloatArray) -> Mask | None:
-        """Return where nothing limits a quantity, so that it has no value (poses, designs) there; None where each has one."""
-        if not isinstance(quantity, Request) or not np.isnan(values).any():
-            return None
-        found = np.zeros(values.shape, bool)
-        for block in blocks(self.count, poses.pose_count):
-            if np.isnan(values[:, block]).any():
+    def _free(self, poses: StudyPoses, quantity: Measured | Worst, values: FloatArray, part: slice = slice(None)) -> Mask:
+        """Return at which of some poses nothing limits a quantity, so that it has no value there, shape (poses, designs)."""
+        found: Mask = np.isnan(values)
+        for block in blocks(self.count, poses.pose_count) if found.any() else ():
+            if found[:, block].any():
                 free = nothing_limits(poses.of_all(self._block(block)), quantity)
-                if free is None:
-                    return None
-                found[:, block] = free.reshape(-1, poses.pose_count).T
-        return found & np.isnan(values)
+                found[:, block] &= free.reshape(-1, poses.pose_count).T[part]
+        return found
 
     def _block(self, block: slice) -> Mechanism:
         return self.designs._part(block.start, block.stop)
@@ -296,16 +289,10 @@ class MonteCarloRun:
     def _take(self, keys: Sequence[Hashable], store: FloatArray, first: int, found: Mapping[Hashable, list[FloatArray]]) -> None:
         """Take in the results of some quantities from a pose on, shape (quantities, poses, designs), which are used up."""
         for key, rows in zip(keys, store, strict=True):
-            free: Mask | None = None
-            part = slice(first, first + len(rows))
-            if np.isnan(rows).any():
-                every = np.zeros((self.poses.pose_count, self.count))
-                every[part] = rows
-                whole = self._free(self.poses, self._asked[key], every)
-                free = None if whole is None else whole[part]
-            self.lost |= (np.isnan(rows) if free is None else np.isnan(rows) & ~free).any(axis=0)
+            free = self._free(self.poses, self._asked[key], rows, slice(first, first + len(rows)))
+            self.lost |= (np.isnan(rows) & ~free).any(axis=0)
             for leaf in [each for each in self._leaves if self._key(each.quantity) == key]:
-                if free is not None:
+                if free.any():
                     self._unlimited[leaf] = self._unlimited.get(leaf, 0) + free.sum(axis=0)
                     rows = np.where(free, fold_start(leaf), rows)
                 for column in rows:
@@ -316,20 +303,13 @@ class MonteCarloRun:
             found[key].append(each.T)
 
     def _moments(self, column: FloatArray) -> list[float]:
-        """Return the share of designs that have a value, then their mean, sigma and percentiles; the column is used up."""
+        """Return the share of designs that have a value, then their mean, sigma and percentiles; the column is put in order."""
         column.sort()
         known = column[: int(np.searchsorted(column, np.nan))]  # NaN stands behind all numbers
         if not known.size:
             return [0.0] + [np.nan] * (2 + len(self.order))
-        cuts, last = [], known.size - 1
-        for percentage in self.order:  # by straight lines between the ordered values
-            place = percentage / 100.0 * last
-            below = max(min(int(place), last - 1), 0)
-            cuts.append(float(known[below] + (place - below) * (known[min(below + 1, last)] - known[below])))
-        mean = float(known.mean())
-        known -= mean
-        known *= known
-        return [known.size / self.count, mean, float(np.sqrt(known.sum() / max(known.size - 1, 1))), *cuts]
+        cuts = np.percentile(known, self.order).tolist()
+        return [known.size / self.count, float(known.mean()), float(known.std(ddof=min(known.size - 1, 1))), *cuts]
 
     def _on_threads(self, work: Callable[[Task], Found], tasks: Sequence[Task]) -> list[Found]:
         """Return what a function gives for each task; the first by itself, so that kernels are made once."""
@@ -359,7 +339,7 @@ def worst_case(
     steps = np.concatenate([-np.eye(k), np.eye(k)])
 
     def at(levels: FloatArray) -> FloatArray:
-        values = poses.values(machine.replaced(**shifted_designs(machine, tolerances, levels)), quantity, RunOptions())
+        values = values_shifted(machine, poses, quantity, tolerances, levels)
         return np.broadcast_to(values, (len(levels), values.shape[1]))
 
     alone = at(steps)

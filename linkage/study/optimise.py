@@ -35,24 +35,21 @@ from ..motion.measures import (
     strokes_behind,
     words_of,
 )
-from ..numeric.line import Index
-from ..plan import Mask
 from ..program import FloatArray, fixed_backend
 from ..quantities import Quantity, ref
 from ..statics.applied import case_of
 from ..units import show
 from .box import unit_points
-from .checkpoint import digest, folder_given, how_far, measure_text
+from .checkpoint import digest, folder_given, how_far
 from .checks import check_one_design
-from .cylinder_rows import fitted_rows
 from .infeasible import infeasible_error
-from .optimum import Optimum, described, in_units, on_steps, unit_of_constraint, unit_of_measure
+from .optimum import EvaluatedDesigns, Optimum, described, in_units, on_steps, unit_of_constraint, unit_of_measure
 from .problem import COARSE, SAMPLES, LimitReachedError, Problem, ranges_of
-from .result_tables import EvaluatedDesigns
 from .solver import Local, SearchEnd, grows, local_search
 from .space import Space
 from .survey import Progress, check_progress, progress_told
 from .tolerances import ToleranceLike, sigma
+from .variants import Range, fitted_rows
 
 if TYPE_CHECKING:
     from .pareto import Front
@@ -184,8 +181,7 @@ def optimise(
         text = f"the side of {next(iter(sides))} is varied by synthesise alone; for optimise write a class for each side"
         raise DefinitionError(f"{title}: {text}, class Other({type(machine).__name__}).")
     constraints = [*conditions_of(subject_to, machine), *space.conditions]
-    over, occurring = where_searched(machine, over)
-    over = {**travels, **(over or {})} or over
+    over, occurring = where_searched(machine, over, travels)
     cases, shares = cases_searched(machine, case, occurring)
     judge = machine.judge(over)
     held = pieces_in_cases(constraints, cases, judge)
@@ -213,11 +209,11 @@ def optimise(
         return DesignSearch(problem, plan, Journal.of(folder, problem, plan), tell).run()
 
 
-def where_searched(machine: Mechanism, over: object) -> tuple[Any, list[Any]]:
+def where_searched(machine: Mechanism, over: Any, travels: Mapping[str, Range]) -> tuple[Any, list[Any]]:
     """Return the part of each stroke that a search looks at, and the load cases that occur there, None for the plain loads.
 
-    `over` is a dictionary, an `Over` or the name of one that the class declares; without it the box. DefinitionError for a path, poses and
-    conditions on poses, which a search does not run along.
+    `over` is a dictionary, an `Over` or the name of one that the class declares; without it the box, and `travels`, the ways of cylinders
+    by their rows. DefinitionError for a path, poses and conditions on poses, which a search does not run along.
     """
     plan, title = machine.plan, machine.plan.title
     declared = plan.of_kind(Over)
@@ -226,14 +222,14 @@ def where_searched(machine: Mechanism, over: object) -> tuple[Any, list[Any]]:
     occurring = [None, *plan.of_kind(LoadCase)]
     if not isinstance(over, Over):
         ranges_of(machine, over)  # which refuses what is none
-        return over, occurring
+        return {**travels, **(over or {})} or over, occurring
     over.check(title, plan.strokes, plan.of_kind(LoadCase))
     if over.shape != "box" or over.only:
         remedy = "give a box, over={...}, and ask the design that is found machine.answers([...], over=...)"
         raise DefinitionError(f"{title}: over={over.name or over}: a search runs over a box of strokes; {remedy}.")
     if over.cases is not None:
         occurring = [None if name == PLAIN_CASE else name for name in over.cases]
-    return dict(over.strokes), occurring
+    return {**travels, **over.strokes}, occurring
 
 
 def cases_searched(machine: Mechanism, case: Any, occurring: Sequence[Any]) -> tuple[list[Any], dict[str, float]]:
@@ -403,12 +399,7 @@ class Journal:
             return cls(None, {})
         path = folder_given(folder) / "search.jsonl"
         check_name(path)
-        try:
-            functions = [measure_text(each) for each in problem.functions]
-        except DefinitionError as error:
-            text = "a folder cannot tell a function without source text, such as a lambda, from another one; define it by `def` in a file"
-            raise DefinitionError(f"{problem.plan.title}: folder=: {text}.") from error
-        facts = {"search": digest(f"{problem.facts} {functions} {plan}")}
+        facts = {"search": digest(f"{problem.facts} {problem.function_texts()} {plan}")}
         with in_words(path):
             path.parent.mkdir(parents=True, exist_ok=True)
             text = path.read_text(encoding="utf-8", errors="replace") if path.exists() else ""
@@ -424,12 +415,12 @@ class Journal:
                 file.writelines(json.dumps(entry) + "\n" for entry in (entries or [facts]))
         return cls(path, {str(entry["task"]): entry for entry in entries if "task" in entry})
 
-    def result(self, task: str, problem: Problem) -> SearchEnd | None:
+    def result(self, task: str, problem: Problem, combination: tuple[int, ...]) -> SearchEnd | None:
         """Return what a local search came to, as it is kept, with the designs that it looked at."""
         try:
             entry = self.known[task]
             unit = np.array(entry["unit"], float)
-            found = SearchEnd(unit, float(entry["value"]), float(entry["missing"]), bool(entry["whole"]))
+            found = SearchEnd(combination, unit, float(entry["value"]), float(entry["missing"]), bool(entry["whole"]))
             looked_at = int(entry["looked_at"])
             if unit.shape != (len(problem.space.variables),):
                 return None
@@ -442,7 +433,8 @@ class Journal:
         """Write down what a local search came to, and how many designs it looked at."""
         if self.path is None:
             return
-        entry = {"task": task, **vars(found), "unit": found.unit.tolist(), "looked_at": looked_at}
+        kept = {name: value for name, value in vars(found).items() if name != "combination"}  # the task says it
+        entry = {"task": task, **kept, "unit": found.unit.tolist(), "looked_at": looked_at}
         with in_words(self.path), self.path.open("a", encoding="utf-8") as file:
             file.write(json.dumps(entry) + "\n")
             file.flush()
@@ -450,9 +442,6 @@ class Journal:
 
 
 # The search.
-
-Ended: TypeAlias = tuple[tuple[int, ...], SearchEnd]
-"""A local search that is done: its combination and what it came to."""
 
 
 @final
@@ -466,37 +455,6 @@ class SearchPlan:
 
 
 @final
-@dataclass(frozen=True, eq=False)
-class Screened:
-    """Designs of one combination that were looked at: unit coordinates (m, n), the objective, what is missing, the part that is reached."""
-
-    combination: tuple[int, ...]
-    unit: FloatArray
-    value: FloatArray
-    missing: FloatArray
-    reached: FloatArray
-
-    @property
-    def begins(self) -> Mask:
-        """At which of them a local search may begin: they are reached, and the objective has a value."""
-        return np.asarray((self.reached == 1.0) & np.isfinite(self.value))
-
-    @property
-    def order(self) -> Index:
-        """The designs, the best first: those that keep all, by the objective; then by what is missing."""
-        worth = np.where(np.isfinite(self.value), self.value, np.inf)
-        short = np.where(np.isfinite(self.missing), self.missing, 1e9) + 1e9 * (1.0 - self.reached)
-        return np.lexsort((worth, np.where(short <= 1e-9, 0.0, short)))
-
-    @property
-    def best(self) -> tuple[float, float]:
-        """How good the best one is: what is missing, then the objective."""
-        place = self.order[0]
-        short = float(np.nan_to_num(self.missing[place], nan=1e9, posinf=1e9)) + 1e9 * (1.0 - float(self.reached[place]))
-        return (short if short > 1e-9 else 0.0), float(np.nan_to_num(self.value[place], nan=np.inf))
-
-
-@final
 class DesignSearch:
     """One search under way."""
 
@@ -505,7 +463,7 @@ class DesignSearch:
         self.coarse = problem.changed(counts=COARSE)
         self.cut: list[str] = []
         self.spread_words = ""
-        self.looked: list[Screened] = []
+        self.looked: list[EvaluatedDesigns] = []
         self.present = problem.space.present(problem.machine)
 
     def run(self) -> Optimum:
@@ -518,10 +476,10 @@ class DesignSearch:
             ended = self.ends([(each, 0, np.zeros((1, 0))) for each in left])
             return self.chosen(ended, searched=len(ended))
         screened = [self.screened(each) for each in left if not self.problem.count.is_spent]
-        if not any(np.any(each.reached == 1.0) for each in screened):
+        count = sum(int(np.sum(each.reached == 1.0)) for each in screened)
+        if not count:
             raise self.unreachable(screened)
         if not any(np.any(each.begins) for each in screened):
-            count = sum(int(np.sum(each.reached == 1.0)) for each in screened)
             text = f"{', '.join(map(str, self.problem.objectives))} has no value at any of {count} designs that can be assembled"
             raise StudyError(f"{self.problem.plan.title}: {text}; say what has one there, or widen vary=.")
         screened = sorted((each for each in screened if np.any(each.begins)), key=lambda each: each.best)[:SEARCHED]
@@ -531,13 +489,13 @@ class DesignSearch:
         tasks = [(each.combination, number, unit) for each in screened for number, unit in enumerate(self.starts(each, len(screened)))]
         return self.chosen([*self.ends(tasks), *self.best_looked_at(screened)], searched=len(screened))
 
-    def ends(self, tasks: Sequence[tuple[tuple[int, ...], int, FloatArray]]) -> list[Ended]:
+    def ends(self, tasks: Sequence[tuple[tuple[int, ...], int, FloatArray]]) -> list[SearchEnd]:
         """Return what the local searches come to, of a combination, a number and a start each: all, or those within the limit."""
-        ended: list[Ended] = []
+        ended: list[SearchEnd] = []
         self.tell(0, len(tasks))
         for done, (combination, number, unit) in enumerate(tasks):
             try:
-                ended.append((combination, self.ended(combination, unit, number)))
+                ended.append(self.ended(combination, unit, number))
             except LimitReachedError:
                 break
             except KeyboardInterrupt as stopped:
@@ -546,7 +504,7 @@ class DesignSearch:
             self.tell(done + 1, len(tasks))
         return ended
 
-    def best_looked_at(self, screened: Sequence[Screened]) -> list[Ended]:
+    def best_looked_at(self, screened: Sequence[EvaluatedDesigns]) -> list[SearchEnd]:
         """Return the most promising designs that no local search began with, where the limit is reached; else none."""
         if not self.problem.count.is_spent:
             return []
@@ -557,10 +515,10 @@ class DesignSearch:
                     if each.begins[place]:
                         with suppress(LinkageError):
                             unit = each.unit[place]
-                            found.append((each.combination, Local(problem, each.combination, unit).judged(unit)))
+                            found.append(Local(problem, each.combination, unit).judged(unit))
         return found
 
-    def hopeless(self, screened: Sequence[Screened]) -> list[Ended]:
+    def hopeless(self, screened: Sequence[EvaluatedDesigns]) -> list[SearchEnd]:
         """Return designs that miss conditions least, by few poses, where nothing nearby keeps all; none where there is hope.
 
         That is looked for where none of the designs spread over the box keeps all: from some of them, letting conditions give way. At few
@@ -582,10 +540,10 @@ class DesignSearch:
                     continue
                 if least is None or least.missing <= NEARLY or problem.count.is_spent:
                     return []
-                found.append((each.combination, least))
+                found.append(least)
         return found
 
-    def infeasible(self, ended: Sequence[Ended]) -> StudyError:
+    def infeasible(self, ended: Sequence[SearchEnd]) -> StudyError:
         """Return the error of a search that came to designs none of which keeps everything."""
         with self.problem.count.without_limit():
             return infeasible_error(self.problem, ended, {each.combination: each.unit for each in reversed(self.looked)})
@@ -606,7 +564,7 @@ class DesignSearch:
 
     # -- screening -----------------------------------------------------------------------------------------
 
-    def screened(self, combination: tuple[int, ...]) -> Screened:
+    def screened(self, combination: tuple[int, ...]) -> EvaluatedDesigns:
         """Return designs spread over the box of one combination, looked at all at once, the present one among them."""
         space = self.problem.space
         count = 1 << max(4, (min(SCREENED, SCREENED_IN_ALL // space.count) or 1).bit_length() - 1)
@@ -623,11 +581,11 @@ class DesignSearch:
             unit = np.concatenate([present[None], unit])
         if self.plan.method != "local":
             unit = space.drawn(unit, self.problem.plan.title, self.plan.seed)
-        value, missing, reached = self.coarse.merits(combination, unit)
-        self.looked.append(Screened(combination, unit, self.problem.sense * value, missing, reached))
+        seen = self.coarse.merits(combination, unit)
+        self.looked.append(EvaluatedDesigns("looked at", space, combination, unit, *seen, self.problem.sense))
         return self.looked[-1]
 
-    def starts(self, screened: Screened, combinations: int) -> list[FloatArray]:
+    def starts(self, screened: EvaluatedDesigns, combinations: int) -> list[FloatArray]:
         """Return where the local searches of a combination begin: the best designs that stand apart, that of today always."""
         many = 1 if self.plan.method == "local" else max(self.plan.starts if combinations == 1 else self.plan.starts // 2, 1)
         chosen: list[FloatArray] = []
@@ -648,50 +606,42 @@ class DesignSearch:
     def ended(self, combination: tuple[int, ...], unit: FloatArray, number: int) -> SearchEnd:
         """Return what the local search from a start comes to, or came to before."""
         task = f"{list(combination)} {number}{self.spread_words}"
-        known = self.journal.result(task, self.problem)
+        known = self.journal.result(task, self.problem, combination)
         if known is not None:
             return known
         problem, unit = self.problem.changed(counts=SAMPLES), np.ravel(unit)  # with samples of its own: it depends on no other search
         before = problem.count.designs
         try:
             local = Local(problem, combination, unit)
-            found = local_search(local, NEARLY) if problem.space.variables else local.judged(unit)
+            found = local_search(local, NEARLY)
         except LimitReachedError:
             raise
         except LinkageError:
-            found = SearchEnd(unit, np.nan, np.inf, False)
+            found = SearchEnd(combination, unit, np.nan, np.inf, False)
         if not problem.count.is_spent:
             self.journal.keep(task, found, problem.count.designs - before)
         return found
 
     # -- the winner -----------------------------------------------------------------------------------------
 
-    def chosen(self, ended: Sequence[Ended], searched: int) -> Optimum:
+    def chosen(self, ended: Sequence[SearchEnd], searched: int) -> Optimum:
         """Return the best design that is assembled over the whole stroke and keeps everything; StudyError where there is none."""
         sense, count, lost = self.problem.sense, self.problem.count, []
-        for combination, found in sorted((one for one in ended if one[1].feasible), key=lambda one: sense * one[1].value):
+        for found in sorted((one for one in ended if one.feasible), key=lambda one: sense * one.value):
             try:
-                everyone = [end for other, end in ended if other == combination]
-                best = on_steps(self.problem, combination, found)
+                everyone = [end for end in ended if end.combination == found.combination]
+                best = on_steps(self.problem, found)
                 limit = count.limit if count.is_spent else None
                 with count.without_limit():
-                    return replace(described(*best, everyone, searched, self.cut), limit=limit, tried=self.tried(ended))
+                    tried = [EvaluatedDesigns.of_end(self.problem, end) for end in ended]
+                    return replace(described(*best, everyone, searched, self.cut), limit=limit, tried=(*self.looked, *tried))
             except AssemblyError as error:
                 lost.append(str(error))
         if lost:
             raise StudyError(f"{self.problem.plan.title}: no design that was found can be kept. {lost[0]}")
         raise self.infeasible(ended)
 
-    def tried(self, ended: Sequence[Ended]) -> tuple[EvaluatedDesigns, ...]:
-        """Return the designs that were looked at, then what the local searches came to."""
-        space, found = self.problem.space, []
-        for each in self.looked:
-            found.append(EvaluatedDesigns("looked at", space, each.combination, each.unit, self.problem.sense * each.value, each.missing))
-        for at, end in ended:
-            found.append(EvaluatedDesigns("searched", space, at, end.unit[None], np.array([end.value]), np.array([end.missing])))
-        return tuple(found)
-
-    def unreachable(self, screened: Sequence[Screened]) -> StudyError:
+    def unreachable(self, screened: Sequence[EvaluatedDesigns]) -> StudyError:
         """Return the error for a box without a design that can be assembled over the whole stroke."""
         best = max(screened, key=lambda each: float(each.reached.max()))
         place, count = int(np.argmax(best.reached)), sum(len(each.unit) for each in screened)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import islice, product
@@ -21,15 +21,14 @@ from ..errors import AssemblyError, DefinitionError, LinkageError
 from ..mechanism import Mechanism
 from ..motion.measures import Constraint, Given, Integral, Leaf, Measure, measure_of, measure_unit
 from ..numeric.line import Index
-from ..plan import Plan
+from ..plan import Mask, Plan
 from ..program import FloatArray
-from ..shown import Shown
-from ..units import deg, display_unit, mm, require_measure, show
+from ..shown import Shown, Told
+from ..units import deg, display_unit, factor, mm, require_measure, show, shown_in
 from .box import unit_points
 from .checks import unit_of
 from .poles import check_bounded
 from .problem import LeafNumbers, Problem
-from .result_tables import EvaluatedDesigns, ResultRow, heading_with_unit, result_cells, result_text, tried_names, tried_rows
 from .sampling import no_value
 from .solver import MET, Local, SearchEnd, local_search, missing_of, scales_of, true_worth, worth_in_order
 from .space import Space, Varied, size_of_machine
@@ -189,29 +188,26 @@ class Optimum(Shown):
         Of the steps about each value those are taken that keep every condition and cost least; where none does, the one that misses
         least, and it says so.
         """
-        for name, value in (("to", to), ("angle", angle)):
-            require_number(f"rounded({name}", value, "a step above zero is expected, such as 1 * mm", above=0.0)
-        require_measure(to, "length", "rounded: to")
-        require_measure(angle, "angle", "rounded: angle")
-        if to > COARSEST * size_of_machine(self.machine):
-            raise DefinitionError(
-                f"rounded({to:.6g}): steps of {to:.6g} m are as coarse as the machine; write {to:.6g} * mm if that is meant."
-            )
-        problem, space, near = self.problem, self.problem.space, []
-        for variable, value in zip(space.variables, space.values(self.unit), strict=True):
-            step = {"mm": to, "deg": angle}.get(variable.unit)
-            near.append(steps_about(float(value), step, variable) if step else [float(value)])
-        tried = list(islice(product(*near), MOST_ROUNDINGS))
-        units = np.array([[(each - one.low) / (one.span or 1.0) for each, one in zip(row, space.variables, strict=True)] for row in tried])
-        judged = []
-        for place in best_first(problem, self.combination, units, MET)[1][:8] if space.variables else [0]:
-            machine = problem.machine_of(units[place], self.combination)
-            value, missing = worth_of(problem, machine)
-            if np.isfinite(value):
-                judged.append(((missing if missing > MET else 0.0, problem.sense * value), value, missing, machine))
+        problem, judged = self.problem, []
+        units = problem.space.unit(rounded_values(self.machine, problem.space, self.unit, to, angle, MOST_ROUNDINGS))
+        with problem.count.without_limit():
+            for place in best_first(problem, self.combination, units, MET)[1][:8] if problem.space.variables else [0]:
+                machine = problem.machine_of(units[place], self.combination)
+                value, missing = worth_of(problem, machine)
+                if np.isfinite(value):
+                    judged.append(((missing if missing > MET else 0.0, problem.sense * value), value, missing, machine))
         if not judged:
             raise AssemblyError(f"{problem.plan.title}: no design on these steps can be assembled over the whole stroke; take finer ones.")
-        return Rounded.of(self, *min(judged, key=itemgetter(0))[1:])
+        _, value, missing, machine = min(judged, key=itemgetter(0))
+        cost = problem.sense * (value - self.value) / (abs(self.value) or 1.0)
+        unit, variables = unit_of_measure(problem.plan, problem.objectives[0]), problem.space.variables
+        settings = ", ".join(f"{each.name} = {each.show(each.sign * float(machine.dimensions[each.owner]))}" for each in variables)
+        change = f"{100.0 * abs(cost):.2g} % {'worse' if cost >= 0.0 else 'better'} than" if abs(cost) > NOISE else "as good as"
+        text = f"{settings}: {problem.objectives[0]} = {show(value, unit)}, {change} unrounded."
+        if missing > MET:
+            remedy = "take finer steps, or tighten the condition before"
+            text += f" No design on these steps keeps every condition; this one misses by {100.0 * missing:.2g} %: {remedy}."
+        return Rounded(machine, value, cost, missing, text)
 
     def rows(self, rounded: Rounded | None = None) -> tuple[ResultRow, ...]:
         """Return what varied, the objective and the conditions, before and after, and of a rounded design too."""
@@ -227,7 +223,8 @@ class Optimum(Shown):
             rows.append(ResultRow("variable", name, unit_of(plan, name), before, after, last, gain=gain, by=by))
         last, unit = rounded.value if rounded else nan, unit_of_measure(plan, problem.objectives[0])
         rows.append(ResultRow("objective", str(problem.objectives[0]), unit, self.start_value, self.value, last))
-        known = [leaf_numbers(problem, each) for each in machines]
+        with problem.count.without_limit():
+            known = [numbers_judged(problem, each)[0] for each in machines]
         for kept in self.conditions:
             side = kept.constraint.left
             before, after, last = [*(nan if each is None else float(side.of(each.__getitem__)) for each in known), nan][:3]
@@ -248,10 +245,10 @@ class Optimum(Shown):
         """Write every design that was looked at into a CSV file: its dimensions, its objective, and the part missing of a condition."""
         plan, objective = self.problem.plan, self.problem.objectives[0]
         unit = unit_of_measure(plan, objective)
-        units = [*((name, unit_of(plan, name)) for name in tried_names(self.tried[0].space)), (str(objective), unit)]
+        headings = [heading_with_unit(name, unit_of(plan, name)) for name in tried_names(self.tried[0].space)]
         with replacing_text(path) as stream:
             writer = csv.writer(stream)
-            writer.writerow(["stage", *map(heading_with_unit, units), "missing"])
+            writer.writerow(["stage", *headings, heading_with_unit(str(objective), unit), "missing"])
             for row in tried_rows(plan, unit, self.tried):
                 writer.writerow("" if each != each else each if isinstance(each, str) else repr(each) for each in row)
 
@@ -267,11 +264,9 @@ class Optimum(Shown):
 # The winner, on its steps and judged.
 
 
-def described(
-    problem: Problem, combination: Sequence[int], found: SearchEnd, ended: Sequence[SearchEnd], searched: int, cut: Sequence[str]
-) -> Optimum:
+def described(problem: Problem, found: SearchEnd, ended: Sequence[SearchEnd], searched: int, cut: Sequence[str]) -> Optimum:
     """Return an optimum with all that is said of it; AssemblyError where it cannot be assembled over the whole stroke."""
-    machine = problem.machine_of(found.unit, combination)
+    machine = problem.machine_of(found.unit, found.combination)
     problem.assembled(machine)
     if not found.feasible:
         raise AssemblyError(f"{problem.plan.title}: the design on its steps misses the conditions.")
@@ -279,8 +274,8 @@ def described(
     value = true_worth(problem, now)
     if not np.isfinite(value):
         raise AssemblyError(f"{problem.plan.title}: {', '.join(map(str, problem.objectives))} has no value of the best design.")
-    check_bounded(problem, now, combination, found.unit)
-    local = Local(problem, combination, found.unit)
+    check_bounded(problem, now, found)
+    local = Local(problem, found.combination, found.unit)
     local.refine(found.unit)
     prices = multipliers(local, found.unit)
     part = local.size / (abs(value) or 1.0)
@@ -301,9 +296,9 @@ def described(
     variables = {each.name: float(at) for each, at in zip(problem.space.variables, values, strict=True)}
     best = Optimum(
         machine, problem.machine, value, start_value, start_missing, conditions, tuple(bounds), variables, max(agreed, 1), len(ended),
-        searched, tuple(cut), problem.count.designs, problem, found.unit, tuple(combination),
+        searched, tuple(cut), problem.count.designs, problem, found.unit, found.combination,
     )  # fmt: skip
-    return replace(best, edges=tuple(edges(problem, combination, found.unit, prices, part)))
+    return replace(best, edges=tuple(edges(problem, found, prices, part)))
 
 
 def as_kept(problem: Problem, constraint: Constraint, now: Mapping[Leaf, float], price: float, scale: float) -> Kept:
@@ -318,22 +313,24 @@ def as_kept(problem: Problem, constraint: Constraint, now: Mapping[Leaf, float],
     return Kept(constraint, left, right, spare, by, price * by if price * by > SHOWN else 0.0, unit_of_constraint(problem.plan, constraint))
 
 
-def leaf_numbers(problem: Problem, machine: Mechanism) -> LeafNumbers | None:
-    """Return the leaves' numbers of a machine, between the poses too; None where it cannot be assembled over the whole stroke."""
+def numbers_judged(problem: Problem, machine: Mechanism) -> tuple[LeafNumbers | None, float]:
+    """Return the leaves' numbers of a machine, between the poses too, and what it misses in parts of the conditions' sizes.
+
+    None, and infinite, where it cannot be assembled over the whole stroke.
+    """
     try:
         problem.assembled(machine)
     except AssemblyError:
-        return None
-    return problem.truths(machine.dimensions)
+        return None, float("inf")
+    values = problem.truths(machine.dimensions)
+    scales = scales_of(problem, problem.evaluated(machine.dimensions, slopes=True))
+    return values, missing_of(problem.constraints, scales, values)
 
 
 def worth_of(problem: Problem, machine: Mechanism) -> tuple[float, float]:
-    """Return the objective of a machine and what it misses in parts of the conditions' sizes; NaN where it cannot be assembled."""
-    values = leaf_numbers(problem, machine)
-    if values is None:
-        return float("nan"), float("inf")
-    scales = scales_of(problem, problem.evaluated(machine.dimensions, slopes=True))
-    return true_worth(problem, values), missing_of(problem.constraints, scales, values)
+    """Return the objective of a machine and what it misses; NaN where it cannot be assembled."""
+    values, missing = numbers_judged(problem, machine)
+    return float("nan") if values is None else true_worth(problem, values), missing
 
 
 @final
@@ -393,16 +390,16 @@ def multipliers(local: Local, unit: FloatArray) -> Prices:
 # What a machine itself allows, beside the conditions and the ranges.
 
 
-def edges(problem: Problem, combination: Sequence[int], unit: FloatArray, prices: Prices, part: float) -> list[str]:
+def edges(problem: Problem, found: SearchEnd, prices: Prices, part: float) -> list[str]:
     """Return what of the machine itself stops a design where it would get better: links that no longer meet, what is refused.
 
     `part` is what a scaled number of the objective is of it.
     """
-    variables, values = problem.space.variables, problem.space.values(unit)
+    unit, variables, values = found.unit, problem.space.variables, problem.space.values(found.unit)
     sizes = [(way, float(np.abs(way).max(initial=0.0))) for way in (-prices.left, -prices.reach)]
     for way, step in product([way / size for way, size in sizes if part * size * EDGE > SHOWN], STEPS_BEYOND):
         beyond = np.clip(unit + step * way, 0.0, 1.0)
-        reason = stopped_by(problem, combination, beyond)
+        reason = stopped_by(problem, found.combination, beyond)
         if reason:
             moved = [(each, at) for each, at, by in zip(variables, values, beyond - unit, strict=True) if abs(by) >= 0.3 * step]
             where = ", ".join(f"{each.name} = {each.show(float(at))}" for each, at in moved) or "The design"
@@ -429,7 +426,7 @@ def what_of(message: str) -> str:
     return text.partition(": " if " cannot be assembled" in text else "; ")[0].rstrip(".")
 
 
-def on_steps(problem: Problem, combination: Sequence[int], found: SearchEnd) -> tuple[Problem, tuple[int, ...], SearchEnd]:
+def on_steps(problem: Problem, found: SearchEnd) -> tuple[Problem, SearchEnd]:
     """Return the problem with its stepped variables held on steps, and the best design there; AssemblyError where none is assembled.
 
     Without such variables it is what was given.
@@ -438,9 +435,9 @@ def on_steps(problem: Problem, combination: Sequence[int], found: SearchEnd) -> 
     are looked at, and the most promising of others. From the best of these on it goes a step up or down at a time, as long as that is
     better. The variables that are left are searched from each.
     """
-    search, count = StepSearch(problem, combination, found), problem.count
+    search, count = StepSearch(problem, found), problem.count
     if not search.stepped:
-        return problem, tuple(combination), found
+        return problem, found
     if count.is_spent:
         search.look(search.about())
     else:
@@ -461,12 +458,12 @@ def on_steps(problem: Problem, combination: Sequence[int], found: SearchEnd) -> 
 class StepSearch:
     """Designs on steps, by the numbers of their steps: `seen`, and the `best` of them."""
 
-    def __init__(self, problem: Problem, combination: Sequence[int], found: SearchEnd) -> None:
-        self.problem, self.combination, self.found = problem, tuple(combination), found
+    def __init__(self, problem: Problem, found: SearchEnd) -> None:
+        self.problem, self.found = problem, found
         self.stepped = tuple(each for each in problem.space.variables if each.step is not None)
         self.rest = tuple(each for each in problem.space.variables if each.step is None)
         self.counts = tuple(each.steps for each in self.stepped)
-        self.seen: dict[tuple[int, ...], tuple[Problem, tuple[int, ...], SearchEnd] | None] = {}
+        self.seen: dict[tuple[int, ...], tuple[Problem, SearchEnd] | None] = {}
         self.best: tuple[int, ...] | None = None
         self._starts: dict[tuple[int, ...], FloatArray] = {}
 
@@ -479,7 +476,7 @@ class StepSearch:
         """Return the most promising of all steps, by few poses."""
         every = np.array([*product(*map(range, self.counts))])
         units = every * np.array([each.step / each.span for each in self.stepped if each.step is not None])
-        _, order = best_first(self.problem, self.combination, units, NEAR_KEPT)
+        _, order = best_first(self.problem, self.found.combination, units, NEAR_KEPT)
         return [tuple(map(int, every[place])) for place in order[:JUDGED]]
 
     def about(self) -> list[tuple[int, ...]]:
@@ -501,7 +498,7 @@ class StepSearch:
             column = variables.index(each)
             steps[:, place] = np.minimum((units[:, column] * count).astype(int), count - 1)
             units[:, column] = steps[:, place] * (each.step or 0.0) / each.span
-        value, order = best_first(self.problem, self.combination, units, NEAR_KEPT)
+        value, order = best_first(self.problem, self.found.combination, units, NEAR_KEPT)
         free = [place for place, each in enumerate(variables) if each.step is None]
         found: dict[tuple[int, ...], FloatArray] = {}
         for place in order:
@@ -527,16 +524,16 @@ class StepSearch:
         for each in steps:
             if each not in self.seen and not (self.problem.count.is_spent and any(self.seen.values())):
                 self.seen[each] = self._searched(each)
-        worth = {step: worth_in_order(self.problem, result[2]) for step, result in self.seen.items() if result is not None}
+        worth = {step: worth_in_order(self.problem, result[1]) for step, result in self.seen.items() if result is not None}
         self.best = min(worth, key=worth.__getitem__, default=None)
 
-    def _searched(self, steps: tuple[int, ...]) -> tuple[Problem, tuple[int, ...], SearchEnd] | None:
+    def _searched(self, steps: tuple[int, ...]) -> tuple[Problem, SearchEnd] | None:
         """Return the problem with its stepped variables held at some steps, and the best design there; None where it is not assembled."""
         space = self.problem.space
         values = [each.low + (each.step or 0.0) * step for each, step in zip(self.stepped, steps, strict=True)]
         held = tuple((((each.owner, each.sign),), ((value,),)) for each, value in zip(self.stepped, values, strict=True))
         smaller = Space(self.rest, (*space.choices, *held), (*space.names, *((each.name,) for each in self.stepped)))
-        inner, whole = self.problem.changed(space=smaller), (*self.combination, *(0 for _ in self.stepped))
+        inner, whole = self.problem.changed(space=smaller), (*self.found.combination, *(0 for _ in self.stepped))
         near = np.array([at for at, each in zip(self.found.unit, space.variables, strict=True) if each.step is None])
         found = []
         for unit in (near, *([self._starts[steps]] if steps in self._starts else [])):
@@ -545,7 +542,7 @@ class StepSearch:
                     local = Local(inner, whole, unit)
                     judged = None if self.rest else local.judged(unit)
                 found.append(judged or local_search(local))
-        return (inner, whole, min(found, key=lambda each: worth_in_order(inner, each))) if found else None
+        return (inner, min(found, key=lambda each: worth_in_order(inner, each))) if found else None
 
 
 # Drawing dimensions.
@@ -553,7 +550,7 @@ class StepSearch:
 
 @final
 @dataclass(frozen=True, eq=False)
-class Rounded:
+class Rounded(Told):
     """A design on drawing dimensions: the machine, its objective [SI], what that costs as a part, and what is missing of the conditions."""
 
     machine: Mechanism
@@ -562,27 +559,10 @@ class Rounded:
     missing: float
     sentence: str
 
-    @classmethod
-    def of(cls, optimum: Optimum, value: float, missing: float, machine: Mechanism) -> Rounded:
-        """Return a machine on drawing dimensions beside the optimum, with a sentence on what that costs."""
-        problem = optimum.problem
-        cost = problem.sense * (value - optimum.value) / (abs(optimum.value) or 1.0)
-        unit, variables = unit_of_measure(problem.plan, problem.objectives[0]), problem.space.variables
-        said = ", ".join(f"{each.name} = {each.show(each.sign * float(machine.dimensions[each.owner]))}" for each in variables)
-        change = f"{100.0 * abs(cost):.2g} % {'worse' if cost >= 0.0 else 'better'} than" if abs(cost) > NOISE else "as good as"
-        text = f"{said}: {problem.objectives[0]} = {show(value, unit)}, {change} unrounded."
-        if missing > MET:
-            remedy = "take finer steps, or tighten the condition before"
-            text += f" No design on these steps keeps every condition; this one misses by {100.0 * missing:.2g} %: {remedy}."
-        return cls(machine, value, cost, missing, text)
-
     @property
     def feasible(self) -> bool:
         """Whether it keeps every condition."""
         return self.missing <= MET
-
-    def __str__(self) -> str:
-        return self.sentence
 
 
 def best_first(problem: Problem, combination: Sequence[int], units: FloatArray, near: float) -> tuple[FloatArray, Index]:
@@ -591,6 +571,24 @@ def best_first(problem: Problem, combination: Sequence[int], units: FloatArray, 
     short = np.where(np.isfinite(missing), np.maximum(missing, 0.0), np.inf)
     worth = np.where(np.isfinite(value), problem.sense * value, np.inf)
     return value, np.lexsort((worth, np.where(short <= near, 0.0, short)))
+
+
+def rounded_values(machine: Mechanism, space: Space, unit: FloatArray, to: float, angle: float, most: int) -> FloatArray:
+    """Return values (m, n) of the variables on steps of `to` [m] and `angle` [rad] about unit coordinates (n,), so many at the most.
+
+    A variable that has steps of its own stays on these. DefinitionError for what is no step, and for one as coarse as the machine.
+    """
+    for name, value in (("to", to), ("angle", angle)):
+        require_number(f"rounded({name}", value, "a step above zero is expected, such as 1 * mm", above=0.0)
+    require_measure(to, "length", "rounded: to")
+    require_measure(angle, "angle", "rounded: angle")
+    if to > COARSEST * size_of_machine(machine):
+        raise DefinitionError(f"rounded({to:.6g}): steps of {to:.6g} m are as coarse as the machine; write {to:.6g} * mm if that is meant.")
+    near = []
+    for variable, value in zip(space.variables, space.values(unit).tolist(), strict=True):
+        step = None if variable.step is not None else {"mm": to, "deg": angle}.get(variable.unit)
+        near.append(steps_about(value, step, variable) if step else [value])
+    return np.array([*islice(product(*near), most)])
 
 
 def steps_about(value: float, step: float, variable: Varied) -> list[float]:
@@ -640,3 +638,131 @@ def in_units(constraint: Constraint, units: str) -> str:
     """Return a constraint as text, its number in a unit."""
     sides = [show(side.value, units) if isinstance(side, Given) else str(side) for side in constraint.compared]
     return f"{sides[0]} {constraint.symbol} {sides[1]}"
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class EvaluatedDesigns:
+    """Designs of one combination of choices: unit coordinates (m, n), the objective (m,) [SI], and the part missing of a condition (m,).
+
+    `stage` says how closely they were looked at: "looked at" at few poses, or "searched", by a local search; `space` is what varied.
+    NaN stands where a design cannot be assembled over the whole stroke; `reached` (m,) is the part of it where it can. `sense` is 1.0 where
+    the objective is to be least, else -1.0.
+    """
+
+    stage: str
+    space: Space
+    combination: tuple[int, ...]
+    unit: FloatArray
+    value: FloatArray
+    missing: FloatArray
+    reached: FloatArray
+    sense: float
+
+    @classmethod
+    def of_end(cls, problem: Problem, end: SearchEnd) -> EvaluatedDesigns:
+        """Return the one design that a local search came to."""
+        value, missing, reached = (np.array([float(each)]) for each in (end.value, end.missing, end.whole))
+        return cls("searched", problem.space, end.combination, end.unit[None], value, missing, reached, problem.sense)
+
+    @property
+    def begins(self) -> Mask:
+        """At which of them a local search may begin: they are reached, and the objective has a value."""
+        return np.asarray((self.reached == 1.0) & np.isfinite(self.value))
+
+    @property
+    def order(self) -> Index:
+        """The designs, the best first: those that keep all, by the objective; then by what is missing."""
+        worth = np.where(np.isfinite(self.value), self.sense * self.value, np.inf)
+        short = np.where(np.isfinite(self.missing), self.missing, 1e9) + 1e9 * (1.0 - self.reached)
+        return np.lexsort((worth, np.where(short <= 1e-9, 0.0, short)))
+
+    @property
+    def best(self) -> tuple[float, float]:
+        """How good the best one is: what is missing, then the objective."""
+        place = self.order[0]
+        short = float(np.nan_to_num(self.missing[place], nan=1e9, posinf=1e9)) + 1e9 * (1.0 - float(self.reached[place]))
+        return (short if short > 1e-9 else 0.0), float(np.nan_to_num(self.sense * self.value[place], nan=np.inf))
+
+
+def tried_names(space: Space) -> list[str]:
+    """Return the names of what varies: the variables, then what the choices set."""
+    return [*(each.name for each in space.variables), *(name for names in space.names for name in names)]
+
+
+def heading_with_unit(name: str, unit: str) -> str:
+    """Return a heading: `OB, mm`."""
+    return f"{name}, {shown_in(unit)}" if unit else name
+
+
+def tried_rows(plan: Plan | None, unit: str, tried: Sequence[EvaluatedDesigns]) -> Iterator[list[str | float]]:
+    """Yield a row for each design: its stage, its dimensions and its objective in their units, and the part missing of a condition.
+
+    Without a plan the dimensions are in SI.
+    """
+    space = tried[0].space
+    factors = [1.0 if plan is None else factor(shown_in(unit_of(plan, name))) for name in tried_names(space)]
+    for part in tried:
+        chosen = [value for (_, rows), row in zip(space.choices, part.combination, strict=True) for value in rows[row]]
+        values = space.values(part.unit).tolist()
+        for own, value, missing in zip(values, part.value.tolist(), part.missing.tolist(), strict=True):
+            settings = [each / size for each, size in zip((*own, *chosen), factors, strict=True)]
+            yield [part.stage, *settings, value / factor(shown_in(unit)), missing]
+
+
+# What varied, what was sought and what must be kept, before and after.
+
+RESULT_HEADINGS = ("what", "name", "unit", "before", "after", "rounded", "limit", "to spare", "gain, %", "for")
+
+ROUNDED_TO_NOTHING = 1e-9
+"""Of a condition's size: less to spare than this is nothing."""
+
+
+@final
+@dataclass(frozen=True)
+class ResultRow:
+    """A number before and after a search [SI], and what more of it would give: `gain` is a part of the objective, `by` for how much less.
+
+    NaN stands where there is no such number. `unit` is that in which the numbers are shown.
+    """
+
+    what: str
+    name: str
+    unit: str
+    before: float
+    after: float
+    rounded: float = float("nan")
+    limit: float = float("nan")
+    spare: float = float("nan")
+    gain: float = 0.0
+    by: str = ""
+
+    @property
+    def numbers(self) -> tuple[float, ...]:
+        """The numbers in the unit that the row is shown in."""
+        is_met = abs(self.spare) <= ROUNDED_TO_NOTHING * max(abs(self.after), abs(self.limit))
+        spare = 0.0 if is_met else self.spare
+        return tuple(each / factor(shown_in(self.unit)) for each in (self.before, self.after, self.rounded, self.limit, spare))
+
+
+def result_cells(rows: Sequence[ResultRow], digits: str = "", of_gain: str = "") -> list[list[str]]:
+    """Return headings and rows, their numbers with so many digits, ".6g", in full precision without; a number that is none is empty."""
+    cells = [list(RESULT_HEADINGS)]
+    for row in rows:
+        numbers = ["" if np.isnan(value) else f"{float(value):{digits}}" for value in row.numbers]
+        gain = [f"{100.0 * float(row.gain):{of_gain}}", row.by] if row.gain else ["", ""]
+        cells.append([row.what, row.name, shown_in(row.unit), *numbers, *gain])
+    return cells
+
+
+def result_text(rows: Sequence[ResultRow]) -> str:
+    """Return rows as aligned text; columns that hold nothing are left out."""
+    cells = result_cells(rows, ".6g", ".2g")
+    kept = [place for place in range(len(RESULT_HEADINGS)) if any(line[place] for line in cells[1:])]
+    sizes = {place: max(len(line[place]) for line in cells) for place in kept}
+    words = {0, 1, 2, 9}
+    lines = (
+        "  ".join(line[place].ljust(sizes[place]) if place in words else line[place].rjust(sizes[place]) for place in kept)
+        for line in cells
+    )
+    return "\n".join(line.rstrip() for line in lines)

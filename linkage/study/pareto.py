@@ -14,16 +14,16 @@ from typing import Any, final
 
 import numpy as np
 
-from ..errors import AssemblyError, DefinitionError, LinkageError
+from ..errors import DefinitionError, LinkageError
 from ..mechanism import Mechanism
 from ..motion.measures import CombinedMeasure, Constraint, Given, Measure
 from ..program import FloatArray
 from ..shown import Shown
 from ..units import show
 from .infeasible import infeasible_error
-from .optimum import unit_of_measure
+from .optimum import numbers_judged, unit_of_measure
 from .problem import COARSE, Problem
-from .solver import MET, Local, SearchEnd, missing_of, scales_of
+from .solver import MET, Local, SearchEnd
 from .survey import Progress
 
 POPULATION, GENERATIONS = 64, 60
@@ -85,7 +85,7 @@ def front(problem: Problem, seed: int, tell: Progress) -> Front:
     if not found:
         present = problem.space.unit(problem.space.present(problem.machine))
         with problem.count.without_limit():
-            raise infeasible_error(problem, [(each, SearchEnd(present, np.nan, np.inf, True)) for each in combinations])
+            raise infeasible_error(problem, [SearchEnd(each, present, np.nan, np.inf, True) for each in combinations])
     best = not_dominated(np.array([values for values, _ in found]))
     measures, signs = [], []
     for each in problem.objectives:
@@ -153,17 +153,15 @@ def on_front(
     try:
         with problem.count.without_limit():
             local = Local(one, combination, unit)
-        result = local.run() if problem.space.variables else local.judged(unit)
+        result = local.run()
         machine = problem.machine_of(result.unit, combination)
-        problem.assembled(machine)
-    except (AssemblyError, LinkageError):
+        with problem.count.without_limit():
+            values, missing = numbers_judged(problem, machine)
+    except LinkageError:
         return None
-    with problem.count.without_limit():
-        values = problem.truths(machine.dimensions)
-        scales = scales_of(problem, problem.evaluated(machine.dimensions, slopes=True))
-    if missing_of(problem.constraints, scales, values) > MET:
+    if values is None or missing > MET:
         return None
-    found = tuple(float(each.of(lambda leaf: values[leaf])) for each in objectives)
+    found = tuple(float(each.of(values.__getitem__)) for each in objectives)
     return (found, machine) if np.isfinite(found).all() and not values.lost else None
 
 

@@ -15,7 +15,7 @@ from ..program import FloatArray
 from .box import unit_points
 from .problem import LeafNumbers, Problem, terms_size
 from .sampling import divisors_of
-from .solver import divisors
+from .solver import SearchEnd, divisors
 
 NEXT_TO_NOTHING = 1e-4
 """A divisor that is smaller than this part of its usual size has come to zero."""
@@ -24,12 +24,12 @@ SPREAD, HALVINGS, FAR, TINY = 64, 40, 1e6, 1e-300
 has no bound; the least number that is divided by."""
 
 
-def check_bounded(problem: Problem, now: LeafNumbers, combination: Sequence[int], unit: FloatArray) -> None:
+def check_bounded(problem: Problem, now: LeafNumbers, best: SearchEnd) -> None:
     """Raise StudyError where the objective has no bound: a number that it is divided by comes to zero in the box.
 
-    `now` are the numbers of the best design, at unit coordinates (n,). A pole at which the objective is worse than there is none.
+    `now` are the numbers of the best design. A pole at which the objective is worse than there is none.
     """
-    problem = problem.changed(count=None)  # these looks are no part of the search
+    problem, combination, unit = problem.changed(count=None), best.combination, best.unit  # these looks are no part of the search
     asked, named = divisors(problem.objectives), f"{problem.plan.title}: {', '.join(map(str, problem.objectives))}"
     n = len(problem.space.variables)
     parts = (0.1, 0.5, 0.9) if asked else ()

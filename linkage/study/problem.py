@@ -44,11 +44,11 @@ from ..plan import Mask, Plan, require_kind
 from ..program import Enclosure, FloatArray, Node, enclosures
 from ..quantities import Quantity, is_number
 from ..vectors import Numbers
-from .cylinder_rows import Range, travelled
+from .checkpoint import measure_text
 from .measured import eager, motion_of, nothing_limits
 from .sampling import Samples, Sampling, divisors_of, rows_of_motion, with_values
-from .sides import on_sides
 from .space import Space
+from .variants import Range, class_with, on_sides
 
 SAMPLES = {0: 1, 1: 49, 2: 17, 3: 9, 4: 5}
 COARSE = {0: 1, 1: 17, 2: 7, 3: 5, 4: 3}
@@ -279,8 +279,7 @@ class WatchedValues:
         found = self._quickly(motion) if self._quickly else np.array([eager(motion, each) for each in self.quantities])
         empty = np.isnan(found) & motion.reached
         for place in np.flatnonzero(empty.reshape(len(found), -1).any(axis=1) & ~self._is_empty):
-            free = nothing_limits(motion, self.quantities[int(place)])
-            self._is_empty[place] = bool((empty[place] if free is None else empty[place] & ~free).any())
+            self._is_empty[place] = bool((empty[place] & ~nothing_limits(motion, self.quantities[int(place)])).any())
         if self._divisors:
             values = self._divisors(motion)[:, motion.reached]
             self._low = np.fmin(self._low, np.fmin.reduce(values, axis=1, initial=np.inf))
@@ -365,11 +364,14 @@ class Problem:
         exact = [repr(each) for one in (*self.objectives, *(held.margin for held in self.constraints)) for each in one.numbers]
         return "; ".join(map(str, [*said, *exact, ends, sorted(self.machine.dimensions.items())]))
 
-    @property
-    def functions(self) -> list[Callable[..., Any]]:
-        """The functions of a motion among what is asked."""
+    def function_texts(self) -> list[str]:
+        """Return the source texts of the functions of a motion among what is asked; DefinitionError for one without, such as a lambda."""
         asked = [leaf.bare_quantity for leaf in self.leaves]
-        return [each for each in asked if callable(each) and not isinstance(each, (Quantity, Request))]
+        try:
+            return [measure_text(each) for each in asked if callable(each) and not isinstance(each, (Quantity, Request))]
+        except DefinitionError as error:
+            text = "a folder cannot tell a function without source text, such as a lambda, from another one; define it by `def` in a file"
+            raise DefinitionError(f"{self.plan.title}: folder=: {text}.") from error
 
     def value(self, numbers: Callable[[Leaf], Any]) -> Any:
         """Return the objective from the leaves' numbers: of several the worst."""
@@ -661,9 +663,11 @@ class Problem:
         machine = self.on_branch(combination).machine.replaced(
             **self.space.chosen(combination), **{name: float(each) for name, each in self.space.dimensions_at(unit).items()}
         )
-        driven = [name for name, one in self.ranges.items() if one.is_travel]
-        ends = self.ends(machine.dimensions) if driven else {}
-        return travelled(machine, {name: ends[name] for name in driven})
+        driven = [name for name, one in self.ranges.items() if one.is_travel]  # strokes of cylinders by their rows: their whole ways
+        if not driven:
+            return machine
+        ends = self.ends(machine.dimensions)
+        return class_with(type(machine), {}, {name: ends[name] for name in driven})(**machine.dimensions)
 
     def assembled(self, machine: Mechanism) -> Motion:
         """Return a machine's motion over the strokes' ranges; AssemblyError where it cannot be assembled, between the poses too."""
@@ -717,8 +721,7 @@ class Problem:
                 alone = PoseSet({}, [poses.singles[single]])
                 here = motion_of(self._grid(alone, design, self._ends(design)))
                 value = float(np.ravel(eager(here, leaf.quantity))[0])
-                free = nothing_limits(here, leaf.quantity) if np.isnan(value) else None
-                found.note(leaf, value, lost=np.isnan(value) and (free is None or not free.all()))
+                found.note(leaf, value, lost=np.isnan(value) and not nothing_limits(here, leaf.quantity).all())
             else:
                 sampled.append(leaf)
         if sampled:

@@ -123,7 +123,10 @@ class Sampling:
                     values[place] = eager(motion, self.quantities[place]).reshape(m, n)
         reached = np.isfinite(found[len(loops)])
         whole = values if reached.all() else np.where(reached, values, np.nan)
-        lost = self._lost(grid, whole, reached)
+        empty: Mask = np.asarray(np.isnan(whole) & reached)  # no value where there is a pose, though something limits it there
+        lost: Mask = np.asarray(empty.any(axis=2))
+        for place in np.flatnonzero(lost.any(axis=1)):
+            lost[place] = (empty[place] & ~nothing_limits(motion_of(grid), self.quantities[place]).reshape(m, n)).any(axis=1)
         for (place, _), each in zip(self._divisors, found[first + len(self._traced) :], strict=True):  # both signs, or zero somewhere
             low, high = (np.where(reached, each, end) for end in (np.inf, -np.inf))
             lost[place] |= (np.nanmin(low, axis=-1, initial=np.inf) <= 0.0) & (np.nanmax(high, axis=-1, initial=-np.inf) >= 0.0)
@@ -147,16 +150,6 @@ class Sampling:
             key = "samples", tuple(each.key for each in requests), len(sloped), self.owners
             self._programs[asked] = self.plan.made(key, lambda plan: SampleProgram.of(plan, requests, sloped, self.owners))
         return self._programs[asked]
-
-    def _lost(self, grid: Grid, values: FloatArray, reached: Mask) -> Mask:
-        """Return which quantities (k, m) have no value at a pose that is reached, though nothing leaves them unlimited there."""
-        empty: Mask = np.asarray(np.isnan(values) & reached)
-        lost: Mask = np.asarray(empty.any(axis=2))
-        for place in np.flatnonzero(lost.any(axis=1)):
-            free = nothing_limits(motion_of(grid), self.quantities[place])
-            if free is not None:
-                lost[place] = (empty[place] & ~free.reshape(reached.shape)).any(axis=1)
-        return lost
 
     def _differences(self, grid: Grid, quantity: object) -> FloatArray:
         """Return the central differences of a quantity that is not traced, shape (p, n)."""

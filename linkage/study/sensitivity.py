@@ -19,7 +19,7 @@ from ..program import FloatArray, RunOptions
 from ..quantities import is_whole
 from ..units import display_unit, show, unit_or_none
 from .measured import Measured, StudyPoses, measured_title, number_bound
-from .tolerances import Tolerance, ToleranceLike, shifted_designs, tolerance_words, tolerances_of
+from .tolerances import Tolerance, ToleranceLike, tolerance_words, tolerances_of, values_shifted
 
 POSES = 21
 
@@ -105,7 +105,7 @@ def tornado(
     named = tolerances_of(plan, tolerances)
     k = len(named)
     levels = np.concatenate([np.zeros((1, k)), -np.eye(k), np.eye(k)])
-    values = poses.values(machine.replaced(**shifted_designs(machine, named, levels)), quantity, RunOptions())
+    values = values_shifted(machine, poses, quantity, named, levels)
     title, nominal = measured_title(plan, quantity), float(values[0, 0])
     if values.shape[1] != 1:
         remedy = "say one pose, or give a measure such as most(...)"
@@ -136,7 +136,7 @@ def gradient_at(machine: Mechanism, poses: StudyPoses, quantity: Measured, toler
     k = len(tolerances)
     steps = {name: Tolerance(STEP * max(each.high, -each.low)) for name, each in tolerances.items()}
     levels = np.concatenate([-np.eye(k), np.eye(k)])
-    values = poses.values(machine.replaced(**shifted_designs(machine, steps, levels)), quantity, RunOptions())[:, 0]
+    values = values_shifted(machine, poses, quantity, steps, levels)[:, 0]
     apart = np.array([2.0 * each.high for each in steps.values()])
     return np.asarray(np.divide(values[k:] - values[:k], apart, out=np.zeros(k), where=apart > 0.0))
 

@@ -1,31 +1,34 @@
-"""The setting that gives a wanted value: all roots in a range, or why there is none; several settings are in `targets`."""
+"""The settings that give wanted values: all roots of one in a range, all settings of several in a box, or why there are none."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, final, overload
 
 import numpy as np
 
-from ..checks import require
-from ..errors import DefinitionError, cited, known_name
+from ..checks import require, require_whole
+from ..errors import DefinitionError, cited, known_name, unwarned
+from ..frozen import FrozenDict, refuses_changes
 from ..language import said
 from ..mechanism import Mechanism
-from ..motion import Target, last_holding
+from ..motion import Motion, Request, Target, last_holding, stroke_display_unit
+from ..motion.evaluation import BulkProgram
 from ..motion.grid import recalled
 from ..motion.measures import words_of
-from ..motion.places import is_one
-from ..motion.requests import identity_of
-from ..numeric.line import Curve, highest_between, sign_changes
+from ..motion.places import is_one, targets_given
+from ..motion.requests import dimensions_of, identity_of, slope
+from ..numeric.descent import NEAR, descended, is_one_solution, without_repeats
+from ..numeric.line import Curve, Index, highest_between, sign_changes
 from ..plan import Mask, require_kind
-from ..program import FloatArray
+from ..program import FloatArray, RunOptions
+from ..shown import Told
 from ..units import show, unit_or_none
-from .box import range_of
+from .box import Box, range_of, setting_words, unit_points
 from .checks import check_one_design, unit_of, why_not_assembled
-from .measured import QuantityLike, StudyPoses, quantity_values
+from .measured import QuantityLike, StudyPoses, quantity_values, traced_number
 from .poles import FAR, TINY
-from .targets import Solutions, solutions_for
 
 SAMPLES = 1025
 TOUCH, USUAL, POLES = 1e-9, (5.0, 95.0), 10.0
@@ -35,15 +38,12 @@ many times that of the usual ones [%]."""
 
 @final
 @dataclass(frozen=True, eq=False)
-class Settings:
+class Settings(Told):
     """All values [SI] of a dimension that give the target, ascending; `sentence` says so, or why there is none."""
 
     name: str
     values: tuple[float, ...]
     sentence: str
-
-    def __str__(self) -> str:
-        return self.sentence
 
 
 @overload
@@ -114,10 +114,18 @@ def settings_for(
     at, off, unique = roots_of(curve, low, high) if identity is None else recalled(pose.base, known, lambda: roots_of(curve, low, high))
     lost = {root: why for root in unique if (why := why_not_assembled(machine.replaced(**{name: root})))}
     kept = [root for root in unique if root not in lost]
-    words = SettingWords(name, unit_of(machine.plan, name), words_of(quantity), unit)
-    if unique and not kept:
-        return Settings(name, (), words.not_assembled(unique, target, lost[unique[0]]))
-    return Settings(name, tuple(kept), words.roots(kept, target) if kept else words.none(at, off + target, target))
+    words = {"name": name, "what": words_of(quantity), "target": show(target, unit)}
+    own = unit_of(machine.plan, name)
+    if not unique:
+        return Settings(name, (), no_setting_words(words, own, unit, at, off + target))
+    found = said(" or ").join(show(root, own) for root in kept or unique)
+    if kept:
+        return Settings(name, tuple(kept), said("{what} = {target} with {name} = {found}.", found=found, **words))
+    why = said(
+        "{what} = {target} with {name} = {found}, which cannot be assembled over the whole stroke: {why}",
+        found=found, why=lost[unique[0]], **words,
+    )  # fmt: skip
+    return Settings(name, (), why)
 
 
 def roots_of(curve: Curve, low: float, high: float) -> tuple[FloatArray, FloatArray, list[float]]:
@@ -166,48 +174,266 @@ def zeros_touched(curve: Curve, at: FloatArray, off: FloatArray) -> FloatArray:
     return highest_between(lambda places: -np.abs(curve(places)), at[places], at[places + 2])
 
 
+def no_setting_words(words: Mapping[str, str], own: str, unit: str, at: FloatArray, value: FloatArray) -> str:
+    """Return why no setting gives the target, from samples `at` (n,) shown in their `own` unit, and the values there in theirs."""
+    known = np.isfinite(value)
+    names = {**words, "low": show(at[0], own), "high": show(at[-1], own)}
+    if not known.any():
+        return said(
+            "No {name} between {low} and {high} can be assembled there, so that {what} has no value. Look farther, or change the stroke.",
+            **names,
+        )
+    ends, size = [float(value[known].min()), float(value[known].max())], np.where(known, np.abs(value), 0.0)
+    top = int(np.argmax(size))
+    if size[top] >= FAR * max(float(np.median(size[known])), TINY):  # a pole, with the signs that it has on either side
+        beside = value[max(top - 1, 0) : top + 2]
+        ends = [end if not np.any(beside * sign > 0.0) else sign * np.inf for end, sign in zip(ends, (-1.0, 1.0), strict=True)]
+    least, most = (show(end, unit) for end in ends)
+    first, last = (show(float(end), own) for end in (at[known].min(), at[known].max()))
+    return said(
+        "No {name} between {low} and {high} gives {what} = {target}: it can be assembled from {first} to {last}, "
+        "where {what} goes from {least} to {most}.",
+        first=first, last=last, least=least, most=most, **names,
+    )  # fmt: skip
+
+
 @final
-@dataclass(frozen=True)
-class SettingWords:
-    """How a dimension and a quantity stand in a sentence: names and units, "" for plain SI."""
+@refuses_changes
+@dataclass(frozen=True, eq=False)
+class Solutions(Told):
+    """All settings of several dimensions that give the targets, or the nearest one; `sentence` says so.
 
-    name: str
-    unit: str
-    what: str
-    shown_in: str
+    `settings` are values [SI] by name. `met` is whether they give every target, with a machine that is assembled over its whole stroke.
+    `misses` are, by settings, how far each target is missed [SI], zero to rounding where they are met. Where `is_family` they are some of
+    infinitely many.
+    """
 
-    def roots(self, roots: Sequence[float], target: float) -> str:
-        """Return the settings that give the target."""
-        found, wanted = said(" or ").join(show(root, self.unit) for root in roots), show(target, self.shown_in)
-        return said("{what} = {target} with {name} = {found}.", what=self.what, target=wanted, name=self.name, found=found)
+    machine: Mechanism
+    settings: tuple[Mapping[str, Any], ...]
+    met: bool
+    misses: tuple[tuple[float, ...], ...]
+    is_family: bool
+    sentence: str
 
-    def not_assembled(self, roots: Sequence[float], target: float, why: str) -> str:
-        """Return that the settings that give the target are no machines over the whole stroke, and why."""
-        found, wanted = said(" or ").join(show(root, self.unit) for root in roots), show(target, self.shown_in)
-        return said(
-            "{what} = {target} with {name} = {found}, which cannot be assembled over the whole stroke: {why}",
-            what=self.what, target=wanted, name=self.name, found=found, why=why,
-        )  # fmt: skip
+    @property
+    def machines(self) -> tuple[Mechanism, ...]:
+        """The machines with these settings."""
+        return tuple(self.machine.replaced(**each) for each in self.settings)
 
-    def none(self, at: FloatArray, value: FloatArray, target: float) -> str:
-        """Return why no setting gives the target."""
-        known = np.isfinite(value)
-        names = {"name": self.name, "low": show(at[0], self.unit), "high": show(at[-1], self.unit), "what": self.what}
-        if not known.any():
-            return said(
-                "No {name} between {low} and {high} can be assembled there, so that {what} has no value. "
-                "Look farther, or change the stroke.",
-                **names,
-            )
-        ends, size = [float(value[known].min()), float(value[known].max())], np.where(known, np.abs(value), 0.0)
-        top = int(np.argmax(size))
-        if size[top] >= FAR * max(float(np.median(size[known])), TINY):  # a pole, with the signs that it has on either side
-            beside = value[max(top - 1, 0) : top + 2]
-            ends = [end if not np.any(beside * sign > 0.0) else sign * np.inf for end, sign in zip(ends, (-1.0, 1.0), strict=True)]
-        least, most = (show(end, self.shown_in) for end in ends)
-        first, last = (show(float(end), self.unit) for end in (at[known].min(), at[known].max()))
-        return said(
-            "No {name} between {low} and {high} gives {what} = {target}: it can be assembled from {first} to {last}, "
-            "where {what} goes from {least} to {most}.",
-            target=show(target, self.shown_in), first=first, last=last, least=least, most=most, **names,
-        )  # fmt: skip
+
+def solutions_for(machine: Mechanism, vary: Mapping[str, object], targets: Sequence[Target], points: int | None) -> Solutions:
+    """Return the settings of a box that give all targets; see `settings_for`."""
+    check_one_design(machine)
+    search = Search.of(machine, vary, targets)
+    box, k, plan = search.box, len(search.box.ranges), machine.plan
+    if not k and len(box.choices) < 2:
+        raise DefinitionError(f'{plan.title}: nothing may vary; give a range such as {{"MK": (0.5, 1.3)}} or a list of choices.')
+    if k > len(targets):
+        what = f"{len(targets)} target{'s' * (len(targets) > 1)} leave{'s' * (len(targets) == 1)} {k} ranges a family of settings"
+        raise DefinitionError(f"{plan.title}: {what}; hold {k - len(targets)} of {', '.join(box.ranges)}, or give as many targets more.")
+    with unwarned(), np.errstate(all="ignore"):
+        size = (1 << min(8 + 2 * k, 14) if k else 1) if points is None else points
+        require_whole("points", size, "a whole number of points of the box is expected, such as 4096", least=1, most=1 << 20)
+        start, choice = search.starts(size if k else 1)
+        if not len(start):
+            where = ", ".join(dict.fromkeys(search.words(place).partition(" at ")[2] for place in range(len(search.targets))))
+            names = ", ".join([*box.ranges, *box.choices[0]])
+            nowhere = f"No setting of {names} that was looked at can be assembled at {where}. Look farther."
+            return Solutions(machine, (), False, (), False, nowhere)
+        unit, off = search.descend(start, choice)
+        return search.settled(unit, choice, off)
+
+
+# The search: a grid of the box at once, then steps of Levenberg and Marquardt from all good starts together.
+
+STARTS = 64
+"""Starts of each choice: the best points of the grid, and those that no neighbour betters."""
+STEPS = 80
+MET = 1e-7
+"""Of a target's own units: a miss that is smaller is rounding."""
+SAME = 1e-6
+"""Of a side of the box: solutions that are nearer to each other are one."""
+FLAT = 1e-5
+"""Of the largest singular value: where the least one is smaller, settings may change together without effect on any target."""
+TOLD = 1e-3
+"""Of a target's own units: a miss that is smaller is not told."""
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Search:
+    """A box of settings of a machine, and what is aimed at with them: targets, their requests, the poses they are wanted at.
+
+    `scale` says in how many units each target is weighed.
+    """
+
+    machine: Mechanism
+    box: Box
+    targets: tuple[Target, ...]
+    bound: tuple[Request, ...]
+    poses: StudyPoses
+    wanted: FloatArray
+    scale: FloatArray
+
+    @classmethod
+    def of(cls, machine: Mechanism, vary: Mapping[str, object], targets: Any) -> Search:
+        """Return targets bound to a machine; DefinitionError for anything else, and for a pose that is not said."""
+        plan, box = machine.plan, Box.of(machine, vary)
+        for each in targets_given(targets, plan.title, 'such as [Target("tilt", 0.0, S=0.1)]'):
+            if each.is_path:
+                expected = "one number is expected for the value, in SI. An array is a path, of follow(...)"
+                raise DefinitionError(f"{plan.title}: {each!r}: {expected}.")
+            if set(each.strokes) != set(machine.strokes):
+                raise DefinitionError(f"{plan.title}: {each!r}: say the pose, {', '.join(f'{name}=...' for name in machine.strokes)}.")
+            each.check(plan)
+        bound = tuple(traced_number(plan, each.quantity) for each in targets)
+        strokes = {name: np.array([each.strokes[name] for each in targets]) for name in machine.strokes}
+        scale = [each.miss(plan, float(each.value)) for each in targets]
+        with unwarned():
+            poses = StudyPoses(Motion(plan, machine.dimensions, strokes, "nan"))
+        return cls(machine, box, tuple(targets), bound, poses, np.array([each.value for each in targets]), np.array(scale))
+
+    def misses(self, unit: FloatArray, choice: Index) -> FloatArray:
+        """Return how far settings are off each target, in its units, shape (m, targets); NaN where they have no value.
+
+        The settings are unit coordinates (m, k) with choices (m,).
+        """
+        machine = self.machine.replaced(**self.box.settings(unit, choice))
+        unique = {request.key: each.quantity for request, each in zip(self.bound, self.targets, strict=True)}
+        found = dict(zip(unique, self.poses.of_requests(machine, list(unique.values()), RunOptions("numpy")), strict=True))
+        columns = [found[request.key][:, place] for place, request in enumerate(self.bound)]
+        return np.asarray((np.stack(columns, axis=1) - self.wanted) / self.scale)
+
+    def slopes(self, unit: FloatArray, choice: Index) -> FloatArray:
+        """Return the derivatives of the misses by the unit coordinates, shape (m, targets, k)."""
+        machine = self.machine.replaced(**self.box.settings(unit, choice))
+        plan, dimensions = machine.plan, dimensions_of(machine.plan, [*self.box.ranges])
+        owners, signs = tuple(owner for owner, _ in dimensions), np.array([float(sign) for _, sign in dimensions])
+        grid = self.poses.grid_at(machine)
+        found: dict[Hashable, FloatArray] = {}
+        for request in self.bound:
+            if request.key not in found:
+                kernel = BulkProgram.of(plan, [slope(request, owners)]).kernel
+                found[request.key] = kernel(grid.flat, way=RunOptions("numpy"), size=grid.size).values
+        columns = [found[request.key][:, :, place] for place, request in enumerate(self.bound)]
+        sides = np.array([high - low for low, high in self.box.ranges.values()])
+        return np.asarray(np.stack(columns, axis=0).transpose(2, 0, 1) * signs / self.scale[:, None]) * sides
+
+    def words(self, place: int, value: float | None = None) -> str:
+        """Return a target in words, or a value of it: `tilt = 5 deg at S = 100 mm`."""
+        each, request, plan = self.targets[place], self.bound[place], self.machine.plan
+        at = ", ".join(f"{name} = {show(float(v), stroke_display_unit(plan, name, 'mm'))}" for name, v in each.strokes.items())
+        return f"{request} = {show(float(each.value) if value is None else value, each.shown_in(plan))} at {at}"
+
+    def starts(self, points: int) -> tuple[FloatArray, Index]:
+        """Return where to start: unit coordinates (m, k) and choices (m,), of every choice the best of a Sobol sequence."""
+        k, choices = len(self.box.ranges), len(self.box.choices)
+        grid = np.concatenate([unit_points(points, k, "sobol", 0), np.full((1, k), 0.5)]) if k else np.empty((1, 0))
+        every, choice = np.tile(grid, (choices, 1)), np.repeat(np.arange(choices), len(grid))
+        off = np.linalg.norm(self.misses(every, choice), axis=1).reshape(choices, -1)
+        off[~np.isfinite(off)] = np.inf
+        rows = [np.flatnonzero(best_points(grid, each)) for each in off]
+        return np.concatenate([grid[row] for row in rows]), np.repeat(np.arange(choices), [len(row) for row in rows])
+
+    def descend(self, unit: FloatArray, choice: Index) -> tuple[FloatArray, FloatArray]:
+        """Return where the misses are least near each start, unit coordinates (m, k), and the misses there (m, targets)."""
+
+        def misses(at: FloatArray, which: Index) -> FloatArray:
+            return self.misses(at, choice[which])
+
+        def slopes(at: FloatArray, which: Index) -> FloatArray:
+            return self.slopes(at, choice[which])
+
+        return descended(misses, slopes, unit, STEPS)
+
+    def settled(self, unit: FloatArray, choice: Index, off: FloatArray) -> Solutions:
+        """Return all solutions that a search found, or the nearest setting."""
+        size = np.abs(off).max(axis=1)
+        met = np.flatnonzero(size <= MET)
+        order = met[np.argsort(size[met], kind="stable")] if len(met) else np.argsort(np.sum(off**2, axis=1), kind="stable")[:1]
+
+        def is_same(one: int, other: int) -> bool:
+            def is_between() -> bool:
+                between = self.misses(0.5 * (unit[one] + unit[other])[None], choice[[other]])
+                return bool(np.abs(between).max() <= MET)
+
+            return bool(choice[one] == choice[other]) and is_one_solution(unit[one] - unit[other], SAME, is_between)
+
+        kept = without_repeats(order, is_same, len(order))
+        family = self._of_families(unit, choice, kept) if len(met) else {}
+        kept = [each for each in kept if family.get(each, each) == each]
+        kept.sort(key=lambda each: (int(choice[each]), *unit[each]))
+        values = self.box.settings(unit, choice)
+        lost = {each: why for each in kept if len(met) and (why := why_not_assembled(self.machine.replaced(**one_setting(values, each))))}
+        is_met = bool(len(met)) and len(lost) < len(kept)
+        kept = [each for each in kept if each not in lost] if is_met else kept
+        settings = tuple(one_setting(values, each) for each in kept)
+        misses = tuple(tuple((off[each] * self.scale).tolist()) for each in kept)
+        words = [setting_words(self.machine.plan, values, each) for each in kept]
+        if lost and not is_met:
+            sentence = self._met_words(words, bool(family)) + f" It cannot be assembled over the whole stroke: {lost[kept[0]]}"
+        else:
+            sentence = self._met_words(words, bool(family)) if is_met else self._near_words(words[0], off[kept[0]])
+        return Solutions(self.machine, settings, is_met, misses, bool(family), sentence)
+
+    def _of_families(self, unit: FloatArray, choice: Index, kept: Sequence[int]) -> dict[int, int]:
+        """Return the solutions from which settings can change together without effect, each with the first one of its choice."""
+        found: dict[int, int] = {}
+        for each in kept:
+            way = self._way_aside(unit[each], choice[each])
+            first = next((other for other in found if choice[other] == choice[each]), None)
+            if way is not None and (first is not None or self._goes_on(unit[each], choice[each], way)):
+                found[each] = each if first is None else first
+        return found
+
+    def _way_aside(self, unit: FloatArray, choice: int) -> FloatArray | None:
+        """Return the direction in which settings have no effect to the first order, shape (k,); None where every one has."""
+        if not len(unit):
+            return None
+        slopes = self.slopes(unit[None], np.array([choice]))[0]
+        _, sizes, ways = np.linalg.svd(slopes)
+        return None if sizes[-1] > FLAT * sizes[0] else ways[-1]
+
+    def _goes_on(self, unit: FloatArray, choice: int, way: FloatArray) -> bool:
+        """Return whether another solution stands a step aside, as far as those of a double root may lie apart."""
+        aside = np.clip(unit + NEAR * np.array([[1.0], [-1.0]]) * way, 0.0, 1.0)
+        found, off = self.descend(aside, np.array([choice, choice]))
+        return bool(np.any((np.abs(off).max(axis=1) <= MET) & (np.abs(found - unit).max(axis=1) > 0.3 * NEAR)))
+
+    def _met_words(self, words: Sequence[str], is_family: bool) -> str:
+        """Return the settings that give the targets."""
+        wanted = "; ".join(self.words(place) for place in range(len(self.targets)))
+        more = " This is one of a family: settings can change together there without any effect." if is_family else ""
+        return f"{wanted}: with {' or with '.join(words)}.{more}"
+
+    def _near_words(self, words: str, off: FloatArray) -> str:
+        """Return the nearest setting, and what is missing of each target."""
+        parts = []
+        for place, miss in enumerate(off * self.scale):
+            name = self.words(place, float(self.targets[place].value) + float(miss))
+            gap = show(abs(float(miss)), self.targets[place].shown_in(self.machine.plan), 4)
+            side = "more" if miss > 0.0 else "less"
+            parts.append(f"{name}, {gap} {side} than wanted" if abs(off[place]) > TOLD else f"{name} as wanted")
+        return f"No setting that was found gives all of it. The nearest is {words}: {'; '.join(parts)}."
+
+
+def one_setting(values: Mapping[str, Any], place: int) -> Mapping[str, Any]:
+    """Return one of some settings (m,) by name; a point's is a pair."""
+    found: dict[str, Any] = {}
+    for name, value in values.items():
+        found[name] = tuple(float(part[place]) for part in value) if isinstance(value, tuple) else float(value[place])
+    return FrozenDict(found)
+
+
+def best_points(grid: FloatArray, off: FloatArray) -> Mask:
+    """Return the mask of the points (m, k) of a grid to start from: the best, and those that none of their neighbours improves on."""
+    chosen = np.zeros(len(grid), bool)
+    order = np.argsort(off, kind="stable")
+    chosen[order[: STARTS // 2]] = True
+    if len(grid) > STARTS:
+        from scipy.spatial import cKDTree
+
+        _, near = cKDTree(grid).query(grid, 1 + 4 * grid.shape[1])
+        lowest = np.flatnonzero(off <= off[near].min(axis=1))
+        chosen[lowest[np.argsort(off[lowest], kind="stable")][:STARTS]] = True
+    return chosen & np.isfinite(off)

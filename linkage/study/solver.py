@@ -10,14 +10,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple, Protocol, final
+from typing import NamedTuple, final
 
 import numpy as np
 
 from ..errors import DefinitionError, StudyError
 from ..motion.measures import CombinedMeasure, Constraint, Given, Integral, Leaf, Measure
 from ..program import FloatArray
-from .constrained_step import constrained_step
 from .problem import Evaluated, LeafNumbers, LimitReachedError, Problem, Rows, missed, scale_among
 from .sampling import no_value
 
@@ -58,31 +57,26 @@ class Graded(NamedTuple):
 
 def graded(measure: Measure, of_leaf: Callable[[Leaf], Graded]) -> Graded:
     """Return what a measure makes of its leaves' numbers, with its derivatives by the chain rule."""
-    with np.errstate(all="ignore"):  # once: as a decorator of what calls itself NumPy 1.26 does not take it back
-        return chained(measure, of_leaf)
-
-
-def chained(measure: Measure, of_leaf: Callable[[Leaf], Graded]) -> Graded:
-    """Return the same as `graded`, which takes care of NumPy's warnings."""
     if isinstance(measure, Leaf):
         return of_leaf(measure)
     if not isinstance(measure, CombinedMeasure):
         return Graded(float(measure.of(of_leaf)), np.zeros(1))
-    (a, by_a), (b, by_b) = chained(measure.left, of_leaf), chained(measure.right, of_leaf)
-    match measure.symbol:
-        case "+":
-            return Graded(a + b, by_a + by_b)
-        case "-":
-            return Graded(a - b, by_a - by_b)
-        case "*":
-            return Graded(a * b, by_a * b + by_b * a)
-        case "/":
-            value = float(np.divide(a, b))
-            return Graded(value, (by_a - value * by_b) / b)
-        case _:
-            value = float(np.power(a, b))
-            slope = b * float(np.power(a, b - 1.0)) * by_a
-            return Graded(value, slope + value * float(np.log(a)) * by_b if by_b.any() else slope)
+    (a, by_a), (b, by_b) = graded(measure.left, of_leaf), graded(measure.right, of_leaf)
+    with np.errstate(all="ignore"):
+        match measure.symbol:
+            case "+":
+                return Graded(a + b, by_a + by_b)
+            case "-":
+                return Graded(a - b, by_a - by_b)
+            case "*":
+                return Graded(a * b, by_a * b + by_b * a)
+            case "/":
+                value = float(np.divide(a, b))
+                return Graded(value, (by_a - value * by_b) / b)
+            case _:
+                value = float(np.power(a, b))
+                slope = b * float(np.power(a, b - 1.0)) * by_a
+                return Graded(value, slope + value * float(np.log(a)) * by_b if by_b.any() else slope)
 
 
 @final
@@ -103,8 +97,12 @@ class Row:
 @final
 @dataclass(frozen=True, eq=False)
 class SearchEnd:
-    """What a local search came to: unit coordinates, the objective, what is missing at most, and whether it is assembled throughout."""
+    """What a local search came to: its combination of choices, unit coordinates, the objective, what is missing at most.
 
+    `whole` says whether it is assembled throughout.
+    """
+
+    combination: tuple[int, ...]
     unit: FloatArray
     value: float
     missing: float
@@ -116,22 +114,17 @@ class SearchEnd:
         return self.whole and self.missing <= MET and bool(np.isfinite(self.value))
 
 
-class LeastSquares(Protocol):
-    """Misses the squares of which are to be least in the place of an objective, with unknowns of their own from 0 to 1, such as strokes."""
+class LeastSquares(NamedTuple):
+    """Misses the squares of which are to be least in the place of an objective, with unknowns of their own from 0 to 1, such as strokes.
 
-    @property
-    def own(self) -> FloatArray:
-        """Where the own unknowns begin, shape (w,)."""
+    The unknowns begin at `own` (w,); zero or above of them are the `own_lines`, by factors (l, w), beside constants (l,). `misses` are the
+    scaled ones (k,) at unit coordinates, then own unknowns (n + w,), NaN where they have no value; `slopes` their derivatives (k, n + w).
+    """
 
-    @property
-    def own_lines(self) -> tuple[FloatArray, FloatArray]:
-        """What is zero or above of the own unknowns: by factors (l, w), beside constants (l,)."""
-
-    def misses(self, at: FloatArray) -> FloatArray:
-        """Return the scaled misses (k,) at unit coordinates, then own unknowns (n + w,); NaN where they have no value."""
-
-    def slopes(self, at: FloatArray) -> FloatArray:
-        """Return their derivatives (k, n + w)."""
+    own: FloatArray
+    own_lines: tuple[FloatArray, FloatArray]
+    misses: Callable[[FloatArray], FloatArray]
+    slopes: Callable[[FloatArray], FloatArray]
 
 
 @final
@@ -494,8 +487,10 @@ class Local:
     def run(self, rounds: int = ROUNDS) -> SearchEnd:
         """Return what a search from the start comes to, with poses between the samples added until none is worse than these.
 
-        Where the limit of designs is reached it is the best so far.
+        Where the limit of designs is reached it is the best so far; without variables it is the start.
         """
+        if not self.n:
+            return self.judged(self.start)
         try:
             unit = self.start
             for _ in range(rounds):
@@ -519,7 +514,7 @@ class Local:
         if not bool(look.whole[0]) or not self._usable(look):
             return None
         values = self.numbers(unit)
-        return SearchEnd(unit, true_worth(self.problem, values), missing_of(self.problem.constraints, self.scales, values), True)
+        return self._end(unit, values)
 
     def numbers(self, unit: FloatArray) -> LeafNumbers:
         """Return the leaves' numbers at the samples of unit coordinates."""
@@ -579,15 +574,62 @@ class Local:
         problem, design = self.problem, self.problem.dimensions_at(unit, self.combination)
         look = self.evaluated_at(unit)
         if not bool(look.whole[0]):
-            return SearchEnd(unit, np.nan, np.inf, False), False
+            return SearchEnd(self.combination, unit, np.nan, np.inf, False), False
         known, truths, worse = look.of_one, problem.truths(design, quick=True), False
         for leaf, value in truths.items():
             if leaf.sense and self._is_worse(leaf, value, known[leaf]) and problem.refined(leaf, truths.parts[leaf]):
                 worse = True
         if worse:
             self._forget()
-        missing = missing_of(problem.constraints, self.scales, truths)
-        return SearchEnd(unit, true_worth(problem, truths), missing, True), worse
+        return self._end(unit, truths), worse
+
+    def _end(self, unit: FloatArray, values: LeafNumbers) -> SearchEnd:
+        """Return the end of a search at a design that is assembled throughout, from its leaves' numbers."""
+        missing = missing_of(self.problem.constraints, self.scales, values)
+        return SearchEnd(self.combination, unit, true_worth(self.problem, values), missing, True)
+
+
+LEAST = 1e-12
+"""Of the largest column: what a column without any effect is damped by."""
+GIVING_WAY: Sequence[float] = (1.0, 0.5, 0.1, 0.0)
+"""What part of what is missing of a line a step makes good: the first for which there is a step at all."""
+
+
+def constrained_step(
+    slopes: FloatArray, misses: FloatArray, line_slopes: FloatArray, lines: FloatArray, ends: tuple[FloatArray, FloatArray], damping: float
+) -> FloatArray:
+    """Return the step (n,) that makes |misses + slopes step|^2, damped, least, with lines + line_slopes step >= 0, between ends (n,) each.
+
+    Where no step makes good all that is missing of the lines, it makes good a part of it. Source: C. L. Lawson, R. J. Hanson, Solving Least
+    Squares Problems (1974), 23: a problem of least distance.
+    """
+    from scipy.optimize import nnls
+
+    n = slopes.shape[1]
+    sizes = np.sqrt(np.sum(slopes**2, axis=0))
+    sizes = np.maximum(sizes, LEAST * (sizes.max(initial=0.0) or 1.0))
+    sizes[sizes <= 2.0 * LEAST * sizes.max()] = 1.0
+    orthogonal, triangle = np.linalg.qr(np.concatenate([slopes / sizes, np.sqrt(damping) * np.eye(n)]))
+    inverse = np.linalg.inv(triangle) / sizes[:, None]
+    free = orthogonal.T @ np.concatenate([-misses, np.zeros(n)])
+    low, high = ends
+    rows = np.concatenate([line_slopes, np.eye(n), -np.eye(n)])
+    known = np.concatenate([lines, -low, high])
+    kept = np.isfinite(known) & (rows != 0.0).any(axis=1)
+    rows, known = rows[kept], known[kept]
+    table = rows @ inverse
+    size = np.linalg.norm(table, axis=1)
+    size[size == 0.0] = 1.0
+    for part in GIVING_WAY:
+        short = -np.where(known < 0.0, part * known, known) - table @ free
+        try:
+            weights, _ = nnls(np.concatenate([(table / size[:, None]).T, (short / size)[None]]), np.append(np.zeros(n), 1.0))
+        except RuntimeError:
+            continue
+        rest = np.append((table / size[:, None]).T @ weights, (short / size) @ weights - 1.0)
+        if rest[-1] < -1e-12:
+            return np.asarray(np.clip(inverse @ (free - rest[:-1] / rest[-1]), low, high))
+    return np.zeros(n)
 
 
 def divisors(expressions: Sequence[Measure]) -> list[Measure]:
@@ -606,7 +648,7 @@ def divisors(expressions: Sequence[Measure]) -> list[Measure]:
 def local_search(local: Local, nearly: float = np.inf) -> SearchEnd:
     """Return what a search comes to; where it misses conditions by no more than `nearly`, they give way as little as can be, and again."""
     problem, combination, found = local.problem, local.combination, local.run()
-    if found.feasible or not np.isfinite(found.value) or found.missing > nearly or problem.count.is_spent:
+    if found.feasible or not (local.n and np.isfinite(found.value)) or found.missing > nearly or problem.count.is_spent:
         return found
     try:
         least = Local(problem, combination, found.unit, elastic=problem.constraints).run()

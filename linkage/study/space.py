@@ -12,21 +12,23 @@ from typing import Any, final
 
 import numpy as np
 
-from ..checks import require
-from ..errors import DefinitionError, cited, unknown
+from ..checks import require, require_type
+from ..errors import DefinitionError, cited, known_name, unknown
 from ..loads import ForceElement
 from ..mechanism import Mechanism
-from ..motion.measures import Constraint
-from ..plan import Plan, plan_measure, require_kind
+from ..motion.measures import Constraint, least
+from ..motion.regions import Disc, Region, inside_region, region_of
+from ..numeric.line import Index
+from ..plan import Plan, Reading, plan_measure, require_kind
 from ..program import FloatArray
 from ..quantities import is_number, label
+from ..surroundings import Outline
 from ..units import show
 from ..vectors import Side
+from .box import unit_points
 from .checks import unit_of
 from .designs import check_once
-from .regions import PointRegion, drawn_inside, point_regions, put_inside
-from .sides import ENDING, is_side, sided_step
-from .varied import Varied
+from .variants import ENDING, is_side, sided_step
 
 MOST_COMBINATIONS = 100_000
 NARROWEST = 1e-12
@@ -60,6 +62,134 @@ def around(by: float | None = None, step: float | None = None, *, radius: float 
             raise DefinitionError(f"around({cited(by)}{'' if step is None else f', {cited(step)}'}): {what} above zero is expected.")
     assert by is not None
     return Around(by, step, is_round)
+
+
+TRIED = 1 << 15
+"""Places of the box that are tried at the most for one inside a region."""
+
+
+@final
+@dataclass(frozen=True)
+class Varied:
+    """A dimension that varies between two values [SI], in steps where `step` is given; `sign` that of its spelling."""
+
+    name: str
+    owner: str
+    sign: float
+    low: float
+    high: float
+    step: float | None
+    unit: str
+
+    @property
+    def span(self) -> float:
+        """High less low."""
+        return self.high - self.low
+
+    @property
+    def steps(self) -> int:
+        """How many steps the range has; one of a range without."""
+        return 1 if self.step is None else int(np.floor(self.span / self.step + 1e-9)) + 1
+
+    def stepped(self, value: float) -> tuple[float, ...]:
+        """Return the one or two steps about a value."""
+        if self.step is None:
+            return (value,)
+        place = (value - self.low) / self.step
+        last = self.steps - 1
+        near = {int(np.clip(part, 0, last)) for part in (np.floor(place + 1e-9), np.ceil(place - 1e-9))}
+        return tuple(self.low + self.step * each for each in sorted(near))
+
+    def show(self, value: float) -> str:
+        """Return a value with its unit."""
+        return show(value, self.unit)
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class PointRegion:
+    """The region of a point. Of a fixed point that varies `places` are its variables, x and y, None for one that does not vary.
+
+    `signs` (2,) are those of the coordinates in these, `fixed` (2,) what stands for the others [m].
+    """
+
+    point: str
+    region: Region
+    places: tuple[int | None, int | None]
+    signs: tuple[float, float]
+    fixed: tuple[float, float]
+
+    @property
+    def varies(self) -> bool:
+        """Whether the point is one that a search places."""
+        return self.places != (None, None)
+
+    def of(self, values: FloatArray) -> FloatArray:
+        """Return where the point stands (m, 2) by the variables' values (m, n)."""
+        columns = [
+            np.full(len(values), fixed) if place is None else sign * values[:, place]
+            for place, sign, fixed in zip(self.places, self.signs, self.fixed, strict=True)
+        ]
+        return np.stack(columns, axis=1)
+
+    def put(self, values: FloatArray, rows: Index | slice, where: FloatArray) -> None:
+        """Put the point of some rows of values (m, n) where it is to stand, (k, 2)."""
+        for column, (place, sign) in enumerate(zip(self.places, self.signs, strict=True)):
+            if place is not None:
+                values[rows, place] = sign * where[:, column]
+
+
+def point_regions(machine: Mechanism, given: object, circles: Mapping[str, float], variables: Sequence[Varied]) -> tuple[PointRegion, ...]:
+    """Return the regions that are given, and circles about where points stand now, by their radius; DefinitionError for anything else."""
+    title, plan = machine.plan.title, machine.plan
+    expected = 'a region for each point is expected, regions={"C": [(0, 0), (0.4, 0), (0.4, 0.3)]}'
+    regions = require_type(f"{title}: regions", {} if given is None else given, Mapping, expected)
+    reading = Reading(plan.members, plan.table.lengths, machine.dimensions)
+    found = []
+    for point, shapes in regions.items():
+        known_name("Point", point, plan.points, where=f"{title}: regions")
+        where = f"{title}: regions={{{point!r}: ...}}"
+        region = region_of(shapes, where, plan.of_kind(Outline), lambda each: float(reading.value(each)))
+        found.append(point_region(machine, point, region, variables))
+    for point, radius in circles.items():
+        x, y = (sign * float(machine.dimensions[owner]) for owner, sign in (plan.table.spellings[f"{point}.{axis}"] for axis in "xy"))
+        found.append(point_region(machine, point, Region((Disc(x, y, radius),), ()), variables))
+    return tuple(found)
+
+
+def point_region(machine: Mechanism, point: str, region: Region, variables: Sequence[Varied]) -> PointRegion:
+    """Return the region of a point; DefinitionError where it does not vary and stands outside."""
+    spellings = machine.plan.table.spellings
+    places: list[int | None] = [None, None]
+    signs, fixed = [1.0, 1.0], [0.0, 0.0]
+    if f"{point}.x" not in spellings or f"{point}.y" not in spellings:  # a point that moves, or that follows others
+        return PointRegion(point, region, (None, None), (1.0, 1.0), (0.0, 0.0))
+    for column, axis in enumerate("xy"):
+        owner, sign = spellings[f"{point}.{axis}"]
+        fixed[column] = sign * float(machine.dimensions[owner])
+        for place, each in enumerate(variables):
+            if each.owner == owner:
+                places[column], signs[column] = place, float(sign) * each.sign
+    return PointRegion(point, region, (places[0], places[1]), (signs[0], signs[1]), (fixed[0], fixed[1]))
+
+
+def places_inside(title: str, each: PointRegion, variables: Sequence[Varied], count: int, seed: int) -> FloatArray:
+    """Return places in a region, evenly spread, (k, 2), as many as `count` if there are; DefinitionError for none."""
+    low, high = (np.array(end) for end in each.region.box)
+    for column, (place, sign) in enumerate(zip(each.places, each.signs, strict=True)):
+        ends = [each.fixed[column]] * 2 if place is None else sorted(sign * end for end in (variables[place].low, variables[place].high))
+        low[column], high[column] = max(low[column], ends[0]), min(high[column], ends[1])
+    found: FloatArray = np.zeros((0, 2))
+    tried = 1 << max(count - 1, 63).bit_length()
+    while np.all(low <= high) and tried <= TRIED:
+        places = low + (high - low) * unit_points(tried, 2, "sobol", seed)
+        found = places[each.region.depths(places) >= 0.0]
+        if len(found) >= count:
+            return np.asarray(found[:count])
+        tried *= 2
+    if not len(found):
+        raise DefinitionError(f"{title}: regions={{{each.point!r}: ...}}: nothing of it lies in the ranges of vary=; widen one of them.")
+    return found
 
 
 @final
@@ -119,15 +249,30 @@ class Space:
     @property
     def conditions(self) -> list[Constraint]:
         """What the regions are as conditions."""
-        return [each.as_condition for each in self.regions]
+        return [least(inside_region(each.point, each.region)) >= 0.0 for each in self.regions]
 
     def drawn(self, unit: FloatArray, title: str, seed: int) -> FloatArray:
-        """Return unit coordinates (m, n) of designs whose points stand in their regions: those outside are drawn anew."""
-        return self.unit(drawn_inside(title, self.regions, self.variables, self.values(unit), seed)) if self.regions else unit
+        """Return unit coordinates (m, n) of designs whose points stand in their regions: those outside are drawn anew, evenly over them.
+
+        DefinitionError where a region and the ranges of the variables have no point in common.
+        """
+        if not self.regions:
+            return unit
+        found = np.array(self.values(unit))
+        for number, each in enumerate(self.regions):
+            out = np.flatnonzero(each.region.depths(each.of(found)) < 0.0) if each.varies else np.zeros(0, int)
+            if len(out):
+                places = places_inside(title, each, self.variables, len(out), seed + number)
+                each.put(found, out, places[np.arange(len(out)) % len(places)])
+        return self.unit(found)
 
     def within(self, values: FloatArray) -> FloatArray:
         """Return unit coordinates of values (m, n), within 0 and 1, points at the nearest places of their regions."""
-        return self.unit(put_inside(self.regions, values) if self.regions else values)
+        found = np.array(values)
+        for each in self.regions:
+            if each.varies:
+                each.put(found, slice(None), each.region.nearest(each.of(found)))
+        return self.unit(found)
 
     @property
     def count(self) -> int:

@@ -28,7 +28,7 @@ from ..quantities import is_whole
 from ..shown import Shown
 from .checkpoint import Checkpoint, facts_of, how_far
 from .checks import check_one_design, check_vary
-from .designs import Array, Batch, Dealt, Designs, StudyWork, Task, check_same_results, measure_batch
+from .designs import Array, Batch, Designs, StudyWork, Task, check_same_results, measure_batch
 
 TRIES = 3
 PICKLING_ERRORS = (PicklingError, AttributeError, TypeError, ImportError)
@@ -61,7 +61,7 @@ class LocalExecutor:
 class SurveyRun:
     """What is done of a study, what is under way, and what is left."""
 
-    def __init__(self, task: StudyWork, designs: Dealt, executor: Executor, checkpoint: Checkpoint | None, tell: Progress) -> None:
+    def __init__(self, task: StudyWork, designs: Designs, executor: Executor, checkpoint: Checkpoint | None, tell: Progress) -> None:
         self.task, self.designs, self.executor, self.checkpoint, self.tell = task, designs, executor, checkpoint, tell
         self.left = OpenRanges(designs.count, task.piece)
         self.sizes = BatchSizes(max(1, MOST // (task.piece * designs.width)))

@@ -19,12 +19,12 @@ from ..motion.grid import MotionLike
 from ..motion.measures import words_of
 from ..motion.requests import Trait, dimensions_of, identity_of
 from ..plan import Plan, plan_measure
-from ..program import FloatArray, Node, gradient
+from ..program import FloatArray, Node, RunOptions, gradient
 from ..quantities import is_number
 from ..units import SI, require_measure, show
 from .box import is_pair, unit_points
 from .checks import check_mechanism, unit_of
-from .measured import traced_number
+from .measured import Measured, StudyPoses, traced_number
 
 LAWS = ("normal", "uniform", "truncated")
 SIGMAS = 3.0
@@ -163,13 +163,17 @@ def sampled_designs(
         return dict(zip(tolerances, pool.map(column, range(len(tolerances)), tolerances), strict=True))
 
 
-def shifted_designs(machine: Mechanism, tolerances: Mapping[str, Tolerance], level: FloatArray) -> dict[str, FloatArray]:
-    """Return dimensions (m,) by name: at their own values where `level`, shape (m, k), is 0, at their limits where it is -1 or 1."""
+def values_shifted(
+    machine: Mechanism, poses: StudyPoses, quantity: Measured, tolerances: Mapping[str, Tolerance], levels: FloatArray
+) -> FloatArray:
+    """Return a quantity of m designs at poses, shape (m, n) or (m, 1).
+
+    Their dimensions have their own values where `levels`, shape (m, k), is 0, and stand at their limits where it is -1 or 1.
+    """
     found = {}
-    for column, (name, tolerance) in enumerate(tolerances.items()):
-        share = level[:, column]
+    for share, (name, tolerance) in zip(levels.T, tolerances.items(), strict=True):
         found[name] = machine[name] + np.where(share < 0.0, -share * tolerance.low, share * tolerance.high)
-    return found
+    return poses.values(machine.replaced(**found), quantity, RunOptions())
 
 
 # The standard deviation that tolerances give a quantity, from its exact gradient: a request, so that a search can follow it.

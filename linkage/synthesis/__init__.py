@@ -3,8 +3,7 @@
 from ..star import declare_public
 from .curve_catalogue import CurveCatalogue, CurveMatch
 from .synthesis import Synthesis, SynthesisedMachine
-from .task_error import point_errors, task_error
 from .task_search import synthesise
-from .tasks import FunctionTask, PathTask, PoseTask
+from .tasks import FunctionTask, PathTask, PoseTask, point_errors, task_error
 
 declare_public(globals())

@@ -14,7 +14,7 @@ from ..motion import stroke_display_unit
 from ..plan import Mask
 from ..program import FloatArray
 from ..steps import Step
-from ..study.sides import ENDING, on_sides
+from ..study.variants import ENDING, on_sides
 from ..units import deg, show
 from ..vectors import Side
 from .fit import Fit, goes_one_way
@@ -33,12 +33,12 @@ NEAR_GRASHOF = 0.01
 
 def in_order(fit: Fit, at: FloatArray, base: FloatArray) -> bool:
     """Return whether a design comes to the points one after the other, to either side, within one turn or the stroke."""
-    return goes_one_way(fit.timing.one_way(fit.timing.strokes(base[None], at[None, fit.n :]))[0], abs(fit.timing.span))
+    return goes_one_way(fit.timing.one_way(fit.strokes(at[None], base[None]))[0], abs(fit.timing.span))
 
 
 def order_words(fit: Fit, at: FloatArray, base: FloatArray) -> str:
     """Return in which order a design comes to the points, within one turn or the stroke from the first one on: `1, 3, 2, 4-6`."""
-    strokes = fit.timing.one_way(fit.timing.strokes(base[None], at[None, fit.n :]))[0]
+    strokes = fit.timing.one_way(fit.strokes(at[None], base[None]))[0]
     along = (strokes - strokes[0]) * (1.0 if strokes[-1] >= strokes[0] else -1.0)
     along = np.mod(along + 1e-9, fit.timing.turn) if fit.timing.turn else along
     return point_ranges((np.argsort(along, kind="stable") + 1).tolist())
@@ -55,7 +55,7 @@ def circuit_words(fit: Fit, at: FloatArray, base: FloatArray) -> str:
         return ""
     timing, last = fit.timing, RUN if fit.timing.turn else RUN - 1
     number = connected_parts(mask, closed=bool(timing.turn))
-    strokes = timing.within(timing.strokes(base[None], at[None, fit.n :])[0])
+    strokes = timing.within(fit.strokes(at[None], base[None])[0])
     places = np.round((strokes - timing.start) / timing.span * last).astype(int) % RUN
     groups: dict[int, list[int]] = {}
     for point, place in enumerate(places.tolist(), 1):
@@ -114,7 +114,7 @@ def branch_words(fit: Fit, machine: Mechanism, at: FloatArray, base: FloatArray,
     sought = {name for each in fit.requests for name in each.names(fit.plan)}
     reaches = fit.plan.reaches(*sought)
     steps = {name: step for name, step in fit.plan.of_kind(Step).items() if step.closes and step.modes() and name in reaches}
-    strokes = timing.within(timing.strokes(base[None], at[None, fit.n :])[0])
+    strokes = timing.within(fit.strokes(at[None], base[None])[0])
     if timing.width:
         strokes = timing.start + timing.span * np.linspace(0.0, 1.0, RUN)
     for name, step in steps.items():

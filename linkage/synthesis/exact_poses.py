@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations
 from math import pi
@@ -24,7 +24,7 @@ from ..mechanism import Mechanism
 from ..motion.regions import Disc, Region, region_of
 from ..numeric.descent import refined
 from ..program import FloatArray
-from ..shown import Shown
+from ..shown import Shown, Told
 from ..units import show
 from .exact import (
     TURN,
@@ -38,8 +38,8 @@ from .exact import (
     exact_synthesis,
     is_without_links,
     judged_machine,
+    real_roots,
 )
-from .exact_functions import real_roots
 from .tasks import PoseTask, check_radians, table_of
 
 LOOP = 2880
@@ -106,8 +106,8 @@ def checked_poses(poses: object) -> FloatArray:
 
 
 @final
-@dataclass(frozen=True, eq=False)
-class GuidingLink(Shown):
+@dataclass(frozen=True, eq=False, repr=False)
+class GuidingLink(Told, Shown):
     """A link that can guide a body: its circle `point` (2,) in the first pose and its `centre` (2,) [m].
 
     One that slides has no centre, NaN, and a `direction` [rad] instead. `places` (n, 2) are those of the point in all poses, `length` is
@@ -147,15 +147,10 @@ class GuidingLink(Shown):
         length = show(self.length, "mm", 4)
         return said("circle point ({x}, {y}) about centre point ({cx}, {cy}), {length} long", x=x, y=y, cx=cx, cy=cy, length=length)
 
-    def __str__(self) -> str:
-        return self.sentence
-
-    __repr__ = __str__
-
 
 @final
-@dataclass(frozen=True, eq=False)
-class Burmester(Shown):
+@dataclass(frozen=True, eq=False, repr=False)
+class Burmester(Told, Shown):
     """The links that guide a body through `poses` (n, 3), and the machines of all pairs of them.
 
     `circle_curve` and `centre_curve` are the branches of the two cubics of four poses, (2, m) each [m], points of the same place belong
@@ -167,8 +162,8 @@ class Burmester(Shown):
     circle_curve: tuple[FloatArray, ...]
     centre_curve: tuple[FloatArray, ...]
     links: tuple[GuidingLink, ...]
-    body: PosedBody = field(repr=False)
-    in_order: bool = field(repr=False)
+    body: PosedBody
+    in_order: bool
 
     @cached_property
     def synthesis(self) -> ExactSynthesis:
@@ -213,11 +208,6 @@ class Burmester(Shown):
             return said("3 poses: each point of the body has a link, found.link(point=(x, y)); say region= for machines on pivots in it.")
         head = said("{count} poses, {links} links: ", count=len(self.poses), links=len(self.links))
         return head + str(self.synthesis)
-
-    def __str__(self) -> str:
-        return self.sentence
-
-    __repr__ = __str__
 
     def link(self, *, point: object = None, centre: object = None) -> GuidingLink:
         """Return the link of a circle point in the first pose, or of a centre point (2,) [m]; of four poses, of the nearest on the curve.
@@ -525,8 +515,12 @@ def links_picked(body: PosedBody, curves: Sequence[tuple[ComplexArray, ComplexAr
     middle = body.z.mean()
     about = Region((Disc(middle.real, middle.imag, AROUND * body.size),), ())
     if count == 3:
-        found = []
-        for each in [] if region is None else grid_in(region, about).tolist():
+        if region is None:
+            return []
+        low, high = np.where(np.isfinite(region.box), region.box, about.box)  # a grid, about the poses where the region has no end
+        x, y = (low[k] + (high[k] - low[k]) * (np.arange(GRID) + 0.5) / GRID for k in (0, 1))
+        grid, found = (x[:, None] + 1j * y[None, :]).ravel(), []
+        for each in grid[lies_within(grid, region)].tolist():
             with suppress(StudyError):  # a circle point at infinity
                 found.append(body.link_about(each))
         return found
@@ -546,14 +540,6 @@ def places_along(curves: Sequence[tuple[ComplexArray, ComplexArray]], region: Re
     wanted = (np.arange(PICKED) + 0.5) / PICKED * length[-1]
     places = np.flatnonzero(inside)[np.minimum(np.searchsorted(length[inside], wanted), inside.sum() - 1)]
     return [(complex(points[k]), complex(centres[k])) for k in dict.fromkeys(places.tolist())]
-
-
-def grid_in(region: Region, about: Region) -> ComplexArray:
-    """Return places on a grid within a region (m,), `about` the poses where it has no end."""
-    low, high = np.where(np.isfinite(region.box), region.box, about.box)
-    x, y = (low[k] + (high[k] - low[k]) * (np.arange(GRID) + 0.5) / GRID for k in (0, 1))
-    every = (x[:, None] + 1j * y[None, :]).ravel()
-    return np.asarray(every[lies_within(every, region)])
 
 
 def lies_within(places: ComplexArray, region: Region) -> npt.NDArray[np.bool_]:

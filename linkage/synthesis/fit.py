@@ -18,7 +18,7 @@ from ..program import FloatArray, Kernel, RunOptions
 from ..study.measured import traced_number
 from ..study.problem import Problem, is_still
 from ..study.sampling import all_placed
-from ..study.solver import MET
+from ..study.solver import MET, LeastSquares
 from .tasks import TaskRows
 
 TURN = 2.0 * np.pi
@@ -167,6 +167,10 @@ class Fit:
         """Return the dimensions of designs (m, n)."""
         return self._fixed | self.space.dimensions_at(unit[..., : self.n])
 
+    def strokes(self, at: FloatArray, base: FloatArray) -> FloatArray:
+        """Return the strokes (m, n) [SI] at which designs with their own unknowns (m, n + w) come to the points."""
+        return self.timing.strokes(base, at[:, self.n :])
+
     def grid(self, designs: Mapping[str, Any], strokes: FloatArray) -> Grid:
         """Return designs at strokes (n,), or (m, n) where each has its own."""
         own = strokes.ndim == 2
@@ -214,7 +218,7 @@ class Fit:
 
     def misses(self, at: FloatArray, base: FloatArray) -> FloatArray:
         """Return how far designs and their own unknowns (m, n + w) are off, (m, r * n)."""
-        strokes = self.timing.strokes(base, at[:, self.n :])
+        strokes = self.strokes(at, base)
         values, _ = self.values(self.dimensions(at), strokes, len(at))
         return self.rows.off(values).reshape(len(at), len(self.requests) * self.rows.count)
 
@@ -224,7 +228,7 @@ class Fit:
 
     def graded(self, at: FloatArray, base: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the misses (m, r * n) and their derivatives (m, r * n, n + w)."""
-        strokes = self.timing.strokes(base, at[:, self.n :])
+        strokes = self.strokes(at, base)
         found = self._run(self.graded_kernel, self.dimensions(at), strokes, len(at))
         r, points, p = len(self.requests), strokes.shape[1], len(self.owners) + 1
         off = self.rows.off(found[1 : 1 + r].swapaxes(0, 1)).reshape(len(at), r * points)
@@ -288,7 +292,7 @@ class Fit:
 
     def put_in_order(self, at: FloatArray, base: FloatArray) -> FloatArray:
         """Return designs and their own unknowns (m, n + w), each stroke put where the one before it is if it comes before that."""
-        strokes, wide = self.timing.one_way(self.timing.strokes(base, at[:, self.n :])), abs(self.timing.span)
+        strokes, wide = self.timing.one_way(self.strokes(at, base)), abs(self.timing.span)
         first = strokes[:, :1]
         sense = np.where(strokes[:, -1:] >= first, 1.0, -1.0)
         ordered = first + np.minimum(np.maximum.accumulate(sense * (strokes - first), axis=1), wide) * sense
@@ -314,25 +318,21 @@ def squared(off: FloatArray) -> FloatArray:
     return np.where(np.isfinite(error), error, np.inf)
 
 
-@final
-class FitSquares:
-    """The misses of a fit as a solver with conditions takes them, in parts of what they are at a start; points `in_order` stay so."""
+def fit_squares(fit: Fit, at: FloatArray, base: FloatArray, *, in_order: bool) -> LeastSquares:
+    """Return the misses of a fit as a solver with conditions takes them, in parts of those at a start; points `in_order` stay so."""
+    base, own, lines = base[None], np.array(at[fit.n :]), (np.zeros((0, fit.width)), np.zeros(0))
+    if in_order and fit.width > 1:
+        own = fit.put_in_order(at[None], base)[0, fit.n :]
+        sense, every = 1.0 if own[-1] >= own[0] else -1.0, np.eye(fit.width)
+        turn = fit.timing.turn / abs(fit.timing.reach[1]) if fit.timing.turn else 1.0  # all within one turn
+        ahead = sense * np.concatenate([np.diff(every, axis=0), every[[0]] - every[[-1]]])
+        lines = ahead, np.append(np.zeros(fit.width - 1), turn)
+    size = max(float(np.sqrt(fit.errors(at[None], base)[0])), SMALL * fit.rows.size)
 
-    def __init__(self, fit: Fit, at: FloatArray, base: FloatArray, *, in_order: bool) -> None:
-        self.fit, self.base, self.own = fit, base[None], np.array(at[fit.n :])
-        self.own_lines = np.zeros((0, fit.width)), np.zeros(0)
-        if in_order and fit.width > 1:
-            self.own = fit.put_in_order(at[None], self.base)[0, fit.n :]
-            sense, every = 1.0 if self.own[-1] >= self.own[0] else -1.0, np.eye(fit.width)
-            turn = fit.timing.turn / abs(fit.timing.reach[1]) if fit.timing.turn else 1.0  # all within one turn
-            lines = sense * np.concatenate([np.diff(every, axis=0), every[[0]] - every[[-1]]])
-            self.own_lines = lines, np.append(np.zeros(fit.width - 1), turn)
-        self.size = max(float(np.sqrt(fit.errors(at[None], self.base)[0])), SMALL * fit.rows.size)
+    def misses(at: FloatArray) -> FloatArray:
+        return np.asarray(fit.misses(at[None], base)[0] / size)
 
-    def misses(self, at: FloatArray) -> FloatArray:
-        """Return the scaled misses (k,)."""
-        return np.asarray(self.fit.misses(at[None], self.base)[0] / self.size)
+    def slopes(at: FloatArray) -> FloatArray:
+        return np.asarray(fit.slopes(at[None], base)[0] / size)
 
-    def slopes(self, at: FloatArray) -> FloatArray:
-        """Return their derivatives (k, n + w)."""
-        return np.asarray(self.fit.slopes(at[None], self.base)[0] / self.size)
+    return LeastSquares(own, lines, misses, slopes)

@@ -173,6 +173,11 @@ class Starts:
     running: int = 0
     keeping: Starts | None = None
 
+    @property
+    def part(self) -> tuple[tuple[int, ...], Mapping[str, FloatArray]]:
+        """The combination of choices, and what a worker is to know of its designs."""
+        return self.fit.combination, {"at": self.at, "base": self.base}
+
 
 def laid_designs(fit: Fit, likeness: Likeness, unit: FloatArray, timed: Any, *, runs: bool) -> tuple[FloatArray, FloatArray]:
     """Return designs (m, n) laid onto the task by the best shift, turn and size, with their points' own unknowns, and the strokes' base.
@@ -182,7 +187,7 @@ def laid_designs(fit: Fit, likeness: Likeness, unit: FloatArray, timed: Any, *, 
     if timed is True:
         base = np.broadcast_to(fit.known, (len(unit), fit.rows.count))
         exact, _ = fit.values(fit.dimensions(unit), fit.known, len(unit))
-        best = Best.of(likeness, fit, unit, exact, np.arange(fit.rows.count)[None])
+        _, factor, by = best_patterns(likeness, fit, unit, exact, np.arange(fit.rows.count)[None])
         own = np.zeros((len(unit), 0))
     elif timed is False and fit.rows.is_closed and runs and fit.timing.turn:
         values, _ = fit.swept(unit, poses_of(fit, timed))
@@ -191,16 +196,16 @@ def laid_designs(fit: Fit, likeness: Likeness, unit: FloatArray, timed: Any, *, 
         free = {"shift": likeness.shift, "turn": likeness.turn, "scale": likeness.scale}
         laid_on = laid_onto(curves, onto, likeness.sizes(fit, unit), **free)
         strokes = fit.timing.start + fit.timing.span * curves.shares(laid_on.along(places))
-        best, own = Best(np.zeros(len(unit), int), laid_on.factor, laid_on.by, laid_on.error), fit.timing.own(strokes)
+        factor, by, own = laid_on.factor, laid_on.by, fit.timing.own(strokes)
         base = np.zeros((len(unit), fit.rows.count))
     else:
         values, _ = fit.swept(unit, poses_of(fit, timed))
         picks, base_of, own_of = patterns(fit, timed, values.shape[2])
-        best = Best.of(likeness, fit, unit, values, picks)
-        base, own = base_of[best.pattern], own_of[best.pattern]
-    laid = likeness.applied(fit, fit.space.values(unit), best.factor, best.by)
+        pattern, factor, by = best_patterns(likeness, fit, unit, values, picks)
+        base, own = base_of[pattern], own_of[pattern]
+    laid = likeness.applied(fit, fit.space.values(unit), factor, by)
     if likeness.with_stroke:
-        own = own + np.angle(best.factor)[:, None] / fit.timing.reach[1]
+        own = own + np.angle(factor)[:, None] / fit.timing.reach[1]
     return np.concatenate([fit.space.within(laid), np.clip(fit.timing.centred(own), 0.0, 1.0)], axis=1), np.array(base)
 
 
@@ -271,38 +276,25 @@ def lengths_along(fit: Fit) -> list[tuple[FloatArray, bool]]:
     return found
 
 
-@final
-@dataclass(frozen=True, eq=False)
-class Best:
-    """Of every design of a population the best pattern (m,), and by which factor and shift it lies best on the task."""
+def best_patterns(likeness: Likeness, fit: Fit, unit: FloatArray, values: FloatArray, picks: Index) -> tuple[Index, Any, Any]:
+    """Return of every design (m, n) the best of patterns (k, n) of its values (m, r, poses), and by which factor and shift it lies best.
 
-    pattern: Index
-    factor: Any
-    by: Any
-    error: FloatArray
-
-    @classmethod
-    def of(cls, likeness: Likeness, fit: Fit, unit: FloatArray, values: FloatArray, picks: Index) -> Best:
-        """Return the best of patterns (k, n) of the values (m, r, poses) of a population (m, n)."""
-        m, (k, n) = len(values), picks.shape
-        size = max(CHUNK // max(k * n, 1), 1)
-        pieces = [slice(first, first + size) for first in range(0, m, size)]
-        parts = [cls._of_few(likeness, fit, unit[each], values[each], picks) for each in pieces]
-        return cls(*(np.concatenate([getattr(part, name) for part in parts]) for name in ("pattern", "factor", "by", "error")))
-
-    @classmethod
-    def _of_few(cls, likeness: Likeness, fit: Fit, unit: FloatArray, values: FloatArray, picks: Index) -> Best:
-        m, (k, n) = len(values), picks.shape
-        each = np.arange(m)
+    The factors and shifts are complex numbers (m,).
+    """
+    size = max(CHUNK // max(picks.size, 1), 1)
+    parts = []
+    for first in range(0, len(values), size):
+        few, own = values[first : first + size], unit[first : first + size]
+        m, (k, n) = len(few), picks.shape
+        factor, by = np.ones(m * k, complex), np.zeros(m * k, complex)
         if fit.rows.is_path:
-            path = as_complex(values)[:, picks].reshape(m * k, n)
-            sizes = np.repeat(likeness.sizes(fit, unit), k, axis=1)
-            factor, by, error = likeness.laid(path, fit.rows.wanted[0] + 1j * fit.rows.wanted[1], sizes)
-            pattern = np.asarray(np.argmin(error.reshape(m, k), axis=1))
-            chosen = each * k + pattern
-            return cls(pattern, factor[chosen], by[chosen], error[chosen])
-        off = fit.rows.off(np.moveaxis(values[:, :, picks], 2, 1).reshape(m * k, len(values[0]), n))
-        summed = np.sum(off**2, axis=(1, 2)).reshape(m, k)
-        table: FloatArray = np.where(np.isfinite(summed), summed, np.inf)
-        pattern = np.asarray(np.argmin(table, axis=1))
-        return cls(pattern, np.ones(m, complex), np.zeros(m, complex), table[each, pattern])
+            path, onto = as_complex(few)[:, picks].reshape(m * k, n), fit.rows.wanted[0] + 1j * fit.rows.wanted[1]
+            factor, by, error = likeness.laid(path, onto, np.repeat(likeness.sizes(fit, own), k, axis=1))
+        else:
+            off = fit.rows.off(np.moveaxis(few[:, :, picks], 2, 1).reshape(m * k, few.shape[1], n))
+            error = np.sum(off**2, axis=(1, 2))
+        pattern = np.argmin(np.where(np.isfinite(error), error, np.inf).reshape(m, k), axis=1)
+        chosen = np.arange(m) * k + pattern
+        parts.append((pattern, factor[chosen], by[chosen]))
+    pattern, factor, by = (np.concatenate(each) for each in zip(*parts, strict=True))
+    return pattern, factor, by

@@ -6,12 +6,10 @@ import csv
 import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import islice, product
 from typing import Any, final
 
 import numpy as np
 
-from ..checks import require_number
 from ..disk import Place, replacing_text
 from ..errors import DefinitionError, StudyError, cited, ensure
 from ..language import said, said_of
@@ -21,22 +19,20 @@ from ..motion.judging import transmissions
 from ..motion.measures import Measure, measure_of
 from ..plan import Mask
 from ..program import FloatArray
-from ..shown import Shown
+from ..shown import Shown, Told
 from ..study.checks import check_one_design, unit_of
 from ..study.optimise import check_counts
-from ..study.optimum import steps_about
+from ..study.optimum import heading_with_unit, rounded_values, tried_names
 from ..study.problem import Problem
-from ..study.result_tables import heading_with_unit, tried_names
-from ..study.sides import ENDING, is_side
 from ..study.space import size_of_machine
 from ..study.survey import check_progress, progress_told
+from ..study.variants import ENDING, is_side
 from ..units import deg, display_unit, factor, mm, show, shown_in
 from ..vectors import Side
 from .defects import TOLD, change_point_words, in_order, order_words
 from .exact import REGISTERED
 from .fit import Fit
-from .task_error import squares_near, sum_of_parts
-from .tasks import PathTask, PoseTask, Task, TaskRows, of_class, task_named_in, task_of
+from .tasks import PathTask, PoseTask, Task, TaskRows, of_class, squares_near, sum_of_parts, task_named_in, task_of
 
 MOST_ROUNDINGS = 1024
 CLOSEST_CHANGE_POINT = 1e-6
@@ -60,7 +56,7 @@ CHANGE = 1e-3
 
 @final
 @dataclass(frozen=True, eq=False)
-class SynthesisedMachine(Shown):
+class SynthesisedMachine(Told, Shown):
     """A machine that does a task over its whole stroke.
 
     `error` is the sum of the squares of its misses [SI^2], `rms` their root mean square a point, `most` the largest miss [SI], at the point
@@ -82,9 +78,6 @@ class SynthesisedMachine(Shown):
     base: FloatArray = field(repr=False)
     combination: tuple[int, ...] = field(repr=False)
 
-    def __str__(self) -> str:
-        return self.sentence
-
 
 @final
 @dataclass(frozen=True, eq=False)
@@ -101,7 +94,7 @@ class Miss:
 
 @final
 @dataclass(frozen=True, eq=False)
-class RoundedMachine:
+class RoundedMachine(Told):
     """A machine on drawing dimensions, its `error` [SI^2], what it misses at the most [SI], and what that costs in words."""
 
     machine: Mechanism
@@ -109,13 +102,10 @@ class RoundedMachine:
     most: float
     sentence: str
 
-    def __str__(self) -> str:
-        return self.sentence
-
 
 @final
-@dataclass(frozen=True, eq=False)
-class Synthesis(Shown):
+@dataclass(frozen=True, eq=False, repr=False)
+class Synthesis(Told, Shown):
     """All distinct machines that were found for a task, the best first, each assembled over its whole stroke.
 
     `solutions` are these; none where nothing runs. `misses` are the best of those that are no answers. `population` designs were spread
@@ -134,9 +124,9 @@ class Synthesis(Shown):
     starts: int
     evaluations: int
     limit: int | None
-    problem: Problem = field(repr=False)
-    fits: tuple[Fit, ...] = field(repr=False)
-    classes: tuple[Synthesis, ...] = field(default=(), repr=False)
+    problem: Problem
+    fits: tuple[Fit, ...]
+    classes: tuple[Synthesis, ...] = ()
 
     @property
     def machine(self) -> Mechanism:
@@ -192,8 +182,8 @@ class Synthesis(Shown):
         classes = self.classes or (self,)
         unit = miss_unit(classes[0].fits[0])
         headings = [
-            said("class"), said("links"), said("error"), with_unit(said("rms"), unit), with_unit(said("size"), "mm"),
-            with_unit(said("least transmission angle"), "deg"), said("machines"), said("searches"),
+            said("class"), said("links"), said("error"), heading_with_unit(said("rms"), unit), heading_with_unit(said("size"), "mm"),
+            heading_with_unit(said("least transmission angle"), "deg"), said("machines"), said("searches"),
         ]  # fmt: skip
         cells = [headings]
         for each in classes:
@@ -212,18 +202,11 @@ class Synthesis(Shown):
         """The error up to which a fit is exact [SI^2]."""
         return exact_error(self.fits[0].rows)
 
-    def __str__(self) -> str:
-        return self.sentence
-
-    __repr__ = __str__
-
     def rounded(self, to: float = 1.0 * mm, angle: float = 0.1 * deg, *, place: int = 0) -> RoundedMachine:
         """Return an answer with its lengths on steps of `to` [m] and its angles on steps of `angle` [rad], as a drawing gives them.
 
         Of the steps about each value those are taken that run, keep the conditions and miss the task least; untimed strokes are found anew.
         """
-        for name, value in (("to", to), ("angle", angle)):
-            require_number(f"rounded({name}", value, "a step above zero is expected, such as 1 * mm", above=0.0)
         return rounded_machine(self, self.answer_at(place, "rounded"), to, angle)
 
     def measure(self, place: int = 0) -> Measure:
@@ -269,12 +252,12 @@ class Synthesis(Shown):
         if self.classes:  # a column for every name that one of them has
             return ["rank", "class", "links", "size, mm", *dict.fromkeys(name for each in self.classes for name in each.header()[1:])]
         plan, fit = self.problem.plan, self.fits[0]
-        names = [heading_with_unit((name, unit_of(plan, name))) for name in tried_names(self.problem.space)]
+        names = [heading_with_unit(name, unit_of(plan, name)) for name in tried_names(self.problem.space)]
         stroke = fit.timing.stroke
         unit = stroke_display_unit(plan, stroke, "mm")
-        strokes = [with_unit(f"{stroke} {place}", unit) for place in range(1, fit.rows.count + 1)]
-        missed = [with_unit(each, miss_unit(fit)) for each in ("rms", "most")]
-        return ["rank", "error", *missed, "worst", with_unit("transmission", "deg"), *names, *strokes]
+        strokes = [heading_with_unit(f"{stroke} {place}", unit) for place in range(1, fit.rows.count + 1)]
+        missed = [heading_with_unit(each, miss_unit(fit)) for each in ("rms", "most")]
+        return ["rank", "error", *missed, "worst", heading_with_unit("transmission", "deg"), *names, *strokes]
 
     def table_rows(self) -> list[list[str]]:
         """Return the rows of the answers' table, `error` in SI, full precision; of several classes empty where one has no such column."""
@@ -329,11 +312,6 @@ def told_error(error: float, exact: float) -> float:
 # What several classes can.
 
 
-def with_unit(heading: str, unit: str) -> str:
-    """Return a heading with its unit behind."""
-    return heading_with_unit((heading, unit))
-
-
 def links_of(machine: Mechanism) -> int:
     """Return how many links a machine's chain has, the frame and sliding blocks included."""
     return len(machine.plan.chain.bodies)
@@ -352,23 +330,21 @@ def synthesised_classes(
     machines: Any,
     asked: Sequence[tuple[str, Any, type]],
     by_class: Mapping[str, Any],
-    starts: Any,
-    seed: int,
-    limit: int | None,
     progress: Any,
     options: Mapping[str, Any],
 ) -> Synthesis:
     """Return what several classes can, each searched by `one`, the synthesis of one machine, one after the other; see `synthesise`.
 
-    `by_class` are what may be said class by class; `options` go to each search as they are.
+    `by_class` are what may be said class by class; `options` go to each search, with its part of the limit and a folder of its own.
     """
+    starts, limit, folder = options["starts"], options["limit"], options["folder"]
     given = shipped_machines() if machines is None else machines
     if not given:
         raise DefinitionError(f"synthesise({cited(machines)}): a design or a list of classes is expected, such as [FourBar, SliderCrank].")
     designs: list[Any] = [each() if isinstance(each, type) and issubclass(each, Mechanism) else each for each in given]
     for each in designs:
         check_one_design(each)
-    check_counts("synthesise", 1 if starts == "catalogue" else starts, seed, limit)
+    check_counts("synthesise", 1 if starts == "catalogue" else starts, options["seed"], limit)
     check_progress(progress)
     searches = [search_of_class(each, asked, by_class) for each in designs]
     found: list[Synthesis] = []
@@ -376,10 +352,8 @@ def synthesised_classes(
         for number, (machine, own) in enumerate(searches):
             tell(number, len(searches))
             left = None if limit is None else max((limit - sum(each.evaluations for each in found)) // (len(searches) - number), 1)
-            kept = dict(options)
-            if kept.get("folder") is not None:
-                kept["folder"] = os.path.join(kept["folder"], f"{machine.plan.title}-{number + 1}")
-            found.append(one(machine, starts=starts, seed=seed, limit=left, **own, **kept))
+            place = None if folder is None else os.path.join(folder, f"{machine.plan.title}-{number + 1}")
+            found.append(one(machine, **{**options, **own, "limit": left, "folder": place}))
         tell(len(searches), len(searches))
     return compared(found, limit)
 
@@ -512,7 +486,7 @@ def default_box(machine: Mechanism, task: Task) -> dict[str, tuple[float, float]
 
 def misses_of(fit: Fit, at: FloatArray, base: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return the strokes (n,) at which a design comes to the points, what it has there (r, n), and how far each is missed (n,)."""
-    strokes = fit.timing.strokes(base[None], at[None, fit.n :])
+    strokes = fit.strokes(at[None], base[None])
     values, _ = fit.values(fit.dimensions(at[None]), strokes, 1)
     far = np.linalg.norm(fit.rows.off(values)[0], axis=0)
     return fit.timing.within(strokes[0]), values[0], far
@@ -597,12 +571,7 @@ def rounded_machine(found: Synthesis, answer: SynthesisedMachine, to: float, ang
     """Return an answer on drawing dimensions; see `Synthesis.rounded`."""
     fit = found.fit_of(answer)
     problem = fit.problem
-    values = problem.space.values(answer.at[: fit.n])
-    near = []
-    for variable, value in zip(problem.space.variables, values, strict=True):
-        step = None if variable.step is not None else {"mm": to, "deg": angle}.get(variable.unit)
-        near.append(steps_about(float(value), step, variable) if step else [float(value)])
-    rows = np.array([*islice(product(*near), MOST_ROUNDINGS)])
+    rows = rounded_values(answer.machine, problem.space, answer.at[: fit.n], to, angle, MOST_ROUNDINGS)
     with problem.count.without_limit():
         at = np.concatenate([problem.space.unit(rows), np.tile(answer.at[fit.n :], (len(rows), 1))], axis=1)
         base = np.tile(answer.base, (len(rows), 1))

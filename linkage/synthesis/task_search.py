@@ -20,15 +20,15 @@ from ..motion.measures import Constraint, Given, Measure, conditions_of, in_case
 from ..plan import Mask
 from ..program import FloatArray, fixed_backend
 from ..study.box import unit_points
-from ..study.checkpoint import Checkpoint, digest, facts_as_json, facts_of_machine, measure_text
+from ..study.checkpoint import Checkpoint, digest, facts_as_json, facts_of_machine
 from ..study.checks import check_one_design
-from ..study.cylinder_rows import fitted_rows
 from ..study.designs import Array
 from ..study.measured import traced_number
 from ..study.optimise import cases_searched, check_counts, constraint_in_case, each_in_cases, pieces_in_cases, where_searched
 from ..study.problem import Problem, end_words
 from ..study.space import FAR, Space, size_of_machine
 from ..study.survey import Executor, LocalExecutor, check_executor, check_progress, progress_told
+from ..study.variants import fitted_rows
 from ..units import show
 from .curve_catalogue import NEIGHBOURS, CurveCatalogue, curve_catalogue
 from .defects import NEAR_CHANGE_POINT, branch_words, circuit_words, in_order, order_words
@@ -50,9 +50,8 @@ from .synthesis import (
     synthesised_classes,
     told_error,
 )
-from .task_error import moving_stroke
-from .task_work import LONG, RACE, Combination, DescentWork, LayWork, LookWork, PolishWork, RaceWork, SearchRows, Stages, Through
-from .tasks import FunctionTask, PathTask, PoseTask, Task, TaskRows, check_radians, task_named_in, task_of, timed_as
+from .task_work import LONG, RACE, Combination, DescentWork, LayWork, LookWork, PolishWork, RaceWork, Stages, Through
+from .tasks import FunctionTask, PathTask, PoseTask, Task, TaskRows, check_radians, moving_stroke, task_named_in, task_of, timed_as
 
 STARTS = 64
 POLISHED, FEW = 8, 3
@@ -125,8 +124,8 @@ def synthesise(
     wanted = [("path", path, PathTask), ("function", function, FunctionTask), ("motion", motion, PoseTask)]
     if machine is None or isinstance(machine, (list, tuple)):
         by_class = {"vary": vary, "subject_to": subject_to, "regions": regions, "rank": rank, "over": over}
-        options = {"timed": timed, "case": case, "executor": executor, "folder": folder}
-        return synthesised_classes(synthesise, machine, wanted, by_class, starts, seed, limit, progress, options)
+        options = dict(timed=timed, case=case, starts=starts, seed=seed, limit=limit, executor=executor, folder=folder)
+        return synthesised_classes(synthesise, machine, wanted, by_class, progress, options)
     check_one_design(machine)
     title = machine.plan.title
     catalogued = starts == "catalogue" or isinstance(starts, CurveCatalogue)
@@ -139,8 +138,7 @@ def synthesise(
     rows, space = task.rows(machine), Space.of(machine, vary, regions)
     if rank is not None:
         require_type(f"{title}: rank", rank, Measure, 'one number of a design is expected, such as -least(transmission("B"))')
-    over, occurring = where_searched(machine, over)
-    over = {**travels, **(over or {})} or over
+    over, occurring = where_searched(machine, over, travels)
     cases, shares = cases_searched(machine, case, occurring)
     asked = [*conditions_of(subject_to, machine), *space.conditions]
     ranks = () if rank is None else (mean_in_cases(rank, shares),) if shares else each_in_cases([rank], cases, machine, in_case)
@@ -156,18 +154,14 @@ def synthesise(
     search = TaskSearch(problem, task, rows, timing, timed, ranks, held, over, many, seed, catalogue)
     checkpoint = None if folder is None else Checkpoint.of(folder, facts_of_search(search))
     with progress_told(progress, machine.plan.heading) as tell, fixed_backend("numpy"), unwarned():  # an answer says how near it passes
-        return search.run(Stages(executor or LocalExecutor(), checkpoint, tell, search.total))
+        total = len(search.combinations) * (search.population + search.many)
+        return search.run(Stages(executor or LocalExecutor(), checkpoint, tell, total))
 
 
 def facts_of_search(search: TaskSearch) -> dict[str, Any]:
     """Return what makes a search the same; DefinitionError for a function that a folder cannot tell from another one."""
     problem, task = search.problem, search.task
-    try:
-        functions = [measure_text(each) for each in problem.functions]
-    except DefinitionError as error:
-        text = "a folder cannot tell a function without source text, such as a lambda, from another one; define it by `def` in a file"
-        raise DefinitionError(f"{problem.plan.title}: folder=: {text}.") from error
-    held = problem.constraints
+    functions, held = problem.function_texts(), problem.constraints
     wanted = [array if array is None else array.tolist() for array in (search.rows.wanted, search.rows.weights, task.at)]
     return facts_as_json({
         **facts_of_machine(problem.machine, ()),
@@ -303,11 +297,6 @@ class TaskSearch:
         return max(self.starts // len(self.combinations), min(self.starts, 4))
 
     @property
-    def total(self) -> int:
-        """How many designs are looked at first and searched from, all told."""
-        return len(self.combinations) * (self.population + self.many)
-
-    @property
     def shared(self) -> tuple[Problem, TaskRows, Timing, FloatArray | None]:
         """What all fits have in common."""
         return self.problem, self.rows, self.timing, self.task.at
@@ -332,22 +321,21 @@ class TaskSearch:
         elif self.population:
             unit = np.concatenate([unit, unit_points(self.population, len(space.variables), "sobol", self.seed)])
         unit = space.drawn(unit, self.problem.plan.title, self.seed)
-        rows = SearchRows.joined([(each, {"unit": unit}) for each in chosen])
-        seen = stages.done("look", LookWork(*self.shared, self.timed), rows, told=self.population * len(chosen))
+        every = [(each, {"unit": unit}) for each in chosen]
+        seen = stages.done("look", LookWork(*self.shared, self.timed), every, told=self.population * len(chosen))
         fits = [self.fit(each) for each in chosen]
         likeness: dict[Combination, Likeness] = {}
         parts = []
-        whole, somewhere = (seen[name].reshape(len(chosen), -1) for name in ("whole", "somewhere"))
+        whole, somewhere = ([each[name] for each in seen] for name in ("whole", "somewhere"))
         with self.problem.count.without_limit():
             for fit, runs, reached in zip(fits, whole, somewhere, strict=True):
                 kept = runs if int(runs.sum()) >= WHOLE_ENOUGH else reached
                 likeness[fit.combination] = Likeness.of(fit, unit[runs][:3], timed=self.timed is True)
                 parts.append((fit.combination, {"unit": unit[kept]}))
-        rows = SearchRows.joined(parts)
         running = frozenset(each for each, runs in zip(chosen, whole, strict=True) if int(runs.sum()) >= WHOLE_ENOUGH)
-        laid = stages.done("lay", LayWork(*self.shared, self.timed, likeness, running), rows)
+        laid = stages.done("lay", LayWork(*self.shared, self.timed, likeness, running), parts)
         found = []
-        for (_, own), each, fit, runs in zip(parts, found_of_parts(laid, parts), fits, whole, strict=True):
+        for (_, own), each, fit, runs in zip(parts, laid, fits, whole, strict=True):
             places = standing_apart(own["unit"], each["error"], RACING * self.many)
             drawn = runs[len(runs) - self.population :]  # without the machine itself
             found.append(Starts(fit, each["at"][places], each["base"][places], int(drawn.sum()), self.that_keep(fit, each)))
@@ -355,14 +343,12 @@ class TaskSearch:
 
     def raced(self, stages: Stages, first: Sequence[Starts]) -> list[Starts]:
         """Return as many of the starts as are asked for, the best after their first steps."""
-        parts = [(each.fit.combination, {"at": each.at, "base": each.base}) for each in first]
-        rows = SearchRows.joined(parts)
-        if self.most(rows.count) < 4 * 3 * RACE:  # a limit is better spent on the best
-            return [Starts(each.fit, each.at[: self.many], each.base[: self.many], each.running, each.keeping) for each in first]
+        if self.most(sum(len(each.at) for each in first)) < 4 * 3 * RACE:  # a limit is better spent on the best
+            return [replace(each, at=each.at[: self.many], base=each.base[: self.many]) for each in first]
         found = []
-        for each, own in zip(first, found_of_parts(stages.done("race", RaceWork(*self.shared), rows), parts), strict=True):
+        for each, own in zip(first, stages.done("race", RaceWork(*self.shared), [each.part for each in first]), strict=True):
             places = standing_apart(own["at"][:, : each.fit.n], own["error"], self.many)
-            found.append(Starts(each.fit, own["at"][places], each.base[places], each.running, each.keeping))
+            found.append(replace(each, at=own["at"][places], base=each.base[places]))
         return found
 
     def that_keep(self, fit: Fit, laid: Mapping[str, Array]) -> Starts:
@@ -399,7 +385,10 @@ class TaskSearch:
         ways = [Polishing(self, starts, own, kept.get(starts.fit)) for starts, own in zip(first, found, strict=True)]
         wave = 0
         while not self.problem.count.is_spent and min(each.best for each in ways) > exact and any([each.next() for each in ways]):
-            self.polished(stages, wave, ways)
+            work = PolishWork(*self.shared, self.ordered, self.most(sum(len(each.now) for each in ways)))
+            reached = stages.done(f"conditions {wave}", work, [(each.fit.combination, each.rows) for each in ways])
+            for each, end in zip(ways, reached, strict=True):
+                each.enter(end["at"][end["ended"]], each.rows["base"][end["ended"]])
             wave += 1
         return [each for own, way in zip(found, ways, strict=True) for each in [*own, *way.ends]]
 
@@ -453,19 +442,9 @@ class TaskSearch:
         """Return where local searches end, or where they stand when the limit is reached; `name` is the stage's where it is another."""
         reached = [each.at for each in first]
         if not self.problem.count.is_spent:
-            parts = [(each.fit.combination, {"at": each.at, "base": each.base}) for each in first]
-            rows = SearchRows.joined(parts)
-            found = stages.done(name or through, DescentWork(*self.shared, through, self.most(rows.count)), rows, told=told)
-            reached = [each["at"] for each in found_of_parts(found, parts)]
+            work = DescentWork(*self.shared, through, self.most(sum(map(len, reached))))
+            reached = [each["at"] for each in stages.done(name or through, work, [each.part for each in first], told=told)]
         return [self.ends_of(each.fit, at, each.base) for each, at in zip(first, reached, strict=True)]
-
-    def polished(self, stages: Stages, wave: int, ways: Sequence[Polishing]) -> None:
-        """Search from the next designs with all conditions, of all combinations together."""
-        parts = [(each.fit.combination, each.rows) for each in ways]
-        rows = SearchRows.joined(parts)
-        found = stages.done(f"conditions {wave}", PolishWork(*self.shared, self.ordered, self.most(rows.count)), rows)
-        for each, own in zip(ways, found_of_parts(found, parts), strict=True):
-            each.enter(own["at"][own["ended"]], each.rows["base"][own["ended"]])
 
     def ends_of(self, fit: Fit, at: FloatArray, base: FloatArray) -> Ends:
         """Return ends, with their errors and with which of them run over the whole stroke and keep the conditions."""
@@ -642,9 +621,3 @@ class Polishing:
         ends = self.search.ends_of(self.fit, at, base)
         self.ends.append(ends)
         self.best = min([self.best, *ends.error[self.search.good_in_order(ends)].tolist()])
-
-
-def found_of_parts(found: Mapping[str, Array], parts: Sequence[tuple[Combination, Mapping[str, Array]]]) -> list[dict[str, Array]]:
-    """Return what is found of designs, by the parts that they were joined of."""
-    ends = np.cumsum([len(next(iter(columns.values()))) for _, columns in parts])
-    return [{name: column[begin:end] for name, column in found.items()} for begin, end in zip([0, *ends], ends, strict=False)]

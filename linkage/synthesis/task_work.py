@@ -6,7 +6,6 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from hashlib import blake2b
 from itertools import groupby
 from typing import Any, ClassVar, Literal, TypeAlias, final
 
@@ -18,11 +17,11 @@ from ..numeric.descent import BEGIN
 from ..plan import Mask
 from ..program import FloatArray
 from ..study.checkpoint import Checkpoint
-from ..study.designs import Array, Rows
+from ..study.designs import Array, Designs, Rows
 from ..study.problem import Problem
 from ..study.solver import Local
 from ..study.survey import Executor, Progress, SurveyRun
-from .fit import Fit, FitSquares, Timing
+from .fit import Fit, Timing, fit_squares
 from .starts import Likeness, laid_designs, poses_of
 from .synthesis import exact_error, is_one_design
 from .tasks import TaskRows
@@ -42,43 +41,18 @@ NUMBERS = 1 << 18
 """Slopes that a step of a race works out at a time: the more searches go at once, the less each costs."""
 
 Combination = tuple[int, ...]
+Part: TypeAlias = tuple[Combination, Mapping[str, Array]]
+"""A combination of choices, and what is to be known of each of some designs of it, arrays (m, ...)."""
 Through: TypeAlias = Literal["free", "running", "keeping"]
 """What a local search comes through: any designs, those that run over the whole stroke, or those that keep the conditions, too."""
 
 
-@final
-@dataclass(frozen=True, eq=False)
-class SearchRows:
-    """Designs of a stage with their combinations of choices (m, choices), and what else is to be known of each, arrays (m, ...)."""
-
-    columns: Mapping[str, Array]
-
-    @classmethod
-    def joined(cls, parts: Sequence[tuple[Combination, Mapping[str, Array]]]) -> SearchRows:
-        """Return the designs of several combinations, one after the other; of none at least one is given."""
-        many = [len(next(iter(columns.values()))) for _, columns in parts]
-        chosen = np.repeat(np.array([combination for combination, _ in parts], int).reshape(len(parts), -1), many, axis=0)
-        names = parts[0][1]
-        return cls({"combination": chosen, **{name: np.concatenate([columns[name] for _, columns in parts]) for name in names}})
-
-    @property
-    def count(self) -> int:
-        """How many designs there are."""
-        return len(self.columns["combination"])
-
-    @property
-    def width(self) -> int:
-        """How many numbers a design has."""
-        return sum(int(np.prod(column.shape[1:])) for column in self.columns.values())
-
-    def dimensions(self, start: int, stop: int) -> Rows:
-        """Return the designs from start to before stop."""
-        return {name: column[start:stop] for name, column in self.columns.items()}
-
-    @property
-    def content(self) -> bytes:
-        """All of it, as bytes."""
-        return b"".join(name.encode() + repr(column.shape).encode() + column.tobytes() for name, column in self.columns.items())
+def joined_rows(parts: Sequence[Part]) -> Designs:
+    """Return the designs of several combinations of choices, one after the other, with these; of none at least one is given."""
+    many = [len(next(iter(columns.values()))) for _, columns in parts]
+    chosen = np.repeat(np.array([combination for combination, _ in parts], int).reshape(len(parts), -1), many, axis=0)
+    own = {name: (np.concatenate([columns[name] for _, columns in parts]),) for name in parts[0][1]}
+    return Designs({"combination": (chosen,), **own}, len(chosen))
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,7 +101,7 @@ class FitWork(ABC):
 
     def _of_piece(self, rows: Rows, first: int, stop: int) -> dict[str, Array]:
         parts = []
-        for combination, group in groupby(map(tuple, rows["combination"][first:stop].tolist())):  # those that follow one another
+        for combination, group in groupby(map(tuple, rows["combination"][first:stop].astype(int).tolist())):  # those in a row
             begin, first = first, first + len(list(group))
             fit = self.fit(combination)
             own = {name: column[begin:first] for name, column in rows.items() if name != "combination"}
@@ -245,7 +219,7 @@ class PolishWork(FitWork):
         fit.problem.count.limit = int(min(self.most, LOOKS))
         for start in (at, first):
             with suppress(LinkageError):
-                squares = FitSquares(fit, start, base, in_order=self.in_order)
+                squares = fit_squares(fit, start, base, in_order=self.in_order)
                 local = Local(fit.problem, fit.combination, start[: fit.n], squares=squares)
                 end = local.run()
                 return {"at": np.concatenate([end.unit, local.own])[None], "ended": np.ones(1, bool)}
@@ -261,18 +235,21 @@ class Stages:
         self.before = 0
         tell(0, total)
 
-    def done(self, name: str, work: FitWork, rows: SearchRows, *, told: int = 0) -> dict[str, Array]:
-        """Return what is found of designs, arrays (m, ...) by name; in the progress it counts as so many designs."""
+    def done(self, name: str, work: FitWork, parts: Sequence[Part], *, told: int = 0) -> list[dict[str, Array]]:
+        """Return what is found of the designs of each part, arrays (m, ...) by name; in the progress it counts as so many designs."""
+        rows = joined_rows(parts)
+        found = self._found(name, work, rows, told) if rows.count else work.nothing
+        ends = np.cumsum([len(next(iter(columns.values()))) for _, columns in parts])
+        return [{key: column[begin:end] for key, column in found.items()} for begin, end in zip([0, *ends], ends, strict=False)]
 
+    def _found(self, name: str, work: FitWork, rows: Designs, told: int) -> dict[str, Array]:
         def tell(done: int, count: int) -> None:
             self.tell(self.before + told * done // count, self.total)
 
         checkpoint = None
-        if not rows.count:
-            return work.nothing
         if self.checkpoint is not None:
-            facts = f"{name} {work.facts} {rows.count} ".encode()
-            checkpoint = self.checkpoint.stage(name, facts + blake2b(rows.content, digest_size=32).digest())
+            facts = f"{name} {work.facts} {rows.count} {rows.digests()}".encode()
+            checkpoint = self.checkpoint.stage(name, facts)
         run = SurveyRun(work, rows, self.executor, checkpoint, tell)
         run.go()
         self.before += told

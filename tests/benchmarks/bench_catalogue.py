@@ -12,7 +12,7 @@ import numpy as np
 from linkage import PathTask, curve_catalogue, synthesise
 from linkage.motion import Grid
 from linkage.program import fixed_backend
-from linkage.synthesis.curve_class import curve_kernel
+from linkage.synthesis.curve_catalogue import curve_kernel
 from mechanisms.classics.four_bar import FourBar
 from mechanisms.classics.stephenson_one import StephensonOne
 from tests.linkage.synthesis.test_closed_curves import known_bars, pairs

@@ -25,7 +25,7 @@ from linkage import (
     synthesise,
 )
 from linkage.synthesis.closed_curves import ClosedCurves, drawn_curve, laid_onto
-from linkage.synthesis.curve_class import CurveMeasure
+from linkage.synthesis.curve_catalogue import CurveMeasure
 from mechanisms.classics.four_bar import FourBar, TripleRocker
 from mechanisms.classics.stephenson_one import StephensonOne
 from tests.benchmarks import bench_catalogue
@@ -231,9 +231,9 @@ def test_what_a_catalogue_cannot_be_asked(four_bars, ask, words):
 
 
 def test_a_class_that_never_runs_says_so(monkeypatch):
-    monkeypatch.setattr("linkage.synthesis.curve_class.EDGE", 10.0)
-    monkeypatch.setattr("linkage.synthesis.curve_class.ROUND", 1 << 10)
-    monkeypatch.setattr("linkage.synthesis.curve_class.PATIENCE", 4)
+    monkeypatch.setattr("linkage.synthesis.curve_catalogue.EDGE", 10.0)
+    monkeypatch.setattr("linkage.synthesis.curve_catalogue.ROUND", 1 << 10)
+    monkeypatch.setattr("linkage.synthesis.curve_catalogue.PATIENCE", 4)
     with pytest.raises(StudyError, match="of 448 designs none runs its whole turn"):
         curve_catalogue(FourBar(), "P", count=10)
 

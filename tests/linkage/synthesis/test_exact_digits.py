@@ -6,7 +6,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from linkage import burmester, cognates
-from linkage.synthesis.exact_functions import links
+from linkage.synthesis.exact import links
 from linkage.synthesis.exact_paths import real_ones, solutions_of, turnings
 from mechanisms.classics.four_bar import FourBar
 from tests.for_all import for_all

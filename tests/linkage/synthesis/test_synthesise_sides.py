@@ -25,7 +25,7 @@ from linkage import (
     transmission,
 )
 from linkage.steps import Step
-from linkage.study.sides import on_sides
+from linkage.study.variants import on_sides
 from mechanisms.at_work.tipper import Tipper
 from mechanisms.classics.four_bar import FourBar
 from mechanisms.classics.klann import Klann

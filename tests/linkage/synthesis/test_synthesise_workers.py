@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from linkage import DefinitionError, FunctionTask, PathTask, deg, distance, least, mm, most, synthesise, transmission
-from linkage.synthesis.task_work import SearchRows
+from linkage.synthesis.task_work import joined_rows
 from mechanisms.classics.four_bar import FourBar
 from tests.linkage.synthesis import synthesis_tasks as papers
 from tests.linkage.synthesis.synthesis_tasks import Bar
@@ -124,10 +124,10 @@ def test_what_goes_to_workers_is_small_and_whole(alone):
 
 
 def test_rows_of_several_combinations_keep_their_order():
-    rows = SearchRows.joined([((0, 1), {"at": np.zeros((2, 3))}), ((1, 0), {"at": np.ones((1, 3))})])
+    rows = joined_rows([((0, 1), {"at": np.zeros((2, 3))}), ((1, 0), {"at": np.ones((1, 3))})])
     assert rows.count == 3 and rows.width == 5
     assert rows.dimensions(1, 3)["combination"].tolist() == [[0, 1], [1, 0]]
-    assert rows.content != SearchRows.joined([((0, 1), {"at": np.zeros((3, 3))})]).content
+    assert rows.digests() != joined_rows([((0, 1), {"at": np.zeros((3, 3))})]).digests()
 
 
 def test_a_limit_is_kept_nearly_and_told():

@@ -1,50 +1,130 @@
-"""Rows of a catalogue for a cylinder by its name: they set its sizes, the linkage's closed length, and the range of its stroke.
-
-    vary={"lift": catalogue(dead=0.2)}        AB = L0 + S:   L0 = the row's closed length, S from 0 to the row's stroke
-                                              AB = 1.79 + S: S from closed - 1.79 to closed + stroke - 1.79
-
-A machine of a row is of a subclass whose stroke has that range, so that whatever is asked of it holds over the cylinder's whole way.
-"""
+"""The same machine as a class of its own: some of its steps on the other side, or cylinders by rows of a catalogue."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple, TypeAlias
 
+from ..assembly import members_on_sides
 from ..checks import require
 from ..errors import DefinitionError
 from ..loads import TwoPoint
 from ..mechanism import Mechanism, declared
-from ..plan import Plan, Reading
+from ..plan import Part, Plan, Reading
 from ..quantities import Dimension, Member, Stroke, Variable, is_number, name_of, quantity, signed_terms
-from ..steps import Drawn
-from ..vectors import Numbers
-from .sides import class_like
+from ..steps import Drawn, Point, Step
+from ..vectors import Numbers, Side
 
-BASE = "_class_before_rows"
+ENDING = ".side"
+BEFORE_SIDES = "_class_before_sides"
+
+
+def is_side(name: str) -> bool:
+    """Return whether a name is that of a step's side."""
+    return name.endswith(ENDING)
+
+
+def sided_step(machine: Mechanism, name: object) -> str:
+    """Return the step whose side a name such as `B.side` stands for; "" for other names, DefinitionError for what has no side."""
+    plan = machine.plan
+    if not isinstance(name, str) or not is_side(name):
+        return ""
+    step = name.removesuffix(ENDING)
+    having = [each for each, member in plan.members.items() if isinstance(member, Step) and member.modes()]
+    member = plan.members.get(step)
+    behind = [group.pins for group in plan.groups.values() if step in having and step in plan.reaches(*group.pins)]
+    if isinstance(member, Point) and member.companions:
+        text = f"{step} is found together with {' '.join(member.companions)}, whose mode is that of their places in the sketch"
+        wrong = f"{text}, near=(x, y); write a class for each mode"
+    elif step not in having:
+        wrong = f"{step} has no side to choose; its sides are {', '.join(f'{each}{ENDING}' for each in having) or 'none'}"
+    elif behind:
+        wrong = f"the pins {' '.join(behind[0])} stand on {step} and are followed from the sketch; write a class for each side"
+    else:
+        return step
+    raise DefinitionError(f"{plan.title}: vary={{{name!r}: ...}}: {wrong}.")
+
+
+def on_sides(machine: Mechanism, sides: Mapping[str, Side]) -> Mechanism:
+    """Return a design with some steps on these sides; itself where they are."""
+    found = class_on_sides(type(machine), sides)
+    return machine if found is type(machine) else found(**machine.dimensions)
+
+
+def sided_now(member: Member) -> Side | None:
+    """Return the side of a step; None for what has none."""
+    return member.side if isinstance(member, Step) else None
+
+
+def class_on_sides(kind: type[Mechanism], sides: Mapping[str, Side]) -> type[Mechanism]:
+    """Return a class like another one but for the sides of some steps, each kind once."""
+    base, before = vars(kind).get(BEFORE_SIDES, (kind, {}))
+    wanted = {name: side for name, side in {**before, **sides}.items() if sided_now(base.plan.members[name]) is not side}
+    if not wanted:
+        return base  # type: ignore[no-any-return]
+    found: type[Mechanism] = base.plan.made(("sides", *sorted(wanted.items())), lambda _: made_on_sides(base, wanted))
+    return found
+
+
+def made_on_sides(kind: type[Mechanism], sides: Mapping[str, Side]) -> type[Mechanism]:
+    """Return a subclass with some steps on these sides, of its parts too."""
+    plan, written = kind.plan, declared(kind)
+    own = members_on_sides(plan, written, sides)
+    parts: dict[str, dict[str, Side]] = {}
+    for name, side in sides.items():
+        if name not in written:
+            part = next(each for each in written if name.startswith(f"{each}.") and isinstance(written[each], Part))
+            parts.setdefault(part, {})[name.removeprefix(f"{part}.")] = side
+    for name, inner in parts.items():  # these sides are those in the whole: of a mirrored part each is the other one in itself
+        inside: Any = written[name]
+        seen = {each: sided_now(inside.plan.members[each]) is sided_now(plan.members[f"{name}.{each}"]) for each in inner}
+        other = class_on_sides(inside.machine, {each: side if seen[each] else Side(-side) for each, side in inner.items()})
+        own[name] = inside.renewed(machine=other, plan=other.plan)
+
+    def sent(machine: Mechanism) -> tuple[object, ...]:
+        return on_sides, (kind(**machine.dimensions), dict(sides))
+
+    made = class_like(kind, {**own, BEFORE_SIDES: (kind, dict(sides))}, sent)
+    lost = [name for name, side in sides.items() if sided_now(made.plan.members[name]) is not side]
+    if lost:
+        raise DefinitionError(f"{plan.title}: {lost[0]} cannot be put on the side {sides[lost[0]]} from here; write a class for it.")
+    return made
+
+
+def class_like(kind: type[Mechanism], own: Mapping[str, object], sent: Callable[[Mechanism], tuple[object, ...]]) -> type[Mechanism]:
+    """Return a subclass of the same name with members of its own; `sent` says what pickle is to make its designs of."""
+    text = {"__module__": kind.__module__, "__qualname__": kind.__qualname__, "__doc__": kind.__doc__}
+    maker: Any = type(kind)
+    made: type[Mechanism] = maker(kind.__name__, (kind,), {**text, **own, "__reduce__": sent})
+    return made
+
+
+# Rows of a catalogue for a cylinder by its name: they set its sizes, the linkage's closed length, and the range of its stroke.
+#
+#     vary={"lift": catalogue(dead=0.2)}        AB = L0 + S:   L0 = the row's closed length, S from 0 to the row's stroke
+#                                               AB = 1.79 + S: S from closed - 1.79 to closed + stroke - 1.79
+#
+# A machine of a row is of a subclass whose stroke has that range, so that whatever is asked of it holds over the cylinder's whole way.
+
+BEFORE_ROWS = "_class_before_rows"
 LENGTHS = ("closed", "stroke")
 Pairs: TypeAlias = Mapping[str, tuple[float, float]]
 
 
 class Range(NamedTuple):
-    """The part of a stroke that is looked at, from low to high: numbers [SI], or quantities that follow the design."""
+    """The part of a stroke that is looked at, from low to high: numbers [SI], or quantities that follow the design.
+
+    `is_travel` says that it is the whole way of a cylinder that is chosen by its row of a catalogue, and so the stroke of the machine.
+    """
 
     low: Any
     high: Any
+    is_travel: bool = False
 
     @property
     def follows(self) -> tuple[object, ...]:
         """The ends that follow the design."""
         return tuple(end for end in (self.low, self.high) if not is_number(end))
-
-    @property
-    def is_travel(self) -> bool:
-        """Whether it is the whole way of a cylinder that is chosen by its row of a catalogue, and so the stroke of the machine."""
-        return isinstance(self, Travel)
-
-
-class Travel(Range):
-    """The range of a stroke over which a cylinder goes its whole way."""
 
 
 def fitted_rows(machine: Mechanism, vary: Any) -> tuple[Mechanism, Any, dict[str, Range]]:
@@ -109,13 +189,13 @@ def rows_fitted(machine: Mechanism, cylinder: str, rows: Sequence[Any]) -> tuple
     along = Variable(plan.table.spellings[reach][0])
     if not dimension:
         begin = Variable(plan.table.spellings[closed][0]) - rest
-        return tuple(names), table, {stroke: Travel(begin, begin + along)}
+        return tuple(names), table, {stroke: Range(begin, begin + along, is_travel=True)}
     if dimension != closed:
         now = dict(others)[dimension]
         table = [(*row, row[fields.index("closed")] - (rest - now) - start) for row in table]
-        return (*names, dimension), table, {stroke: Travel(start, along + start)}
+        return (*names, dimension), table, {stroke: Range(start, along + start, is_travel=True)}
     low = dict(others)[dimension] - rest  # the cylinder's closed length is the dimension itself
-    return tuple(names), table, {stroke: Travel(low, along + low)}
+    return tuple(names), table, {stroke: Range(low, along + low, is_travel=True)}
 
 
 def length_of(machine: Mechanism, name: str) -> tuple[str, list[tuple[str, float]]]:
@@ -145,14 +225,9 @@ def length_of(machine: Mechanism, name: str) -> tuple[str, list[tuple[str, float
 # Classes of rows.
 
 
-def travelled(machine: Mechanism, travels: Pairs) -> Mechanism:
-    """Return the same design of a class whose strokes have these ranges [m]; itself where there are none."""
-    return class_with(type(machine), {}, travels)(**machine.dimensions) if travels else machine
-
-
 def class_with(kind: type[Mechanism], lengths: Pairs, travels: Pairs) -> type[Mechanism]:
     """Return a class like another one but for closed lengths and strokes of cylinders, and ranges of strokes, each kind once."""
-    base, known, before = vars(kind).get(BASE, (kind, {}, {}))
+    base, known, before = vars(kind).get(BEFORE_ROWS, (kind, {}, {}))
     every, ranges = {**known, **lengths}, {**before, **travels}
     key = ("rows", *sorted(every.items()), "strokes", *sorted(ranges.items()))
     found: type[Mechanism] = base.plan.made(key, lambda _: made_with(base, every, ranges))
@@ -170,12 +245,12 @@ def made_with(kind: type[Mechanism], lengths: Pairs, travels: Pairs) -> type[Mec
     own |= {name: Stroke(*ends) for name, ends in travels.items()}
     if travels and not any(isinstance(each, Drawn) for each in written.values()):
         own["sketch"] = Drawn(plan.sketch_strokes)
-    return class_like(kind, {**own, BASE: (kind, dict(lengths), dict(travels))}, sent_with)
+    base = kind, dict(lengths), dict(travels)
 
+    def sent(machine: Mechanism) -> tuple[object, ...]:
+        return made_again, (*base, machine.dimensions)
 
-def sent_with(machine: Mechanism) -> tuple[object, ...]:
-    """Return what pickle is to make a design of such a class of."""
-    return made_again, (*vars(type(machine))[BASE], machine.dimensions)
+    return class_like(kind, {**own, BEFORE_ROWS: base}, sent)
 
 
 def made_again(kind: type[Mechanism], lengths: Pairs, travels: Pairs, dimensions: Mapping[str, Numbers]) -> Mechanism:

@@ -576,7 +576,7 @@ def best_first(problem: Problem, combination: Sequence[int], units: FloatArray, 
 def rounded_values(machine: Mechanism, space: Space, unit: FloatArray, to: float, angle: float, most: int) -> FloatArray:
     """Return values (m, n) of the variables on steps of `to` [m] and `angle` [rad] about unit coordinates (n,), so many at the most.
 
-    A variable that has steps of its own stays on these. DefinitionError for what is no step, and for one as coarse as the machine.
+    A variable that has steps of its own stays on these. DefinitionError for anything but steps finer than the machine.
     """
     for name, value in (("to", to), ("angle", angle)):
         require_number(f"rounded({name}", value, "a step above zero is expected, such as 1 * mm", above=0.0)

@@ -115,7 +115,8 @@ def test_every_class_has_an_equal_part_of_what_is_left_of_a_limit():
 
     by_class = {"vary": BAR, "subject_to": (), "rank": None, "over": None}
     task = [("path", PathTask(POINTS), PathTask), ("function", None, FunctionTask), ("motion", None, PoseTask)]
-    found = synthesised_classes(one, [FourBar, DragLink], task, by_class, 16, 7, 4000, False, {"folder": "kept"})
+    options = {"starts": 16, "seed": 7, "limit": 4000, "folder": "kept"}
+    found = synthesised_classes(one, [FourBar, DragLink], task, by_class, False, options)
     spent = found.classes[0].evaluations if found.classes[0].start.plan.title == "FourBar" else found.classes[1].evaluations
     assert asked == [(16, 7, 2000, os.path.join("kept", "FourBar-1")), (16, 7, 4000 - spent, os.path.join("kept", "DragLink-2"))]
 

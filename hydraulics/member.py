@@ -425,7 +425,11 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
             return [Verdict("length", None, said("nothing is left to judge: every place is unlimited, left out or lost"), answer=ends[0])]
         if closed is not None:
             opened = closed + stroke if stroke is not None else np.inf
-            return [self._reaches(judge, low, high, closed, opened).answered(ends[0] if low - closed < opened - high else ends[1])]
+            asked, end = (least(distance(self.A, self.B)) >= closed, ends[0])
+            if opened - high < low - closed:
+                asked, end = most(distance(self.A, self.B)) <= opened, ends[1]
+            reaches = self._reaches(judge, low, high, closed, opened)
+            return [reaches.answered(replace(end, question=asked, ok=reaches.ok))]
         assert stroke is not None
         missing, way, given = high - low - stroke - TOLERANCE, show(high - low, "mm", ".1f"), show(stroke, "mm", ".1f")
         text = said("{pins} changes by {travel}, the stroke is {stroke}", pins=self._pins, travel=way, stroke=given)

@@ -658,6 +658,8 @@ class OilLine(PumpLine, GasLine):
                 says=says, make_up=show(make_up, "bar", 4),
             )  # fmt: skip
             return [Verdict("line", False, text, answer=low), *shut]
+        if not (low.value or high.value):  # nothing is in it that could be judged
+            return [*self._relieved(judge), *shut]
         return [*(self._relieved(judge) or [Verdict("line", True, f"{says}.", answer=low)]), *shut]
 
     def pressure_request(self, plan: Declared) -> LawRequest:

@@ -10,12 +10,13 @@
 Catalogues are gettext's: `locale/ru/LC_MESSAGES/linkage.mo` beside this file, made from the `.po` of the same name. Another package
 brings its own with one line, `add_catalogue("machines", Path(__file__).parent / "locale")`; `add_texts` adds a few texts. Messages of
 errors stay English, and so do the names of members. Decimals have a point in every language: what is printed can be read again, by this
-program and by others.
+program and by others. In reports, which people read, they have the sign of the language (`with_decimals`).
 """
 
 from __future__ import annotations
 
 import gettext
+import re
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -89,6 +90,25 @@ def translated(text: str) -> str:
     if name == ENGLISH or not text:
         return text
     return _TEXTS.get(name, {}).get(text) or _catalogue(name).gettext(text)
+
+
+DECIMAL_SIGNS = {"ru": ","}
+"""The sign before a number's decimals where it is no point, by language."""
+DECIMAL = re.compile(r"(?<![\w.=])(?<!рис\. )([-−+]?\d+)\.(\d+)(?![\w]|\.\d)")
+
+
+def with_decimals(text: str) -> str:
+    """Return a text of a report whose decimal numbers have the decimal sign of the language that is spoken.
+
+    Numbers of equations in parentheses, (2.10), versions and keywords of code keep their point.
+    """
+    mark = DECIMAL_SIGNS.get(_LANGUAGE.get(), ".")
+
+    def shown(found: re.Match[str]) -> str:
+        is_number_of = text[found.start() - 1 : found.start()] == "(" and text[found.end() : found.end() + 1] == ")"
+        return found[0] if is_number_of else f"{found[1]}{mark}{found[2]}"
+
+    return text if mark == "." else DECIMAL.sub(shown, text)
 
 
 def said(template: str, /, **values: object) -> str:

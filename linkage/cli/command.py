@@ -126,14 +126,17 @@ def count_option(count: int, what: str) -> Option:
 
 def run_options(count: int, what: str) -> tuple[Option, ...]:
     """Return the options that choose what runs, and at how many poses."""
-    at = "hold a stroke at a value, or run between two: S=0.1,650mm; without it the first runs, the others are held at mid-stroke"
+    at = (
+        "hold a stroke at a value, or run between two: S=0.1,650mm; without it the machine's own Over runs, else the first stroke, the "
+        "others held at mid-stroke"
+    )
     return count_option(count, what), repeatable("--at", "S=0.6", at, "strokes")
 
 
 def pose_options(count: int) -> tuple[Option, ...]:
     """Return the options that choose the poses."""
     at = (
-        "these values of a stroke instead; repeatable. Without it the machine's path runs, else the first stroke; others are held at "
+        "these values of a stroke instead; repeatable. Without it the machine's own Overs run, else the first stroke; others are held at "
         "mid-stroke"
     )
     return count_option(count, "poses over the stroke"), repeatable("--at", "S=0.6,650mm", at, "strokes")

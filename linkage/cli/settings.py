@@ -19,7 +19,7 @@ from ..motion import Column, Motion, Over, Request, columns_of, out_of_reach, st
 from ..plan import Plan, plan_measure
 from ..program import FloatArray
 from ..quantities import Dimension, Quantity, Stroke
-from ..reports import NOTHING, At, force_columns, results, run_along, run_of, stroke_middles
+from ..reports import NOTHING, At, Run, force_columns, results, run_of, runs_of, stroke_middles
 from ..steps import Point
 from ..units import UNITS, parse, parse_span
 from ..verdict import Verdict
@@ -173,31 +173,39 @@ def si_value(text: str, kind: str, what: str) -> float:
 
 
 def motion_at(machine: Mechanism, options: Namespace) -> Motion:
-    """Return the motion that a table shows: at strokes such as `--at S=0.6,650mm`, else along the machine's run at `--count` poses.
+    """Return the motion that a command shows: the first of `motions_at`."""
+    return motions_at(machine, options)[0][1]
 
-    The run is the path of `--over` or of the machine's own `Over`, if that is a path. Else it is the first stroke that is not held, from
-    its start to its end, at steps of `--every` if given. Strokes that are not given are at mid-stroke. Several that are given more than one
-    value make a grid. Places that cannot be assembled are gaps, and one remark says so.
+
+def motions_at(machine: Mechanism, options: Namespace) -> list[tuple[Run | None, Motion]]:
+    """Return the motions that a table shows, each with its run; one without a run at strokes such as `--at S=0.6,650mm`.
+
+    The runs are those of `--over`, of the machine's own `Over`s or of its first stroke (`runs_of`), at `--count` poses, or at steps of
+    `--every`. At strokes the first that is not given goes from its start to its end, the others are at mid-stroke; several that are given
+    more than one value make a grid. Places that cannot be assembled are gaps, and one remark says so.
     """
-    given, every = strokes_given(machine, options), getattr(options, "every", None)
-    overs = overs_of(machine, getattr(options, "over", ()))
-    paths = [over for over in (machine.overs if overs is None else overs) if isinstance(over, Over) and over.shape == "path"]
-    places = machine.judge(paths).places if len(paths) == 1 and not given else []
-    if places and places[0].running:  # the only path among what is looked at, through all its places
+    given, every, overs = strokes_given(machine, options), getattr(options, "every", None), overs_of(machine, getattr(options, "over", ()))
+    if machine.strokes and not given:
+        runs = runs_of(machine, over=overs, acting=acting_of(machine, options) if hasattr(options, "drive") else None)
+        single = all(len(run.ways) == 1 and run.is_curve and not run.is_path for run in runs)
+        if single:
+            steps = [(run, {run.stroke: stroke_steps(machine, run, options.count, every)}) for run in runs]
+            return [(run, with_gaps(machine, {**run.held, **values})) for run, values in steps]
         ensure(every is None, f"--every {every}: steps are of one stroke, and the rows run along a path; give --count.")
-        return with_gaps(machine, run_along(places[0].motion)[0].divided(options.count))
-    runs = next((name for name in machine.strokes if name not in given), None)
-    if runs is None or any(len(values) > 1 for values in given.values()):
+        return [(run, with_gaps(machine, run.divided(options.count) if run.is_curve else run.poses)) for run in runs]
+    free = next((name for name in machine.strokes if name not in given), None)
+    if free is None or any(len(values) > 1 for values in given.values()):
         ensure(every is None, f"--every {every}: no stroke runs from end to end here; leave it out, or hold the others, --at S=0.6.")
     else:
-        given[runs] = stroke_steps(machine, runs, options.count, every)
+        ends = machine.strokes[free].start, machine.strokes[free].end
+        given[free] = stroke_steps(machine, Run({free: ends}, {}), options.count, every)
     held = {name: np.array([value]) for name, value in stroke_middles(machine).items() if name not in given}
-    return with_gaps(machine, stroke_grid(machine, given | held))
+    return [(None, with_gaps(machine, stroke_grid(machine, given | held)))]
 
 
-def stroke_steps(machine: Mechanism, name: str, count: int, every: str | None) -> FloatArray:
-    """Return the values of a stroke from its start to its end [m or rad]: so many, or a step apart, the end among them."""
-    start, end = machine.strokes[name].start, machine.strokes[name].end
+def stroke_steps(machine: Mechanism, run: Run, count: int, every: str | None) -> FloatArray:
+    """Return the values of the stroke of a run from end to end [m or rad]: so many, or a step apart, the end among them."""
+    name, (start, end) = run.stroke, run.ways[run.stroke]
     if every is None:
         return np.linspace(start, end, count)
     step = si_value(every, stroke_measure(machine.plan, name), "--every")
@@ -287,21 +295,23 @@ def plain_value(acting: Acting) -> Acting:
 
 
 def columns_picked(
-    machine: Mechanism, motion: Motion, names: Sequence[str], strokes: Sequence[str], acting: Acting = PLAIN
+    machine: Mechanism, motion: Motion, names: Sequence[str], strokes: Sequence[str], acting: Acting = PLAIN, run: Run | None = None
 ) -> list[Column]:
     """Return the columns of some names, in their order, after the strokes'; all where none is named.
 
     A name is one of the machine's table, one that every machine with loads has, or a request in text: `pressure(lift)`, `ratio(G.y)`.
-    In a load case or a direction they are those that every machine has.
+    In a load case or a direction they are those that every machine has; along a run in its load case all.
     """
     plan, is_plain = machine.plan, acting == PLAIN
-    columns = results(machine, motion) if is_plain else [*columns_of(motion), *force_columns(motion, acting.case, acting.direction)]
+    case = run.case if is_plain and run is not None else None
+    acting = replace(acting, case=case) if is_plain else acting
+    columns = results(machine, motion, case) if is_plain else [*columns_of(motion), *force_columns(motion, acting.case, acting.direction)]
     known = {column.name: column for column in columns}
     ensure(known, f"{plan.title} has no results: it declares no stroke, no point that moves and no output.")
     if not names:
         return columns
     if is_plain and not known.keys() >= {*names}:
-        every = [*columns_of(motion), *force_columns(motion)]
+        every = [*columns_of(motion), *force_columns(motion, case)]
         known = {column.name: column for column in every} | known
     led = [known[name] for name in strokes if name in known]
     found = [column for name in names for column in ([known[name]] if name in known else requested(machine, motion, name, acting, known))]

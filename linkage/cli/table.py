@@ -10,17 +10,20 @@ import sys
 from argparse import Namespace
 from collections.abc import Iterator, Sequence
 from contextlib import nullcontext
+from dataclasses import replace
 from pathlib import Path
 from shutil import get_terminal_size
+from typing import TypeAlias
 
 import numpy as np
 
 from ..disk import replacing_text
 from ..errors import DefinitionError, cited, ensure
+from ..language import heading_of, said
 from ..loads import Acting
 from ..mechanism import Mechanism
-from ..motion import Column, Motion, Over, columns_of, geometry_verdicts, limits_over
-from ..reports import force_columns, is_loaded, rich_tables, text_table, write_csv
+from ..motion import Column, Motion, Over, columns_of, geometry_verdicts, judged_poses, limits_over
+from ..reports import Run, dagger_words, force_columns, is_loaded, rich_tables, run_words, text_table, write_csv
 from ..statics import PinForces, max_table, pin_forces, table_text
 from . import settings
 from .command import COLUMNS, CSV, EVERY, Command, machine_options, option, pose_options, progress_bar, repeatable
@@ -51,22 +54,26 @@ def table_command(options: Namespace) -> int:
     if options.csv == "-" and (options.pins or options.limits):
         raise DefinitionError("--pins and --limits do not go into CSV; leave them out, or write it into a file, --csv table.csv.")
     machine = settings.machine_of(options)
-    acting, poses = settings.acting_of(machine, options), settings.motion_at(machine, options)
-    over, strokes, names = settings.judged_over(machine, options), list(poses.strokes), list(options.columns)
+    acting, motions = settings.acting_of(machine, options), settings.motions_at(machine, options)
+    over, strokes, names = settings.judged_over(machine, options), list(machine.strokes), list(options.columns)
     for text in options.listed:  # a comma between parentheses belongs to its name, `reserve(lift, share=0.9)`
         listed = [name.strip() for name in re.split(r",(?![^()]*\))", text) if name.strip()]
         ensure(listed, f"--columns {cited(text)}: name at least one column, such as --columns thrust,pressure.")
         names += listed
     if options.ratio and not names:
         names = strokes  # ratios alone stand beside their strokes
-    columns = settings.columns_picked(machine, poses, names, strokes, settings.plain_value(acting))
-    columns += settings.ratio_columns(machine, poses, options.ratio, options.wrt)
+    tables, judge = list[Table](), machine.judge(settings.overs_of(machine, options.over))
+    for run, poses in motions:
+        columns = settings.columns_picked(machine, poses, names, strokes, settings.plain_value(acting), run)
+        columns += settings.ratio_columns(machine, poses, options.ratio, options.wrt)
+        outside = np.ravel(poses.reached & ~judged_poses(judge, poses)).tolist()
+        tables.append((heading_words(machine, run, poses), columns, outside))
     pins = worst_pins(machine, over, acting) if options.pins else ""
-    write_table(columns, poses.reached.size, options.csv)
+    write_tables(tables, options.csv)
     if pins:
         print(f"\n{pins}")
     if options.limits:
-        print(f"\n{poses.limits()}")
+        print(f"\n{motions[0][1].limits()}")
     return settings.print_verdicts(machine.verdicts(over=over), options) if options.check else 0
 
 
@@ -86,29 +93,67 @@ def pins_of(motion: Motion, acting: Acting) -> PinForces:
     return pin_forces(motion, case=acting.case, direction=acting.movement, drive=acting.drive)
 
 
-def write_table(columns: Sequence[Column], rows: int, file: str | None) -> None:
-    """Print a table, or write it as CSV where a file is named, "-" being stdout."""
+Table: TypeAlias = tuple[str, Sequence[Column], Sequence[bool]]
+"""What stands over a table, "" for nothing, its columns, and which of its rows are outside what is judged."""
+
+
+def heading_words(machine: Mechanism, run: Run | None, motion: Motion) -> str:
+    """Return which run of several or of a load case a table is along, in words: `over reaching, in the case far: extend = 0 to 3 m`."""
+    words = run_words(machine, run) if run is not None else ""
+    if run is None or not words:
+        return ""
+    others = "" if not run.worst else said("; {names} where {column} is worst", names=", ".join(run.held), column=heading_of(run.worst))
+    return f"{words}: {motion.over.words(motion)}{others}"
+
+
+def write_tables(tables: Sequence[Table], file: str | None) -> None:
+    """Print tables below each other, or write them as one CSV whose first column says which each row is of."""
+    if file is None:
+        for place, (heading, columns, outside) in enumerate(tables):
+            if place:
+                print()
+            if heading:
+                print(f"{heading}\n")
+            print_table(columns, row_count(columns), outside)
+        if any(any(outside) for _, _, outside in tables):
+            print(f"\n{dagger_words()}")
+    elif len(tables) == 1:
+        write_table(tables[0][1], row_count(tables[0][1]), file)
+    else:
+        first = tables[0][1]
+        joined = [replace(each, values=np.concatenate([np.ravel(one[k].values) for _, one, _ in tables])) for k, each in enumerate(first)]
+        labels = [heading.partition(":")[0] for heading, columns, _ in tables for _ in range(row_count(columns))]
+        write_table(joined, len(labels), file, labels)
+
+
+def row_count(columns: Sequence[Column]) -> int:
+    """Return the number of rows of a table."""
+    return max(np.size(each.values) for each in columns)
+
+
+def write_table(columns: Sequence[Column], rows: int, file: str | None, labels: Sequence[str] = ()) -> None:
+    """Print a table, or write it as CSV where a file is named, "-" being stdout; `labels` are the first field of each row there."""
     if file is None:
         print_table(columns, rows)
         return
     if isinstance(sys.stdout, io.TextIOWrapper) and file == "-":
         sys.stdout.reconfigure(newline="")  # CR LF stays CR LF where the system would turn LF into that itself
     with nullcontext(sys.stdout) if file == "-" else replacing_text(file) as stream, progress_bar("writing CSV") as progress:
-        write_csv(columns, stream, progress)
+        write_csv(columns, stream, progress, labels)
     if file != "-":
         print(f"{file}: {rows} rows")
 
 
-def print_table(columns: Sequence[Column], rows: int) -> None:
+def print_table(columns: Sequence[Column], rows: int, outside: Sequence[bool] = ()) -> None:
     """Print a table: in blocks as wide as a terminal there, else whole and plain."""
     width = get_terminal_size().columns if sys.stdout.isatty() else None
     if width is None or rows > RICH_ROWS:
-        print(*text_table(columns, width), sep="\n")
+        print(*text_table(columns, width, outside), sep="\n")
         return
     from rich.console import Console
 
     console = Console(width=width)
-    for table in rich_tables(columns, width):
+    for table in rich_tables(columns, width, outside):
         console.print(table)
 
 

@@ -37,6 +37,8 @@ class Mark:
 
 
 Cell: TypeAlias = str | Formula | Mark
+HALF, BESIDE, FORMULA = 50, 3, 8
+"""Letters that half a page has room for, that stand beside a cell, and that a formula or a mark takes at the most."""
 
 
 @final
@@ -48,6 +50,12 @@ class TableBlock:
     headings: tuple[str, ...]
     rows: tuple[tuple[Cell, ...], ...]
     columns: str
+
+    @property
+    def letters(self) -> int:
+        """About how wide it is, in letters."""
+        cells = zip(self.headings, *self.rows, strict=True)
+        return sum(BESIDE + max(len(each) if isinstance(each, str) else FORMULA for each in column) for column in cells)
 
 
 @final
@@ -85,12 +93,25 @@ class Section:
 
     @property
     def rows(self) -> Iterator[tuple[bool, tuple[Block, ...]]]:
-        """Its blocks one by one; small pictures that follow each other in one row, which True marks."""
-        for is_pair, blocks in groupby(self.blocks, lambda block: isinstance(block, Illustration) and block.size[0] < 4.0):
-            if is_pair:
-                yield True, tuple(blocks)
+        """Its blocks one by one; small pictures that follow each other in one row, and so two small tables, which True marks."""
+        for kind, group in groupby(self.blocks, small_kind):
+            blocks = tuple(group)
+            if kind is Illustration:
+                yield True, blocks
+            elif kind is TableBlock:
+                yield from ((len(blocks[place : place + 2]) > 1, blocks[place : place + 2]) for place in range(0, len(blocks), 2))
             else:
                 yield from ((False, (each,)) for each in blocks)
+
+
+def small_kind(block: Block) -> type | None:
+    """Return the kind of a block that half a page has room for, of which others may stand beside it; None for any other."""
+    match block:
+        case Illustration():
+            return Illustration if block.size[0] < 4.0 else None
+        case TableBlock():
+            return TableBlock if block.letters <= HALF else None
+    return None
 
 
 @final

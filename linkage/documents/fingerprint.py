@@ -13,9 +13,6 @@ from typing import Any
 from ..mechanism import Mechanism
 from ..plan import written_out
 
-DIGITS = 16
-"""Hexadecimal digits of a hash that are shown."""
-
 ADDRESS = re.compile(r" at 0x[0-9a-fA-F]+")
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 from math import cos, sin
@@ -17,10 +17,10 @@ from ..loads import PLAIN, Acting, Force, TwoPoint
 from ..motion import Column, Motion, Request, least, most, places_text, stroke_display_unit
 from ..program import FloatArray
 from ..statics import PinForces, PinLoad, drive_force, judged_table, pin_forces, thrust_from_forces
-from ..units import shown_number, unit_sign
+from ..units import factor, shown_in, shown_number, unit_sign
 from .calculation import has_loads
 from .content import Block, Section, TableBlock
-from .outcome import amount_text
+from .outcome import amount_text, figures
 from .run import ReportSubject
 
 KINDS = (noted("pin"), noted("guide"), noted("slot"), noted("driven point"), noted("crank's drive"), noted("slider"), noted("telescope"))
@@ -36,7 +36,9 @@ def forces_section(subject: ReportSubject) -> Section | None:
     try:
         found = subject.forces
         with unwarned():
-            rows, ranges = judged_table(subject.judge), tuple(drive_rows(subject))
+            cases = rows_of_cases(subject)
+            rows = worst_rows(subject, cases) or judged_table(subject.judge)
+            ranges = tuple(drive_rows(subject))
     except LinkageError as error:
         return Section(title, (said("The joint forces are not calculated: {why}", why=str(error)),))
     looks = said(
@@ -56,9 +58,9 @@ def forces_section(subject: ReportSubject) -> Section | None:
     table = TableBlock(said("Largest pin forces, for FEM"), heads, tuple(cells), "llllrrrlm")
     ends = said("least"), said("situation and place"), said("greatest"), said("situation and place")
     drives = (said("drive or member"), said("unit"), *ends)
-    forces = TableBlock(said("Driving forces and thrusts, over all that the machine runs"), drives, ranges, "llrmrm")
+    forces = [TableBlock(said("Driving forces and thrusts, over all that the machine runs"), drives, ranges, "llrmrm")] if ranges else []
     remarks = dict.fromkeys(remark for one in found for remark in one.remarks)
-    return Section(title, (forces, looks, table, *case_tables(subject), *blocked_blocks(subject), *remarks))
+    return Section(title, (*forces, looks, table, *case_tables(subject, cases), *blocked_blocks(subject), *remarks))
 
 
 def joint_heads() -> tuple[str, ...]:
@@ -73,7 +75,7 @@ def joint_cells(row: PinLoad) -> tuple[str, ...]:
 
 def force_cell(force: float, share: float = 1.0) -> str:
     """Return the size of a force, or of a share of it, as a cell."""
-    return shown_number(force * share, "kN", "z.3f") if np.isfinite(force) else "∞"
+    return figures(force * share / factor(shown_in("kN"))) if np.isfinite(force) else "∞"
 
 
 def frame(name: str) -> str:
@@ -82,37 +84,73 @@ def frame(name: str) -> str:
 
 
 def drive_rows(subject: ReportSubject) -> Iterator[tuple[str, ...]]:
-    """Yield the least and the greatest force of every drive and thrust of every member, in which situation and where."""
+    """Yield the least and the greatest force of every drive and thrust of every member, in which situation and where.
+
+    Thrusts that members show of themselves stand with these, and so do drives that are held by one of them.
+    """
     one, plan = subject.forces[0], subject.machine.plan
     asked: list[tuple[str, Request, str]] = [
         (name, drive_force(name), "kNm" if stroke_display_unit(plan, name) == "deg" else "kN") for name in one.drives
     ]
-    known = {name: column.request for name, column in subject.member_columns if column.name == "thrust"}  # these have a program
-    for name in one.thrusts:
-        own = known.get(name)
-        request = own if isinstance(own, Request) else thrust_from_forces(name, PLAIN)
-        asked.append((said("thrust of {name}", name=name), request, "kN"))
-    answers = subject.judge.answers([each(request) for _, request, _ in asked for each in (least, most)])
-    for (name, _, unit), low, high in zip(asked, answers[::2], answers[1::2], strict=True):
+    shown = [(name, column.request) for name, column in subject.member_columns if column.name == "thrust" and column.request is not None]
+    members = {name for name, _ in shown}
+    asked += [(said("thrust of {name}", name=name), thrust_from_forces(name, PLAIN), "kN") for name in one.thrusts if name not in members]
+    questions = [each(request) for request in [*(request for _, request in shown), *(each[1] for each in asked)] for each in (least, most)]
+    answers = subject.judge.answers(questions)
+    ends = [(float(low.value), float(high.value)) for low, high in zip(answers[::2], answers[1::2], strict=True)]
+    for k, (name, _, unit) in enumerate(asked, len(shown)):
+        low, high = answers[2 * k : 2 * k + 2]
+        drives = slice(len(shown), len(shown) + len(one.drives))
+        others = ends[: len(shown)] if k < drives.stop else ends[drives]
+        if np.isnan(low.value) or any(np.allclose(ends[k], each, rtol=SAME, atol=0.0) for each in others):
+            continue
         column = Column(name, np.zeros(1), unit, 3)
-        if not np.isnan(low.value):
-            yield name, unit_sign(unit), amount_text(low, column), low.place, amount_text(high, column), high.place
+        yield name, unit_sign(unit), amount_text(subject, low, column), low.place, amount_text(subject, high, column), high.place
+
+
+SAME = 1e-9
+"""Of a force: a drive whose ends are those of a thrust to this share is that thrust."""
 
 
 # The pins in each load case by itself, where there are several.
 
 
-def case_tables(subject: ReportSubject) -> Iterator[Block]:
-    """Yield a table of the largest pin forces of each load case; nothing where there is one only, which the table above has."""
-    cases = subject.judge.cases
+def rows_of_cases(subject: ReportSubject) -> dict[str, Sequence[PinLoad] | LinkageError]:
+    """Return the largest force of each joint in each load case by itself, or why there is none; nothing where there is one case only."""
+    cases, found = subject.judge.cases, dict[str, Sequence[PinLoad] | LinkageError]()
     for case in cases if len(cases) > 1 else ():
         places = [place.over for place in subject.judge.places if case in place.cases(subject.judge.acting)]
         try:
             with unwarned():
-                judge = subject.machine.judge(places, replace(subject.judge.acting, case=case)).lost_allowed()
-                rows = judged_table(judge)
+                found[case] = judged_table(subject.machine.judge(places, replace(subject.judge.acting, case=case)).lost_allowed())
         except LinkageError as error:
-            yield said("Load case {case}: {why}", case=subject.case_words(case), why=str(error))
+            found[case] = error
+    return found
+
+
+def worst_rows(subject: ReportSubject, cases: Mapping[str, Sequence[PinLoad] | LinkageError]) -> list[PinLoad]:
+    """Return the largest force of each joint over all load cases, of a tie that of the first `Over`; nothing where a case has none."""
+    titles = [place.over.title for place in subject.judge.places]
+    worst: dict[tuple[str, str, str, str], PinLoad] = {}
+    for rows in cases.values():
+        if isinstance(rows, LinkageError):
+            return []
+        for row in rows:
+            over = row.answer.over if row.answer is not None else ""
+            mine = replace(row, over=over if len(titles) > 1 else "")
+            key = (row.point, row.on, row.by, row.kind)
+            best = worst.setdefault(key, mine)
+            is_tie = abs(best.force - mine.force) <= SAME * best.force
+            if (mine.force > best.force and not is_tie) or (is_tie and titles.index(over) < titles.index(best.over or titles[0])):
+                worst[key] = mine
+    return [*worst.values()]
+
+
+def case_tables(subject: ReportSubject, cases: Mapping[str, Sequence[PinLoad] | LinkageError]) -> Iterator[Block]:
+    """Yield a table of the largest pin forces of each load case; nothing where there is one only, which the table above has."""
+    for case, rows in cases.items():
+        if isinstance(rows, LinkageError):
+            yield said("Load case {case}: {why}", case=subject.case_words(case), why=str(rows))
             continue
         cells = tuple((*joint_cells(row), force_cell(row.force), row.place, row.movement) for row in rows)
         heads = (*joint_heads(), said("F, {unit}", unit=unit_sign("kN")), said("strokes"), said("motion"))

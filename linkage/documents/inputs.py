@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 import re
 from collections.abc import Mapping
+from dataclasses import is_dataclass
 from functools import partial
 
 from matplotlib.axes import Axes
@@ -17,7 +18,7 @@ from ..motion import Motion, stroke_display_unit
 from ..pictures.dimensioned import dimensioned
 from ..pictures.scene import Scene
 from ..plan import written_out
-from ..quantities import Dimension, Stroke
+from ..quantities import Dimension, Member, Stroke, is_number
 from ..reports import dimension_unit
 from ..units import show, shown_number, unit_sign
 from .content import Block, Cell, Formula, Illustration, Section, TableBlock
@@ -30,7 +31,7 @@ def inputs_section(subject: ReportSubject, listing: Equations) -> Section:
     """Return the section of what is given, with the drawing of its dimensions."""
     machine, notes = subject.machine, subject.notes
     prose = [plain_words(translated(each)) for each in own_paragraphs(type(machine))[1:]]  # the first line is the subtitle
-    blocks: list[Block] = [*prose, stroke_table(machine, listing, subject.run.held, notes)]
+    blocks: list[Block] = [*prose, stroke_table(subject, listing)]
     if machine.dimensions:
         blocks.append(dimension_table(machine, listing, notes))
     elements, heads = machine.plan.of_kind(ForceElement), (said("name"), said("declared as"), said("source, note"))
@@ -81,12 +82,15 @@ def own_texts(machine: type[Mechanism]) -> list[str]:
     return [*dict.fromkeys(text for text in found if any(letter.isalpha() for letter in text))]
 
 
-def stroke_table(machine: Mechanism, listing: Equations, held: Mapping[str, float], notes: Mapping[str, str]) -> TableBlock:
+def stroke_table(subject: ReportSubject, listing: Equations) -> TableBlock:
     """Return the strokes with their ranges, and where those stand that are held."""
     rows: list[tuple[Cell, ...]] = []
+    machine, notes = subject.machine, subject.notes
     for name, stroke in machine.strokes.items():
         unit = stroke_display_unit(machine.plan, name, "mm")
-        used = said("held at {value}", value=shown_number(held[name], unit)) if name in held else said("moves")
+        places = dict.fromkeys(shown_number(run.held[name], unit) for run in subject.runs if name in run.held)
+        moves = [said("moves")] if any(name in run.ways for run in subject.runs) else []
+        used = ", ".join([*moves, *([said("held at {value}", value=", ".join(places))] if places else [])])
         ends = (shown_number(stroke.start, unit), shown_number(stroke.end, unit))
         rows.append((name, Formula(listing.symbol_latex(name)), *ends, unit_sign(unit), used, notes.get(name, "")))
     heads = (said("stroke"), said("symbol"), said("start"), said("end"), said("unit"), said("in this report"), said("source, note"))
@@ -109,18 +113,31 @@ def dimension_table(machine: Mechanism, listing: Equations, notes: Mapping[str, 
     return TableBlock(said("Dimensions"), heads, tuple(rows), "llrllm")
 
 
-PARAMETER = re.compile(r"(?<![\w.])(\w+)=(-?\d+(?:\.\d*)?(?:e[-+]?\d+)?)(?=[,)])")
+PARAMETER = re.compile(r"(, |(?<![\w.]))(\w+)=(-?\d+(?:\.\d*)?(?:e[-+]?\d+)?)(?=[,)])")
 """A number by itself; one in an expression keeps its SI, as the names beside it have no unit there."""
 
 
 def with_units(element: ForceElement, text: str) -> str:
-    """Return how an element is declared, its numbers in the units that they are shown in: `pressure=180 bar`."""
+    """Return how an element is declared, its numbers in the units that they are shown in: `pressure=180 bar`; no number left as it is."""
+    units, defaults = number_units(element), {name: each.default for name, each in inspect.signature(type(element)).parameters.items()}
 
     def shown(found: re.Match[str]) -> str:
-        unit = element.numbers.get(found[1], "")
-        return f"{found[1]}={show(float(found[2]), unit)}" if unit else f"{found[1]}={float(found[2]):.7g}"
+        comma, name, value = found[1], found[2], float(found[3])
+        if comma and name in element.numbers and is_number(defaults.get(name)) and value == float(defaults[name]):
+            return ""
+        return f"{comma}{name}={show(value, units[name])}" if units.get(name) else f"{comma}{name}={value:.7g}"
 
     return PARAMETER.sub(shown, text)
+
+
+def number_units(element: object) -> dict[str, str]:
+    """Return the units that the numbers of an element are shown in, and those of what it is made of, such as a tank on a line."""
+    found: dict[str, str] = {}
+    for value in vars(element).values():
+        for each in value if isinstance(value, (list, tuple)) else (value,):
+            if is_dataclass(each) and not isinstance(each, type) and not (isinstance(each, Member) and each.name):
+                found |= number_units(each)
+    return found | dict(getattr(element, "numbers", getattr(element, "parameters", {})))
 
 
 def member_rows(machine: Mechanism, names: tuple[str, ...], notes: Mapping[str, str]) -> tuple[tuple[str, str, str], ...]:

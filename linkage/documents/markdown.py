@@ -11,7 +11,7 @@ from secrets import token_hex
 
 from ..disk import check_place, in_words, replacing_text
 from ..errors import FileError
-from ..language import said
+from ..language import said, with_decimals
 from .content import Cell, Document, Equality, Formula, Illustration, Mark, Section, TableBlock, captions_of
 from .html import footer
 from .pictures import picture_svg
@@ -94,7 +94,7 @@ def section_text(number: int, section: Section, captions: dict[int, str], names:
             case TableBlock():
                 yield from table_markdown(block, captions.get(id(block), ""))
             case Equality(place, steps):  # aligned at its signs of equality
-                first, *others = steps
+                first, *others = map(latex_decimals, steps)
                 lines = " \\\\\n".join(f"&= {each}" for each in others)
                 body = f"\\begin{{aligned}}\n{first} {lines}\n\\end{{aligned}}" if others else first
                 yield from ("$$", body + (rf" \tag{{{place}}}" if place else ""), "$$")
@@ -119,10 +119,15 @@ def cell_text(value: Cell) -> str:
     """Return a cell in one line."""
     match value:
         case Formula(latex):
-            return f"${latex.replace('|', chr(92) + 'vert ')}$"
+            return f"${latex_decimals(latex).replace('|', chr(92) + 'vert ')}$"
         case Mark(_, word):
             return f"**{escaped_markdown(word)}**"
     return escaped_markdown(value)
+
+
+def latex_decimals(latex: str) -> str:
+    """Return a formula with the decimal sign of the language that is spoken, in braces where a comma would part a list."""
+    return latex if with_decimals("0.5") == "0.5" else re.sub(r"(\d)\.(\d)", r"\1{,}\2", latex)
 
 
 def escaped_markdown(text: str) -> str:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -14,7 +13,8 @@ from matplotlib.axes import Axes
 from ..errors import LinkageError, known_name, unwarned
 from ..language import heading_of, said, translated
 from ..loads import PLAIN_CASE, Acting
-from ..motion import Answer, Column, Measure, Motion, Request, Tabled, least, most, speakers
+from ..mechanism import Mechanism
+from ..motion import Answer, Column, Measure, Motion, Request, Tabled, judged_poses, least, most, places_text, speakers, transmission
 from ..motion.limits import StrokeLimits
 from ..motion.measures import Least, Most
 from ..motion.requests import Trait
@@ -23,13 +23,13 @@ from ..pictures.curves import limit_of, note, panel
 from ..pictures.scene import Scene
 from ..pictures.style import ACCENT, INK, THIN, TITLE
 from ..program import FloatArray
-from ..reports import results
-from ..reports.table import column_blocks, flat
+from ..reports import Run, dagger_words, run_words
+from ..reports.table import NO_VALUE, column_blocks, dagger_ends, flat
 from ..reports.table import column_texts as text_cells
-from ..units import UNITS, factor, show, unit_sign
+from ..units import factor, show, unit_sign
 from .content import Block, Cell, Illustration, Section, TableBlock
 from .pictures import ROOM, WIDE, height_of, in_one_unit
-from .run import ReportSubject
+from .run import CLOSE, FIGURES, ReportSubject, same_curve
 
 HALF = 3.25
 """The width of a curve [inch]; two stand beside each other."""
@@ -70,33 +70,69 @@ def positions(ax: Axes, motion: Motion, path: Sequence[str]) -> None:
 # -- tables and curves -------------------------------------------------------------------------------------
 
 
-def reported_columns(subject: ReportSubject, names: Sequence[str] | None) -> list[Column]:
-    """Return the columns of results at the poses of the tables: those named, else all; DefinitionError for an unknown name."""
-    with unwarned():
-        found = results(subject.machine, subject.table)
+def reported_columns(subject: ReportSubject, run: Run, found: Sequence[Column], names: Sequence[str] | None) -> list[Column]:
+    """Return the columns of results at the poses of a table: those named, else all; DefinitionError for an unknown name.
+
+    Coordinates stand last, and no drive force beside a thrust that it is.
+    """
     if names is None:
-        return found
+        places = set() if subject.has_own_table else coordinates_of(subject.machine)
+        shown = [column for column in found if column.name not in run.held and column.name not in subject.doubles]
+        return sorted(shown, key=lambda column: column.name in places)
     known = {column.name: column for column in found}
     for name in names:
         known_name("Column", name, known, where=f"the table of {subject.machine.plan.title}")
-    return [known[name] for name in dict.fromkeys([*(each for each in subject.machine.strokes if each in known), *names])]
+    shown = dict.fromkeys([*(each for each in subject.machine.strokes if each in known), *names])
+    return [known[name] for name in shown if name not in run.held]
+
+
+def coordinates_of(machine: Mechanism) -> set[str]:
+    """Return the names of the columns of points' coordinates."""
+    return {f"{point}_{axis}" for point in machine.plan.points for axis in "xy"}
 
 
 def results_blocks(
     subject: ReportSubject, names: Sequence[str] | None, first: str, limits: Mapping[str, Sequence[object]]
 ) -> Iterator[Block]:
-    """Yield the table over the stroke and the curves, the one the machine is about first."""
-    columns = reported_columns(subject, names)
-    along, held = ", ".join(subject.run.ways), subject.words(dict(subject.run.held))
-    if held:
-        yield said("Along {stroke}, with {held} held.", stroke=along, held=held)
-    missing = int(np.count_nonzero(~subject.table.reached))
-    if missing:
-        yield said("{n} of {count} poses of the table cannot be assembled; they have no values.", n=missing, count=subject.count)
-    yield from column_grids(said("Results over the stroke"), [column for column in columns if column.name not in subject.run.held])
-    whole = curve_columns(subject)
-    coordinates = {f"{point}_{axis}" for point in subject.machine.plan.points for axis in "xy"}
-    drawn = [name for name in whole if name != first and (name in names if names is not None else name not in coordinates)]
+    """Yield the tables over the runs and the curves, the one the machine is about first; of several runs the curves that it is about."""
+    for (run, motion), found in zip(subject.tables, subject.table_columns, strict=True):
+        yield from run_blocks(subject, run)
+        missing = int(np.count_nonzero(~motion.reached))
+        if missing:
+            yield said("{n} of {count} poses of the table cannot be assembled; they have no values.", n=missing, count=motion.reached.size)
+        words = run_words(subject.machine, run)
+        caption = said("Results {run}", run=words) if words else said("Results over the stroke")
+        outside = np.ravel(motion.reached & ~judged_poses(subject.judge, motion)).tolist()
+        yield from column_grids(subject, caption, reported_columns(subject, run, found, names), outside)
+        if any(outside):
+            yield dagger_words()
+    if names is None and subject.doubles:
+        pairs = (said("{drive} is {thrust}", drive=heading_of(one), thrust=heading_of(other)) for one, other in subject.doubles.items())
+        yield f"{'; '.join(pairs)}."
+    for run, motion in subject.curves:
+        yield from curve_blocks(subject, run, motion, names if len(subject.curves) == 1 else [first, *limits], first, limits)
+
+
+def run_blocks(subject: ReportSubject, run: Run) -> Iterator[Block]:
+    """Yield what moves along a run and what is held, where there is something to say."""
+    held, words = subject.words(dict(run.held)), run_words(subject.machine, run)
+    text = said("Along {stroke}, with {held} held.", stroke=", ".join(run.ways), held=held) if held and run.is_curve else ""
+    if not run.is_curve:
+        text = said("Poses, with nothing between them.")
+    if text:
+        yield f"{words[:1].upper()}{words[1:]}: {text[:1].lower()}{text[1:]}" if words else text
+    if run.worst:
+        yield said("{strokes} are held where {column} is at its worst.", strokes=", ".join(run.held), column=heading_of(run.worst))
+
+
+def curve_blocks(
+    subject: ReportSubject, run: Run, motion: Motion, names: Sequence[str] | None, first: str, limits: Mapping[str, Sequence[object]]
+) -> Iterator[Block]:
+    """Yield the curves along a run, the one the machine is about first."""
+    along, held, words = ", ".join(run.ways), subject.words(dict(run.held)), run_words(subject.machine, run)
+    whole = subject.columns_along(run, motion)
+    left = coordinates_of(subject.machine) | {*subject.doubles} if names is None else {*whole} - {*names}
+    drawn = [name for name in whole if name != first and name not in left]
     same = one_curve([first, *drawn], whole, limits)
     first = next(name for name in same if first in (name, *same[name]))
     still = [name for name in same if name not in (first, *limits) and is_constant(whole[name])] if held else []
@@ -110,12 +146,16 @@ def results_blocks(
         others = [each for each in same[name] if not any(each.startswith(f"{one} ") for one in (name, *same[name]))]
         caption = said("{column} along {stroke}.", column=called, stroke=along)
         caption = said("{column} along {stroke}; {held} held.", column=called, stroke=along, held=held) if held else caption
+        caption = f"{caption.removesuffix('.')}, {words}." if words else caption
         caption += said(" The same curve: {names}.", names=", ".join(map(heading_of, others))) if others else ""
         caption += said(" Shaded: what its limit excludes.") if bound is not None else ""
-        caption += beyond_words(further, whole[name]) if further else ""
-        paint = partial(draw_column, motion=subject.curve, column=whole[name], bound=bound, beyond=further)
+        caption += beyond_words(subject, further, whole[name]) if further else ""
+        marks = [(each, amount_text(subject, each, whole[name])) for each in further]
+        paint = partial(draw_column, motion=motion, column=whole[name], bound=bound, beyond=marks)
         room = (*CURVE_ROOM[:3], CURVE_ROOM[3] if bound is None else 0.48)
-        yield Illustration(f"curve_{NO_LETTER.sub('_', name)}", caption, (WIDE, 2.6) if name == first else (HALF, 2.15), room, paint)
+        called = "_".join(NO_LETTER.sub("_", each) for each in (name, run.title if len(subject.curves) > 1 else "") if each)
+        is_wide = name == first and len(subject.curves) == 1
+        yield Illustration(f"curve_{called}", caption, (WIDE, 2.6) if is_wide else (HALF, 2.15), room, paint)
 
 
 def one_curve(names: Sequence[str], columns: Mapping[str, Column], limits: Mapping[str, Sequence[object]]) -> dict[str, list[str]]:
@@ -130,31 +170,11 @@ def one_curve(names: Sequence[str], columns: Mapping[str, Column], limits: Mappi
     return {group[0]: group[1:] for group in led}
 
 
-def same_curve(one: Column, other: Column) -> bool:
-    """Return whether two columns measure the same and have the same values."""
-    kinds = {UNITS[each.unit][1] if each.unit else "" for each in (one, other)}
-    first, second = (np.asarray(each.values, float) for each in (one, other))
-    size = float(np.max(np.abs(first[np.isfinite(first)]), initial=0.0))
-    return len(kinds) == 1 and size > 0.0 and bool(np.allclose(first, second, rtol=CLOSE, atol=CLOSE * size, equal_nan=True))
-
-
-CLOSE = 1e-9
-"""Of the greatest value: columns that differ by no more are one curve."""
-
-
 def is_constant(column: Column) -> bool:
     """Return whether a column has one value all along."""
     values = np.asarray(column.values, float)
     finite = values[np.isfinite(values)]
     return bool(finite.size) and float(np.ptp(finite)) <= CLOSE * float(np.max(np.abs(finite)))
-
-
-def curve_columns(subject: ReportSubject) -> dict[str, Column]:
-    """Return the columns of results and of members at the poses of the curves, by name."""
-    found = {column.name: column for column in subject.columns}
-    for name, column in subject.member_columns:
-        found.setdefault(f"{column.name} {name}", replace(column, name=f"{column.name} {name}"))
-    return {name: column for name, column in found.items() if name not in subject.machine.strokes}
 
 
 # Beside each curve, what the judge finds over all that the machine runs: a line where that lies beyond the curve.
@@ -169,8 +189,9 @@ def wider_answers(subject: ReportSubject, columns: Mapping[str, Column], limits:
     They are asked for of what has a limit, of forces and what hangs on them, and of the first column.
     """
     asked: list[tuple[str, Measure]] = []
+    quantities = subject.quantities(columns)
     for name in columns:
-        quantity = subject.quantities.get(name)
+        quantity = quantities.get(name)
         of_forces = isinstance(quantity, Request) and quantity.under(Acting(case=PLAIN_CASE), keep=True) is not quantity
         if quantity is not None and (of_forces or name in limits or name == next(iter(columns))):
             fails = {"below": (least,), "above": (most,)}.get(limit_of(limits[name]).fails, ()) if name in limits else sides_asked(quantity)
@@ -197,43 +218,58 @@ def lies_beyond(values: FloatArray, answer: Answer, is_least: bool) -> bool:
     return value < low - near if is_least else value > high + near
 
 
-def beyond_words(answers: Sequence[Answer], column: Column) -> str:
+def beyond_words(subject: ReportSubject, answers: Sequence[Answer], column: Column) -> str:
     """Return what the lines beside a curve are."""
     parts = [
         said("{side} {value}, {place}", side=said("least") if isinstance(each.question, Least) else said("greatest"),
-             value=f"{amount_text(each, column)} {unit_sign(column.unit)}".strip(), place=each.place)
+             value=f"{amount_text(subject, each, column)} {unit_sign(column.unit)}".strip(), place=each.place)
         for each in answers
     ]  # fmt: skip
     return said(" Over all that the machine runs: {answers}.", answers="; ".join(parts))
 
 
-def draw_column(ax: Axes, motion: Motion, column: Column, bound: Sequence[object] | None, beyond: Sequence[Answer]) -> None:
-    """Draw a column over the stroke with its limit, and lines for what lies beyond it elsewhere."""
+def draw_column(ax: Axes, motion: Motion, column: Column, bound: Sequence[object] | None, beyond: Sequence[tuple[Answer, str]]) -> None:
+    """Draw a column over the stroke with its limit, and lines with their values for what lies beyond it elsewhere."""
     panel(ax, motion, column, bound)
     pad = 9.0 if bound is None else 19.0  # a limit's words stand above the curve, under the heading
     heading = ax.set_title(ax.get_title(loc="left"), loc="left", fontsize=TITLE, fontweight="bold", color=INK, pad=pad)
     heading.set_fontsize(TITLE * min(1.0, HEADING_SHARE * ax.bbox.width / heading.get_window_extent().width))
-    for each in beyond:
+    for each, text in beyond:
         value, is_least = float(each.value) / factor(column.shown_unit), isinstance(each.question, Least)
         if np.isfinite(value):
             low, high = ax.get_ylim()
             air = 0.2 * (max(high, value) - min(low, value))  # room for the number
             ax.set_ylim(min(low, value - air), max(high, value + air))
             ax.axhline(value, color=INK, linewidth=1.1, linestyle=(0, (1.5, 1.5)), zorder=4.0)
-            note(ax, amount_text(each, column), (1.0, value), (-4, -3 if is_least else 3), INK, ("axes fraction", "data"))
+            note(ax, text, (1.0, value), (-4, -3 if is_least else 3), INK, ("axes fraction", "data"))
 
 
 HEADING_SHARE = 0.97
 """Of the width of a curve's axes: what its heading takes at the most, as letters on a screen are wider than printed ones."""
 
 
-def column_grids(caption: str, columns: Sequence[Column]) -> Iterator[TableBlock]:
-    """Yield columns of results as tables as wide as a page; the first column leads each."""
-    texts = [text_cells(column, values) for column, values in zip(columns, flat(columns), strict=True)]
+def column_grids(subject: ReportSubject, caption: str, columns: Sequence[Column], outside: Sequence[bool]) -> Iterator[TableBlock]:
+    """Yield columns of results as tables as wide as a page, led by the first; rows outside what is judged end with a dagger."""
+    ends = dagger_ends(outside)
+    texts = [cell_texts(subject, column, values) for column, values in zip(columns, flat(columns), strict=True)]
     for number, block in enumerate(column_blocks(columns, texts, LETTERS, 2)):
-        rows = tuple(zip(*(texts[place] for place in block), strict=True))
+        last = [f"{text}{end}" for text, end in zip(texts[block[-1]], ends, strict=True)]
+        rows = tuple(zip(*(texts[place] for place in block[:-1]), last, strict=True))
         title = caption if not number else said("{caption}, continued", caption=caption)
         yield TableBlock(title, tuple(columns[place].heading for place in block), rows, "r" * len(block))
+
+
+def cell_texts(subject: ReportSubject, column: Column, values: FloatArray) -> list[str]:
+    """Return a column's numbers as text: forces, pressures and reserves with FIGURES digits, others with the column's decimals."""
+    if not subject.is_counted(column):
+        return text_cells(column, values)
+    return [NO_VALUE if np.isnan(value) else figures(value) for value in values.tolist()]
+
+
+def figures(value: float) -> str:
+    """Return a number with FIGURES digits, whole from there on; "0" for one so small that it is rounding."""
+    text = f"{value:z#.{FIGURES}g}"
+    return f"{value:z.0f}" if "e" in text else text.removesuffix(".")
 
 
 # -- cylinders and springs ---------------------------------------------------------------------------------
@@ -260,7 +296,7 @@ def members_section(subject: ReportSubject, members: Mapping[str, Tabled]) -> Se
             return Section(title, (str(error),))
     found = [[next(answers) for _ in each] for each in questions]
     rows = tuple(
-        (name, column.heading, *end_cells(each, Least, column), *end_cells(each, Most, column))
+        (name, column.heading, *end_cells(subject, each, Least, column), *end_cells(subject, each, Most, column))
         for (name, column), each in zip(columns, found, strict=True)
     )
     shown = dict.fromkeys(name for name, _ in columns)
@@ -270,9 +306,9 @@ def members_section(subject: ReportSubject, members: Mapping[str, Tabled]) -> Se
     return Section(title, (*table, *refused))
 
 
-def end_cells(answers: Sequence[Answer], end: type[Measure], column: Column) -> tuple[str, str]:
+def end_cells(subject: ReportSubject, answers: Sequence[Answer], end: type[Measure], column: Column) -> tuple[str, str]:
     """Return the least or the greatest as cells, its value and its place; dashes where it was not asked for."""
-    return next(((amount_text(each, column), each.place) for each in answers if isinstance(each.question, end)), ("–", ""))
+    return next(((amount_text(subject, each, column), each.place) for each in answers if isinstance(each.question, end)), ("–", ""))
 
 
 def sides_asked(quantity: object) -> tuple[Callable[[Any], Measure], ...]:
@@ -304,12 +340,12 @@ def refusal_words(subject: ReportSubject, member: str) -> str:
     return ""
 
 
-def amount_text(answer: Answer, column: Column) -> str:
-    """Return an answer's value in a column's unit and decimals; a dash without one."""
+def amount_text(subject: ReportSubject, answer: Answer, column: Column) -> str:
+    """Return an answer's value in a column's unit, as its cells have it; a dash without one."""
     value = float(answer.value)
     if np.isinf(value):
         return "∞" if value > 0.0 else "−∞"
-    (cell,) = text_cells(column, Column(column.name, np.array([value]), column.unit, column.digits).shown)
+    (cell,) = cell_texts(subject, column, Column(column.name, np.array([value]), column.unit, column.digits).shown)
     return "–" if np.isnan(value) else cell
 
 
@@ -325,7 +361,14 @@ def limits_section(subject: ReportSubject) -> Section:
     except LinkageError as error:
         return Section(title, (str(error),))
     heads = (said("stroke"), said("limit"), said("at stroke"))
+    joints = dict.fromkeys(least.joint for each in found.values() for least in each.transmission)
+    with unwarned():
+        angles = subject.judge.answers([least(transmission(joint)) for joint in joints])
     rows = tuple(row for each in found.values() for row in limit_rows(subject, each))
+    for joint, answer in zip(joints, angles, strict=True):
+        if np.isfinite(answer.value):
+            angle = said("least transmission angle at {joint}: {angle}", joint=joint, angle=show(float(answer.value), "deg", 4))
+            rows += ((", ".join(answer.strokes), angle, places_text(answer.strokes, answer.units)),)
     table = TableBlock(said("Reach, dead points, transmission"), heads, rows, "lmm")
     held = said("Each stroke by itself, the others held at {pose}.", pose=subject.words(subject.pose))
     return Section(title, (held, table) if len(found) > 1 else (table,))
@@ -346,9 +389,6 @@ def limit_rows(subject: ReportSubject, limits: StrokeLimits) -> Iterator[tuple[C
         yield name, said("change point: the branches of {step} cross", step=step), place(value)
     for value, cylinder in limits.cylinder_dead_points:
         yield name, said("dead point of the cylinder {cylinder}: its length stands still", cylinder=cylinder), place(value)
-    for each in limits.transmission:
-        angle = said("least transmission angle at {joint}: {angle}", joint=each.joint, angle=show(each.angle, "deg", 4))
-        yield name, angle, place(each.stroke)
     if limits.open_turn is not None:
         pins, turns = " ".join(limits.open_turn.pins), limits.open_turn.turns
         text = said(

@@ -20,6 +20,8 @@ from .content import Block, Cell, Document, Equality, Formula, Illustration, Mar
 from .pictures import picture_svg
 
 JSON = dict[str, object]
+NARROW = 80
+"""Letters that a page surely has room for beside each other: a table of no more is not measured."""
 
 
 def check_typst(path: Path) -> None:
@@ -65,7 +67,9 @@ def document_data(document: Document) -> JSON:
 
 
 def block_data(is_pair: bool, row: Sequence[Block], captions: dict[int, str]) -> JSON:
-    """Return a block, or pictures beside each other."""
+    """Return a block, or pictures or tables beside each other."""
+    if is_pair and isinstance(row[0], TableBlock):
+        return {"kind": "pair", "blocks": [block_data(False, [each], captions) for each in row]}
     match row[0]:
         case str(text):
             return {"kind": "text", "text": text}
@@ -73,7 +77,8 @@ def block_data(is_pair: bool, row: Sequence[Block], captions: dict[int, str]) ->
             return {"kind": "list", "texts": texts}
         case TableBlock(_, headings, rows, columns) as table:
             cells = [[cell_data(value) for value in each] for each in rows]
-            return {"kind": "table", "caption": captions.get(id(table), ""), "headings": headings, "columns": columns, "rows": cells}
+            caption, wide = captions.get(id(table), ""), table.letters > NARROW
+            return {"kind": "table", "caption": caption, "headings": headings, "columns": columns, "rows": cells, "wide": wide}
         case Equality(number, steps):
             sides = readable(steps)
             longest = max(rough_width(piece) for pieces in sides for piece in pieces)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -14,7 +16,7 @@ import numpy as np
 from ..checks import require, require_type
 from ..disk import check_name, check_place
 from ..errors import DefinitionError, LinkageError, cited, known_name, unwarned
-from ..language import current_language, heading_of, said, said_of, translated
+from ..language import current_language, heading_of, said, said_of, translated, with_decimals
 from ..language import language as spoken
 from ..loads import PLAIN_CASE, Acting, situation_of
 from ..mechanism import Mechanism, played_along
@@ -34,21 +36,20 @@ from ..motion import (
 from ..motion.measures import measure_of
 from ..pictures.curves import limit_of
 from ..pictures.poses import named_points
-from ..pictures.strokes import column_among
 from ..quantities import Dimension
-from ..reports import NOTHING, At, is_column
+from ..reports import NOTHING, At, Run, column_among, is_column
 from ..units import current_system, display_unit, show, shown_number, unit_sign, unit_system
 from ..verdict import Verdict
 from .assumptions import assumptions_section, standards_section
 from .calculation import calculated, calculation_blocks, has_loads
 from .checks import checks_section
-from .content import Block, Document, Mark, Section, TableBlock
-from .fingerprint import DIGITS, fingerprint, own_version
+from .content import Block, Cell, Document, Illustration, Mark, Section, TableBlock
+from .fingerprint import fingerprint, own_version
 from .forces import forces_section
 from .html import write_html
 from .inputs import definition_section, inputs_section, own_paragraphs, plain_words
 from .markdown import write_markdown
-from .outcome import amount_text, curve_columns, limits_section, members_sections, results_blocks, sketch_section
+from .outcome import amount_text, limits_section, members_sections, results_blocks, sketch_section
 from .pdf import check_typst, write_pdf
 from .run import ReportSubject
 from .title import TitleBlock
@@ -86,8 +87,9 @@ def report(
     It begins with a title block, a sketch, verdicts, tables and curves. Then stand the inputs with units and sources, assumptions, and the
     standards that are cited. The equations are numbered from `start` on, with numbers filled in. Pin forces stand in every load case and
     at the relief valve's pressure. Limits of motion, checks with their measured figures, the version and a hash of the inputs end it.
-    The same inputs give the same bytes. Tables and curves run along one stroke, of a motion along its own path. What is judged is over all
-    that the machine runs, its `overs` or those of `over`; of a motion over its path.
+    The same inputs give the same bytes on the same day, or on that of SOURCE_DATE_EPOCH. What is judged is over all that the machine runs,
+    its `overs` or those of `over`; of a motion over its path. Tables and curves run there too, each path by itself; along one stroke where
+    nothing is declared or `at` says so.
 
     The title block shows `number`, `revision`, `date`, `client` and who `prepared`, `checked` and `approved` it; what is left out is an
     empty line to write on. `title_block` adds rows below it, `{"Order": "4711"}`. `language` is "en" or "ru", by default the current one.
@@ -163,7 +165,7 @@ def composed(
     """Return the document, in the language and the units that hold."""
     machine, featured = subject.machine, subject.machine.featured()
     first = column_among(machine, subject.columns, None).name
-    names = curve_columns(subject)
+    names = subject.columns_along(replace(subject.run, case=None), subject.curve)
     own = {name: given for name, given in featured.limits.items() if name in names}
     bounds = require_type("limits", own if limits is None else limits, Mapping, LIMITS)
     for name, given in bounds.items():
@@ -172,6 +174,7 @@ def composed(
     path = named_points(machine, trace, "trace") if trace is not None else tuple(featured.path) or machine.plan.moving[-1:]
     found = calculated(machine, subject.pose, start)
     verdicts, mark, judged = verdict_section(subject, bounds)
+    broken = "; ".join(each.heading for each in judged if each.is_rule and each.ok is False)
     sections = (
         sketch_section(subject, path),
         of_source(verdicts),
@@ -186,9 +189,10 @@ def composed(
         checks_section(subject, found.values),
         definition_section(machine),
     )
-    whole = tuple(each for each in sections if each is not None)
+    whole = tuple(spoken_numbers(each) for each in sections if each is not None)
     words = cited_numbers(plain_words(translated(own_paragraphs(type(machine))[0])))
-    return Document(machine.plan.heading, words, block, title_rows(subject, title_block, mark), mark, whole, current_language())
+    facts = tuple((name, with_decimals(text)) for name, text in title_rows(subject, title_block, mark, broken))
+    return Document(machine.plan.heading, words, block, facts, mark, whole, current_language())
 
 
 def own_system(machine: object) -> str | None:
@@ -204,6 +208,27 @@ OWN_UNITS = {
     "si": {"MPa"},
 }  # fmt: skip
 """The units by which a system is told."""
+
+
+def spoken_numbers(section: Section) -> Section:
+    """Return a section whose texts have the decimal sign of the language that is spoken; declarations stay as they are written."""
+
+    def cell_of(heading: str, cell: Cell) -> Cell:
+        return with_decimals(cell) if isinstance(cell, str) and heading != said("declared as") else cell
+
+    def spoken(block: Block) -> Block:
+        match block:
+            case str():
+                return with_decimals(block)
+            case tuple():
+                return tuple(map(with_decimals, block))
+            case TableBlock(headings=headings):
+                return replace(block, rows=tuple(tuple(map(cell_of, headings, row)) for row in block.rows))
+            case Illustration():
+                return replace(block, caption=with_decimals(block.caption))
+        return block
+
+    return replace(section, blocks=tuple(map(spoken, section.blocks)))
 
 
 # The numbers of a source's equations are not the report's: where a machine's own words cite one, they say whose it is.
@@ -234,27 +259,45 @@ def of_source(section: Section) -> Section:
     return replace(section, blocks=tuple(map(marked, section.blocks)))
 
 
-def title_rows(subject: ReportSubject, title_block: Mapping[str, str], mark: Mark) -> tuple[tuple[str, str], ...]:
-    """Return the rows of the title block: what was calculated, of what inputs, by which version; nothing that another run would change."""
-    machine, run, cls = subject.machine, subject.run, type(subject.machine)
-    seen = {**run.ways, **{name: (value,) for name, value in run.held.items()}}
-    spans = []
-    for name, way in run.ways.items():
-        unit = stroke_display_unit(machine.plan, name, "mm")
-        low = ", ".join(shown_number(value, unit) for value in way[:-1])
-        spans.append(said("{name} = {low} to {high}", name=name, low=low, high=show(way[-1], unit)))
-    moves = said("{stroke}, {poses} poses in tables", stroke=", ".join(spans), poses=subject.count)
-    held = subject.words(dict(run.held))
+def title_rows(subject: ReportSubject, title_block: Mapping[str, str], mark: Mark, broken: str) -> tuple[tuple[str, str], ...]:
+    """Return the rows of the title block: what was calculated, of what inputs, when, by which version, and which rules are not kept."""
+    machine, cls = subject.machine, type(subject.machine)
+    seen: dict[str, tuple[float, ...]] = {}
+    for run in subject.runs:
+        for name, way in [*run.ways.items(), *((name, (value,)) for name, value in run.held.items())]:
+            seen[name] = (*seen.get(name, ()), *way)
     return (
         (said("Machine"), f"{machine.plan.heading} ({cls.__module__}:{cls.__qualname__})"),
-        (said("Run"), f"{moves}; {said('held: {held}', held=held)}" if held else moves),
+        (said("Run"), ". ".join(run_text(subject, run) for run in subject.runs)),
         (said("Judged over"), subject.domain),
         (said("Load cases"), ", ".join(map(subject.case_words, subject.judge.cases)) if has_loads(machine) else said("no loads")),
         (said("Verdicts"), mark.word),
+        *([(said("Not kept"), broken)] if broken else []),
         *title_block.items(),
-        (said("Inputs, SHA-256"), fingerprint(machine, seen)[:DIGITS]),
+        (said("Calculated on"), today()),
+        (said("Inputs, SHA-256"), fingerprint(machine, seen)),
         (said("Calculated with"), f"hydrolinkage {own_version()}".strip()),
     )
+
+
+def today() -> str:
+    """Return the date: that of SOURCE_DATE_EPOCH where it is set, as for builds that can be repeated."""
+    given = os.environ.get("SOURCE_DATE_EPOCH", "")
+    return (datetime.fromtimestamp(int(given), UTC) if given.isdecimal() else datetime.now()).date().isoformat()
+
+
+def run_text(subject: ReportSubject, run: Run) -> str:
+    """Return where a run goes, in words: `stacking: lift = 0 to 700 mm, 11 poses in tables; held: extend = 0 mm`."""
+    spans = []
+    for name, way in run.ways.items():
+        unit = stroke_display_unit(subject.machine.plan, name, "mm")
+        low = ", ".join(shown_number(value, unit) for value in way[:-1])
+        spans.append(said("{name} = {low} to {high}", name=name, low=low, high=show(way[-1], unit)))
+    moves, held = ", ".join(spans), subject.words(dict(run.held))
+    if run.is_curve:
+        moves = said("{stroke}, {poses} poses in tables", stroke=moves, poses=subject.count)
+    parts = [each for each in (moves, held and said("held: {held}", held=held)) if each]
+    return f"{run.title}: {'; '.join(parts)}" if run.title else "; ".join(parts)
 
 
 # What the machine itself judges.
@@ -312,13 +355,13 @@ JudgedRow: TypeAlias = tuple[str, "bool | None", Answer, "Column | None"]
 
 def limit_answers(subject: ReportSubject, limits: Mapping[str, Sequence[Any]]) -> list[JudgedRow]:
     """Return what the judge says of the limits of columns, by their headings; of those that it can be asked of."""
-    columns = curve_columns(subject)
-    asked = {}
+    columns = subject.columns_along(replace(subject.run, case=None), subject.curve)
+    asked, quantities = {}, subject.quantities(limits)
     for name, given in limits.items():
-        quantity, limit = subject.quantities.get(name), limit_of(given)
+        quantity, limit = quantities.get(name), limit_of(given)
         if quantity is not None:
             asked[name] = least(quantity) >= limit.value if limit.fails == "below" else most(quantity) <= limit.value
-    own = [name for name in asked if is_column(subject.quantities[name])]
+    own = [name for name in asked if is_column(quantities[name])]
     plain = [place.over for place in subject.judge.places if PLAIN_CASE in place.cases(subject.judge.acting)]
     answers = dict(zip(asked, subject.judge.answers([*asked.values()]), strict=True))
     if own and plain and len(plain) < len(subject.judge.places):  # a table's own column is under the machine's own loads
@@ -330,10 +373,10 @@ def limit_answers(subject: ReportSubject, limits: Mapping[str, Sequence[Any]]) -
 def worst_places(subject: ReportSubject, answers: Sequence[JudgedRow]) -> Iterator[TableBlock]:
     """Yield the table of the worst places of some rules, if there are any: those not kept first, then by how far the limit is used.
 
-    A limit that is kept and not used at all has no worst place.
+    A rule that is kept and says of no limit how far it is used has no worst place.
     """
     known = [each for each in answers if each[2].strokes and not np.isnan(each[2].value)]
-    near = [each for each in known if each[1] is False or not isinstance(each[2].question, Constraint) or used(each[2]) > 0.0]
+    near = [each for each in known if each[1] is False or 0.0 < used(each[2]) < np.inf]
     ranked = sorted(near, key=lambda each: (each[1] is not False, -used(each[2])))
     rows = []
     for rule, ok, each, column in ranked[:MOST_PLACES]:
@@ -348,7 +391,7 @@ def worst_places(subject: ReportSubject, answers: Sequence[JudgedRow]) -> Iterat
 def value_cell(subject: ReportSubject, answer: Answer, column: Column | None) -> str:
     """Return an answer's value with its unit, of a limit as its column has it; a dash where nothing says what it measures."""
     if column is not None:
-        return f"{amount_text(answer, column)} {unit_sign(column.unit)}".strip()
+        return f"{amount_text(subject, answer, column)} {unit_sign(column.unit)}".strip()
     measure = answer.question.left if isinstance(answer.question, Constraint) else answer.question
     kind, quantity = answer.measures or measure_of(subject.machine.plan, measure), getattr(measure, "quantity", None)
     if answer.unbounded:

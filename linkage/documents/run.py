@@ -1,10 +1,10 @@
-"""What a document looks at: one design, the judge of all that it runs, and the stroke along which its tables and curves go."""
+"""What a document looks at: one design, the judge of all that it runs, and the runs along which its tables and curves go."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import final
 
@@ -18,10 +18,10 @@ from ..mechanism import Mechanism, require_mechanism
 from ..motion import Column, Judge, Motion, Request, Tabled, speakers, stroke_display_unit
 from ..motion.measures import MeasuredQuantity
 from ..quantities import Quantity
-from ..reports import At, Run, column_requests, is_column, results, run_of
+from ..reports import At, Run, column_requests, is_column, results, runs_of
 from ..reports.results import asked_by_name
 from ..statics import PinForces, drive_force, pin_forces, pin_forces_under
-from ..units import show
+from ..units import UNITS, show
 from .sources import notes_of
 
 CURVE = 121
@@ -30,22 +30,34 @@ TRIED = 9
 """So many poses next to the middle are tried for one that has forces."""
 MANY = 2001
 """Rows of a table that one would still print."""
+FIGURES = 4
+COUNTED = ("force", "moment", "pressure")
+CLOSE = 1e-9
+"""Of the greatest value: columns that differ by no more are one curve."""
+
+
+def same_curve(one: Column, other: Column) -> bool:
+    """Return whether two columns measure the same and have the same values."""
+    kinds = {UNITS[each.unit][1] if each.unit else "" for each in (one, other)}
+    first, second = (np.asarray(each.values, float) for each in (one, other))
+    size = float(np.max(np.abs(first[np.isfinite(first)]), initial=0.0))
+    return len(kinds) == 1 and size > 0.0 and bool(np.allclose(first, second, rtol=CLOSE, atol=CLOSE * size, equal_nan=True))
 
 
 @final
 @dataclass(frozen=True, eq=False)
 class ReportSubject:
-    """A design, who answers questions over all that it runs, and one of its strokes along which it is shown, the others held."""
+    """A design, who answers questions over all that it runs, and the runs along which it is shown."""
 
     machine: Mechanism
-    run: Run
+    runs: tuple[Run, ...]
     count: int
     over: object
     judge: Judge
 
     @classmethod
     def at(cls, machine: Mechanism, at: At | Motion, count: int, over: object = None, acting: Acting | None = None) -> ReportSubject:
-        """Return what is reported; DefinitionError for a batch, a count that is none, an unknown case; AssemblyError out of reach."""
+        """Return the subject of a report; DefinitionError for a batch, a wrong count, an unknown case; AssemblyError out of reach."""
         require_mechanism(machine)
         title = machine.plan.title
         batch = [name for name, value in machine.dimensions.items() if np.ndim(value)]
@@ -54,7 +66,8 @@ class ReportSubject:
                 f"{title}: a report is of one design, and {batch[0]} has {np.size(machine[batch[0]])} values; choose one of them."
             )
         require_whole("count", count, f"the rows of the report's tables, 2 to {MANY}; give a whole number such as 11", least=2, most=MANY)
-        found = cls(machine, run_of(machine, at), count, over, machine.judge(over, acting).lost_allowed())
+        judge = machine.judge(over, acting).lost_allowed()
+        found = cls(machine, runs_of(machine, at, over, judge.acting), count, over, judge)
         found.judge.cases  # noqa: B018  refuses a load case that is unknown
         if not found.curve.reached.any():
             raise AssemblyError(f"{title}: no pose of this run can be assembled, so that there is nothing to report; see machine.at(...).")
@@ -66,29 +79,50 @@ class ReportSubject:
         return notes_of(type(self.machine))
 
     @cached_property
+    def run(self) -> Run:
+        """The run of the drawings: the first along which something moves, else the first."""
+        return next((run for run in self.runs if run.is_curve), self.runs[0])
+
+    @cached_property
+    def tables(self) -> list[tuple[Run, Motion]]:
+        """Each run with the poses of its table; NaN out of reach."""
+        return [(run, self.along(run, self.count)) for run in self.runs]
+
+    @cached_property
     def table(self) -> Motion:
-        """The poses of the tables; NaN out of reach."""
-        return self._over(self.count)
+        """The poses of all tables; NaN out of reach."""
+        if len(self.runs) == 1:
+            return self.tables[0][1]
+        poses = [{name: np.broadcast_to(each, motion.shape) for name, each in motion.strokes.items()} for _, motion in self.tables]
+        with unwarned():
+            return self.machine.at(unreachable="nan", **{name: np.concatenate([each[name] for each in poses]) for name in poses[0]})
+
+    @cached_property
+    def curves(self) -> list[tuple[Run, Motion]]:
+        """Each run along which something moves with the poses of its curves; NaN out of reach."""
+        return [(run, self.curve if run is self.run else self.along(run, CURVE)) for run in self.runs if run.is_curve]
 
     @cached_property
     def curve(self) -> Motion:
-        """The poses of the curves; NaN out of reach."""
-        return self._over(CURVE)
+        """The poses of the drawings, those of the curves of the first run; NaN out of reach."""
+        return self.along(self.run, CURVE)
 
-    def _over(self, count: int) -> Motion:
+    def along(self, run: Run, count: int) -> Motion:
+        """Return a run at so many poses, those apart as they are; NaN out of reach."""
         with unwarned():
-            return self.machine.at(unreachable="nan", **self.run.over(np.linspace(0.0, 1.0, count)))
+            return self.machine.at(unreachable="nan", **run.over(np.linspace(0.0, 1.0, count)))
 
     @property
     def stroke(self) -> str:
         """The stroke that moves, the first of several that run together: the one that derivatives are by."""
-        return next(iter(self.run.ways))
+        return self.run.stroke or next(iter(self.machine.strokes))
 
     @cached_property
     def pose(self) -> dict[str, float]:
         """The strokes of the pose whose numbers are filled in: the middle of the run, else the next that is reached and has forces."""
         reached = np.flatnonzero(self.curve.reached)
-        nearest = [self.strokes_at(self.curve, int(place)) for place in reached[np.argsort(np.abs(reached - CURVE // 2), kind="stable")]]
+        middle = self.curve.reached.size // 2
+        nearest = [self.strokes_at(self.curve, int(place)) for place in reached[np.argsort(np.abs(reached - middle), kind="stable")]]
         return next(filter(self.has_forces, nearest[:TRIED]), nearest[0])
 
     def has_forces(self, strokes: Mapping[str, float]) -> bool:
@@ -122,9 +156,54 @@ class ReportSubject:
 
     @cached_property
     def columns(self) -> list[Column]:
-        """The results at the poses of the curves."""
+        """The results at the poses of the drawings, under the machine's own loads."""
         with unwarned():
             return results(self.machine, self.curve)
+
+    def columns_along(self, run: Run, motion: Motion) -> dict[str, Column]:
+        """Return the columns of results and of members over a run, in its load case, by name."""
+        if motion is self.curve and run.case is None:
+            found, own = self.columns, self.member_columns
+        else:
+            found, own = [], []
+            with unwarned():
+                found = results(self.machine, motion, run.case)
+            for name, member in speakers(self.machine.plan, Tabled).items():
+                with unwarned(), suppress(LinkageError):
+                    own += [(name, column) for column in member.columns_in(motion, run.case, None)]
+        named = {column.name: column for column in found}
+        for name, column in own:
+            named.setdefault(f"{column.name} {name}", replace(column, name=f"{column.name} {name}"))
+        return {name: column for name, column in named.items() if name not in self.machine.strokes}
+
+    @property
+    def has_own_table(self) -> bool:
+        """Whether the machine makes its table itself, in its own order and digits."""
+        return type(self.machine)._owner("columns") is not Mechanism
+
+    def is_counted(self, column: Column) -> bool:
+        """Return whether a column is shown with FIGURES digits: a force, moment, pressure or reserve, not of the machine's own table."""
+        own = self.has_own_table and any(each.name == column.name for each in self.columns)
+        return not own and (column.name.startswith("reserve") if not column.unit else UNITS[column.unit][1] in COUNTED)
+
+    @cached_property
+    def table_columns(self) -> list[list[Column]]:
+        """The results at the poses of each table, in the load case of its run."""
+        with unwarned():
+            return [results(self.machine, motion, run.case) for run, motion in self.tables]
+
+    @cached_property
+    def doubles(self) -> dict[str, str]:
+        """The drives whose force is the thrust of one cylinder over all runs; nothing where the machine makes its table itself."""
+        found: dict[str, str] | None = {} if self.has_own_table else None
+        for table in self.table_columns:
+            columns = {column.name: column for column in table}
+            drives = [name for name in columns if name.startswith(("drive force", "torque"))]
+            thrusts = [name for name in columns if name.startswith("thrust")]
+            same = {drive: [each for each in thrusts if same_curve(columns[drive], columns[each])][:1] for drive in drives}
+            known = {drive: thrust for drive, each in same.items() for thrust in each}
+            found = known if found is None else {drive: thrust for drive, thrust in found.items() if known.get(drive) == thrust}
+        return found or {}
 
     @cached_property
     def member_columns(self) -> list[tuple[str, Column]]:
@@ -135,16 +214,15 @@ class ReportSubject:
                 found += [(name, asked_by_name(name, column)) for column in member.columns(self.curve)]
         return found
 
-    @cached_property
-    def quantities(self) -> dict[str, MeasuredQuantity]:
-        """What asks for the columns of results and of members anywhere, by their names; nothing for one that only the table gives."""
+    def quantities(self, names: Container[str]) -> dict[str, MeasuredQuantity]:
+        """Return what asks for some columns of results and of members anywhere, by name; nothing for one that only the table gives."""
         with unwarned():
-            own = column_requests(self.machine, self.curve, self.columns).items()
+            own = column_requests(self.machine, self.curve, self.columns, names).items()
             asked = {name: request for name, (_, request, why) in own if not (why and is_column(request))}
             kinds = str, Quantity, Request
             found: dict[str, MeasuredQuantity] = {name: request for name, request in asked.items() if isinstance(request, kinds)}
             for name, column in self.member_columns:
-                if isinstance(column.request, (str, Quantity, Request)):
+                if f"{column.name} {name}" in names and isinstance(column.request, (str, Quantity, Request)):
                     found.setdefault(f"{column.name} {name}", column.request)
         return found
 

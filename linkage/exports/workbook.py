@@ -20,8 +20,7 @@ from ..formulas.numbered import CONVENTION, DEFINITIONS, uses
 from ..language import heading_of
 from ..motion import stroke_display_unit, stroke_unit
 from ..pictures.load_chart import ChartText
-from ..pictures.strokes import column_among
-from ..reports import dimension_unit
+from ..reports import column_among, dimension_unit
 from ..study import WorkingField
 from ..study.working_field import OUT_OF_REACH
 from ..units import deg, factor, g0, shown_in

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from html import escape
 
+from ..language import with_decimals
 from .typeset import Arrowed, Box, BoxRow, Fenced, Fraction, Rooted, Script, Sign
 
 NOT_SPACED = "(),|[]{}′"
@@ -20,7 +21,7 @@ def mathml(box: Box) -> str:
             form = ' stretchy="false"' if text in NOT_SPACED else ""
             return f"<mo{form}>{escape(text)}</mo>"
         case Sign("number", text):
-            return f"<mn>{escape(text)}</mn>"
+            return f"<mn>{escape(with_decimals(text))}</mn>"
         case Sign(kind, text):  # a page sets words of several letters in italics
             form = ' class="w"' if kind == "word" else ' mathvariant="normal"' if kind == "name" and len(text) == 1 else ""
             return f"<mi{form}>{escape(text)}</mi>"

@@ -6,6 +6,7 @@ import re
 from collections.abc import Sequence
 from itertools import pairwise
 
+from ..language import with_decimals
 from .typeset import Arrowed, Box, BoxRow, Fenced, Fraction, Rooted, Script, Sign
 
 SPECIAL = re.compile(r"[!-/:-@\[-`{-~]")
@@ -25,6 +26,8 @@ def typst_math(box: Box) -> str:
             return f"word({typst_string(text)})"
         case Sign("name", text) if text != "°":
             return f"op({typst_string(text)})"
+        case Sign("number", text) if with_decimals(text) != text:
+            return typst_string(with_decimals(text))
         case Sign(_, text):
             return text if text in LITERAL or text[:1].isdigit() else escaped(text)
         case BoxRow(parts):

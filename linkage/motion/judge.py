@@ -65,6 +65,8 @@ COARSE = 5
 """Values of each stroke of a coarse grid."""
 MET = 1e-9
 """Of the size of its two sides: a condition that is missed by no more is kept, to rounding."""
+TIE = 1e-9
+"""Of their size: situations that are as bad to this share are a tie."""
 
 
 # Situations: which load cases and movements occur.
@@ -803,6 +805,10 @@ class Judge:
         known = [k for k, each in enumerate(candidates) if not np.isnan(margins[k])]
         place = min(known, key=lambda k: margins[k], default=0)
         worst, value, strokes, kept = candidates[place], np.nan, dict[str, float](), False
+        if known and np.isfinite(margins[place]):  # of a tie the place of the first: `Over`, case, extending before retracting
+            near = TIE * (abs(margins[place]) + abs(float(worst.value)))
+            first = next(k for k in known if margins[k] <= margins[place] + near)
+            worst = replace(candidates[first], value=worst.value)
         if known:
             value, strokes = float(worst.value), {name: float(each) for name, each in worst.strokes.items()}
             kept = bool(margins[place] >= 0.0)

@@ -11,7 +11,7 @@ import numpy as np
 from ..assembly import lost_at_sketch
 from ..errors import AssemblyError, DefinitionError
 from ..frozen import FrozenDict, refuses_changes
-from ..language import said, said_of
+from ..language import said, said_of, translated
 from ..plan import ArrayReading, Mask, Plan, failures, missing_words, opening
 from ..shown import Shown
 from ..steps import Step
@@ -259,12 +259,19 @@ def where_words(plan: Plan, mask: Mask, strokes: Mapping[str, Any]) -> str:
     poses = next(iter(strokes.values())).ndim if strokes else 0
     if mask.ndim > poses:
         designs = mask.reshape(*mask.shape[: mask.ndim - poses], -1)
-        return f"at {count} of {total} poses, in {int(designs.any(axis=-1).sum())} of {designs[..., 0].size} designs"
+        some, every = int(designs.any(axis=-1).sum()), designs[..., 0].size
+        return said("at {count} of {total} poses, in {some} of {every} designs", count=count, total=total, some=some, every=every)
     ends = {name: (float(np.min(value[mask])), float(np.max(value[mask])), stroke_unit(plan, name)) for name, value in strokes.items()}
-    spans = [f"{name} = {low:.4f}{f' to {high:.4f}' if low != high else ''} {unit}" for name, (low, high, unit) in ends.items()]
+    spans = []
+    for name, (low, high, unit) in ends.items():
+        text = f"{low:.4f}" if low == high else said("{low} to {high}", low=f"{low:.4f}", high=f"{high:.4f}")
+        spans.append(f"{name} = {text} {translated(unit)}")
+    place = ", ".join(spans)
     if total == 1:
-        return f"at {', '.join(spans)}" if spans else "anywhere"
-    return f"at {count} of {total} strokes, {'from ' if count > 1 else 'at '}{', '.join(spans)}"
+        return said("at {place}", place=place) if spans else said("anywhere")
+    if count > 1:
+        return said("at {count} of {total} strokes, from {place}", count=count, total=total, place=place)
+    return said("at {count} of {total} strokes, at {place}", count=count, total=total, place=place)
 
 
 # Strokes as they are read.

@@ -12,7 +12,7 @@ from ..checks import require
 from ..errors import DefinitionError, cited, known_name, unknown
 from ..frozen import FrozenDict
 from ..language import said
-from ..loads import PLAIN_CASE, LoadCase
+from ..loads import PLAIN_CASE, Case, LoadCase
 from ..plan import Mask, Plan, require_kind
 from ..program import FloatArray
 from ..quantities import Member, PoseCondition, Quantity, Stroke, is_number, keywords, name_of, needs, numbers_in, quantity, real
@@ -217,15 +217,34 @@ class Over(Member):
 @final
 @dataclass(frozen=True)
 class Run:
-    """The values that each moving stroke passes, as many each, and the values of those held [m or rad]."""
+    """The values that each moving stroke passes, as many each, and the values of those held [m or rad].
+
+    `title` names the `Over` that it is of, `case` is the load case in which it is shown, None the machine's own loads. `apart` are poses
+    with nothing between them. `worst` names the column at whose worst place strokes are held.
+    """
 
     ways: Mapping[str, tuple[float, ...]]
     held: Mapping[str, float]
+    title: str = ""
+    case: Case = None
+    apart: bool = False
+    worst: str = ""
 
     @property
     def stroke(self) -> str:
-        """The stroke that moves; of several the first."""
-        return next(iter(self.ways))
+        """The stroke that moves; of several the first, without any ""."""
+        return next(iter(self.ways), "")
+
+    @property
+    def is_curve(self) -> bool:
+        """Whether something moves along it; else it is poses."""
+        return bool(self.ways) and not self.apart
+
+    @property
+    def poses(self) -> dict[str, FloatArray]:
+        """All strokes at the values that are passed, shape (n,)."""
+        count = len(self.ways.get(self.stroke, (0.0,)))
+        return {name: np.broadcast_to(value, count) for name, value in {**self.held, **self.ways}.items()}
 
     @property
     def marks(self) -> FloatArray:
@@ -243,7 +262,12 @@ class Run:
         return {**self.held, **strokes}, {name: np.diff(way)[leg] for name, way in self.ways.items()}
 
     def over(self, shares: FloatArray) -> dict[str, Any]:
-        """Return all strokes at shares of the way, shape (n,), 0 to 1: what `at` takes; the values passed are among them."""
+        """Return all strokes at shares of the way, shape (n,), 0 to 1: what `at` takes; the values passed are among them.
+
+        Of poses apart these are the poses.
+        """
+        if not self.is_curve:
+            return dict(self.poses)
         passed = np.array(shares, float)
         for mark in self.marks[1:-1]:
             passed[np.argmin(np.abs(passed - mark))] = mark

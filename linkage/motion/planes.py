@@ -102,61 +102,68 @@ class Planes(HasVerdicts):
         return f"Planes({', '.join([*map(repr, self.planes), *width])})"
 
 
-def clearance() -> NodeRequest:
+def clearance(assumed: bool = False) -> NodeRequest:
     """Return the request for the least gap of all that lies in one plane [m], as the machine's `Planes` say: `least(clearance()) >= 0.02`.
 
     Below zero where two bodies cross, by the least way that parts them; of concave outlines, and bodies of several, of the two pieces that
-    cross deepest, so that the whole crosses by at least that. DefinitionError for a machine that declares no planes.
+    cross deepest, so that the whole crosses by at least that. DefinitionError for a machine that declares no planes, unless it is
+    `assumed` then that all bodies lie in one.
     """
 
     def nodes(plan: Plan) -> tuple[Node, ...]:
-        found = pairs_of(plan)
+        found = pairs_of(plan, assumed)
         if not found:
             raise DefinitionError(f"{plan.title}: clearance(): no two bodies lie in one plane that share no pin; ask gap(a, b) of two.")
-        width = plan.trace.value(width_of(plan))
+        width = plan.trace.value(width_of(plan, assumed))
         return (plan.trace.graph.node(least_number([gap_of(plan, a, b) - (width if thick else 0.0) for (a, b), thick in found.items()])),)
 
     def behind(plan: Plan) -> set[str]:
-        shapes = [shape_named(plan, name) for pair in pairs_of(plan) for name in pair]
-        return plan.reaches(*(name for shape in shapes for name in shape.parts_behind), width_of(plan))
+        shapes = [shape_named(plan, name) for pair in pairs_of(plan, assumed) for name in pair]
+        return plan.reaches(*(name for shape in shapes for name in shape.parts_behind), width_of(plan, assumed))
 
     return NodeRequest(
-        text="clearance()", sentence="the least gap of what lies in one plane", key=("clearance",), measures="length",
+        text="clearance()", sentence="the least gap of what lies in one plane", key=("clearance", assumed), measures="length",
         traits=Trait.MAY_FAIL, nodes_of=nodes, names_of=behind,
-        refused_by=lambda motion: check_forms(motion, {name for pair in pairs_of(motion.plan) for name in pair}),
+        refused_by=lambda motion: check_forms(motion, {name for pair in pairs_of(motion.plan, assumed) for name in pair}),
     )  # fmt: skip
 
 
-def planes_of(plan: Plan) -> Planes:
-    """Return the planes that a class declares; DefinitionError for none, and for several."""
+def planes_of(plan: Plan, assumed: bool = False) -> Planes | None:
+    """Return the planes that a class declares; DefinitionError for several, and for none unless one for all is `assumed`, None."""
     found = list(plan.of_kind(Planes).values())
+    if assumed and not found:
+        return None
     if len(found) != 1:
+        own = [*(body.name.replace(" ", "") for body in plan.links[1:]), "AB", "CD"]
         what = f"it declares {len(found)}" if found else "it does not say which bodies lie in one plane"
-        raise DefinitionError(f'{plan.title}: clearance(): {what}; declare one, planes = Planes("OBC AB", "CD EDF", width=60 * mm).')
+        raise DefinitionError(f'{plan.title}: clearance(): {what}; declare one, planes = Planes("{own[0]}", "{own[1]}", width=60 * mm).')
     return found[0]
 
 
-def width_of(plan: Plan) -> Quantity:
+def width_of(plan: Plan, assumed: bool = False) -> Quantity:
     """Return the sum of the half widths of two bars [m]."""
-    given = planes_of(plan)
+    given = planes_of(plan, assumed)
+    if given is None:
+        return quantity(0.0)
     return Variable(f"{given.name}.width") if given.width.is_constant else given.width
 
 
-def pairs_of(plan: Plan) -> dict[Pair, bool]:
+def pairs_of(plan: Plan, assumed: bool = False) -> dict[Pair, bool]:
     """Return what must stay apart, each pair with whether the width of bars counts: bodies of a common plane, and pins that pass it."""
-    declared = planes_of(plan)
+    declared = planes_of(plan, assumed)
+    listed = ("",) if declared is None else declared.planes
     bars = {joined_names(bar.P, bar.Q): frozenset((bar.P, bar.Q)) for bar in plan.cylinders}
     elements = {name: frozenset(element.ends) for name, element in plan.of_kind(TwoPoint).items()}
     alone = [name for name, ends in bars.items() if ends not in elements.values()]
     bodies = [*(body.name for body in plan.links[1:]), *alone, *elements]
     known = {id_of(plan, name): name for name in bodies}
     planes: dict[str, set[int]] = {name: set() for name in bodies}
-    for number, names in enumerate(declared.planes):
+    for number, names in enumerate(listed):
         for name in names.split():
             shape_named(plan, name)  # DefinitionError for an unknown body
             owner = known.get(id_of(plan, name), name)
             planes.setdefault(owner, set()).add(number)
-    everywhere = set(range(len(declared.planes)))
+    everywhere = set(range(len(listed)))
     lie = {name: numbers or everywhere for name, numbers in planes.items()}
     found: dict[Pair, bool] = {}
     for a, b in combinations(lie, 2):
@@ -214,10 +221,10 @@ def outlines_on(plan: Plan, points: tuple[str, ...]) -> list[str]:
     return [name for name in carried if body_points_of(plan, shape_named(plan, name)) <= home]
 
 
-def pair_at(motion: Motion) -> tuple[Pair, float]:
+def pair_at(motion: Motion, assumed: bool = False) -> tuple[Pair, float]:
     """Return the pair that comes nearest at a motion's first pose, and what of their gap the width of bars takes [m]."""
-    width = float(np.ravel(motion.value(width_of(motion.plan)))[0])
-    widths = {pair: width if thick else 0.0 for pair, thick in pairs_of(motion.plan).items()}
+    width = float(np.ravel(motion.value(width_of(motion.plan, assumed)))[0])
+    widths = {pair: width if thick else 0.0 for pair, thick in pairs_of(motion.plan, assumed).items()}
     gaps = {pair: float(np.ravel(motion[gap(*pair)])[0]) - taken for pair, taken in widths.items()}
     nearest = min(gaps, key=lambda pair: gaps[pair])
     return nearest, widths[nearest]

@@ -20,7 +20,7 @@ from ..motion.requests import NodeRequest
 from ..plan import Plan, opening, plan_measure, require_kind
 from ..program import FloatArray, Node
 from ..quantities import is_number, joined_names
-from ..reports import NOTHING, At, LiveColumn, column_requests, reached_motion, run_along, run_of
+from ..reports import NOTHING, At, LiveColumn, column_requests, is_changing, reached_motion, run_along, run_of
 from ..statics import AnyMotion, JointForce, LawRequest, TracedMotion, applied_loads, ground_loads, pin_force, pin_forces
 from ..units import SYSTEMS, UNITS, deg, display_unit, factor, shown_in, unit_system
 from .browser_file import MACHINE, START, PageData, page_part, page_text
@@ -30,7 +30,7 @@ from .labels import offsets
 from .layout import label_free, props
 from .poses import named_points
 from .scene import DrawnMark, Plate, Scene, SlideTrack
-from .strokes import ends_where_begun, is_changing, is_turn
+from .strokes import ends_where_begun, is_turn
 
 FONT = 14.0
 ACROSS = 720.0

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from math import ceil, sqrt
 from textwrap import wrap
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -15,16 +15,17 @@ from matplotlib.ticker import MaxNLocator
 from ..checks import require, require_type
 from ..errors import DefinitionError, cited, known_name
 from ..language import said, translated
+from ..loads import Acting
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, Request, RequestLike, columns_of
 from ..motion.measures import Constraint, Given, Leaf, Least, Most
 from ..program import FloatArray
 from ..quantities import Quantity, is_number
-from ..reports import At, results, run_of
+from ..reports import At, column_among, results, run_of, run_words, runs_of
 from ..units import factor, require_measure
 from . import style
 from .sheet import panels, quiet
-from .strokes import StrokeAxis, column_shown, frame_count
+from .strokes import StrokeAxis, frame_count
 
 PANEL = (4.6, 3.0)
 """The size of a panel with its share of the margins [inch]."""
@@ -35,36 +36,61 @@ LETTERS_AN_INCH = 8.0
 """How many letters of a heading an inch has room for."""
 
 
+Curve: TypeAlias = tuple[Motion, Column, str]
+"""A column over the stroke that a motion runs along, and what its panel says of where that is."""
+
+
 def plot_motion(motion: Motion, columns: Sequence[Column | RequestLike], limits: Mapping[str, Sequence[object]] | None) -> Figure:
     """Return a figure of columns over the stroke, a panel each; see `plot`."""
-    along, columns = StrokeAxis.of(motion), columns_named(motion, columns)
-    if limits is not None:
-        require_type("limits", limits, Mapping, "a limit for each column by its name is expected, dict(tilt=(0.1, 'max'))")
-    given = dict(limits or {})
-    shown = [column for column in columns if column.name not in motion.strokes]
-    for name in given:
-        known_name("Column", name, [column.name for column in columns], where="limits")
-    if not shown:
-        raise DefinitionError(f"{motion.plan.title}: there is no column to draw over {along.name}; name a result, not a stroke.")
-    figure, cells = panel_grid(len(shown), motion.plan.heading, along.held)
-    for ax, column in zip(cells, shown, strict=True):
-        panel(ax, motion, column, given.get(column.name))
-    return figure
+    along, found = StrokeAxis.of(motion), columns_named(motion, columns)
+    return plot_curves([(motion, column, "") for column in found], limits, along.held)
 
 
 def plot_machine(
     machine: Mechanism, columns: Sequence[Column | RequestLike], limits: Mapping[str, Sequence[object]] | None, at: At, count: int
 ) -> Figure:
-    """Return a figure of a machine's results over the run that `at` says, those it is about unless others are named."""
-    featured = machine.featured()
-    motion = machine.at(unreachable="nan", **run_of(machine, at).over(np.linspace(0.0, 1.0, frame_count(count))))
-    own = {column.name: column for column in results(machine, motion)}
-    shown = columns or [name for name in dict.fromkeys([column_shown(machine, motion, None).name, *featured.limits]) if name in own]
-    if isinstance(shown, (list, tuple)):
-        shown = [own.get(each, each) if isinstance(each, str) else each for each in shown]
-    names = [each.name if isinstance(each, Column) else str(each) for each in shown]
+    """Return a figure of a machine's results over its runs (`runs_of`), those it is about unless others are named."""
+    featured, poses = machine.featured(), frame_count(count)
+    runs = [run for run in runs_of(machine, at) if run.is_curve] or [run_of(machine, at)]
+    curves, held = list[Curve](), ""
+    for run in runs:
+        motion = machine.at(unreachable="nan", **run.over(np.linspace(0.0, 1.0, poses)))
+        own = {column.name: column for column in results(machine, motion, run.case)}
+        shown = columns or [
+            name for name in dict.fromkeys([column_among(machine, [*own.values()], None).name, *featured.limits]) if name in own
+        ]
+        if isinstance(shown, (list, tuple)):
+            shown = [own.get(each, each) if isinstance(each, str) else each for each in shown]
+            if len(runs) > 1 and any(isinstance(each, Column) for each in columns):
+                raise DefinitionError(f"{machine.plan.title}: a Column has values of one motion, and it runs {len(runs)} ways; name it.")
+            shown = [each.under(Acting(case=run.case), keep=True) if isinstance(each, Request) else each for each in shown]
+        held = StrokeAxis.of(motion).held
+        curves += [(motion, column, run_words(machine, run) if len(runs) > 1 else "") for column in columns_named(motion, shown)]
+    names = {column.name for _, column, _ in curves}
     own_limits = {name: limit for name, limit in featured.limits.items() if name in names}
-    return plot_motion(motion, shown, own_limits | dict(limits or {}))
+    return plot_curves(curves, own_limits | dict(limits or {}), held if len(runs) == 1 else "")
+
+
+def plot_curves(curves: Sequence[Curve], limits: Mapping[str, Sequence[object]] | None, held: str) -> Figure:
+    """Return a figure of curves, a panel each, with their limits; `held` are the strokes that are held along all of them."""
+    motion = curves[0][0] if curves else None
+    if limits is not None:
+        require_type("limits", limits, Mapping, "a limit for each column by its name is expected, dict(tilt=(0.1, 'max'))")
+    given = dict(limits or {})
+    for name in given:
+        known_name("Column", name, [*dict.fromkeys(column.name for _, column, _ in curves)], where="limits")
+    shown = [each for each in curves if each[1].name not in each[0].strokes]
+    if not shown or motion is None:
+        title, along = (motion.plan.title, StrokeAxis.of(motion).name) if motion is not None else ("", "")
+        raise DefinitionError(f"{title}: there is no column to draw over {along}; name a result, not a stroke.")
+    figure, cells = panel_grid(len(shown), motion.plan.heading, held)
+    for ax, (motion, column, where) in zip(cells, shown, strict=True):
+        panel(ax, motion, column, given.get(column.name))
+        if where:  # each of several runs has strokes of its own that are held
+            along = StrokeAxis.of(motion)
+            ax.set_title(typeset(f"{column.heading}, {where}"), loc="left", fontsize=style.TITLE, fontweight="bold", color=style.INK, pad=9)
+            ax.set_xlabel("; ".join(each for each in (along.heading, along.held) if each), fontsize=style.TEXT, color=style.MUTED)
+    return figure
 
 
 def columns_named(motion: Motion, columns: Sequence[Column | RequestLike]) -> list[Column]:

@@ -166,7 +166,8 @@ def plot(
 
     A column may go by its name: a named output, or a point's coordinate such as "G_y"; a request, `drive_force()`, is one under its own
     words. Of a machine the columns of its table of results have names too, those it is about are drawn where none is named, with their
-    limits (`Mechanism.featured`); it runs as in `animate`, `at=dict(tilt=0.1)`, at `count` poses. `limits` are, by the column's name,
+    limits (`Mechanism.featured`). It runs over all that it declares as `Over`s, each with panels of its own in a load case that occurs
+    there, else as in `animate`, `at=dict(tilt=0.1)`; at `count` poses. `limits` are, by the column's name,
     `(value [SI], text)` or `(value, text, "below")`: the line is drawn and the side that fails, above unless said, is shaded.
     Raises DefinitionError for a batch, a grid, or an unknown name.
 

@@ -54,7 +54,8 @@ def animate(
 ) -> Path:
     """Return the path of the animation it wrote: a .gif, an .mp4 (extra `video`) or an .html page that works offline.
 
-    The mechanism runs over its first stroke, there and back (a full turn goes round), at `count` poses; beside it the live
+    The mechanism runs over the first `Over` that it declares, else over its first stroke, there and back (a full turn goes round), at
+    `count` poses; beside it the live
     curve of a column of its results. `at=dict(tilt=0.1)` holds another stroke, `at=dict(S=(0.1, 0.2))` says where one runs [m or rad],
     and `at=dict(lift=(0.0, 0.6, 0.6), tilt=(0.1, 0.1, 0.0))` how several run together, from value to value; strokes not named are at
     mid-stroke. A motion along one path, `machine.sweep(101, over="digging")`, is played along that path. `trace` names points whose paths

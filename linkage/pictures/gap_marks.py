@@ -63,18 +63,25 @@ def body_pair(what: str, given: object, expected: str) -> tuple[str, str]:
     return str(pair[0]), str(pair[1])
 
 
+def own_bodies(plan: Plan) -> tuple[str, str]:
+    """Return the names of two moving bodies of a machine for an example; of one that has a single one the frame beside it."""
+    first, *others = [body.name for body in plan.links[1:]] or ["AB"]
+    return first, next(iter(others), "frame")
+
+
 def asked_pair(given: object, plan: Plan) -> tuple[str, str] | None:
     """Return the two bodies that `draw(clearance=...)` names, None for those that come nearest; DefinitionError for what is neither."""
     if given is True:
         return None
-    expected = 'say clearance=True for what the machine\'s Planes keep apart, or two bodies, clearance=("OBC", "MK")'
+    one, other = own_bodies(plan)
+    expected = f'say clearance=True for what the machine\'s Planes keep apart, or two bodies, clearance=("{one}", "{other}")'
     return body_pair(f"{plan.title}: clearance", given, expected)
 
 
 def gap_request(given: object, plan: Plan) -> Request:
-    """Return the request whose least value `draw(clearance=...)` is about."""
+    """Return the request whose least value `draw(clearance=...)` is about; without `Planes` all bodies are taken in one plane."""
     pair = asked_pair(given, plan)
-    return clearance() if pair is None else gap(*pair)
+    return clearance(assumed=True) if pair is None else gap(*pair)
 
 
 def worst_pose(motion: Motion, given: object, shown: int) -> int:
@@ -91,7 +98,7 @@ def gap_mark(at: Motion, given: object, place: str = "") -> GapMark:
     gap_request(given, at.plan).bound(at.plan)  # DefinitionError where no planes are declared
     pair, width = asked_pair(given, at.plan), 0.0
     if pair is None:
-        pair, width = pair_at(at)
+        pair, width = pair_at(at, assumed=True)
     found = nearest_places(at.plan, at._placed, *pair)
     size, names = found.gap - width, dict(one=pair[0], other=pair[1], gap=show(abs(found.gap - width), "mm", 3))
     if size < 0.0:

@@ -10,17 +10,16 @@ from typing import Any, final
 import numpy as np
 from matplotlib.axes import Axes
 
-from ..errors import DefinitionError, SingularError, unwarned
+from ..errors import SingularError, unwarned
 from ..language import said, translated
-from ..motion import Motion, rates_of, whole_body
+from ..motion import Motion, Planes, rates_of, whole_body
 from ..program import FloatArray
-from ..quantities import as_mapping
 from ..statics import loose_movements
 from ..units import factor, mm, show, shown_in
 from . import arrows, style
 from .arrows import ArrowLayer, VectorArrow, Wording
 from .force_arrows import ForceQuestion, force_layer, forces_at_pose, why_no_forces
-from .gap_marks import GapMark, body_pair, draw_gap, gap_mark, worst_pose
+from .gap_marks import GapMark, asked_pair, body_pair, draw_gap, gap_mark, own_bodies, worst_pose
 from .paper import footnote
 from .scene import Bounds
 from .sheet import figure_of, grown
@@ -81,7 +80,12 @@ class Overlays:
         if self.freedom:
             layers += loose_layers(one_pose(motion, pose))
             notes += [] if layers else [said("Nothing is loose: with the drives locked no body can move.")]
-        marks = pole_marks(motion, pose, self.pole, self.rates) if self.pole not in (None, False) else []
+        marks = []
+        if self.pole not in (None, False):
+            rates, words = pole_rates(motion, pose, self.rates)
+            marks, notes = pole_marks(motion, pose, self.pole, rates), [*notes, *words]
+        if self.has_gap and asked_pair(self.clearance, motion.plan) is None and not motion.plan.of_kind(Planes):
+            notes.append(said("No Planes are declared: all bodies are taken in one plane."))
         gaps = [gap_mark(one_pose(motion, pose), self.clearance)] if self.has_gap else []
         worst = self.worst(motion, pose)
         moving = [name for name, values in motion.strokes.items() if np.ptp(values) > 0.0]
@@ -91,9 +95,10 @@ class Overlays:
     def centrodes(self, ax: Axes, swept: Motion) -> None:
         """Draw the paths of the poles that are asked for over a motion."""
         if self.pole not in (None, False) and swept.reached.size > 2 and not any(map(np.ndim, (self.rates or {}).values())):
+            rates, _ = pole_rates(swept, swept.reached.size // 2, self.rates)
             for body, other in asked_poles(swept, self.pole):  # a thin line, where the sheet shows it
                 with unwarned():
-                    path = swept.pole(body, other, rates=self.rates).reshape(2, -1)
+                    path = swept.pole(body, other, rates=rates).reshape(2, -1)
                 path = np.where(np.isfinite(path), path, np.nan)
                 jumps = np.hypot(*np.diff(path)) > 3.0 * np.hypot(np.ptp(ax.get_xlim()), np.ptp(ax.get_ylim()))
                 path[:, 1:][:, jumps] = np.nan
@@ -157,8 +162,8 @@ class Overlay:
             scale = layer.scale(self.sheet)
             covered.append(np.repeat(arrows.draw_arrows(ax, layer, scale, size), arrows.ARROW, axis=0))
             texts += arrows.wordings(layer, scale, size)
-        for mark in self.marks:
-            texts += draw_pole(ax, mark, self.sheet)
+        for number, mark in enumerate(self.marks):
+            texts += draw_pole(ax, mark, self.sheet, "" if number else said("pole, about which a body turns here"))
             covered.append(np.repeat(mark.at[None], 12 * mark.is_near(self.sheet), axis=0))
         for gap in self.gaps:
             texts += draw_gap(ax, gap, size)
@@ -256,6 +261,24 @@ def pole_marks(motion: Motion, pose: int, asked: object, rates: Mapping[str, Any
     return found
 
 
+def pole_rates(motion: Motion, pose: int, rates: Mapping[str, Any] | None) -> tuple[Mapping[str, Any] | None, list[str]]:
+    """Return the rates at which poles are told, and what they are in words where they are not given.
+
+    Of several strokes it is the one that runs along the motion, else the first; of several that run together their way at the pose.
+    """
+    if rates is not None or len(motion.strokes) < 2:
+        return rates, []
+    values = {name: np.broadcast_to(each, motion._stroke_shape).ravel() for name, each in motion.strokes.items()}
+    moving = [name for name, each in values.items() if np.ptp(each) > 0.0] or [next(iter(values))]
+    found = dict.fromkeys(values, 0.0)
+    for name in moving:
+        near = values[name][max(pose - 1, 0) : pose + 2]
+        found[name] = float(near[-1] - near[0]) if len(moving) > 1 else 1.0
+    if not any(found.values()):
+        found[moving[0]] = 1.0
+    return found, [said("Poles while {strokes} runs and the other strokes are held.", strokes=", ".join(moving))]
+
+
 def asked_poles(motion: Motion, asked: object) -> Iterator[tuple[str, str]]:
     """Yield the pairs of bodies whose poles are asked for: True means every body that no fixed pin holds."""
     if asked is True:
@@ -265,15 +288,13 @@ def asked_poles(motion: Motion, asked: object) -> Iterator[tuple[str, str]]:
     elif isinstance(asked, str):
         yield asked, "frame"
     else:
-        expected = 'a body, pole="EDF", two of them, pole=("EDF", "FKG"), or True is expected'
+        one, other = own_bodies(motion.plan)
+        expected = f'a body, pole="{one}", two of them, pole=("{one}", "{other}"), or True is expected'
         yield body_pair(f"{motion.plan.title}: pole", asked, expected)
 
 
 def mark_of(at: Motion, body: str, other: str, rates: Mapping[str, object] | None, ends: tuple[FloatArray, ...]) -> PoleMark:
     """Return one pole; where it is at infinity or everywhere, the words for that."""
-    if rates is None and len(at.strokes) > 1:
-        names = as_mapping(dict.fromkeys(at.strokes, "..."))
-        raise DefinitionError(f"{at.plan.title}: several strokes move its bodies; say how, velocities={names}.")
     place = at.pole(body, other, rates=rates)
     alone = other == "frame"
     name = said("pole of {body}", body=body) if alone else said("pole of {body} against {other}", body=body, other=other)
@@ -285,8 +306,8 @@ def mark_of(at: Motion, body: str, other: str, rates: Mapping[str, object] | Non
     return PoleMark(name, place, ends)
 
 
-def draw_pole(ax: Axes, mark: PoleMark, sheet: Bounds) -> list[Wording]:
-    """Draw a pole, with thin lines to its body's points, and return the name to write beside it."""
+def draw_pole(ax: Axes, mark: PoleMark, sheet: Bounds, key: str = "") -> list[Wording]:
+    """Draw a pole, with thin lines to its body's points, and return the name to write beside it; `key` is what the legend says of it."""
     if mark.words:
         return []
     ray: dict[str, Any] = {"color": POLE, "linewidth": style.THIN, "dashes": (7, 3, 1.5, 3), "zorder": 15.0, "gid": f"{mark.name} ray"}
@@ -295,7 +316,7 @@ def draw_pole(ax: Axes, mark: PoleMark, sheet: Bounds) -> list[Wording]:
     if not mark.is_near(sheet):
         return []
     ring: dict[str, Any] = {"marker": "o", "markersize": 8.5, "markerfacecolor": style.PAPER, "markeredgewidth": 1.6, "gid": mark.name}
-    ax.plot(*mark.at[:, None], markeredgecolor=POLE, zorder=17.0, **ring)
+    ax.plot(*mark.at[:, None], color=POLE, linestyle="none", markeredgecolor=POLE, zorder=17.0, label=key or None, **ring)
     ax.plot(*mark.at[:, None], marker="+", markersize=12.0, markeredgecolor=POLE, markeredgewidth=1.2, zorder=17.1)
     return [Wording(mark.name, mark.at, np.array([0.7, 0.7]), POLE, mark.name)]
 

@@ -12,8 +12,8 @@ from ..errors import LinkageError, unwarned
 from ..mechanism import Mechanism
 from ..motion import Motion
 from ..program import FloatArray
+from ..reports import column_among, is_changing, results
 from .scene import Scene
-from .strokes import column_shown, is_changing
 
 STEP, FINE = 10, 10
 """Degrees between the angles that are tried, and steps into which each is divided to find where something turns back."""
@@ -53,7 +53,7 @@ def faint_poses(machine: Mechanism, tried: Motion, bold: int) -> list[int]:
     found: list[int] = []
     try:
         with unwarned():
-            values = column_shown(machine, tried, None).drawn
+            values = column_among(machine, results(machine, tried), None).drawn
     except LinkageError:  # what the machine is about is not to be had
         values = np.zeros(1)
     ends = [int(np.nanargmin(values)), int(np.nanargmax(values))] if is_changing(values) else []

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
 from ..checks import require_whole
-from ..errors import DefinitionError, known_name
+from ..errors import DefinitionError
 from ..language import said, translated
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, check_any, last_holding, require_motion, stroke_display_unit
 from ..plan import Plan
 from ..program import FloatArray
-from ..reports import NOTHING, At, Run, reached_motion, results, run_of
+from ..reports import NOTHING, At, Run, column_among, reached_motion, results, run_of
 from ..units import factor, shown_in
 
 
@@ -147,10 +147,9 @@ class Playback:
 def playback(machine: Mechanism, count: int, column: str | None = None, *, at: At | Motion = NOTHING, eased: bool = True) -> Playback:
     """Return what is played over one stroke or several together, the others held: `count` poses, there and back.
 
-    `at` holds strokes at a value, or says which values those that move pass [m or rad]; without it the
-    first stroke runs over its range and the others are at mid-stroke. A full turn that ends where it began goes round, and so does a path
-    that ends where it began. Eased, the poses stand closer at the ends, so that even frames start and stop softly. Poses out of reach are
-    left out; raises AssemblyError where none is in reach.
+    `at` holds strokes at a value, or says which values those that move pass [m or rad]; without it that is `run_of`. A full
+    turn that ends where it began goes round, and so does a path that ends where it began. Eased, the poses stand closer at the
+    ends, so that even frames start and stop softly. Poses out of reach are left out; raises AssemblyError where none is in reach.
     """
     run = run_of(machine, at)
     turn = is_turn(machine, run)
@@ -159,7 +158,8 @@ def playback(machine: Mechanism, count: int, column: str | None = None, *, at: A
     motion = reached_motion(machine, values)
     turn = (turn or run.is_path) and bool(motion.reached.all()) and ends_where_begun(motion)
     there = [int(pose) for pose in np.flatnonzero(motion.reached)]
-    return Playback(motion, tuple(there if turn else there + there[-2:0:-1]), column_shown(machine, motion, column), turn)
+    shown = column_among(machine, results(machine, motion, run.case), column)
+    return Playback(motion, tuple(there if turn else there + there[-2:0:-1]), shown, turn)
 
 
 def is_turn(machine: Mechanism, run: Run) -> bool:
@@ -180,24 +180,3 @@ def ends_where_begun(motion: Motion) -> bool:
     """Return whether a motion ends where it began; a group may take two turns."""
     places = np.array([motion[name] for name in motion.plan.points])
     return not np.abs(places[..., -1] - places[..., 0]).max() > CLOSED * np.nanmax(np.ptp(places, axis=0))
-
-
-def is_changing(values: FloatArray) -> bool:
-    """Return whether values differ by more than rounding."""
-    finite = values[np.isfinite(values)]
-    return finite.size > 0 and bool(np.ptp(finite) > CLOSED * np.abs(finite).max())
-
-
-def column_shown(machine: Mechanism, motion: Motion, name: str | None) -> Column:
-    """Return a column of results by name; without one, what the machine is about if it changes, else the last that does."""
-    return column_among(machine, results(machine, motion), name)
-
-
-def column_among(machine: Mechanism, found: Sequence[Column], name: str | None) -> Column:
-    """Return a column of those that results gave, by name; without one, as `column_shown`."""
-    columns = {column.name: column for column in found if column.name not in machine.strokes}
-    if name is None and columns:
-        moving = [each for each, column in columns.items() if is_changing(column.drawn)]
-        about = machine.featured().column
-        return columns[about if about in moving else (moving or list(columns))[-1]]
-    return columns[known_name("Column", name, columns, where=machine.plan.title)]

@@ -2,22 +2,21 @@
 
 from ..star import declare_public
 from .live_columns import LiveColumn, column_requests, is_column
-from .ranges import (
+from .ranges import closely, ranges_below_zero, reached_span, spans_in_words
+from .results import column_among, force_columns, is_changing, is_loaded, results
+from .runs import (
     NOTHING,
     At,
     Run,
-    closely,
     first_stroke,
-    ranges_below_zero,
     reached_motion,
-    reached_span,
     run_along,
     run_of,
-    spans_in_words,
+    run_words,
+    runs_of,
     stroke_middles,
 )
-from .results import force_columns, is_loaded, results
-from .table import rich_tables, text_table, write_csv
+from .table import dagger_words, rich_tables, text_table, write_csv
 from .values import design_rows, dimension_unit, stroke_rows
 
 declare_public(globals())

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from functools import partial
 from typing import TypeAlias
 
@@ -39,10 +39,12 @@ def column_over(machine: Mechanism, place: int, name: str, motion: AnyMotion) ->
     return np.asarray(np.asarray(found[place].values)[()])[()]
 
 
-def column_requests(machine: Mechanism, motion: Motion, columns: Sequence[Column] | None = None) -> dict[str, LiveColumn]:
+def column_requests(
+    machine: Mechanism, motion: Motion, columns: Sequence[Column] | None = None, only: Container[str] | None = None
+) -> dict[str, LiveColumn]:
     """Return the columns of a motion of one design by their names: each, what asks for it, and why that does not give it, or "".
 
-    `columns` are its results, where they are known already.
+    `columns` are its results, where they are known already; `only` are the names of those that are wanted, by default all.
     """
     plan, names = machine.plan, Counter[str]()
     points: dict[str, RequestLike] = {f"{name}_{axis}": each(name) for name in plan.moving for axis, each in (("x", x), ("y", y))}
@@ -52,6 +54,8 @@ def column_requests(machine: Mechanism, motion: Motion, columns: Sequence[Column
     for place, column in enumerate(results(machine, motion) if columns is None else columns):
         names[column.name] += 1
         name = column.name if names[column.name] == 1 else f"{column.name} ({names[column.name]})"
+        if only is not None and name not in only:
+            continue
         formula, known = partial(column_over, machine, place, column.name), ("column", machine, place, column.name)
         own = LawRequest(formula=formula, text=f"the column {column.name}", known=known, column=column.name)
         for request in (plain.get(name), column.request, own):

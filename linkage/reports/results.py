@@ -3,23 +3,27 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Container, Iterator
+from collections.abc import Container, Iterator, Sequence
 from dataclasses import replace
 
-from ..errors import DefinitionError, cited
+import numpy as np
+
+from ..errors import DefinitionError, cited, known_name
 from ..files.callables import REQUESTS, request_function
 from ..language import noted
-from ..loads import Case, ForceElement
+from ..loads import Acting, Case, ForceElement
 from ..mechanism import Mechanism, require_mechanism
-from ..motion import Column, Motion, Tabled, columns_of, require_motion, speakers, stroke_unit
+from ..motion import Column, Motion, Request, Tabled, columns_of, require_motion, speakers, stroke_unit
+from ..program import FloatArray
 from ..statics import drive_force, driving_force, held_fault
 
 
-def results(machine: Mechanism, motion: Motion) -> list[Column]:
+def results(machine: Mechanism, motion: Motion, case: Case = None) -> list[Column]:
     """Return the columns of a machine; where it has no table of its own but loads, forces too, NaN at dead points.
 
     They are the generalised forces of its strokes, and what its members show: of a cylinder thrust, pressure and reserve. To a table
     of its own are added those of members that a variant of the machine declares. Of a machine that is not held there are places alone.
+    In a load case all are of that case but those of the machine's own table that do not say what asks for them.
     """
     require_mechanism(machine)
     require_motion(motion)
@@ -28,10 +32,41 @@ def results(machine: Mechanism, motion: Motion) -> list[Column]:
     if not is_held or not is_loaded(motion):
         return columns
     whole = motion.moved(motion.strokes)
+    if case is not None:
+        columns = [in_case(whole, column, case) for column in columns]
     taken = {column.name for column in columns}
     owner = type(machine)._owner("columns")
-    further = [*drive_columns(whole), *member_columns(whole)] if owner is Mechanism else member_columns(whole, beside=owner.plan.members)
-    return columns + [column for column in further if column.name not in taken]
+    is_own = owner is not Mechanism
+    further = member_columns(whole, case, beside=owner.plan.members if is_own else ())
+    return columns + [column for column in [*([] if is_own else drive_columns(whole, case)), *further] if column.name not in taken]
+
+
+def in_case(motion: Motion, column: Column, case: Case) -> Column:
+    """Return a column in a load case; as it is where nothing asks for it, or no load counts in it."""
+    if not isinstance(column.request, Request):
+        return column
+    own = column.request.under(Acting(case=case), keep=True)
+    return column if own is column.request else replace(column, values=motion[own])
+
+
+def column_among(machine: Mechanism, found: Sequence[Column], name: str | None) -> Column:
+    """Return a column of results by name; without one, what the machine is about if it changes, else the last that does."""
+    columns = {column.name: column for column in found if column.name not in machine.strokes}
+    if name is None and columns:
+        moving = [each for each, column in columns.items() if is_changing(column.drawn)]
+        about = machine.featured().column
+        return columns[about if about in moving else (moving or list(columns))[-1]]
+    return columns[known_name("Column", name, columns, where=machine.plan.title)]
+
+
+CONSTANT = 1e-6
+"""Of the greatest value: values that differ by no more stay as they are."""
+
+
+def is_changing(values: FloatArray) -> bool:
+    """Return whether values differ by more than rounding."""
+    finite = values[np.isfinite(values)]
+    return finite.size > 0 and bool(np.ptp(finite) > CONSTANT * np.abs(finite).max())
 
 
 def columns_by(machine: Mechanism, motion: Motion) -> list[Column]:

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..checks import require
 from ..errors import DefinitionError
+from ..language import said
 from ..motion import Column
 from ..program import FloatArray
 from ..quantities import is_whole
@@ -60,19 +61,36 @@ def column_blocks(columns: Sequence[Column], texts: Sequence[Sequence[str]], wid
     yield block
 
 
-def text_table(columns: Sequence[Column], width: int | None = None) -> Iterator[str]:
+def text_table(columns: Sequence[Column], width: int | None = None, outside: Sequence[bool] = ()) -> Iterator[str]:
     """Yield the lines of a table: headings with units, numbers right-aligned under them.
 
-    With a `width` [characters] a table that is too wide is cut into blocks, the first column repeated in each.
+    With a `width` [characters] a table that is too wide is cut into blocks, the first column repeated in each. A row `outside` what is
+    judged ends with a dagger.
     """
+    ends = ["", *dagger_ends(outside)]
     texts = [column_texts(column, values) for column, values in zip(columns, flat(columns), strict=True)]
     for number, block in enumerate(column_blocks(columns, texts, checked_width(width), len(GAP))):
         if number:
             yield ""
         listed = [(columns[index].heading, *texts[index]) for index in block]
         sizes = [max(map(len, each)) for each in listed]
-        for row in zip(*listed, strict=True):
-            yield GAP.join(cell.rjust(size) for cell, size in zip(row, sizes, strict=True))
+        for place, row in enumerate(zip(*listed, strict=True)):
+            line = GAP.join(cell.rjust(size) for cell, size in zip(row, sizes, strict=True))
+            yield line + ends[place] if place < len(ends) else line
+
+
+DAGGER = " †"
+"""What a row of a pose ends with that is not among those that are judged."""
+
+
+def dagger_ends(outside: Sequence[bool]) -> list[str]:
+    """Return how each row of a table ends, by whether it is outside what is judged."""
+    return [DAGGER if each else "" for each in outside]
+
+
+def dagger_words() -> str:
+    """Return what explains the daggers of a table, below it."""
+    return said("† This pose is not among those that are judged.")
 
 
 # Results as tables for a terminal.
@@ -80,19 +98,22 @@ def text_table(columns: Sequence[Column], width: int | None = None) -> Iterator[
 PADDING = 3  # characters that rich puts between the texts of two columns
 
 
-def rich_tables(columns: Sequence[Column], width: int | None = None) -> Iterator[Table]:
-    """Yield tables for rich's console; more than one where all columns do not fit `width` [characters]."""
+def rich_tables(columns: Sequence[Column], width: int | None = None, outside: Sequence[bool] = ()) -> Iterator[Table]:
+    """Yield tables for rich's console; more than one where all columns do not fit `width` [characters]. Daggers as in `text_table`."""
     from rich.box import SIMPLE_HEAD
     from rich.table import Table
 
     texts = [column_texts(column, values) for column, values in zip(columns, flat(columns), strict=True)]
+    ends = dagger_ends(outside) if any(outside) else []
     room = checked_width(width)
     for block in column_blocks(columns, texts, None if room is None else room + 1, PADDING):
         table = Table(box=SIMPLE_HEAD, header_style="bold", show_edge=False)
         for index in block:
             table.add_column(columns[index].heading, justify="right", no_wrap=True)
-        for row in zip(*(texts[index] for index in block), strict=True):
-            table.add_row(*row)
+        if ends:
+            table.add_column("")
+        for place, row in enumerate(zip(*(texts[index] for index in block), strict=True)):
+            table.add_row(*row, *(each.strip() for each in ends[place : place + 1]))
         yield table
 
 
@@ -105,20 +126,25 @@ FORMULA_STARTS = ("=", "+", "-", "@", "\t", "\r")
 """What a spreadsheet's formula begins with: an apostrophe goes before a heading that begins so."""
 
 
-def write_csv(columns: Sequence[Column], stream: TextIO, progress: Callable[[int, int], None] | None = None) -> None:
+def write_csv(
+    columns: Sequence[Column], stream: TextIO, progress: Callable[[int, int], None] | None = None, labels: Sequence[str] = ()
+) -> None:
     """Write columns as CSV: a header with units, one row a pose, full precision, an empty field for NaN.
 
-    Lines end with CR LF, so a file is to be opened with newline="". `progress(done, total)` hears of the rows written.
+    Lines end with CR LF, so a file is to be opened with newline="". `progress(done, total)` hears of the rows written. `labels` are the
+    first field of each row, under the heading `run`.
     """
     values = flat(columns)
     is_open = callable(getattr(stream, "write", None)) and not isinstance(stream, type)
     require(is_open, "", stream, 'is no open file; write into open("table.csv", "w", newline="")')
     total = len(values[0])
     writer = csv.writer(stream)
-    headings = [column.heading for column in columns]
+    headings = [*(["run"] if labels else []), *(column.heading for column in columns)]
     writer.writerow(f"'{each}" if each.startswith(FORMULA_STARTS) else each for each in headings)
     for start in range(0, total, CHUNK):
         rows = zip(*(each[start : start + CHUNK].tolist() for each in values), strict=True)
-        writer.writerows([["" if value != value else repr(value) for value in row] for row in rows])
+        led = [[label] for label in labels[start : start + CHUNK]] or [[]] * CHUNK
+        texts = (["" if value != value else repr(value) for value in row] for row in rows)
+        writer.writerows([*label, *row] for label, row in zip(led, texts, strict=False))
         if progress is not None:
             progress(min(start + CHUNK, total), total)

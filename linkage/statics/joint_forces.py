@@ -10,7 +10,7 @@ from typing import Unpack, final
 import numpy as np
 
 from ..errors import DefinitionError, SingularError, known_name, unknown
-from ..language import said
+from ..language import said, translated
 from ..loads import PLAIN_CASE, Acting, ActingKeywords, Load, Loads, situation_of, takes_situation
 from ..motion import Motion, require_motion, stroke_unit
 from ..motion.limits import where_words
@@ -336,13 +336,17 @@ def remarks_on(found: PoseForces) -> Iterator[str]:
         else:
             yield said("No load acts in the load case {case}: all forces there are zero.", case=applied.case)
     elif applied.at_rest:
-        yield f"{', '.join(applied.at_rest)}: at rest a damper gives nothing; give the speeds, rates=dict(S=0.05)."
+        names = ", ".join(applied.at_rest)
+        yield said("{names}: at rest a damper gives nothing; give the speeds, rates=dict(S=0.05).", names=names)
     for name, tension in found.tensions.items():
         slack = tension < 0.0
         if slack.any():
             where, push = where_words(poses.plan, slack, poses.motion.strokes), show(-float(np.nanmin(tension)), "N", 6)
-            what = f"there it would have to push, with up to {push}, and the constraint is not kept"
-            yield f"{name} goes slack {where}: {what}. Hang more weight on it, or take a rod."
+            yield said(
+                "{name} goes slack {where}: there it would have to push, with up to {push}, and the constraint is not kept. Hang more "
+                "weight on it, or take a rod.",
+                name=name, where=where, push=push,
+            )  # fmt: skip
     yield from tipping_words(require_motion(poses.motion), applied.acting)
 
 
@@ -355,11 +359,12 @@ def lift_off_words(found: PoseForces) -> Iterator[str]:
         push = (poses.flattened(force) * force_direction(contact, "n", poses)).sum(axis=0)
         mask = poses.mask(push < 0.0)
         if mask.any():
-            bodies = f"{structure.name(contact.on)} from {structure.name(contact.by)}"
-            yield (
-                f"{contact.owner} lifts off ({contact.kind}, {bodies}) {where_words(poses.plan, mask, poses.motion.strokes)}: there the "
-                f"contact would have to pull, with up to {show(-float(np.nanmin(push)), 'N', 6)}. Press it on with a spring or a weight."
-            )
+            yield said(
+                "{owner} lifts off ({kind}, {body} from {other}) {where}: there the contact would have to pull, with up to {pull}. Press "
+                "it on with a spring or a weight.",
+                owner=contact.owner, kind=translated(contact.kind), body=structure.name(contact.on), other=structure.name(contact.by),
+                where=where_words(poses.plan, mask, poses.motion.strokes), pull=show(-float(np.nanmin(push)), "N", 6),
+            )  # fmt: skip
 
 
 def self_locking_words(found: PoseForces) -> list[str]:
@@ -373,5 +378,9 @@ def self_locking_words(found: PoseForces) -> list[str]:
         mask = (free * rate < 0.0) & (found.drives[stroke] * rate > 0.0)
     if not mask.any():
         return []
-    why = f"friction holds the load, which would move {stroke} without it; the drive must help"
-    return [f"Self-locking while {applied.rates.direction} {where_words(motion.plan, mask, motion.strokes)}: {why}."]
+    return [
+        said(
+            "Self-locking while {direction} {where}: friction holds the load, which would move {stroke} without it; the drive must help.",
+            direction=translated(applied.rates.direction), where=where_words(motion.plan, mask, motion.strokes), stroke=stroke,
+        )
+    ]  # fmt: skip

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from math import pi
 from typing import Any, Protocol, TypeAlias, cast, final, overload, runtime_checkable
@@ -139,19 +139,25 @@ def judged_table(judge: Judge) -> tuple[PinLoad, ...]:
         there = joint_forces(pose, Acting(judge.acting.loads, judge.acting.case))
         joints = {joint_key(each): each for each in there.joints if each.has_force}
         answers = judge.answers([most(pin_force(point, on, by=by)) for point, on, by, _ in joints])
-        rows = [judged_row(judge, key, answer) for key, answer in zip(joints, answers, strict=True)]
+        known = dict[Hashable, PinForces]()
+        rows = [judged_row(judge, key, answer, known) for key, answer in zip(joints, answers, strict=True)]
     return tuple(row for row in rows if row is not None)
 
 
-def judged_row(judge: Judge, key: tuple[str, str, str, str], answer: Answer) -> PinLoad | None:
-    """Return a joint's row for what the judge answers, of a batch that of the design with the largest force; None without a value."""
+def judged_row(judge: Judge, key: tuple[str, str, str, str], answer: Answer, known: dict[Hashable, PinForces]) -> PinLoad | None:
+    """Return a joint's row for what the judge answers, of a batch that of the design with the largest force; None without a value.
+
+    `known` are the forces of places and situations that other joints have their largest forces at.
+    """
     value = np.asarray(answer.value)
     if np.isnan(value).all():
         return None
     number = int(np.argmax(np.where(np.isnan(value), -np.inf, value)))
     of_design, one = (judge.of_design(number), answer.of_design(number)) if value.ndim else (judge, answer)
-    acting = of_design.situation(one)
-    there = joint_forces(of_design.there(one), replace(acting, drive=acting.drive if acting.movement != FRICTIONLESS else None))
+    acting, where = of_design.situation(one), (number, *one.strokes.items(), one.case, one.direction, one.drive)
+    if where not in known:
+        known[where] = joint_forces(of_design.there(one), replace(acting, drive=acting.drive if acting.movement != FRICTIONLESS else None))
+    there = known[where]
     joint = next(each for each in there.joints if joint_key(each) == key)
     design = np.unravel_index(number, value.shape)
     row = pin_load(there, joint, float(one.value), (), design, dict(one.strokes))

@@ -192,7 +192,12 @@ def test_a_table_runs_along_the_machines_path(said, own):
     expected = np.degrees([[0.2, 0.0], [0.5, 0.0], [0.8, 0.0], [0.8, 0.5], [0.8, 1.0]])
     np.testing.assert_allclose(strokes_in(out), expected, atol=2e-6)
     assert said("table", "two.py", "--csv", "-", "--count", "5", "--over", "back")[1] == out
-    assert strokes_in(said("table", "two.py", "--csv", "-", "--count", "2")[1])[0] == (0.0, 57.29578)  # which of both is not said
+    rows = list(csv.reader(io.StringIO(said("table", "two.py", "--csv", "-", "--count", "3")[1])))
+    assert rows[0][:2] == ["run", "a, deg"] and [row[0] for row in rows[1:]] == ["over way"] * 3 + ["over back"] * 3
+    printed = said("table", "two.py", "--count", "3")[1]
+    assert printed.count("a, deg") == 2 and "over back: " in printed
+    dagger = said("table", "crane.py", "--at", "a=0.2,0.5", "--at", "b=0.0,0.9")[1].splitlines()
+    assert [line.endswith("†") for line in dagger[1:5]] == [False, True, False, True] and dagger[-1].startswith("† This pose")
     assert strokes_in(said("table", "crane.py", "--csv", "-", "--at", "a=0.3")[1])[0] == (17.188734, 0.0)
     code, _, complaint = said("table", "mower_lift", "--every", "100")
     assert code == 2 and "this step is longer than the stroke S; write its unit" in complaint

@@ -290,7 +290,7 @@ WRONG = {
     "no rates": (dict(velocities=0.05), "velocities=0.05: a value for each stroke is expected, such as velocities=dict(S=0.05)."),
     "another stroke's rate": (dict(velocities=dict(T=0.05)), "Stroke 'T' is unknown in ThreePointHitch"),
     "an unknown pole": (dict(pole="XY"), "Body 'XY' is unknown in ThreePointHitch"),
-    "three bodies": (dict(pole=("EDF", "FKG", "MK")), "pole=('EDF', 'FKG', 'MK'): a body, pole=\"EDF\""),
+    "three bodies": (dict(pole=("EDF", "FKG", "MK")), "pole=('EDF', 'FKG', 'MK'): a body, pole=\"CD\""),
     "one body twice": (dict(pole=("EDF", "E D")), "these are one body; name two."),
 }
 
@@ -477,10 +477,36 @@ def test_two_bodies_are_named_without_planes():
     assert any(word.endswith("between lift and CD") for word in words)
 
 
+def test_without_planes_all_bodies_are_in_one_and_the_picture_says_so():
+    motion = ThreePointHitch().sweep(5)
+    figure = draw(motion, pose=4, clearance=True)
+    texts = [text.get_text().replace("\n", " ") for text in figure.findobj(Text)]
+    assert any("No Planes are declared: all bodies are taken in one plane." in text for text in texts)
+    assert any(str(text.get_gid()).startswith("gap ") for text in figure.findobj(Text))
+
+
+class Folding(Mechanism):
+    """Two cranks, one on the other: two strokes."""
+
+    a, b = Stroke(0.0, 1.0), Stroke(0.2, 1.2)
+    O = Ground(0.0, 0.0)
+    A = Crank(O, OA=0.5, angle=a)
+    B = Crank(A, AB=0.4, angle=b)
+
+
+def test_poles_of_several_strokes_are_those_of_the_stroke_that_runs():
+    """While a turns and the direction of AB is held, AB moves without turning: its pole is at infinity."""
+    texts = " ".join(text.get_text().replace("\n", " ") for text in draw(Folding(), pole=True).findobj(Text))
+    assert "Poles while a runs and the other strokes are held." in texts and "at infinity" in texts
+    figure = draw(Folding(), dict(a=0.3, b=[0.2, 1.2]), pole="AB")
+    ring = next(line for line in figure.findobj(Line2D) if line.get_gid() == "pole of AB")
+    assert_allclose(np.ravel(ring.get_xydata()), 0.5 * np.array([np.cos(0.3), np.sin(0.3)]), atol=1e-12)
+    assert any("about which a body turns" in text.get_text() for text in figure.findobj(Text))
+
+
 @pytest.mark.parametrize(
     ("given", "words"),
     [
-        (True, "it does not say which bodies lie in one plane; declare one"),
         ("OBC", r"clearance='OBC': say clearance=True for what .*, or two bodies"),
         (("MK", "XY"), "Body 'XY' is unknown"),
     ],

@@ -1,0 +1,190 @@
+"""Where a machine is shown, one function for every reader: along what it declares as `Over`s, else along one stroke."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from ..checks import require_type
+from ..errors import DefinitionError, LinkageError, known_name, unwarned
+from ..language import said
+from ..loads import PLAIN, PLAIN_CASE, Acting, LoadCase
+from ..mechanism import Mechanism
+from ..motion import Judge, Motion, Request, Run, case_named, least, most, out_of_reach, require_motion
+from ..motion.judge import Domain
+from ..plan import require_kind
+from ..quantities import as_mapping, numbers_in
+from .results import column_among, results
+
+At: TypeAlias = Mapping[str, Any]
+NOTHING: At = MappingProxyType({})
+
+
+def runs_of(machine: Mechanism, at: At | Motion = NOTHING, over: object = None, acting: Acting | None = None) -> tuple[Run, ...]:
+    """Return where a machine is shown: what its pictures, tables, pages and reports go along.
+
+    Parameters
+    ----------
+    machine : Mechanism
+        The design.
+    at : mapping or Motion, optional
+        Values of strokes [m or rad]: one value holds a stroke, several are its run. Of a motion it is its own way.
+    over : Over, str or sequence, optional
+        Where it is judged instead of at the `Over`s that the machine declares.
+    acting : Acting, optional
+        The load case that is asked for.
+
+    Returns
+    -------
+    tuple of Run
+        One for each `Over`, in the first load case that occurs there, the machine's own loads where these do. Its path, its poses, the
+        stroke that runs in its box. Of a box in which several run it is the first of them, the others at the worst place of what the
+        machine is about. Where nothing is declared, or `at` says more, one run of the strokes that `at` gives two values or more, else of
+        the first that it does not hold, the others in their middle.
+
+    Raises
+    ------
+    DefinitionError
+        Nothing is left to move, strokes that run together do not pass as many values each, an unknown stroke, `Over` or load case.
+    """
+    one, title = first_stroke(machine), machine.plan.title
+    if isinstance(at, Motion):
+        return (run_along(at)[0],)
+    require_type(f"{title}: at", at, Mapping, f"values of strokes by name are expected, such as at={as_mapping({one: 0.1})}")
+    judge = None if at else machine.judge(over, acting)
+    declared = [place for place in judge.places if place.over.name or over is not None] if judge else []
+    asked = PLAIN if judge is None or judge.acting.case is None else judge.acting
+    name = "" if asked is PLAIN else case_named(machine.plan, asked.case) if not isinstance(asked.case, LoadCase) else asked.case.name
+    shown = [place for place in declared if not name or name in place.cases(PLAIN)] or declared
+    return tuple(run_over(machine, place, asked) for place in shown) or (one_run(machine, at),)
+
+
+def run_of(machine: Mechanism, at: At | Motion = NOTHING) -> Run:
+    """Return the first run of `runs_of` along which something moves, which one picture shows; of declared poses alone one stroke's."""
+    return next((run for run in runs_of(machine, at) if run.is_curve), None) or one_run(machine, NOTHING)
+
+
+def run_over(machine: Mechanism, place: Domain, acting: Acting) -> Run:
+    """Return the run over an `Over` of one design."""
+    cases, plan = place.cases(PLAIN), machine.plan
+    case = (None if PLAIN_CASE in cases else cases[0]) if acting.case is None else None if acting.case == PLAIN_CASE else acting.case
+    strokes = {name: np.ravel(value).tolist() for name, value in place.motion.strokes.items()}
+    running, worst = place.running, ""
+    if place.over.shape == "box" and running:
+        first, *others = running
+        ends = min(strokes[first]), max(strokes[first])
+        strokes[first] = ends if plan.strokes[first].start <= plan.strokes[first].end else ends[::-1]
+        running = (first,)
+        if others:
+            held = {name: 0.5 * (min(strokes[name]) + max(strokes[name])) for name in others}
+            worst, found = worst_place(machine, Run({first: ends}, {name: each[0] for name, each in strokes.items()} | held), place, acting)
+            strokes |= {name: [found.get(name, held[name])] for name in others}
+    ways = {name: tuple(strokes[name]) for name in running}
+    still = {name: values[0] for name, values in strokes.items() if name not in running}
+    return Run(ways, still, place.over.title, case, place.over.shape == "poses", worst)
+
+
+def run_words(machine: Mechanism, run: Run) -> str:
+    """Return which run it is and in which load case, in words: `over reaching, in the case far`; "" where there is nothing to say."""
+    case = machine.plan.of_kind(LoadCase).get(run.case, run.case) if isinstance(run.case, str) else run.case
+    parts = [said("over {over}", over=run.title)] if run.title else []
+    if case is not None:
+        parts.append(said("in the case {case}", case=case.label if isinstance(case, LoadCase) else case))
+    return ", ".join(parts)
+
+
+def worst_place(machine: Mechanism, middle: Run, place: Domain, acting: Acting) -> tuple[str, Mapping[str, float]]:
+    """Return the column that a machine is about, and the strokes of its worst place in a box; "" and no strokes where there is none.
+
+    Its worst side is that of its limit; of what may be without a limit, such as a reserve, the least; else the greatest.
+    """
+    with unwarned():
+        try:
+            motion = machine.at(unreachable="nan", **middle.divided(3))
+            column = column_among(machine, results(machine, motion), None)
+            limit = machine.featured().limits.get(column.name, ())
+            is_least = limit[2] == "below" if len(limit) > 2 else isinstance(column.request, Request) and column.request.may_be_unlimited
+            if column.request is None:
+                return "", {}
+            side = least(column.request) if is_least else most(column.request)
+            answer = machine.judge(place.over, acting).lost_allowed().answer(side)
+        except LinkageError:
+            return "", {}
+    return (column.name, answer.strokes) if np.all(np.isfinite([*answer.strokes.values()])) and answer.strokes else ("", {})
+
+
+def run_along(motion: Motion) -> tuple[Run, int]:
+    """Return what moves along a motion of one axis, through all its places, and the number from 0 of the first of them.
+
+    Of a sweep along an `Over.path` these are the places of the path. Of one that is not reached everywhere it is the longest part that is.
+    DefinitionError for a grid, a batch, fewer than two places.
+    """
+    title, shape = require_motion(motion).plan.title, motion.shape
+    if motion.is_swept and motion.over.shape == "path":
+        motion = Judge(motion.plan, motion.designs, [motion]).places[0].motion  # the places that its `Over` names
+    if len(shape) != 1 or motion._design_shape:
+        said = f"one design along one path is expected, and this motion is of shape {shape}"
+        raise DefinitionError(f"{title}: {said}; choose one path of it.")
+    ends = np.flatnonzero(np.diff(np.concatenate([[False], motion.reached, [False]])))
+    first, last = max(zip(ends[::2].tolist(), ends[1::2].tolist(), strict=True), key=lambda part: part[1] - part[0], default=(0, 0))
+    ways = {name: tuple(values[first:last].tolist()) for name, values in motion.strokes.items()}
+    moving = {name: way for name, way in ways.items() if len(set(way)) > 1}
+    if not moving:
+        raise DefinitionError(f"{title}: nothing moves along this motion; it has {last - first} places in reach.")
+    return Run(moving, {name: way[0] for name, way in ways.items() if name not in moving}), first
+
+
+def one_run(machine: Mechanism, at: At) -> Run:
+    """Return the run of the strokes that `at` gives two values or more, else of the first that it does not hold, over its range.
+
+    Several run together, in straight lines from value to value. Strokes that are not given are at mid-stroke.
+    """
+    one, title = first_stroke(machine), machine.plan.title
+    given = {name: stroke_way(machine, name, value) for name, value in at.items()}
+    ways = {name: given[name] for name in machine.strokes if len(given.get(name, ())) > 1}
+    free = [name for name in machine.strokes if name not in given]
+    if len({len(way) for way in ways.values()}) > 1:
+        said = " and ".join(f"{name} passes {len(way)} values" for name, way in ways.items())
+        raise DefinitionError(f"{title}: {said}; strokes that run together pass as many values each.")
+    if not (ways or free):
+        raise DefinitionError(f"{title}: every stroke is held, so that nothing moves; give {one} two values, its run.")
+    moving = ways or {free[0]: (machine.strokes[free[0]].start, machine.strokes[free[0]].end)}
+    held = stroke_middles(machine) | {name: values[0] for name, values in given.items()}
+    return Run(moving, {name: value for name, value in held.items() if name not in moving})
+
+
+def stroke_way(machine: Mechanism, name: str, value: object) -> tuple[float, ...]:
+    """Return what a stroke is given: one value, or those that it passes; DefinitionError for anything else."""
+    title = machine.plan.title
+    known_name("Stroke", name, machine.strokes, where=title)
+    require_kind(machine.plan, name, value, f"{title}: at: {name}")
+    values = tuple(np.ravel(numbers_in(value)).tolist())
+    if not values or (len(values) > 1 and len(set(values)) == 1) or not np.all(np.isfinite(values)):
+        said = "one number holds a stroke, two different ones are the ends of its run, more are passed one after the other"
+        raise DefinitionError(f"{title}: {name}={value!r}: {said}.")
+    return values
+
+
+def reached_motion(machine: Mechanism, strokes: At) -> Motion:
+    """Return a machine at strokes [m or rad], NaN where it cannot be assembled; AssemblyError where it cannot anywhere."""
+    motion = machine.at(unreachable="nan", **strokes)
+    if not motion.reached.any():
+        raise out_of_reach(motion)
+    return motion
+
+
+def first_stroke(machine: Mechanism) -> str:
+    """Return the first stroke; DefinitionError for a structure without one, and for anything but a mechanism."""
+    if not isinstance(machine, Mechanism):
+        raise DefinitionError(f"{machine!r:.60} is no mechanism; give a design such as Boom(), and its strokes by at=.")
+    if not machine.strokes:
+        raise DefinitionError(f"{machine.plan.title} has no stroke, so there is nothing to move; declare one, S = Stroke(0, 0.25).")
+    return next(iter(machine.strokes))
+
+
+def stroke_middles(machine: Mechanism) -> dict[str, float]:
+    """Return the middle of every stroke [m or rad]."""
+    return {name: 0.5 * (stroke.start + stroke.end) for name, stroke in machine.strokes.items()}

@@ -1,0 +1,178 @@
+"""What is shown is what is judged: no value of a table, a curve or a report lies outside what the judge finds over all that is run."""
+
+import csv
+import io
+import re
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from hydraulics import Cylinder, LiftCircuit, reserve
+from linkage import LEFT, Acting, Dyad, Featured, Ground, LoadCase, Mechanism, OnLink, Over, Stroke, Weight, least, most, plot
+from linkage.cli.entry import main
+from linkage.documents.content import TableBlock
+from linkage.documents.reporting import report_document
+from linkage.motion import Request
+from linkage.pictures.strokes import playback
+from linkage.reports import results, run_of, runs_of
+from linkage.units import UNITS, bar, deg, mm
+from mechanisms.at_work.front_loader import LoadedFrontLoader
+from tests.for_all import for_all
+from tests.shipped import AT_WORK, MACHINES
+
+
+class Lift(Mechanism):
+    """A boom OB on a cylinder AB, and on the boom's end an arm BD on a cylinder CD: two strokes, three load cases."""
+
+    S, T = Stroke(0.0, 0.25), Stroke(0.0, 0.20)
+    A, O = Ground(0.5, -0.3), Ground(0.0, 0.0)
+    B = Dyad(O, A, OB=0.9, AB=0.6 + S, side=LEFT)
+    C = OnLink(O, B, OC=0.5, BC=0.55, side=LEFT)
+    D = Dyad(B, C, BD=0.3, CD=0.55 + T, side=LEFT)
+    G = OnLink(B, D, BG=0.8, DBG=-120 * deg)
+    boom, arm = Cylinder(A, B, bore=50 * mm, rod=30 * mm, closed=0.6, stroke=0.25), Cylinder(C, D, bore=40 * mm, rod=25 * mm, works="both")
+    first, second = LiftCircuit(boom, pressure=180 * bar), LiftCircuit(arm, pressure=180 * bar)
+    load = Weight(G, mass=150.0)
+    heavy, empty = LoadCase("heavy", scale={"load": 1.6}), LoadCase("empty", scale={"load": 0.1})
+
+
+class OfPaths(Lift):
+    """Two paths, each with a load case of its own."""
+
+    out = Over.path(S=[0.05, 0.15, 0.20], T=[0.05, 0.05, 0.12], cases=["heavy"])
+    back = Over.path(S=[0.20, 0.05], T=0.08, cases=["empty"])
+    about = Featured("reserve boom", ["G"], {"reserve boom": (1.0, "too heavy", "below")})
+
+
+class OfABox(Lift):
+    """A box in which both strokes run."""
+
+    field = Over(S=(0.05, 0.20), T=(0.04, 0.15), cases=["heavy"])
+    about = Featured("reserve arm")
+
+
+class OfPoses(Lift):
+    """Poses with nothing between them, beside a path."""
+
+    stops = Over.poses(S=[0.05, 0.10, 0.20], T=[0.10, 0.05, 0.15], cases=["empty", "plain"])
+    going = Over.path(S=0.12, T=[0.05, 0.15], cases=["plain"])
+
+
+class OfATurningBox(Lift):
+    """A box of one stroke, and loads as they are declared."""
+
+    raising = Over(S=(0.04, 0.2), T=0.08)
+
+
+OWN = (OfPaths, OfABox, OfPoses, OfATurningBox)
+
+
+def declaring():
+    """Return the shipped machines that declare where they run, by name."""
+    found = {**MACHINES, **AT_WORK}
+    return {name: machine for name, machine in found.items() if machine.plan.of_kind(Over)}
+
+
+def judged_ends(machine):
+    """Return the least and the greatest value of what is asked of a machine, by the names of its columns [SI]."""
+    run = run_of(machine)
+    found = results(machine, machine.at(unreachable="nan", **run.divided(3)))
+    asked = {column.name: column.request for column in found if isinstance(column.request, Request)}
+    judge = machine.judge().lost_allowed()
+    lows, highs = judge.answers([*map(least, asked.values())]), judge.answers([*map(most, asked.values())])
+    return {name: (float(low.value), float(high.value)) for name, low, high in zip(asked, lows, highs, strict=True)}
+
+
+def check_within(name, values, ends, digits=0.0):
+    """Check that values [SI] lie within what is judged, to rounding or to the digits that are printed."""
+    low, high = ends
+    finite = np.asarray(values, float)[np.isfinite(values)]
+    near = 1e-6 * np.max(np.abs(finite), initial=0.0) + digits
+    assert not finite.size or np.isnan(low) or finite.min() >= low - near, (name, finite.min(), low)
+    assert not finite.size or np.isnan(high) or finite.max() <= high + near, (name, finite.max(), high)
+
+
+@for_all("machine", [LoadedFrontLoader, *OWN], slow=lambda: [*declaring().values()])
+def test_every_column_of_every_run_lies_within_what_is_judged(machine):
+    design = machine()
+    ends, seen = judged_ends(design), 0
+    for run in runs_of(design):
+        motion = design.at(unreachable="nan", **run.over(np.linspace(0.0, 1.0, 41)))
+        columns = {column.name: column for column in results(design, motion, run.case)}
+        for name, span in ends.items():
+            if name in columns:
+                check_within(f"{machine.__name__}, {run}: {name}", columns[name].values, span)
+                seen += 1
+    assert seen >= len(ends) * len(runs_of(design)) * 0.9
+
+
+PRINTED = re.compile(r"[−-]?\d+(?:\.\d+)?")
+
+
+@for_all("machine", [OfPaths, OfABox, OfPoses], slow=[LoadedFrontLoader])
+def test_no_printed_value_of_a_report_lies_outside_what_is_judged(machine):
+    """The tables of a report, cell by cell, in the units that stand in their headings."""
+    ends, seen = judged_ends(machine()), 0
+    for block in (block for section in report_document(machine(), count=5).sections for block in section.blocks):
+        if isinstance(block, TableBlock) and block.caption.startswith("Results"):
+            for heading, cells in zip(block.headings, zip(*block.rows, strict=True), strict=True):
+                name, _, unit = heading.partition(", ")
+                if name in ends:
+                    by = UNITS[unit][0] if unit else 1.0
+                    values = np.array([float(cell.replace("−", "-")) if PRINTED.fullmatch(cell) else np.nan for cell in cells]) * by
+                    digits = 0.6 * 10.0 ** -len(cells[0].partition(".")[2]) * by
+                    check_within(f"{machine.__name__}, {block.caption}: {heading}", values, ends[name], digits)
+                    seen += 1
+    assert seen
+
+
+@pytest.mark.parametrize("machine", OWN)
+def test_a_table_of_the_command_and_a_plot_show_the_same_runs(machine, capsys, monkeypatch):
+    monkeypatch.setattr("linkage.cli.settings.find", lambda name: machine)
+    design, ends = machine(), judged_ends(machine())
+    assert main(["table", "ours", "--count", "5", "--csv", "-"]) == 0
+    rows = list(csv.DictReader(io.StringIO(capsys.readouterr().out)))
+    runs = runs_of(design)
+    assert len({row.get("run", "") for row in rows}) == len(runs)
+    for heading in rows[0]:
+        name, _, unit = heading.partition(", ")
+        if name in ends:
+            values = np.array([float(row[heading] or "nan") for row in rows]) * (UNITS[unit][0] if unit else 1.0)
+            check_within(f"{machine.__name__}: {heading}", values, ends[name])
+    figure = plot(design, ["reserve boom", "thrust arm"], count=21)
+    curves = [ax for ax in figure.axes if ax.lines]
+    assert len(curves) == 2 * sum(run.is_curve for run in runs)
+    for ax in curves:
+        name = "reserve boom" if ax.get_title(loc="left").startswith("reserve") else "thrust arm"
+        check_within(name, np.asarray(ax.lines[0].get_ydata()) * (1.0 if name == "reserve boom" else 1e3), ends[name])
+
+
+def test_a_run_is_asked_for_by_its_strokes_as_before():
+    assert [run.title for run in runs_of(OfPaths())] == ["out", "back"]
+    (asked,) = runs_of(OfPaths(), dict(S=(0.0, 0.25)))
+    assert (asked.ways, asked.held, asked.title, asked.case) == ({"S": (0.0, 0.25)}, {"T": 0.1}, "", None)
+    (undeclared,) = runs_of(Lift())
+    assert (undeclared.ways, undeclared.held, undeclared.title) == ({"S": (0.0, 0.25)}, {"T": 0.1}, "")
+
+
+def test_a_box_of_several_strokes_is_shown_at_its_worst_place():
+    """The others are held where the least reserve of all stands, found here on a grid."""
+    (run,) = runs_of(OfABox())
+    assert (list(run.ways), run.case, run.worst) == (["S"], "heavy", "reserve arm")
+    S, T = np.meshgrid(np.linspace(0.05, 0.20, 41), np.linspace(0.04, 0.15, 41), indexing="ij")
+    found = OfABox().at(S=S, T=T)[reserve("arm", case="heavy")]
+    assert_allclose(run.held["T"], T.ravel()[np.argmin(found)], atol=0.004)
+
+
+def test_an_animation_plays_the_first_run_and_poses_have_no_curve():
+    played = playback(OfPoses(), 11)
+    assert_allclose(played.motion.strokes["S"], 0.12)
+    stops, going = runs_of(OfPoses())
+    assert (stops.is_curve, going.is_curve) == (False, True)
+    assert_allclose(stops.over(np.linspace(0.0, 1.0, 50))["T"], [0.10, 0.05, 0.15])
+
+
+def test_a_load_case_that_is_asked_for_leaves_the_runs_in_which_it_occurs():
+    assert [run.title for run in runs_of(OfPaths(), acting=Acting(case="empty"))] == ["back"]
+    assert {run.case for run in runs_of(OfPaths(), acting=Acting(case="plain"))} == {None}

@@ -197,27 +197,32 @@ def write_columns(columns: Sequence[Column], path: Path, labels: Sequence[str] =
 def forces_command(options: Namespace) -> int:
     """Print what a machine's drives, cylinders and pins carry."""
     machine = settings.machine_of(options)
-    acting, motion = settings.acting_of(machine, options), settings.motion_at(machine, options)
+    acting, motions = settings.acting_of(machine, options), settings.motions_at(machine, options)
     over, plain = settings.judged_over(machine, options), settings.plain_value(acting)
-    if not is_loaded(motion):
+    if not is_loaded(motions[0][1]):
         what = f"{machine.plan.title} declares no load, so that there is no force; declare one, load = Weight(G, mass=100)"
         raise DefinitionError(f'{what}, or in a file: load = {{ Weight = "G", mass = 100 }}.')
-    pins = pins_of(motion, plain)
-    columns = [column for column in columns_of(motion) if column.name in motion.strokes]
-    if options.on is None:
-        columns += force_columns(motion, plain.case, plain.direction)
-        columns += joint_columns(pins) if options.poses else []
-    else:
-        forces = pins.on_body(options.on).items()
-        columns += [Column(f"{point}_{axis}", part, "kN", 3) for point, force in forces for axis, part in zip("xy", force, strict=True)]
-    if options.csv != "-":
-        signs = "Drive forces are positive the way the stroke grows, thrusts in a push."
-        print(f"{machine.plan.title}, {pins.case}, {pins.direction}. {signs}\n")
-    write_table(columns, motion.reached.size, options.csv)
+    tables, found, signs = list[Table](), list[PinForces](), "Drive forces are positive the way the stroke grows, thrusts in a push."
+    for run, motion in motions:
+        there = plain if run is None or options.case is not None else replace(plain, case=run.case)
+        pins = pins_of(motion, there)
+        columns = [column for column in columns_of(motion) if column.name in motion.strokes]
+        if options.on is None:
+            columns += force_columns(motion, there.case, there.direction)
+            columns += joint_columns(pins) if options.poses else []
+        else:
+            on_body = pins.on_body(options.on).items()
+            parts = [(f"{point}_{axis}", part) for point, force in on_body for axis, part in zip("xy", force, strict=True)]
+            columns += [Column(name, part, "kN", 3) for name, part in parts]
+        words = f"{run_words(machine, run)}: " if run is not None and len(motions) > 1 else ""
+        tables.append((f"{words}{machine.plan.title}, {pins.case}, {pins.direction}. {signs}", columns, ()))
+        found.append(pins)
+    write_tables(tables, options.csv)
     if options.csv == "-":
         return 0
     print(f"\n{worst_pins(machine, over, acting)}\n")
-    print(f"residual of equilibrium {pins.residual:.0e}", *pins.remarks, sep="\n")
+    remarks = dict.fromkeys(remark for pins in found for remark in pins.remarks)
+    print(f"residual of equilibrium {max(pins.residual for pins in found):.0e}", *remarks, sep="\n")
     return settings.print_verdicts(machine.verdicts(over=over), options) if options.check else 0
 
 

@@ -20,7 +20,7 @@ from ..motion import Column, Motion, columns_of
 from ..pictures.strokes import pose_words
 from ..plugins import Plugins
 from ..quantities import as_mapping
-from ..reports import NOTHING, first_stroke, reached_motion, results, run_of, stroke_middles, write_csv
+from ..reports import NOTHING, Run, first_stroke, one_run, reached_motion, results, runs_of, stroke_middles, write_csv
 from ..study import WorkingField
 from .calculation import Calculation
 from .drawing import DrawnPose, Part, dxf, path_parts, pose_parts, svg
@@ -83,6 +83,12 @@ class Exporter(ABC):
         return job.motion
 
 
+def sheet_run(job: ExportJob) -> Run:
+    """Return the run of a workbook: the machine's first, under its own loads, that goes from one value to another; else one stroke's."""
+    straight = [run for run in runs_of(job.machine, job.at) if run.is_curve and {*map(len, run.ways.values())} == {2} and run.case is None]
+    return straight[0] if straight else one_run(job.machine, job.at)
+
+
 @final
 class Workbook(Exporter):
     """Live formulas, worked out anew by whatever opens them."""
@@ -92,10 +98,10 @@ class Workbook(Exporter):
     of_machines = "a workbook follows its dimensions"
 
     def content(self, job: ExportJob) -> bytes:
-        return workbook(Calculation(job.machine, run_of(job.machine, job.at), job.count), job.name)
+        return workbook(Calculation(job.machine, sheet_run(job), job.count), job.name)
 
     def poses(self, job: ExportJob) -> Motion:
-        return job.machine.at(unreachable="nan", **run_of(job.machine, job.at).over(np.linspace(0.0, 1.0, job.count)))
+        return job.machine.at(unreachable="nan", **sheet_run(job).over(np.linspace(0.0, 1.0, job.count)))
 
 
 @final

@@ -262,7 +262,7 @@ def pole_marks(motion: Motion, pose: int, asked: object, rates: Mapping[str, Any
 
 
 def pole_rates(motion: Motion, pose: int, rates: Mapping[str, Any] | None) -> tuple[Mapping[str, Any] | None, list[str]]:
-    """Return the rates at which poles are told, and what they are in words where they are not given.
+    """Return the stroke rates for poles, and words for them where they are not given.
 
     Of several strokes it is the one that runs along the motion, else the first; of several that run together their way at the pose.
     """

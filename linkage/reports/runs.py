@@ -15,6 +15,7 @@ from ..loads import PLAIN, PLAIN_CASE, Acting, LoadCase
 from ..mechanism import Mechanism
 from ..motion import Judge, Motion, Request, Run, case_named, least, most, out_of_reach, require_motion
 from ..motion.judge import Domain
+from ..motion.requests import Trait
 from ..plan import require_kind
 from ..quantities import as_mapping, numbers_in
 from .results import column_among, results
@@ -105,10 +106,12 @@ def worst_place(machine: Mechanism, middle: Run, place: Domain, acting: Acting) 
         try:
             motion = machine.at(unreachable="nan", **middle.divided(3))
             column = column_among(machine, results(machine, motion), None)
-            limit = machine.featured().limits.get(column.name, ())
-            is_least = limit[2] == "below" if len(limit) > 2 else isinstance(column.request, Request) and column.request.may_be_unlimited
             if column.request is None:
                 return "", {}
+            limit = tuple(machine.featured().limits.get(column.name, ()))
+            is_least = isinstance(column.request, Request) and Trait.MAY_BE_UNLIMITED in column.request.traits
+            if limit:
+                is_least = limit[2:] == ("below",)
             side = least(column.request) if is_least else most(column.request)
             answer = machine.judge(place.over, acting).lost_allowed().answer(side)
         except LinkageError:

@@ -25,7 +25,7 @@ from linkage.language import said
 from linkage.loads import AT_REST, Acting, ForceElement, Glyph, Load, Parameter, Poses, Push, Rate, Rates, require_poses
 from linkage.loads.element import Formulas
 from linkage.loads.two_point import end_forces
-from linkage.motion import Answer, Judge, Motion, MotionFunction, least, most
+from linkage.motion import Answer, Judge, Motion, MotionFunction
 from linkage.program import is_traced
 from linkage.quantities import NamedMembers, Reference, label, name_of, quantity
 from linkage.statics import AnyMotion, held_in_case, plan_of, same, stroke_followed
@@ -35,7 +35,7 @@ from .accumulator import AccumulatorBlock, keeps_rule
 from .gas import Polytropic
 from .inputs import Array, all_finite, follows, in_pascals, number_set, one_design
 from .line import pressure_range
-from .member import Circuit, Feeds, Ram, as_in, chamber_area
+from .member import Circuit, Feeds, Ram, as_in, chamber_area, extremes
 from .shut import shut_verdicts
 from .standing import standing_pressure
 
@@ -97,7 +97,7 @@ class GasLine(Circuit):
             return self.pressure(motion)
 
         try:
-            low, high = judge.answers([each(MotionFunction(pressure, "pressure")) for each in (least, most)])
+            low, high = judge.answers(extremes(MotionFunction(pressure, "pressure")))
             block = self.accumulators(judge.motion)
         except DefinitionError as error:
             return [Verdict.refused("line", error), *shut]

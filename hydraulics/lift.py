@@ -26,7 +26,7 @@ from linkage.verdict import Verdict
 
 from .inputs import Array, check_pressures, not_negative, one_design, one_number
 from .line import LiftLine
-from .member import PISTON, SIDES, AllOf, Feeds, OnLines, Ram, as_in, carries_loads, judge_of, thrust_request
+from .member import PISTON, SIDES, AllOf, Feeds, OnLines, Ram, as_in, carries_loads, extremes, judge_of, thrust_request
 from .remedy import Sizes, can_be_set, show_enough, size_words, smallest
 from .requests import going_back_request, pressure_request, reserve_request
 from .shut import shut_verdicts
@@ -38,22 +38,21 @@ ENDLESS = 1e-4
 class PumpLine(LiftLine):
     """The base of lines that a pump holds, with what is asked and said of them."""
 
-    def lifting(self, judge: Judge, unit: str = "bar") -> list[LiftingCylinder]:
+    def lifting_cylinders(self, judge: Judge, unit: str = "bar") -> list[LiftingCylinder]:
         """Return its cylinders over all that a judge looks at."""
         return [LiftingCylinder(judge, self, ram, unit) for ram in self.rams(judge.motion)]
 
     def questions(self, judge: Judge) -> list[Question]:
         """Return what is asked of each of its cylinders: whether it carries anything, lifts, holds; nothing where nothing acts."""
-        return [question for each in self.lifting(judge) for question in each.questions()] if carries_loads(judge) else []
+        return [question for each in self.lifting_cylinders(judge) for question in each.questions()] if carries_loads(judge) else []
 
     def conditions(self, judge: Judge) -> Mapping[str, Condition]:
         """Return that each of its cylinders lifts, holds and goes back; none where nothing is lifted."""
-        cylinders = self.lifting(judge) if carries_loads(judge) else []
+        cylinders = self.lifting_cylinders(judge) if carries_loads(judge) else []
         if not cylinders or idle(cylinders) is not None:
             return {}
         found = [(rule, each.ram.name, one) for each in cylinders for rule, one in each.conditions().items()]
-        judged = [each for each in found if each[0] != "lowering" or not is_valved(self, judge)]
-        return {f"{rule} {name}" if len(cylinders) > 1 else rule: one for rule, name, one in judged}
+        return {f"{rule} {name}" if len(cylinders) > 1 else rule: one for rule, name, one in found}
 
     def load_limits(self, judge: Judge) -> Mapping[str, Condition]:
         return {}
@@ -156,7 +155,7 @@ def lift_verdicts(
 
 def line_verdicts(circuit: PumpLine, judge: Judge, resistance: float = 0.0, unit: str = "bar") -> list[Verdict]:
     """Return the verdicts on a circuit and each of its cylinders."""
-    cylinders = circuit.lifting(judge, unit)
+    cylinders = circuit.lifting_cylinders(judge, unit)
     unplaced = [each.ram.unplaced for each in cylinders if not each.ram.is_placed(judge)]
     if unplaced:
         return [Verdict("lifting", False, " ".join(unplaced))]
@@ -164,18 +163,12 @@ def line_verdicts(circuit: PumpLine, judge: Judge, resistance: float = 0.0, unit
     if nothing is not None:
         return [nothing, oil_verdict(circuit, judge)]
     several = len(cylinders) > 1
-    going_back = [] if is_valved(circuit, judge) else [each for each in cylinders if not each.goes_back_by_another]
     return [
         *(with_name(each.lifting(), each.ram, several) for each in cylinders),
         oil_verdict(circuit, judge),
         *(with_name(each.holding(), each.ram, several) for each in cylinders),
-        *(with_name(each.going_back(resistance), each.ram, several) for each in going_back),
+        *(with_name(each.going_back(resistance), each.ram, several) for each in cylinders if each.lowers_alone),
     ]
-
-
-def is_valved(circuit: LiftLine, judge: Judge) -> bool:
-    """Return whether a valve holds a line, over which the load goes down."""
-    return any(each.holds_line(circuit) for each in judge.plan.of_kind(OnLines).values())
 
 
 def with_name(verdict: Verdict, ram: Ram, several: bool) -> Verdict:
@@ -222,7 +215,7 @@ class LiftingCylinder:
     @property
     def thrusts(self) -> list[Question]:
         """Its least and its greatest thrust, as questions."""
-        return [least(thrust_request(self.ram, Acting())), most(thrust_request(self.ram, Acting()))]
+        return extremes(thrust_request(self.ram, Acting()))
 
     def back(self, way: str, resistance: float = 0.0, tells: str = "push") -> LawRequest:
         """Return what the other side must give while it goes back one way, or what the load alone makes."""
@@ -255,13 +248,19 @@ class LiftingCylinder:
         return {
             "lifting": least(reserve_request(*asked)) >= 1.0,
             "holding": AllOf((holding, pressed)) if self.ram.is_single_acting else holding,
-            **({} if self.goes_back_by_another else {"lowering": sinks.each[0] if len(back) == 1 else sinks}),
+            **({"lowering": sinks.each[0] if len(back) == 1 else sinks} if self.lowers_alone else {}),
         }
 
     @property
     def goes_back_by_another(self) -> bool:
         """Whether another held line has its other side, so that its pump drives it back, as is judged there."""
         return as_in(self.judge.plan, self.ram).side == "both" and self.ram.side != "both"
+
+    @property
+    def lowers_alone(self) -> bool:
+        """Whether it goes back by the load, on which there is a verdict here: over no valve that holds the line, and by no other pump."""
+        valved = any(each.holds_line(self.circuit) for each in self.judge.plan.of_kind(OnLines).values())
+        return not valved and not self.goes_back_by_another
 
     def show(self, pressure: Array | float) -> str:
         """Return a pressure in the unit of the sentences."""
@@ -445,8 +444,8 @@ class LiftingCylinder:
 def oil_verdict(circuit: LiftLine, judge: Judge) -> Verdict:
     """Return how much oil the machine takes over all that it runs, and how long the pump's flow needs for it."""
     rams = circuit.rams(judge.motion)
-    lengths = [distance(ram.A, ram.B) for ram in rams]
-    ends = [[np.asarray(each.value) for each in judge.answers([least(length), most(length)])] for length in lengths]
+    answers = [judge.answers(extremes(distance(ram.A, ram.B))) for ram in rams]
+    ends = [[np.asarray(each.value) for each in pair] for pair in answers]
     if np.isnan(ends).any():
         return Verdict("oil", None, said("nothing is left to judge: every place is unlimited, left out or lost"))
     oil = sum(one_design(ram.taken(judge.motion, *own)) for ram, own in zip(rams, ends, strict=True))

@@ -213,7 +213,6 @@ class LiftLine(Circuit):
 
     def supply(self, motion: Poses) -> Array:
         """Return the highest pressure that lifts [Pa]: the pump's, as far as the relief valve lets it; DefinitionError for none."""
-        require_poses(motion)
         pump = self._pressure_set(motion, "pressure")
         return np.minimum(pump, self._pressure_set(motion, "relief")) if self.relieves(motion.plan) else pump
 

@@ -14,6 +14,7 @@ from abc import abstractmethod
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial, reduce
+from operator import add
 from types import MappingProxyType
 from typing import Any, ClassVar, Literal, Self, TypeAlias, TypeVar, Unpack, cast, final
 
@@ -27,7 +28,7 @@ from linkage.loads import AT_REST, FRICTIONLESS, Acting, ActingKeywords, Case, F
 from linkage.loads.element import DIRECTIONS, UNBOUNDED, Declared, Formulas, Parameter, Poses, Push, Rates, Share, Tie, require_poses
 from linkage.loads.two_point import DrawnAs, TwoPoint
 from linkage.motion import Column, HasVerdicts, Judge, Motion, Question, Request, SmoothPiece, Tabled, greatest, lowest, require_motion
-from linkage.motion.measures import Condition, Constraint, at, least, most
+from linkage.motion.measures import Condition, Constraint, MeasuredQuantity, at, least, most
 from linkage.plan import Mask, Plan
 from linkage.quantities import (
     InnerQuantity,
@@ -225,7 +226,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         """Return the oil [m3] that it takes, with what it works with, from one length to a greater one [m]."""
         works = self.sized(motion).works
         sides = SIDES if works == "regenerative" else (ROD if works == "rod" else PISTON,)
-        return np.abs(reduce(np.add, [self.filled(side, motion, low, high) for side in sides]))
+        return np.asarray(np.abs(reduce(np.add, [self.filled(side, motion, low, high) for side in sides])))[()]
 
     def is_in_stage(self, motion: Poses, stage: int, direction: str | None = None) -> Any:
         """Return where a stage moves, by its number from 1, to broadcast against a motion; at a border as in a direction."""
@@ -345,8 +346,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
 
     def questions(self, judge: Judge) -> list[Question]:
         """Return its least and greatest length, and the utilisation of its rod."""
-        ends = distance(self.A, self.B)
-        return [least(ends), most(ends), *([most(buckling_request(self, Acting())) <= 1.0] if carries_loads(judge) else [])]
+        return [*extremes(distance(self.A, self.B)), *([most(buckling_request(self, Acting())) <= 1.0] if carries_loads(judge) else [])]
 
     def conditions(self, judge: Judge) -> Mapping[str, Condition]:
         """Return that it fits, where its stroke is declared, and that its rod does not buckle."""
@@ -419,7 +419,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         closed, stroke = (None if each is None else one_number(np.squeeze(each), "Length") for each in self.closed_and_stroke(judge.motion))
         if closed is None and stroke is None:
             return []
-        ends = judge.answers([least(distance(self.A, self.B)), most(distance(self.A, self.B))])
+        ends = judge.answers(extremes(distance(self.A, self.B)))
         low, high = (float(each.value) for each in ends)
         if np.isnan(low):
             return [Verdict("length", None, said("nothing is left to judge: every place is unlimited, left out or lost"), answer=ends[0])]
@@ -663,7 +663,7 @@ class Cylinder(BarrelAndRod, Ram):
         return self._square_written(side) * (end - start)
 
     def length_written(self, sides: Sequence[Side], start: Quantity, oil: Quantity) -> Quantity:
-        return start + oil / reduce(lambda a, b: a + b, map(self._square_written, sides))
+        return start + oil / reduce(add, map(self._square_written, sides))
 
     def _square_written(self, side: Side) -> Quantity:
         """Return the signed area of a chamber over that of a circle of diameter 1, as a quantity of its class."""
@@ -1183,7 +1183,6 @@ def by_other_lines(ram: Ram, line: Circuit | None, motion: AnyMotion, acting: Ac
 
 def line_thrust(ram: Ram, line: Circuit | None, motion: AnyMotion, acting: Acting, *, with_tanks: bool = True) -> Array:
     """Return what a line has to put on a cylinder [N]: what it carries without what its other lines do, those on tanks where asked for."""
-    motion = held_in_case(motion, acting)
     return member_thrust(motion, ram, acting) - by_other_lines(ram, line, motion, acting, None if with_tanks else False)
 
 
@@ -1250,6 +1249,11 @@ def carries_loads(judge: Judge) -> bool:
     """Return whether anything acts on a machine by itself."""
     motion = judge.motion
     return any(each.loads(motion) or each.pushes(motion, AT_REST) for _, each in elements_of(motion.plan, judge.acting.loads))
+
+
+def extremes(what: MeasuredQuantity) -> list[Question]:
+    """Return the least and the greatest value of something, as questions."""
+    return [least(what), most(what)]
 
 
 def judge_of(motion: Motion, what: str, acting: Acting | None = None, *, unreached: str = "") -> Judge:

@@ -16,6 +16,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial, reduce
 from math import pi
+from operator import add
 from types import MappingProxyType
 from typing import Any, ClassVar, TypeAlias, Unpack, cast, final
 
@@ -71,6 +72,7 @@ from .member import (
     by_other_lines,
     chamber_area,
     circuits_among,
+    extremes,
     in_class,
     is_named,
     lines_giving,
@@ -478,7 +480,7 @@ class OilLine(PumpLine, GasLine):
             if lost is not None:
                 raise DefinitionError(f"{self.name} = {self}: {ram.name} says no {lost}; declare it, or give lengths, filled=dict(...).")
             named = [each for name in wanted for each in ram.lengths_named(name)]
-            return reduce(lambda a, b: a + b, (Variable(each) if isinstance(each, str) else each for each in named))
+            return reduce(add, (Variable(each) if isinstance(each, str) else each for each in named))
         strokes = self.strokes_filled([*of_kind(members, Stroke)])
         return AtPose(Distance(ram.A, ram.B), FrozenDict(strokes), put_in_later(members))
 
@@ -503,8 +505,8 @@ class OilLine(PumpLine, GasLine):
             taken = taken - ram.filled_written(each.side, self.length_filled(ram, members), Distance(ram.A, ram.B))
         if len({ram.name for ram, _ in alike}) > 1:  # side by side on the same pins they share what comes
             areas = [(ram, ram.filled_written(each.side, Number(0.0), Number(1.0))) for ram, each in alike]
-            mine = reduce(lambda a, b: a + b, (area for ram, area in areas if ram is own))
-            taken = taken * (mine / reduce(lambda a, b: a + b, (area for _, area in areas)))
+            mine = reduce(add, (area for ram, area in areas if ram is own))
+            taken = taken * (mine / reduce(add, (area for _, area in areas)))
         sides = [each.side for ram, each in filling if ram.name == own.name]
         return LineLength(own.length_written(sides, self.length_filled(own, members), taken))
 
@@ -617,7 +619,7 @@ class OilLine(PumpLine, GasLine):
             return PumpLine.questions(self, judge)
         if self.kind_of_line != "closed":
             return []
-        return self._extremes(judge)
+        return extremes(self.pressure_request(judge.plan))
 
     def conditions(self, judge: Judge) -> Mapping[str, Condition]:
         if self.kind_of_line == "held":
@@ -647,7 +649,7 @@ class OilLine(PumpLine, GasLine):
         if self.kind_of_line != "closed":
             return shut
         try:
-            low, high = judge.answers(self._extremes(judge))
+            low, high = judge.answers(extremes(self.pressure_request(judge.plan)))
         except DefinitionError as error:
             return [Verdict.refused("line", error), *shut]
         says = pressure_range(replace(low, value=0.0) if abs(low.value) < EMPTY * abs(high.value) else low, high, "bar")
@@ -668,11 +670,6 @@ class OilLine(PumpLine, GasLine):
             formula=self.line_pressure, text=f"{self.name}.pressure", known=("line pressure", self.name), acting=Acting(),
             measures="pressure", mover=self.members(plan.members)[0].name or None,
         )  # fmt: skip
-
-    def _extremes(self, judge: Judge) -> list[Question]:
-        """Return its least and its greatest pressure as questions."""
-        request = self.pressure_request(judge.plan)
-        return [least(request), most(request)]
 
     def _relieved(self, judge: Judge) -> list[Verdict]:
         """Return the verdict that its relief valve opens, where it does."""

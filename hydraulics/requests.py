@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial, reduce
+from operator import add
 from types import MappingProxyType
 from typing import Any, TypeAlias, final
 
@@ -367,7 +368,7 @@ class Fits(Condition):
         ensure(strokes, f"{plan.title}: fits({name}): {name} says no stroke; declare it, Cylinder(..., closed=0.5, stroke=0.25).")
         if not closed:
             return (most(length) - least(length) <= strokes[0],)
-        opened = reduce(lambda a, b: a + b, [closed[0], *strokes])
+        opened = reduce(add, [closed[0], *strokes])
         return least(length) >= closed[0], most(length) <= opened, *(stroke <= closed[0] for stroke in strokes)
 
     def __str__(self) -> str:

@@ -10,7 +10,7 @@ import numpy as np
 from linkage.errors import DefinitionError
 from linkage.language import said
 from linkage.loads import Acting, LoadCase
-from linkage.motion import Judge, least, most
+from linkage.motion import Judge, most
 from linkage.plan import Plan
 from linkage.quantities import NamedMembers, of_kind
 from linkage.statics import AnyMotion, LawRequest, held_in_case, is_among, member_thrust, same
@@ -19,7 +19,7 @@ from linkage.verdict import Verdict
 
 from .inputs import Array, one_design
 from .line import LiftLine, pressure_range
-from .member import Circuit
+from .member import Circuit, extremes
 from .standing import CommonStroke, members_in, standing_pressure
 
 EMPTY = 1e-9
@@ -83,7 +83,7 @@ def shut_verdicts(line: Circuit, judge: Judge, unit: str = "bar") -> list[Verdic
     if not cases or (line.kind_open(plan.members) != "given" and pump is None):
         return []  # what it holds, or keeps, is told by its other verdicts
     try:
-        low, high = judge.answers([least(shut_request(line, False)), most(shut_request(line, False))])
+        low, high = judge.answers(extremes(shut_request(line, False)))
         pushed = None if pump is None else judge.answer(most(shut_request(line, True)))
     except DefinitionError as error:
         return [Verdict.refused("shut", error)]

@@ -20,6 +20,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import reduce
 from itertools import accumulate, pairwise
+from operator import add
 from types import MappingProxyType
 from typing import Any, ClassVar, cast, final
 
@@ -217,7 +218,7 @@ class Telescope(Ram):
     def filled_written(self, side: Side, start: Quantity, end: Quantity) -> Quantity:
         squares, ends = self._written()
         parts: list[Quantity] = [square * (in_part(end, ends, k) - in_part(start, ends, k)) for k, square in enumerate(squares)]
-        return reduce(lambda a, b: a + b, parts)
+        return reduce(add, parts)
 
     def length_written(self, sides: Sequence[Side], start: Quantity, oil: Quantity) -> Quantity:
         squares, ends = self._written()
@@ -225,7 +226,7 @@ class Telescope(Ram):
         rooms = [square * (high - low) for square, (low, high) in zip(squares, pairwise(ends), strict=True)]
         full = list(accumulate([quantity(0.0), *rooms]))
         out: list[Quantity] = [(in_part(held, full, k) - full[k]) / square for k, square in enumerate(squares)]
-        return reduce(lambda a, b: a + b, out, ends[0])
+        return reduce(add, out, ends[0])
 
     # -- its lengths -----------------------------------------------------------------------------------------
 

@@ -234,13 +234,13 @@ class LoadsAlone(ForceElement):
 # How strokes move at the poses: which way friction acts, and at what rates dampers work.
 
 
-def rates_in(motion: Motion, acting: Acting, drive: str | None = None) -> Rates:
+def rates_in(motion: AnyMotion, acting: Acting, drive: str | None = None) -> Rates:
     """Return how the strokes move in a situation; `drive` is the one that moves where several could and the situation names none.
 
     Along a path they move as the path's tangent goes. DefinitionError where nobody says which one moves, and for
     rates that go against the direction.
     """
-    require_motion(motion)
+    motion = require_motion(motion)
     direction, drive, sense = acting.movement, acting.drive if drive is None else drive, SENSES[acting.movement]
     if acting.rates is not None:
         given = rates_of("rates", acting.rates, motion)

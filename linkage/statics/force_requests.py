@@ -16,7 +16,7 @@ from ..loads import AT_REST, FRICTIONLESS, Acting, Case, Loads, TwoPoint, situat
 from ..motion import Judge, Motion, most, require_motion, stroke_unit
 from ..motion.requests import stroke_of
 from ..plan import Plan
-from ..program import FloatArray
+from ..program import FloatArray, Node
 from ..units import show
 from ..vectors import Scalar
 from ..verdict import Remark, Verdict
@@ -24,7 +24,7 @@ from .applied import applied_loads, plan_in_case
 from .holding import closed_ties, holders_of
 from .joint_forces import JointForce, PinForces, joint_forces, joint_on, joints_of
 from .joints import Contact, Structure
-from .law_requests import LawInPlan, LawRequest, TracedLaw, TracedMotion, eliminated_forces, law_in_plan, request_text, situation_identity
+from .law_requests import LawInPlan, LawRequest, TracedMotion, eliminated_forces, law_in_plan, once_in, request_text, situation_identity
 from .poses import AnyMotion, FlatPoses
 from .solution import Solution, assumed_joints, held_fault, held_in_case
 from .work import by_work, stroke_force, without_held
@@ -69,7 +69,7 @@ def drive_force(drive: str | None = None, loads: Loads = None, case: Case = None
     def look_up(request: LawRequest, motion: TracedMotion) -> LawInPlan:
         require_rest(request, motion.plan)
 
-        def trace(traced: TracedMotion) -> TracedLaw:
+        def trace(traced: TracedMotion) -> tuple[TracedMotion, Node]:
             return traced, traced.node(request.law(traced))
 
         return law_in_plan(motion, trace, f"the driving force of {stroke_of(motion.plan, drive, 'drive')}")
@@ -127,7 +127,7 @@ class JointPart:
         trace = partial(full.traced_part, request.situation, shared)
         return LawInPlan(("pin force", full, acts), every, every, trace, shared, f"{what} of the force at {joint}")
 
-    def traced_part(self, acting: Acting, shared: Hashable, motion: TracedMotion) -> TracedLaw:
+    def traced_part(self, acting: Acting, shared: Hashable, motion: TracedMotion) -> tuple[TracedMotion, Node]:
         """Return it on a program, on which all joint forces are traced once for all that are asked for: they are kept as `shared`."""
         kept = motion.plan.trace.kept
         if shared not in kept:  # at rest; the notes say that the joints hold what they are said to
@@ -185,10 +185,7 @@ def pin_force(
 
 def pin_forces_under(motion: Motion, acting: Acting) -> PinForces:
     """Return all joint forces of a motion in a situation, worked out once for all that ask for one of them."""
-    identity = situation_identity(acting)
-    if identity is None:
-        return joint_forces(motion, acting)
-    return motion._once(("pin forces", identity, acting.movement, acting.drive), lambda: joint_forces(motion, acting))
+    return once_in(motion, acting, "pin forces", partial(joint_forces, motion, acting))
 
 
 # What a member carries.

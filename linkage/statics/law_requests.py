@@ -496,6 +496,12 @@ def situation_identity(acting: Acting) -> Hashable:
     return None if acting.rates is not None or ... in parts else (loads is None, *parts)
 
 
+def once_in(motion: AnyMotion, acting: Acting, what: Hashable, make: Callable[[], Made]) -> Made:
+    """Return what several ask of a motion in one situation, made once; each time where its loads may change."""
+    identity = situation_identity(acting)
+    return make() if identity is None else motion._once((what, identity, acting.movement, acting.drive), make)
+
+
 def is_unchanging(thing: object) -> bool:
     """Return whether loads or a load case cannot change: members of a class, and frozen dataclasses."""
     if not isinstance(thing, (ForceElement, LoadCase)):

@@ -33,7 +33,7 @@ from ..verdict import Verdict
 from .applied import applied_loads, elements_of, rates_in
 from .holding import refused_where, where_negative
 from .joints import Wrench, frame_points
-from .law_requests import LawRequest, TracedMotion, request_text, situation_identity
+from .law_requests import LawRequest, TracedMotion, once_in, request_text
 from .poses import AnyMotion, FlatPoses, cross
 from .solution import Equilibrium, check_joints, held_in_case, locked_words, system_with_friction
 from .work import by_work
@@ -80,18 +80,15 @@ def standing(motion: Motion, loads: Loads = None, **situation: Unpack[ActingKeyw
 
 def standing_under(motion: AnyMotion, acting: Acting) -> Standing:
     """Return how a vehicle stands in a situation, worked out once for all that ask for one of its supports."""
-    identity, supports = situation_identity(acting), vehicle_of(motion.plan, acting)
-    if isinstance(motion, TracedMotion) or identity is None:
-        return standing_of(motion, acting, supports)
-    key = ("standing", identity, acting.movement, acting.drive)
-    return require_motion(motion)._once(key, lambda: standing_of(motion, acting, supports))
+    made = partial(standing_of, motion, acting, vehicle_of(motion.plan, acting))
+    return made() if isinstance(motion, TracedMotion) else once_in(motion, acting, "standing", made)
 
 
 def standing_of(motion: AnyMotion, acting: Acting, supports: Mapping[str, Support]) -> Standing:
     """Return how a vehicle stands on some supports over a motion's poses, as numbers of a program where it is traced."""
     motion = held_in_case(motion, acting)
     poses = FlatPoses(motion, "The axle loads", set())
-    applied = applied_loads(motion, acting, AT_REST if isinstance(motion, TracedMotion) else rates_in(require_motion(motion), acting))
+    applied = applied_loads(motion, acting, AT_REST if isinstance(motion, TracedMotion) else rates_in(motion, acting))
     first, right = next(iter(supports.values())), to_the_right(poses, supports)
     start, force, moment = poses.at(name_of(first.point)), poses.zeros(2).T, poses.zeros()
     for load in applied.loads:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from dataclasses import replace
+from functools import partial
 from typing import TypeVar, Unpack
 from weakref import ref
 
@@ -12,7 +13,7 @@ import numpy as np
 from ..checks import require_number
 from ..errors import DefinitionError, UntracedError
 from ..loads import Acting, ActingKeywords, Loads, TwoPoint, situation_of, takes_situation
-from ..loads.element import AT_REST, FRICTIONLESS, SENSES, ForceElement, Rate, Rates
+from ..loads.element import AT_REST, SENSES, ForceElement, Rate, Rates
 from ..motion import Motion, require_motion
 from ..motion.requests import stroke_of
 from ..plan import Mask
@@ -21,7 +22,7 @@ from ..quantities import needs
 from .applied import AppliedLoads, applied_elements, applied_loads, member_title, path_tangent, rates_in
 from .force_program import forces_at
 from .holding import Holders, Levers, PressureLine, holders_of, is_among, same, stroke_followed, where_negative, with_levers
-from .law_requests import TracedMotion, is_unchanging, situation_identity
+from .law_requests import TracedMotion, is_unchanging, once_in
 from .poses import AnyMotion, FlatPoses, plan_of
 from .solution import AGREES, LEAST, PoseForces, disagreeing, held_in_case, locked_words
 
@@ -149,11 +150,9 @@ def member_thrust(motion: AnyMotion, member: TwoPoint, acting: Acting) -> FloatA
     held = motion._of_the_whole(member) if isinstance(motion, Motion) else None
     if held is not None:
         return member_thrust(*held, acting)
-    identity = situation_identity(acting)
-    if not isinstance(motion, TracedMotion) or identity is None or not is_unchanging(member):
-        return member_thrust_on(motion, member, acting)
-    key = "thrust", ref(member), identity, acting.movement, acting.direction, acting.drive
-    return motion._once(key, lambda: member_thrust_on(motion, member, acting))
+    made = partial(member_thrust_on, motion, member, acting)
+    is_kept = isinstance(motion, TracedMotion) and is_unchanging(member)
+    return once_in(motion, acting, ("thrust", ref(member), acting.direction), made) if is_kept else made()
 
 
 def member_thrust_on(motion: AnyMotion, member: TwoPoint, acting: Acting) -> FloatArray:
@@ -208,8 +207,7 @@ def closed_force(motion: AnyMotion, element: ForceElement, acting: Acting) -> Fl
     line = next((each for each in holders.closed if each.tie is not None and each.tie.name == element.name), None)
     if line is None:
         return None
-    moves = acting.movement != FRICTIONLESS or acting.rates is not None
-    rates = rates_in(require_motion(motion), acting) if moves else AT_REST
+    rates = rates_in(motion, acting)
     applied = kept(motion, acting, rates, "applied", lambda: applied_on(motion, acting, rates))
     what = f"The force of {element.name}"
     found = with_friction(motion, applied, acting, what)
@@ -260,8 +258,7 @@ def frictionless(
 
 def kept(motion: AnyMotion, acting: Acting, rates: Rates, what: Hashable, make: Callable[[], Made]) -> Made:
     """Return what all cylinders ask of the same loads on a motion at rest, made once; each time for loads that may change."""
-    identity = situation_identity(acting) if rates is AT_REST else None
-    return make() if identity is None else motion._once(("held", what, identity, acting.movement, acting.drive), make)
+    return once_in(motion, acting, ("held", what), make) if rates is AT_REST else make()
 
 
 def applied_on(motion: AnyMotion, acting: Acting, rates: Rates) -> AppliedLoads:
@@ -289,9 +286,9 @@ def member_rates(motion: AnyMotion, member: TwoPoint, acting: Acting, line: Pres
     """Return how strokes move while a member grows or shrinks: along the path, else by the stroke it holds or follows most."""
     direction, sense, still = acting.movement, SENSES[acting.movement], replace(acting, direction=None, drive=None)
     if not sense:
-        return AT_REST if acting.rates is None else rates_in(require_motion(motion), still)
+        return rates_in(motion, still)
     if acting.rates is not None:
-        moves = rates_in(require_motion(motion), still)
+        moves = rates_in(motion, still)
         if np.any(sense * np.nan_to_num(member.growth(motion, moves)) < 0.0):
             what = f"{member.name or member}: direction={direction!r} is its own, and at these rates it goes the other way at some poses"
             raise DefinitionError(f"{motion.plan.title}: {what}; drop one of them.")

@@ -29,7 +29,7 @@ from linkage.plan import Mask, Plan
 from linkage.program import is_traced
 from linkage.quantities import NamedMembers, Reference, of_kind
 from linkage.statics import PROBE, AnyMotion, elements_of, held_in_case, member_limits, member_thrust, plan_of, pump_thrust, same
-from linkage.statics.carried import direction_at, is_steady, pull_direction, pulling
+from linkage.statics.carried import IDLE, direction_at, is_steady, pull_direction, pulling
 from linkage.units import show
 
 from .cylinder import RamSize
@@ -543,8 +543,6 @@ class LiftLine(Circuit):
         return Lowering(np.min(working, axis=0), np.max(needed, axis=0), np.asarray(np.max(pushes, axis=0) < 0.0))
 
 
-IDLE = 1e-12
-"""A ratio this small lifts nothing."""
 ROUNDS = 12
 """How often a capacity with friction is put right; each makes it better by the share of the friction."""
 

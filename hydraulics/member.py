@@ -846,20 +846,20 @@ def buckling_request(cylinder: str | Ram, acting: Acting, *, below: bool = False
         return ("extending",) if any(each.loses_out(ram, plan) for each in circuits_among(plan.members)) else None
 
     def pieces(request: LawRequest, plan: Plan) -> tuple[SmoothPiece, ...]:
-        return in_stages((SmoothPiece(request, below=buckling_request(cylinder, request.situation, below=True)),), cylinder, plan)
+        return in_stages(cylinder, plan, SmoothPiece(request, below=buckling_request(cylinder, request.situation, below=True)))
 
     found = cylinder_request("buckling", cylinder, acting, use, after=("below zero" if below else None,))
     return replace(found, pieces_in=pieces, directions=directions)
 
 
-def in_stages(pieces: Sequence[SmoothPiece], cylinder: str | Ram, plan: Plan) -> tuple[SmoothPiece, ...]:
+def in_stages(cylinder: str | Ram, plan: Plan, *pieces: SmoothPiece) -> tuple[SmoothPiece, ...]:
     """Return smooth pieces as one for each stage of a telescope that one of several strokes moves, with no value in the other stages.
 
     Along one stroke a jump from stage to stage is looked at from both sides as it is.
     """
     ram = cylinder_in(cylinder, plan)
     if ram.stages == 1 or len(plan.strokes) < 2:
-        return tuple(pieces)
+        return pieces
 
     def staged(request: LawRequest | None, stage: int) -> LawRequest | None:
         return None if request is None else in_stage(request, cylinder, stage)

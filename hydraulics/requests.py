@@ -168,11 +168,11 @@ def pressure_request(
         plan = plan_in_case(plan, request.situation)
         members = plan.members
         if not side and not is_needed and any(is_among(ram, each.feeds(members)) for each in circuits_among(members)):
-            return in_stages((SmoothPiece(request, ram.side),), cylinder, plan)
+            return in_stages(cylinder, plan, SmoothPiece(request, ram.side))
         own = circuit_having(ram, plan, False)
         if not (side or circuit) and own is not None and own.kind_in(members) == "closed":
-            return in_stages((SmoothPiece(request),), cylinder, plan)
-        return in_stages([SmoothPiece(on_side(each), each, below=on_side(each, below=True)) for each in sides], cylinder, plan)
+            return in_stages(cylinder, plan, SmoothPiece(request))
+        return in_stages(cylinder, plan, *(SmoothPiece(on_side(each), each, below=on_side(each, below=True)) for each in sides))
 
     kinds = " ".join(["needed"] * is_needed + ["below zero"] * below) or None
     options = (side and f"side={side}") or None, kinds
@@ -243,10 +243,10 @@ def reserve_request(cylinder: str | Ram, acting: Acting, circuit: Circuits = "",
     def pieces(request: LawRequest, plan: Plan) -> tuple[SmoothPiece, ...]:
         acting = request.situation
         if acting.direction not in cylinder_in(cylinder, plan).driven:
-            return whole_in_stages(cylinder, request, plan)
+            return in_stages(cylinder, plan, SmoothPiece(request))
         inverse = replace(circuit_request("use", cylinder, acting, circuit, use), cases_in=partial(moves_in, cylinder))
         judged = reserve_request(cylinder, acting, circuit, is_judged=True)
-        return in_stages((SmoothPiece(judged, DRIVING.get(acting.direction or "", ""), inverse),), cylinder, plan)
+        return in_stages(cylinder, plan, SmoothPiece(judged, DRIVING.get(acting.direction or "", ""), inverse))
 
     return replace(
         circuit_request("reserve", cylinder, acting, circuit, over_needed, after=("against the load" if is_judged else None,)),
@@ -272,13 +272,11 @@ def going_back_request(
         working, push, tank = way_back(ram, line, motion, acting, way, resistance, line.efficiency(motion, "mechanical"))
         return working if tells == "load" else push + tank if tells == "whole push" else push
 
+    def pieces(request: LawRequest, plan: Plan) -> tuple[SmoothPiece, ...]:
+        return in_stages(cylinder, plan, SmoothPiece(request))
+
     found = circuit_request("going back", cylinder, acting, circuit, over, after=(way, resistance, tells), measures="pressure")
-    return replace(found, directions=(way,), pieces_in=partial(whole_in_stages, cylinder), cases_in=partial(moves_in, cylinder))
-
-
-def whole_in_stages(cylinder: str | Ram, request: LawRequest, plan: Plan) -> tuple[SmoothPiece, ...]:
-    """Return a request that is smooth, as long as one stage of its cylinder moves, as its pieces."""
-    return in_stages((SmoothPiece(request),), cylinder, plan)
+    return replace(found, directions=(way,), pieces_in=pieces, cases_in=partial(moves_in, cylinder))
 
 
 # The capacity.
@@ -329,9 +327,9 @@ def capacity_request(
     def pieces(request: LawRequest, plan: Plan) -> tuple[SmoothPiece, ...]:
         count = len(member_limits(plan, request.situation.case))
         if not count:
-            return whole_in_stages(cylinder, request, plan)
+            return in_stages(cylinder, plan, SmoothPiece(request))
         alone = [capacity_request(cylinder, request.situation, circuit, point, along, share, number) for number in range(count + 1)]
-        return (*whole_in_stages(cylinder, alone[count], plan), *map(SmoothPiece, alone[:count]))
+        return (*in_stages(cylinder, plan, SmoothPiece(alone[count])), *map(SmoothPiece, alone[:count]))
 
     words = direction_words(along)
     options = None if words == "(0, 1)" else f"along={words}", None if share == 1.0 else f"share={share:g}"

@@ -74,7 +74,7 @@ def shut_request(line: Circuit, is_pushed: bool) -> LawRequest:
     )  # fmt: skip
 
 
-def shut_verdicts(line: Circuit, judge: Judge, unit: str = "bar") -> list[Verdict]:
+def shut_verdicts(line: Circuit, judge: Judge) -> list[Verdict]:
     """Return whether a line that a load case shuts keeps its oil there, and bears what a pump on the other side makes of it."""
     plan = judge.plan
     cases = [name for name in plan.of_kind(LoadCase) if shuts(line.name, False, plan, name)]
@@ -87,23 +87,23 @@ def shut_verdicts(line: Circuit, judge: Judge, unit: str = "bar") -> list[Verdic
         pushed = None if pump is None else judge.answer(most(shut_request(line, True)))
     except DefinitionError as error:
         return [Verdict.refused("shut", error)]
-    says = pressure_range(low, high, unit) if high.value > 0.0 or low.value < 0.0 else said("it holds no pressure")
+    says = pressure_range(low, high, "bar") if high.value > 0.0 or low.value < 0.0 else said("it holds no pressure")
     if low.value < -EMPTY * max(abs(float(high.value)), 1e5):
         text = said("{says}: below zero it runs empty there and does not hold; shut the other side as well.", says=says)
         return [Verdict("shut", False, text, answer=low)]
     worst = high if pushed is None else pushed
     if pump is not None and pushed is not None:
-        given = show(one_design(pump.supply(judge.motion)), unit, 4)
+        given = show(one_design(pump.supply(judge.motion)), "bar", 4)
         says += said(
             "; against the pump's {given} on the other side it is up to {pressure}, {where}",
-            given=given, pressure=show(pushed.value, unit, 4), where=pushed.place,
+            given=given, pressure=show(pushed.value, "bar", 4), where=pushed.place,
         )  # fmt: skip
     own = isinstance(line, LiftLine) and line.relieves(plan)
     bears = line if own else pump
     if not isinstance(bears, LiftLine):
         return [Verdict("shut", True, f"{says}.", answer=worst)]
     limit = one_design(bears.held(judge.motion))
-    by, bears_it = {"says": says, "limit": show(limit, unit, 4), "line": line.name}, float(worst.value) <= limit * (1.0 + EMPTY)
+    by, bears_it = {"says": says, "limit": show(limit, "bar", 4), "line": line.name}, float(worst.value) <= limit * (1.0 + EMPTY)
     if bears_it:
         text = said("{says}, below {limit}.", **by)
     elif own:

@@ -143,6 +143,13 @@ def test_holding_uses_the_side_the_load_presses_on():
     assert_allclose(held.other, [0.0, 30 * kN / size.back_area])
 
 
+def test_nothing_is_held_where_no_pose_is_reached():
+    """Neither side has a pressure there, the side that holds nothing included."""
+    held = circuit.holding(LIFT.at(S=np.array([0.1, 5.0]), unreachable="nan"))
+    assert held.working[0] > 0.0 == held.other[0]
+    assert np.isnan(held.working[1]) and np.isnan(held.other[1])
+
+
 def test_it_sinks_by_itself_where_the_load_beats_friction_and_the_return_line():
     motion, size = LIFT.sweep(3), Lift.lift.size
     limit = 5 * bar * size.area / 0.9

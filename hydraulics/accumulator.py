@@ -172,7 +172,7 @@ class AccumulatorBlock:
     """Accumulators on one line, any number and any charges; pressures are gauge [Pa].
 
     Below its charge an accumulator holds no fluid. `gas` is the law of all of them, `atmosphere` [Pa] what turns gauge
-    into absolute; `atmosphere=0` puts gauge pressures straight into the law, as Rekhlitski and Chuprynin (2013) do.
+    into absolute. `atmosphere=0` puts gauge pressures straight into the law, as Rekhlitski and Chuprynin (2013) do.
     Where a charge, a volume or the atmosphere follows dimensions, `sized(motion)` is the block with numbers.
     A vessel of volume 0 is absent. Sentences give pressures in `unit`; without it in that of the dimension that a charge
     follows, else in bar. DefinitionError without accumulators, for anything but a gas law,

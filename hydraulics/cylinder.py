@@ -379,8 +379,8 @@ def catalogue(
 ) -> list[CatalogueRow]:
     """Return the cylinders of all pairs of bore and rod, in all strokes, by bore, rod and stroke: rows that `optimise` varies.
 
-    Without `bores` and `rods` those of ISO 3320, without `strokes` those of ISO 4393 [m]; of the pairs the ones whose areas are in the
-    ratios of that standard. Where the system of units has inches they are those of NFPA T3.6.7, with strokes of whole inches. `dead` is
+    Without `bores` and `rods` those of ISO 3320, without `strokes` those of ISO 4393 [m]. Of the pairs it has those whose areas are in
+    the ratios of that standard. Where the system of units has inches they are those of NFPA T3.6.7, with strokes of whole inches. `dead` is
     what a cylinder is longer between its pins, drawn in, than its stroke: a length [m], or (length, factor) for length + factor x bore.
     DefinitionError if no row is left, for numbers that are not above zero, or that were given in millimetres.
     """

@@ -240,8 +240,8 @@ class FloatCircuit(GasLine):
     """A cylinder on a closed accumulator block: `FloatCircuit(lift, block, charge_pressure=94 * kgf_cm2, at=h_horizon)`.
 
     Several on one block, `FloatCircuit([left, right], block, ...)`, have one pressure. The line has `charge_pressure` [Pa gauge] where
-    the stroke that a cylinder follows is `at` [m], other strokes at the sketch;
-    `seal_friction` is what the seals take off that pressure [Pa]. `exponent` 1 is a slow movement, by the block's own gas law; above 1
+    the stroke that a cylinder follows is `at` [m], other strokes at the sketch.
+    `seal_friction` is what the seals take off that pressure [Pa]. `exponent` 1 is a slow movement, by the block's own gas law. Above 1
     the block has settled at the charge pressure and moves fast, by p V^exponent. `block` is an AccumulatorBlock, whose charges and volumes
     may follow dimensions, or a function of the motion that returns one. The cylinder works with one side, and has no other force than
     the gas's; what its stroke still needs is the drive's.

@@ -1,7 +1,7 @@
 """The user's numbers, looked at where they come in.
 
 A setting (a bore, a charge) is finite. A value over poses may be NaN inside an array, where it marks a pose that
-was not reached; a lone NaN is a mistake and refused like any other. A setting may follow the design: a dimension, an
+was not reached. A lone NaN is a mistake and refused like any other. A setting may follow the design: a dimension, an
 expression of dimensions or its name may replace a number.
 """
 

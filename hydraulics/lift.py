@@ -1,6 +1,6 @@
 """A pump that lifts by cylinders: its numbers, and what is said of it. Every pressure in this file is gauge [Pa].
 
-What is said is over all that a machine runs, in sentences: lifting, oil and time, holding, going back. One design at a time; each cylinder
+What is said is over all that a machine runs, in sentences: lifting, oil and time, holding, going back. One design at a time. Each cylinder
 is judged with all drives locked, by its own thrust, in every load case and in each of its own movements, on both of its sides. The judge
 looks between the poses, whatever their number.
 """
@@ -393,7 +393,7 @@ class LiftingCylinder:
     def going_back(self, resistance: float = 0.0) -> Verdict:
         """Return whether it goes back by itself against the resistance of the returning oil; where not, what the other side must give.
 
-        It goes back against its working direction; of one that works with both sides the way the load drives it, and both ways where
+        It goes back against its working direction. One that works with both sides goes the way the load drives it, and both ways where
         that changes its sense. The verdict is on the worse. Where the load then drives it on, as a lever past its top, the pump's pressure
         on the other side has to do it.
         """

@@ -4,7 +4,7 @@ What a cylinder carries is its own `thrust(motion)`, with the declared friction 
 what is not declared: the rod carries T / k_m where the load resists and T k_m where it drives, k_m the mechanical efficiency. The
 hydraulic efficiency k_h enters only the supply pressure: p = rod force / (area k_h). Holding takes no efficiency. Where nothing resists
 a capacity or a reserve is "not limited by this cylinder": NaN in an array, words in a verdict. Forces count in the working direction:
-the side that `works` pushes (or, rod side, pulls) with positive force; of "both" it is the side that the load asks for.
+the side that `works` pushes (or, rod side, pulls) with positive force. Of "both" it is the side that the load asks for.
 Source: worksheet of the mower lift; Dyuzhev, Kotov, Chuprynin (2008), (28), (29).
 """
 
@@ -130,7 +130,7 @@ def way_back(
 
     `way` is "extending" or "retracting", its own direction. Friction acts against it: the load brings T k_m where it drives and takes
     T / k_m where it resists. The first pressure is what the load alone makes in the side that empties, the second what the other side
-    must give beyond the third one, that of its tank; it is below zero where the load does it by itself.
+    must give beyond the third one, that of its tank. It is below zero where the load does it by itself.
     """
     acting, sense = replace(acting, direction=way, rates=None), -1.0 if way == "retracting" else 1.0
     size, drives = ram.sized(motion, way), -sense * line_thrust(ram, line, motion, acting, with_tanks=False) + 0.0
@@ -342,7 +342,7 @@ class LiftLine(Circuit):
     def bounds_of(self, cylinder: Reference, motion: Poses, lifting: bool, *, share: float = 1.0) -> tuple[Array, Array]:
         """Return between which two thrusts one of its cylinders lifts, at a `share` of the pump's pressure, or holds [N].
 
-        Lifting takes both efficiencies and the back pressure off, and the side that does not work gives nothing; holding takes none of
+        Lifting takes both efficiencies and the back pressure off, and the side that does not work gives nothing. Holding takes none of
         them, and both sides hold oil, each up to the relief valve's pressure.
         """
         proper_share(share)

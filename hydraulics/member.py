@@ -81,7 +81,7 @@ class Chamber:
 class Ram(TwoPoint, Tabled, HasVerdicts):
     """The base of what oil pushes between A and B: `count` equal ones side by side, that hold what the mechanism needs.
 
-    A subclass is a frozen dataclass with A, B, `count`, and `mounting` and `safety` for buckling; it says its areas, its lengths, the oil
+    A subclass is a frozen dataclass with A, B, `count`, and `mounting` and `safety` for buckling. It says its areas, its lengths, the oil
     that it takes, and what buckles. `piston_side` is its chamber, `length` the distance of its pins.
     """
 
@@ -269,7 +269,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         """Return what this cylinder carries, whatever drives the machine, shape (...) [N], positive where it pushes its ends apart.
 
         `loads` are the machine's own unless others are given. It is frictionless unless a `direction` is named: "extending" while this
-        cylinder grows; along a path of several strokes the senses of friction are those of the path. No efficiency is in it. Of one
+        cylinder grows. Along a path of several strokes the senses of friction are those of the path. No efficiency is in it. Of one
         that a FloatCircuit feeds it is the gas's force. DefinitionError where it holds nothing here; SingularError where its length
         stands still against its drive, and where friction locks the mechanism.
         """
@@ -565,7 +565,7 @@ class Cylinder(BarrelAndRod, Ram):
     """`count` equal cylinders side by side between A and B: `lift = Cylinder(A, B, bore=110 * mm, rod=60 * mm, count=2)`.
 
     In a class bore and rod [m] are the design variables `lift.bore` and `lift.rod`. `works` is the side the pressure acts
-    on: "piston" pushes, "rod" pulls, "both" does what the load asks for; not given it is the side that an OilLine names, else the
+    on: "piston" pushes, "rod" pulls, "both" does what the load asks for. By default it is the side that an OilLine names, else the
     piston. Its chambers are `lift.piston_side` and `lift.rod_side`, the distance of its pins is `lift.length`. `closed` is that distance
     drawn in, `stroke` how far it comes out [m], design variables as well where they are given; `mounting` and `safety` are for buckling.
     It holds what the mechanism needs, in the place of the drive of one stroke; one whose line gives its pressure has that force instead.

@@ -1,6 +1,6 @@
 """Pressures of lines whose oil stays: closed ones, and those that a load case shuts. Gauge pressures [Pa].
 
-What lines share cylinders hold them together: their pressures follow from the thrusts that the loads ask for, and where that leaves some
+What lines share cylinders hold them together. Their pressures follow from the thrusts that the loads ask for, and where that leaves some
 open, as of a cylinder with both sides shut, they are the least that balance.
 """
 

@@ -6,7 +6,7 @@
     ...
 
 The largest area comes out first and goes in last. The oil is the integral of the area over the length. At a border of two stages the
-next one moves while it extends, the one before while it retracts; at rest the smaller area counts, which asks for the higher pressure.
+next one moves while it extends, the one before while it retracts. At rest the smaller area counts, which asks for the higher pressure.
 
     >>> from linkage.units import kN, bar, mm
     >>> hoist = Telescope("A", "B", bores=[145 * mm, 125 * mm], strokes=[1.0, 0.9], closed=1.3)
@@ -301,7 +301,7 @@ class Telescope(Ram):
 
 
 def in_part(whole: Any, ends: Sequence[Any], stage: int) -> Any:
-    """Return a length, or an amount of oil, as far as it lies in a stage, by its number from 0; the outer stages have no outer ends."""
+    """Return a length, or an amount of oil, as far as it lies in a stage, by its number from 0. The outer stages have no outer ends."""
     above = whole if stage == 0 else np.maximum(whole, ends[stage])
     return above if stage == len(ends) - 2 else np.minimum(above, ends[stage + 1])
 

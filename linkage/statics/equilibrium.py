@@ -442,7 +442,7 @@ class JointFriction:
 
     @classmethod
     def of_unit(cls, contact: Contact, poses: FlatPoses) -> JointFriction:
-        """Return that of a joint whose size and sense come later: a couple of 1 Nm at a pin, or a force of 1 N along a guide."""
+        """Return that of a joint whose size and sense come later. It is a couple of 1 Nm at a pin, a force of 1 N along a guide."""
         none, turns = np.zeros((2, poses.count)), contact.kind == "pin"
         force = none if turns else force_direction(contact, "t", poses)
         return cls(UnitWrench(contact, Wrench(poses.at(contact.point), force, none[0] + float(turns))), none[0], none[0], none[0])

@@ -1,6 +1,6 @@
 """The equilibrium as a program: all joint forces of many poses from one kernel, friction included.
 
-The equations of equilibrium are written on the nodes of a program and eliminated once, as for a single pin force; what acts comes in as
+The equations of equilibrium are written on the nodes of a program and eliminated once, as for a single pin force. What acts comes in as
 inputs, so that every load case and direction asks the same kernel. Friction enters as one input a joint: its couple or its force along the
 guide. The joint forces are linear in these. A kernel of a few outputs adds up how much the frictions make each other grow. Where that is a
 contraction, a second kernel, of the forces that press the joints, runs until they stay. Elsewhere a third gives their derivatives, and the
@@ -52,7 +52,7 @@ class ForceProgram:
 
     `friction` are those of the forces that press joints with friction: the growth of their sums by all frictions, the forces, the forces
     with their derivatives by each friction. `rows` tell where a contact's force and couple stand among the outputs of the whole, -1 for
-    none; behind them come the drives' forces, the members' thrusts and the ropes' forces.
+    none. Behind them come the drives' forces, the members' thrusts and the ropes' forces.
     """
 
     friction: tuple[Kernel, Kernel, Kernel] | None

@@ -322,7 +322,7 @@ def stroke_followed(plan: Plan, member: TwoPoint) -> str:
 class Levers:
     """The work of each line's first cylinder, with what the others of its line add, on a unit of each stroke taken: (n, lines, strokes).
 
-    `sizes` are those of its parts, `shares` the thrusts of each line's cylinders over that of its first, (n,) each; of a tie, the work
+    `sizes` are those of its parts, `shares` the thrusts of each line's cylinders over that of its first, (n,) each. Of a tie they are the work
     and the thrusts at one unit of its force. `cuts` is the work of each line on a unit of what changes a closed one, `kept` the
     shares in the closed ones.
     """
@@ -440,7 +440,7 @@ def levers_of(poses: FlatPoses, holders: Holders, way: int) -> Levers:
 def areas(line: PressureLine, poses: FlatPoses, way: int) -> list[FloatArray]:
     """Return the thrust of each cylinder of a line at one unit of the line's pressure [m2], shape (n,).
 
-    Along the stroke that the line holds, some cylinders grow with the first and some against it: where the first one pushes
+    Along the stroke that the line holds, some cylinders grow with the first and some against it. Where the first one pushes
     (`way` 1), the others drive the stroke the same way. Of a tie it is what its shares say.
     """
     if line.tie is not None:

@@ -36,7 +36,7 @@ def pin_forces(
     """Return every joint force at every pose, by equilibrium of every body, in one solve over designs and strokes.
 
     `loads` are the machine's own unless others are given; `case` a LoadCase or its name. `direction` is "extending" (the stroke
-    grows), "retracting" or "frictionless"; with friction and several strokes `drive` says which one moves, along a path of several
+    grows), "retracting" or "frictionless". With friction and several strokes `drive` says which one moves, along a path of several
     they move as it goes. `rates`, such as `dict(S=0.05)` [1/s], are what dampers ask for; `acting` says all of these in one. Raises
     DefinitionError where a body hangs loose or a link is redundant (unless `split="least squares"`), SingularError at a singular pose
     and where friction leaves no bounded forces (unless the motion has `unreachable="nan"`).

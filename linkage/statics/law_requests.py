@@ -323,8 +323,8 @@ class LawRequest(Request):
 
     On a traced motion it gives one number of a program. Where `acting` is None it hangs on no situation, and is `formula(motion)`.
     `text` is what one writes, of the situation where it hangs on one; `known` tells the formula from others, whatever the situation:
-    None where it may change. `mover` is the cylinder in whose directions it is judged, else these are the strokes'; `directions`, or
-    `directions(plan)`, are those in which it is, None as without it: all where there is friction; `cases_in(plan, case)` whether it is in
+    None where it may change. `mover` is the cylinder in whose directions it is judged, else these are the strokes'. `directions`, or
+    `directions(plan)`, are those in which it is, None as without it: all where there is friction. `cases_in(plan, case)` whether it is in
     a load case.
 
     The rest is for requests that have something of their own to say. `examine(plan)` raises DefinitionError if a plan has nothing of the

@@ -106,7 +106,7 @@ def max_table(results: Results, over: OverLike = None, acting: Acting | None = N
 
     Of a machine over all that it runs, its `overs` or those given, in all load cases and directions of motion that occur, unless
     `acting` says which. Of results of `pin_forces`, one or several, over all that these cover. It is looked for between the poses,
-    whatever the number of these, and up to the poses that are refused: a force that grows without bounds towards one of them is
+    whatever the number of these, and up to the poses that are refused. A force that grows without bounds towards one of them is
     infinite. Loads that are given as arrays over the poses are known at these alone, and take results.
     """
     if isinstance(results, Judged):

@@ -511,7 +511,7 @@ def reaction(
 ) -> FloatArray:
     """Return the force of a support along its direction, shape (...) [N], when the drive's force is known.
 
-    `drive_force` [N or Nm] is the drive's own, as `driving_force` counts it, a number or an array over the motion; leave it 0 where
+    `drive_force` [N or Nm] is the drive's own, as `driving_force` counts it, a number or an array over the motion. Leave it 0 where
     an element such as a charged line stands for it. The machine's only Support is meant unless one is given; its own `force` does
     not count. With several strokes `drive` names the one that the support balances; the others stand still. Raises SingularError
     where the support's point does not move along its direction with the drive.

@@ -37,7 +37,7 @@ def driving_force(
 ) -> FloatArray:
     """Return the generalised force of a stroke by virtual work, shape (...): [N], for a crank's angle the torque [Nm].
 
-    It is positive the way the stroke grows, and not a cylinder's thrust: with `AB=L0 - S` a positive one pulls, with `AB=L0 + 2 * S`
+    It is positive the way the stroke grows, and not a cylinder's thrust. With `AB=L0 - S` a positive one pulls, with `AB=L0 + 2 * S`
     it is twice the thrust, which `pin_forces(...).thrusts` and a cylinder's own `thrust(motion)` tell.
     `loads` are the machine's own unless others are given; `case` a LoadCase or its name. While "extending" (the stroke grows) or
     "retracting" friction adds its work; along a path of several strokes its senses are those of the path. `rates`, such as
@@ -107,7 +107,7 @@ def without_held(applied: AppliedLoads, holders: Holders) -> AppliedLoads:
 def work_misses(poses: FlatPoses, applied: AppliedLoads, drives: Mapping[str, FloatArray]) -> Iterator[tuple[str, FloatArray, float]]:
     """Yield each drive with the difference of its forces by equilibrium and by work (n,), and the largest power of the loads.
 
-    A load's power counts as force times way, whatever the angle between them: where loads balance each other, as counterweights do, or
+    A load's power counts as force times way, whatever the angle between them. Where loads balance each other, as counterweights do, or
     do no work, the drive's own force is nearly nothing.
     """
     sizes = [(each.point, np.hypot(*poses.flattened(each.force))) for each in applied.loads]

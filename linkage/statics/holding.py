@@ -322,8 +322,8 @@ def stroke_followed(plan: Plan, member: TwoPoint) -> str:
 class Levers:
     """The work of each line's first cylinder, with what the others of its line add, on a unit of each stroke taken: (n, lines, strokes).
 
-    `sizes` are those of its parts, `shares` the thrusts of each line's cylinders over that of its first, (n,) each. Of a tie they are the work
-    and the thrusts at one unit of its force. `cuts` is the work of each line on a unit of what changes a closed one, `kept` the
+    `sizes` are those of its parts, `shares` the thrusts of each line's cylinders over that of its first, (n,) each. Of a tie they are the
+    work and the thrusts at one unit of its force. `cuts` is the work of each line on a unit of what changes a closed one, `kept` the
     shares in the closed ones.
     """
 

@@ -35,7 +35,7 @@ from .accumulator import AccumulatorBlock, keeps_rule
 from .gas import Polytropic
 from .inputs import Array, all_finite, follows, in_pascals, number_set, one_design
 from .line import pressure_range
-from .member import Circuit, Feeds, Ram, as_in, chamber_area, extremes
+from .member import Circuit, Feeds, Ram, as_in, chamber_area, least_and_most
 from .shut import shut_verdicts
 from .standing import standing_pressure
 
@@ -97,7 +97,7 @@ class GasLine(Circuit):
             return self.pressure(motion)
 
         try:
-            low, high = judge.answers(extremes(MotionFunction(pressure, "pressure")))
+            low, high = judge.answers(least_and_most(MotionFunction(pressure, "pressure")))
             block = self.accumulators(judge.motion)
         except DefinitionError as error:
             return [Verdict.refused("line", error), *shut]

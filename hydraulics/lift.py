@@ -26,7 +26,7 @@ from linkage.verdict import Verdict
 
 from .inputs import Array, check_pressures, not_negative, one_design, one_number
 from .line import LiftLine
-from .member import PISTON, SIDES, AllOf, Feeds, OnLines, Ram, as_in, carries_loads, extremes, judge_of, thrust_request
+from .member import PISTON, SIDES, AllOf, Feeds, OnLines, Ram, as_in, carries_loads, judge_of, least_and_most, thrust_request
 from .remedy import Sizes, can_be_set, show_enough, size_words, smallest
 from .requests import going_back_request, pressure_request, reserve_request
 from .shut import shut_verdicts
@@ -215,7 +215,7 @@ class LiftingCylinder:
     @property
     def thrusts(self) -> list[Question]:
         """Its least and its greatest thrust, as questions."""
-        return extremes(thrust_request(self.ram, Acting()))
+        return least_and_most(thrust_request(self.ram, Acting()))
 
     def back(self, way: str, resistance: float = 0.0, tells: str = "push") -> LawRequest:
         """Return what the other side must give while it goes back one way, or what the load alone makes."""
@@ -444,7 +444,7 @@ class LiftingCylinder:
 def oil_verdict(circuit: LiftLine, judge: Judge) -> Verdict:
     """Return how much oil the machine takes over all that it runs, and how long the pump's flow needs for it."""
     rams = circuit.rams(judge.motion)
-    answers = [judge.answers(extremes(distance(ram.A, ram.B))) for ram in rams]
+    answers = [judge.answers(least_and_most(distance(ram.A, ram.B))) for ram in rams]
     ends = [[np.asarray(each.value) for each in pair] for pair in answers]
     if np.isnan(ends).any():
         return Verdict("oil", None, said("nothing is left to judge: every place is unlimited, left out or lost"))

@@ -346,7 +346,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
 
     def questions(self, judge: Judge) -> list[Question]:
         """Return its least and greatest length, and the utilisation of its rod."""
-        return [*extremes(distance(self.A, self.B)), *([most(buckling_request(self, Acting())) <= 1.0] if carries_loads(judge) else [])]
+        return [*least_and_most(distance(self.A, self.B)), *([most(buckling_request(self, Acting())) <= 1.0] if carries_loads(judge) else [])]
 
     def conditions(self, judge: Judge) -> Mapping[str, Condition]:
         """Return that it fits, where its stroke is declared, and that its rod does not buckle."""
@@ -419,7 +419,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         closed, stroke = (None if each is None else one_number(np.squeeze(each), "Length") for each in self.closed_and_stroke(judge.motion))
         if closed is None and stroke is None:
             return []
-        ends = judge.answers(extremes(distance(self.A, self.B)))
+        ends = judge.answers(least_and_most(distance(self.A, self.B)))
         low, high = (float(each.value) for each in ends)
         if np.isnan(low):
             return [Verdict("length", None, said("nothing is left to judge: every place is unlimited, left out or lost"), answer=ends[0])]
@@ -1251,7 +1251,7 @@ def carries_loads(judge: Judge) -> bool:
     return any(each.loads(motion) or each.pushes(motion, AT_REST) for _, each in elements_of(motion.plan, judge.acting.loads))
 
 
-def extremes(what: MeasuredQuantity) -> list[Question]:
+def least_and_most(what: MeasuredQuantity) -> list[Question]:
     """Return the least and the greatest value of something, as questions."""
     return [least(what), most(what)]
 

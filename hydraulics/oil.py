@@ -72,9 +72,9 @@ from .member import (
     by_other_lines,
     chamber_area,
     circuits_among,
-    extremes,
     in_class,
     is_named,
+    least_and_most,
     lines_giving,
     lines_of,
     side_left,
@@ -619,7 +619,7 @@ class OilLine(PumpLine, GasLine):
             return PumpLine.questions(self, judge)
         if self.kind_of_line != "closed":
             return []
-        return extremes(self.pressure_request(judge.plan))
+        return least_and_most(self.pressure_request(judge.plan))
 
     def conditions(self, judge: Judge) -> Mapping[str, Condition]:
         if self.kind_of_line == "held":
@@ -649,7 +649,7 @@ class OilLine(PumpLine, GasLine):
         if self.kind_of_line != "closed":
             return shut
         try:
-            low, high = judge.answers(extremes(self.pressure_request(judge.plan)))
+            low, high = judge.answers(least_and_most(self.pressure_request(judge.plan)))
         except DefinitionError as error:
             return [Verdict.refused("line", error), *shut]
         says = pressure_range(replace(low, value=0.0) if abs(low.value) < EMPTY * abs(high.value) else low, high, "bar")

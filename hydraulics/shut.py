@@ -19,7 +19,7 @@ from linkage.verdict import Verdict
 
 from .inputs import Array, one_design
 from .line import LiftLine, pressure_range
-from .member import Circuit, extremes
+from .member import Circuit, least_and_most
 from .standing import CommonStroke, members_in, standing_pressure
 
 EMPTY = 1e-9
@@ -83,7 +83,7 @@ def shut_verdicts(line: Circuit, judge: Judge) -> list[Verdict]:
     if not cases or (line.kind_open(plan.members) != "given" and pump is None):
         return []  # what it holds, or keeps, is told by its other verdicts
     try:
-        low, high = judge.answers(extremes(shut_request(line, False)))
+        low, high = judge.answers(least_and_most(shut_request(line, False)))
         pushed = None if pump is None else judge.answer(most(shut_request(line, True)))
     except DefinitionError as error:
         return [Verdict.refused("shut", error)]

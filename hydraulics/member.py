@@ -346,7 +346,8 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
 
     def questions(self, judge: Judge) -> list[Question]:
         """Return its least and greatest length, and the utilisation of its rod."""
-        return [*least_and_most(distance(self.A, self.B)), *([most(buckling_request(self, Acting())) <= 1.0] if carries_loads(judge) else [])]
+        use = [most(buckling_request(self, Acting())) <= 1.0] if carries_loads(judge) else []
+        return [*least_and_most(distance(self.A, self.B)), *use]
 
     def conditions(self, judge: Judge) -> Mapping[str, Condition]:
         """Return that it fits, where its stroke is declared, and that its rod does not buckle."""

@@ -344,8 +344,8 @@ def judged_poses(judge: Judge, motion: Motion) -> Mask:
     Returns
     -------
     array of bool
-        Of the motion's shape: True in a box of strokes, or where no stroke is farther than 2 % of its travel from a leg of a path, a pose
-        or the value at which a box holds it; and where the conditions of that `Over` (`only`) are kept.
+        Of the motion's shape. It is True in a box of strokes, or where no stroke is farther than 2 % of its travel from a leg of a path, a
+        pose or the value at which a box holds it. The conditions of that `Over` (`only`) are kept there as well.
     """
     found = np.zeros(require_motion(motion).shape, bool)
     for place in judge.places:

@@ -121,7 +121,7 @@ class LoopMargin:
     """The least margin of the loop of a step, and where: of one design numbers, of a batch arrays over its designs.
 
     `kind` is "links", "guides", "length" or "meeting", of two points that a direction is taken between. `value` is the squared sine of
-    the angle between two links, or two guides, the length where that follows others [m], or the squared one between two points; below
+    the angle between two links, or two guides, the length where that follows others [m], or the squared one between two points. Below
     zero the `step` cannot be assembled, by more than rounding where it `is_hole`. NaN where no pose tells. `strokes` [m or rad, which
     `units` say] are the place.
     """

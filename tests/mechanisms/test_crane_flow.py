@@ -213,7 +213,7 @@ def run(capsys):
 
     def call(*words):
         parser = ArgumentParser()
-        made = DesignedCrane()
+        made = DesignedCrane
         made.add(parser)
         code = made.run(parser.parse_args(words))
         return code, capsys.readouterr().out

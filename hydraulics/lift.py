@@ -16,9 +16,9 @@ import numpy as np
 
 from linkage.errors import DefinitionError, ensure, known_name, unknown
 from linkage.frozen import refuses_changes
-from linkage.language import said, said_of, with_and
+from linkage.language import noted, said, said_of, with_and
 from linkage.loads import FRICTIONLESS, Acting, Case, ForceElement, Loads, Parameter, situation_of
-from linkage.motion import Answer, Condition, Judge, Motion, Question, Span, at, below_zero, least, most, reached, require_motion
+from linkage.motion import Answer, Condition, Judge, Motion, PageWords, Question, Span, at, below_zero, least, most, reached, require_motion
 from linkage.quantities import NamedMembers, distance, of_kind
 from linkage.statics import LawRequest, elements_of, is_among
 from linkage.units import UNITS, show
@@ -53,6 +53,17 @@ class PumpLine(LiftLine):
             return {}
         found = [(rule, each.ram.name, one) for each in cylinders for rule, one in each.conditions().items()]
         return {f"{rule} {name}" if len(cylinders) > 1 else rule: one for rule, name, one in found}
+
+    def page_words(self, judge: Judge) -> Mapping[str, PageWords]:
+        found, cylinders = dict[str, PageWords](), self.lifting(judge)
+        for each in cylinders:
+            name, ways = f" {each.ram.name}" if len(cylinders) > 1 else "", each.ways_back
+            found[f"lifting{name}"] = PageWords(noted("the least reserve is {value}, {place}"))
+            found[f"holding{name}"] = PageWords(noted("with the pump off it holds up to {value}, {place}: not above {limit}"))
+            if len(ways) == 1 and judge.answer(most(each.back(ways[0])) <= 0.0).ok:
+                alone = least(going_back_request(each.ram.name, Acting(), self.name, ways[0], tells="load"))
+                found[f"lowering{name}"] = PageWords(noted("the load makes at least {value} in the working side, {place}"), alone)
+        return found
 
     def load_limits(self, judge: Judge) -> Mapping[str, Condition]:
         return {}

@@ -27,7 +27,20 @@ from linkage.language import noted, said, with_and
 from linkage.loads import AT_REST, FRICTIONLESS, Acting, ActingKeywords, Case, ForceElement, Load, Loads, situation_of, takes_situation
 from linkage.loads.element import DIRECTIONS, UNBOUNDED, Declared, Formulas, Parameter, Poses, Push, Rates, Share, Tie, require_poses
 from linkage.loads.two_point import DrawnAs, TwoPoint
-from linkage.motion import Column, HasVerdicts, Judge, Motion, Question, Request, SmoothPiece, Tabled, greatest, lowest, require_motion
+from linkage.motion import (
+    Column,
+    HasVerdicts,
+    Judge,
+    Motion,
+    PageWords,
+    Question,
+    Request,
+    SmoothPiece,
+    Tabled,
+    greatest,
+    lowest,
+    require_motion,
+)
 from linkage.motion.measures import Condition, Constraint, MeasuredQuantity, at, least, most
 from linkage.plan import Mask, Plan
 from linkage.quantities import (
@@ -94,6 +107,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
     """Its chambers."""
     drawn_as: ClassVar[DrawnAs] = "cylinder"
     file_section: ClassVar[str] = "hydraulics"
+    headed: ClassVar[str] = noted("Cylinder {name}")
 
     # -- what a subclass says ------------------------------------------------------------------------------
 
@@ -360,6 +374,10 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         elif "closed" in self.lengths_given:
             found["length"] = AllOf((least(ends) >= closed, *((most(ends) <= closed + stroke,) if "stroke" in self.lengths_given else ())))
         return found | ({"buckling": most(buckling_request(self.name, Acting())) <= 1.0} if carries_loads(judge) else {})
+
+    def page_words(self, judge: Judge) -> Mapping[str, PageWords]:
+        text = noted("its rod is safe against buckling by {value}, {place}")
+        return {"buckling": PageWords(text, self.safety / most(buckling_request(self.name, Acting())))}
 
     def load_limits(self, judge: Judge) -> Mapping[str, Condition]:
         return {rule: each for rule, each in self.conditions(judge).items() if rule not in ("length", "buckling")}
@@ -965,6 +983,7 @@ class Circuit(OnLines, HasVerdicts):
     """The base of circuits: what feeds cylinders."""
 
     argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"cylinder": "load"})
+    headed: ClassVar[str] = noted("Line {name}")
     _is_shut: ClassVar[bool] = False
     """Whether a load case shuts it; told by the case."""
 

@@ -28,7 +28,7 @@ from linkage.frozen import FrozenDict, refuses_changes
 from linkage.language import said
 from linkage.loads import Acting, ActingKeywords, Declared, ForceElement, Loads, Parameter, Poses, Tie, situation_of, takes_situation
 from linkage.loads.element import UNBOUNDED, Formulas
-from linkage.motion import Condition, Judge, Motion, Question, at, least, most
+from linkage.motion import Condition, Judge, Motion, PageWords, Question, at, least, most
 from linkage.plan import require_kinds
 from linkage.quantities import (
     AtPose,
@@ -633,6 +633,9 @@ class OilLine(PumpLine, GasLine):
         opens = at(LawRequest(text=f"{self.name} relief", formula=partial(self.number, name="relief")))
         return {"line": AllOf((keeps, most(pressure) <= opens))}
 
+    def page_words(self, judge: Judge) -> Mapping[str, PageWords]:
+        return PumpLine.page_words(self, judge) if self.kind_of_line == "held" else {}
+
     def load_limits(self, judge: Judge) -> Mapping[str, Condition]:
         return self.conditions(judge) if self.kind_of_line == "closed" else {}
 
@@ -652,6 +655,8 @@ class OilLine(PumpLine, GasLine):
             low, high = judge.answers(least_and_most(self.pressure_request(judge.plan)))
         except DefinitionError as error:
             return [Verdict.refused("line", error), *shut]
+        if low.value == high.value == 0.0:  # nothing presses on it, so there is nothing to say
+            return shut
         says = pressure_range(replace(low, value=0.0) if abs(low.value) < EMPTY * abs(high.value) else low, high, "bar")
         make_up = one_design(self.least(judge.motion))
         if low.value < make_up - EMPTY * max(abs(float(high.value)), 1.0):

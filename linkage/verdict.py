@@ -14,10 +14,11 @@ class Verdict(str, Shown):
 
     As text it is one line, `ok   lifting: ...` or `FAIL lifting: ...`; it counts as true where the rule is kept, so that
     `all(machine.verdicts(motion))` says whether everything is. Where nothing is left to judge `ok` is None: the line begins with `--`
-    and counts as not true. `answer` is what the judge found, None where the rule is of another kind.
+    and counts as not true. `answer` is what the judge found, None where the rule is of another kind;
+    `member` the name of the member that says it, "" for the machine.
     """
 
-    __slots__ = ("answer", "heading", "ok", "rule", "sentence")
+    __slots__ = ("answer", "heading", "member", "ok", "rule", "sentence")
 
     is_rule: ClassVar[bool] = True
     """Whether it counts among the rules that are kept or not."""
@@ -27,6 +28,7 @@ class Verdict(str, Shown):
     sentence: str
     heading: str
     answer: Any
+    member: str
 
     def __new__(cls, rule: str, ok: bool | None, sentence: str, heading: str = "", answer: object = None) -> Self:
         """Return a verdict; DefinitionError for a rule or a sentence that is no text.
@@ -45,6 +47,7 @@ class Verdict(str, Shown):
         """Return it with its parts; `text` is the line that is printed."""
         verdict = super().__new__(cls, text)
         verdict.rule, verdict.ok, verdict.sentence, verdict.heading, verdict.answer = rule, ok, sentence, heading, answer
+        verdict.member = ""
         return verdict
 
     @staticmethod
@@ -59,6 +62,11 @@ class Verdict(str, Shown):
     def answered(self, answer: object) -> Self:
         """Return it with what the judge found."""
         return self._made(str(self), self.rule, self.ok, self.sentence, self.heading, answer)
+
+    def said_by(self, member: str) -> Self:
+        """Return it, and note the name of the member that says it."""
+        self.member = member
+        return self
 
     def __bool__(self) -> bool:
         return self.ok is True

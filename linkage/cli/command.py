@@ -111,12 +111,13 @@ COLUMNS = "only these columns (default: all), or what is asked for in words: 'pr
 
 def machine_options(default: str | None = None) -> tuple[Option, ...]:
     """Return what every command on a machine takes; with a `default` the machine need not be named."""
-    what = "a machine of `list`, package.module:Class, file.py, file.py:Class or file.toml"
+    what = "a machine of `list`, package.module:Class, file.py, file.py:Class or file.toml, also one of a design: `machine` and `[set]`"
+    own = option("--machine", dest="own", metavar="CLASS", help="the class of the design that a file holds, file.py:Class")
     named: dict[str, object] = {"help": what}
     if default is not None:
         named = {"nargs": "?", "default": default, "help": f"{what} (default {default})"}
     change = "change a design variable, with its unit (without: SI); a point: M=0.22,0.95 or M.x=220mm; repeatable"
-    return option("machine", metavar="NAME", **named), repeatable("--set", "OB=180mm", change, "settings"), LINK
+    return option("machine", metavar="NAME", **named), repeatable("--set", "OB=180mm", change, "settings"), own, LINK
 
 
 def count_option(count: int, what: str) -> Option:

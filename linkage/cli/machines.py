@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Mapping
 from importlib import import_module
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
@@ -40,6 +41,30 @@ def find(text: str) -> type[Mechanism]:
             sys.path.insert(0, str(Path.cwd()))
         return of_module(guarded(lambda: import_module(place), f"The module {place}"), name, place)
     raise DefinitionError(f"{unknown('Machine', text, entries)} {OWN}")
+
+
+def design_of_file(file: str, own: str | None) -> Mechanism | None:
+    """Return the design that a file holds, by `machine` and `[set]`; None for any other text, and for a file that holds a machine itself.
+
+    `own` is a class that stands for the one the file names; what is code is run only where it is said so.
+    """
+    if not file.endswith((".toml", ".json")):
+        return None
+    from ..files.source import source
+    from ..files.study_file import StudyHead
+
+    data = source(file).data
+    if not isinstance(data, Mapping) or not isinstance(data.get("machine"), str) or data.keys() - {"machine", "set", "doc"}:
+        return None
+
+    def kind(text: str, base: Path) -> type[Mechanism]:
+        place, name = split(text)
+        if text in registered() or own:
+            return find(own or text)
+        ensure(not (place.endswith(".py") or name), f"{file}: {text} is code, and a file runs none unasked; say --machine {text}.")
+        return find(str(base / text))
+
+    return StudyHead.of(file, (), kind, lambda _: {}).machine
 
 
 def find_like(text: str, base: type[Kind], what: str, **instead: object) -> type[Kind]:

@@ -24,7 +24,7 @@ from ..steps import Point
 from ..units import UNITS, parse, parse_span
 from ..verdict import Verdict
 from .command import MOST, option, repeatable, say_remark
-from .machines import find
+from .machines import design_of_file, find
 
 FAILED = 1
 """The exit code of `--check` where a verdict fails."""
@@ -53,7 +53,12 @@ LIMIT = repeatable(
 
 def machine_of(options: Namespace) -> Mechanism:
     """Return the machine that a command is on, with its settings; DefinitionError as `find` and `design` raise it."""
-    return design(find(options.machine), options.settings)
+    own = getattr(options, "own", None)
+    held = design_of_file(options.machine, own)
+    if held is None:
+        ensure(not own, f"--machine {own}: {options.machine} is no file of a design, with `machine` and `[set]`.")
+        return design(find(options.machine), options.settings)
+    return held.replaced(**dict(parsed_setting(held.plan, text) for text in options.settings))
 
 
 def overs_of(machine: Mechanism, texts: Sequence[str]) -> list[Over] | None:

@@ -5,23 +5,24 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from typing import ClassVar, final
 
 import numpy as np
 
 from ..assembly import sketch_words, width_words
-from ..errors import DefinitionError, unwarned
-from ..language import said
+from ..errors import DefinitionError, LinkageError, unwarned
+from ..language import heading_of, said
 from ..loads import TwoPoint
 from ..plan import Mask, name_or_pins
 from ..quantities import Member
-from ..units import deg, show
+from ..units import deg, display_unit, show
 from ..verdict import Remark, Verdict
 from . import stroke_search
 from .answer import NONE_LOST, Answer, share_text
-from .judge import Domain, Judge, Question
+from .judge import Domain, Judge, Question, measures_of
 from .limits import BoxLimits, Limits, LoopMargin, StrokeLimits, place_text, places_text
-from .measures import Condition, Measure, least, reachable
+from .measures import Condition, Measure, conditions_of, least, reachable
 from .motion import Motion, require_motion
 from .over import Over
 from .requests import transmission
@@ -39,8 +40,24 @@ JUDGED = 200
 """Designs of a batch whose members are judged, each by itself."""
 
 
+@final
+@dataclass(frozen=True, eq=False)
+class PageWords:
+    """How a page says a rule that is kept: a sentence with {value}, {limit} and {place}, in English as the catalogues have it.
+
+    `measure` is the value where it is not the condition's own, `share` how much of the limit is used where that is not value over limit.
+    """
+
+    text: str
+    measure: Measure | None = None
+    share: Measure | None = None
+
+
 class HasVerdicts(Member):
     """A member that has something to say of a machine, such as a cylinder: its base beside that of its kind."""
+
+    headed: ClassVar[str] = "{name}"
+    """What a page calls it above its verdicts, in English as the catalogues have it."""
 
     def questions(self, judge: Judge) -> list[Question]:
         """Return what its verdicts ask of every machine, so that all members' questions are looked at in one pass."""
@@ -48,6 +65,10 @@ class HasVerdicts(Member):
 
     def conditions(self, judge: Judge) -> Mapping[str, Condition]:
         """Return those of its rules that are plain conditions, by the rules' names: what a page asks of a design that is changed."""
+        return {}
+
+    def page_words(self, judge: Judge) -> Mapping[str, PageWords]:
+        """Return how a page says those conditions of a changed design, by their rules, where it is not with the condition's own number."""
         return {}
 
     def load_limits(self, judge: Judge) -> Mapping[str, Condition]:
@@ -95,7 +116,7 @@ def valued_everywhere(verdict: Verdict) -> Verdict:
     if not lost or lost.strokes:
         return verdict
     text = said("{lost}; elsewhere: {sentence}", lost=verdict.answer.lost_words, sentence=verdict.sentence)
-    return Verdict(verdict.rule, False, text, verdict.heading, verdict.answer)
+    return Verdict(verdict.rule, False, text, verdict.heading, verdict.answer).said_by(verdict.member)
 
 
 # -- geometry ----------------------------------------------------------------------------------------------
@@ -245,7 +266,7 @@ def member_verdicts(judge: Judge, fault: str = "") -> list[Verdict]:
             if not fault:
                 raise
     count = Counter(rule for _, rule in {(name, verdict.rule) for name, verdict in found})
-    return [verdict if count[verdict.rule] == 1 else verdict.named(name) for name, verdict in found]
+    return [(verdict if count[verdict.rule] == 1 else verdict.named(name)).said_by(name) for name, verdict in found]
 
 
 def batch_verdicts(judge: Judge, fault: str = "") -> list[Verdict]:
@@ -373,6 +394,61 @@ def covered(place: Domain, motion: Motion) -> Mask:
         low = np.maximum(low, np.where(moves, first, 0.0))
         high = np.minimum(high, np.where(moves, last, 1.0))
     return np.broadcast_to((inside & (low <= high)).any(axis=-1), motion.shape)
+
+
+def pose_sentence(motion: Motion) -> str:
+    """Return what is out of bounds at a pose, in words.
+
+    Parameters
+    ----------
+    motion : Motion
+        One design at one pose, which is reached.
+
+    Returns
+    -------
+    str
+        The rules of its members that are not kept there, with their numbers, or that all are; whether the pose is outside what is judged,
+        and which rules have no value there. "" for a machine that no member judges. Load cases are those that occur where the pose
+        lies, all of them where it lies outside.
+    """
+    plan, designs = require_motion(motion).plan, motion.designs
+    judge = Judge(plan, designs, [*plan.of_kind(Over).values()] or [Over()])
+    near = [place for place in judge.places if (covered(place, motion) & place.over.kept(motion)).all()]
+    at = {name: [float(np.ravel(value)[0])] for name, value in motion.strokes.items()}
+    occurring = dict.fromkeys(place.over.cases for place in near or judge.places)
+    found, unknown = answers_at(Judge(plan, designs, [Over.poses(**at, cases=cases) for cases in occurring]))
+    if not found and not unknown:
+        return ""
+    faults = [f"{rule} {pose_value(each)}" for rule, each in found.items() if each.ok is False]
+    parts = [", ".join(faults) or said("all kept"), *([] if near else [said("outside what is judged")])]
+    parts += [said("not followed here: {rules}", rules=", ".join(unknown))] if unknown else []
+    return f"{said('At this pose:')} {'; '.join(parts)}."
+
+
+def answers_at(judge: Judge) -> tuple[dict[str, Answer], list[str]]:
+    """Return what a judge answers to the conditions of all members, by their rules, and those that have no answer."""
+    asked = []
+    with unwarned():
+        for name, member in speakers(judge.plan, HasVerdicts).items():
+            try:
+                asked += [(name, rule, condition) for rule, condition in member.conditions(judge).items()]
+            except LinkageError:
+                continue
+        count, found, unknown = Counter(rule for _, rule, _ in asked), dict[str, Answer](), list[str]()
+        for name, rule, condition in asked:
+            heading = heading_of(rule if count[rule] == 1 else f"{rule} {name}")
+            try:
+                measures = measures_of(judge.plan, conditions_of([condition], None)[0])
+                found[heading] = replace(judge.answer(condition), measures=measures)
+            except LinkageError:
+                unknown.append(heading)
+    return found, unknown
+
+
+def pose_value(answer: Answer) -> str:
+    """Return the value of an answer in its unit, with the load case where there are several."""
+    value = show(float(answer.value), display_unit(answer.measures, "mm"), 4) if np.isfinite(answer.value) else said("no value")
+    return f"{value} ({answer.case})" if answer.case and "case" in answer.named else value
 
 
 Motion._limits_of = limits_over  # a motion's limits ask the judge, who is made with motions

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import sys
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from functools import cached_property, partial
 from itertools import permutations
+from pathlib import Path
 from typing import Any, cast, final
 
 import numpy as np
@@ -15,17 +17,32 @@ from ..errors import DefinitionError, LinkageError, cited, known_name, unknown, 
 from ..language import heading_of, language, translated
 from ..loads import AT_REST, PLAIN, TwoPoint
 from ..mechanism import Mechanism, verdicts_of
-from ..motion import Column, Judge, LiveText, Motion, Request, RequestLike, Tabled, speakers, stroke_display_unit, transmission
+from ..motion import (
+    Answer,
+    Column,
+    HasVerdicts,
+    Judge,
+    LiveText,
+    Motion,
+    Request,
+    RequestLike,
+    Tabled,
+    speakers,
+    stroke_display_unit,
+    transmission,
+)
 from ..motion.requests import NodeRequest
-from ..plan import Plan, opening, plan_measure, require_kind
+from ..plan import Plan, name_or_pins, opening, plan_measure, require_kind
+from ..plugins import MACHINES, entry_points
 from ..program import FloatArray, Node
 from ..quantities import is_number, joined_names
 from ..reports import NOTHING, At, LiveColumn, column_requests, is_changing, reached_motion, run_along, run_of
 from ..statics import AnyMotion, JointForce, LawRequest, TracedMotion, applied_loads, ground_loads, pin_force, pin_forces
 from ..units import SYSTEMS, UNITS, deg, display_unit, factor, shown_in, unit_system
 from .browser_file import MACHINE, START, PageData, page_part, page_text
-from .browser_judge import LiveQuestions
+from .browser_judge import LiveQuestions, rule_key
 from .curves import check_poses, limit_of, typeset
+from .influence import influences
 from .labels import offsets
 from .layout import label_free, props
 from .poses import named_points
@@ -254,7 +271,7 @@ def page_data(requests: PageRequests, live: LiveText) -> PageData:
     return {
         "count": requests.count,
         "dims": dims,
-        "shown": [names.index(name) for name in shown_first(requests, names)],
+        "shown": [names.index(name) for name in shown_first(requests, dims)],
         "strokes": stroke_data(requests),
         "run": len(machine.strokes) if run.is_path else list(machine.strokes).index(run.stroke),
         "columns": columns,
@@ -275,15 +292,39 @@ def page_data(requests: PageRequests, live: LiveText) -> PageData:
         # a joint of a part lies over what it carries
         "moving": sorted(depth, key=lambda place: (-depth[place], place)),
         "meets": meeting_data(plan, names, index),
-        "class": type(machine).__name__,
+        **named_in_code(type(machine)),
         "title": plan.heading,
         "titleRu": russian_title,
         "defaults": {name: plan.defaults[name] for name, value, *_ in dims if value != plan.defaults[name]},
         "beside": {name: value for name, value in machine.dimensions.items() if name not in names and value != plan.defaults[name]},
         "steps": {name: opening(plan, name) for name in plan.points},
+        "called": pins_called(plan),
         **verdicts_shown(requests),
         "judge": requests.questions.data(live),
     }
+
+
+def pins_called(plan: Plan) -> dict[str, list[str]]:
+    """Return what points are called where a motion ends, in English and Russian, those that are not called by their names."""
+    found = dict[str, list[str]]()
+    for spoken in ("en", "ru"):
+        with language(spoken):
+            for name in plan.points:
+                found.setdefault(name, []).append(name_or_pins(plan, name))
+    return {name: called for name, called in found.items() if called != [name, name]}
+
+
+def named_in_code(kind: type[Mechanism]) -> PageData:
+    """Return what a class is called in Python, "" for the module of one that no module has, and by commands."""
+    module, name = kind.__module__, kind.__name__
+    file = str(getattr(sys.modules.get(module), "__file__", None) or "")
+    if getattr(sys.modules.get(module), name, None) is not kind:
+        return {"class": name, "module": "", "machine": f"{name}.toml"}
+    for key, entry in entry_points(MACHINES).items():
+        if entry.attr == name and getattr(sys.modules.get(entry.module), name, None) is kind:
+            return {"class": name, "module": entry.module, "machine": key}
+    short = Path(file).stem if module == "__main__" and file else module
+    return {"class": name, "module": short, "machine": f"{Path(file).name}:{name}" if file else f"{module}:{name}"}
 
 
 def machine_text(requests: PageRequests, live: LiveText, data: PageData, parts: Sequence[str], language: str) -> str:
@@ -345,19 +386,20 @@ def four_digits(value: float) -> float:
     return float(f"{value:.4g}")
 
 
-def shown_first(requests: PageRequests, names: Sequence[str]) -> list[str]:
-    """Return the dimensions shown at first: those chosen, else the first lengths and angles, a load's mass and a bore among them."""
+def shown_first(requests: PageRequests, dims: Sequence[Sequence[Any]]) -> list[str]:
+    """Return the dimensions shown at first: those chosen, else those that move the featured result most, by parts.
+
+    Where it has no derivatives these are the first lengths and angles of steps.
+    """
+    names = [each[0] for each in dims]
     if requests.vary is not None:
         return [name for name in requests.vary if name in names]
+    _, request, why = requests.columns[requests.column]
+    ranges = {name: float(np.ptp(ends)) if isinstance(ends, list) else 2.0 * ends for name, _, ends, *_ in dims}
+    found = {} if why else influences(requests.questions.judge, request, ranges)
     entries = requests.plan.table.entries
-    coordinates = [name for name in names if entries[name].kind == "coordinate"]
-    steps = [name for name in names if entries[name].kind in STEPS]
-    measured = [name for name in names if plan_measure(requests.plan, name) in ("length", "angle")]
-    plain = [name for name in measured if name not in steps and name not in coordinates]
-    others = [name for name in names if name.endswith((".mass", ".bore"))][:2]
-    lengths = [name for name in (*steps, *plain) if "." not in name][: SHOWN - len(others)]
-    rest = [name for name in (*coordinates, *names) if name not in (*lengths, *others)]
-    return [*lengths, *others, *rest[: SHOWN - len(lengths) - len(others)]]
+    chosen = list(found) or sorted(names, key=lambda name: entries[name].kind not in STEPS)
+    return sorted(chosen[:SHOWN], key=lambda name: name.rpartition(".")[0])
 
 
 def stroke_data(requests: PageRequests) -> list[PageData]:
@@ -592,4 +634,20 @@ def verdicts_shown(requests: PageRequests) -> PageData:
             told = verdict_data(machine, judge, along)
         pairs = zip(told, plain, strict=True) if len(told) == len(plain) else ((each, each) for each in plain)
         found[name] = [0 if each[2:] == other[2:] else [each[2], *each[4:]] for each, other in pairs]
-    return {"verdicts": plain, "verdictsIn": found}
+    return {"verdicts": plain, "verdictsIn": found} | facts_of(machine, judge, along)
+
+
+def facts_of(machine: Mechanism, judge: Judge, along: Motion | None) -> PageData:
+    """Return of each verdict the member that says it and whether it is of poses, and how members are headed, in English and Russian."""
+    try:
+        found = verdicts_of(machine, judge, along)
+    except LinkageError:
+        return {"facts": [["", "", 0]], "groups": {}}
+    members, groups = speakers(machine.plan, HasVerdicts), dict[str, list[str]]()
+    for name in dict.fromkeys((*(each.member for each in found if each.member), *members)):
+        with language("ru"):
+            russian = translated(members[name].headed)
+        groups[name] = [typeset(text.format(name=name)) for text in (members[name].headed, russian)]
+    of_poses = [isinstance(each.answer, Answer) and bool(each.answer.strokes) for each in found]
+    facts = [[each.member, rule_key(each.rule, each.member), int(is_one)] for each, is_one in zip(found, of_poses, strict=True)]
+    return {"facts": facts, "groups": groups}

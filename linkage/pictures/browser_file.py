@@ -21,7 +21,7 @@ PageData: TypeAlias = dict[str, Any]
 """What a page's script reads: numbers, texts, lists and further data by name."""
 COLOURS = ("INK", "MUTED", "RULE", "GRID", "PAPER", "CURVE", "ACCENT", "BARREL", "ROD", "PISTON")
 LANGUAGES = ("en", "ru")
-MACHINE = ("machine.html", "page.css", "mechanism.js", "page.js", "hands.js", "leave.js")
+MACHINE = ("machine.html", "page.css", "mechanism.js", "page.js", "verdicts.js", "hands.js", "leave.js")
 """The parts of a page with a machine that moves and changes; what a kind of page adds comes after them, and START last."""
 START = "start.js"
 SAID = re.compile(r'\bsay\("((?:[^"\\]|\\.)*)"|\bdata-(?:say|tip|name)="([^"]+)"')
@@ -43,7 +43,7 @@ def page_text(title: str, data: PageData, parts: Sequence[str], *, language: str
         "LANGUAGE": language,
         "TITLE": escape(title),
         "BODY": filled(body, {"TITLE": escape(title)}),
-        "STYLE": styles,
+        "STYLE": packed(styles),
         "STYLE_HASH": source_hash(styles),
         "LOADER": loader,
         "LOADER_HASH": source_hash(loader),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from contextlib import suppress
 from functools import reduce
 from typing import Any, TypeAlias, final
@@ -11,11 +11,12 @@ from typing import Any, TypeAlias, final
 import numpy as np
 
 from ..errors import DefinitionError, LawError, LinkageError, UntracedError, unwarned
-from ..language import heading_of, language
+from ..language import heading_of, language, translated
 from ..loads import PLAIN_CASE
 from ..mechanism import Mechanism
-from ..motion import Column, Condition, HasVerdicts, LiveText, Motion, Over, Request, RequestLike, least, most, speakers
-from ..motion.judge import Sought, measures_of
+from ..motion import Column, Condition, HasVerdicts, LiveText, Motion, Over, PageWords, Request, RequestLike, least, most, speakers
+from ..motion.judge import Sought, leaf_key, measures_of
+from ..motion.judging import NEAR
 from ..motion.measures import At, CombinedMeasure, Constraint, Given, Integral, Leaf, Measure, conditions_of, dimension_value
 from ..motion.over import ALLOWED
 from ..motion.requests import NodeRequest, bound
@@ -29,6 +30,8 @@ from .curves import limit_of, typeset
 
 Piece: TypeAlias = tuple[int, Sought, str]
 """The place of an `Over` among those of the judge, what is sought over it, and the name of its row."""
+PLAIN_WORDS = PageWords("")
+"""Of a condition that is said by its own number."""
 MOST = 5000
 """Poses that a page looks at for all its questions together."""
 TRUTHS = {"gaps": "where it has a bound", "assumed": "where it is true"}
@@ -59,35 +62,49 @@ class LiveQuestions:
         self.only = [[self.new_row(each.margin, " only") for each in place.over.only] for place in self.judge.places]
         self.ends = [self.rows_of_ends(place.over.strokes) for place in self.judge.places]
         self.asked: list[tuple[str, list[Constraint], dict[Leaf, list[Piece]]]] = []
+        self.said: dict[str, tuple[str, PageWords]] = {}
         with unwarned():
-            for rule, condition in self.rules().items():
-                self.ask(rule, condition)
+            for rule, (member, condition, words) in self.rules().items():
+                self.ask(rule, member, condition, words)
         for name, given in limits.items():
             _, request, why = columns[name]
             limit = limit_of(given)
             if not why:
-                self.ask(name, least(request) >= limit.value if limit.fails == "below" else most(request) <= limit.value)
+                self.ask(name, "", least(request) >= limit.value if limit.fails == "below" else most(request) <= limit.value)
 
-    def rules(self) -> dict[str, Condition]:
-        """Return the rules of the machine's members that are plain conditions, with a member's name where several have the same one."""
+    def rules(self) -> dict[str, tuple[str, Condition, PageWords]]:
+        """Return the rules of the machine's members that are plain conditions, with the member and how it is said.
+
+        A rule has the member's name where several have the same one.
+        """
         found = []
         for name, member in speakers(self.machine.plan, HasVerdicts).items():
             try:
-                found += [(name, rule, one) for rule, one in member.conditions(self.judge).items()]
+                words, conditions = member.page_words(self.judge), member.conditions(self.judge)
             except LinkageError:
                 continue
-        count = Counter(rule for _, rule, _ in found)
-        return {rule if count[rule] == 1 else f"{rule} {name}": one for name, rule, one in found}
+            found += [(name, rule, one, words.get(rule, PLAIN_WORDS)) for rule, one in conditions.items()]
+        count = Counter(rule for _, rule, _, _ in found)
+        return {rule if count[rule] == 1 else f"{rule} {name}": (name, one, words) for name, rule, one, words in found}
 
-    def ask(self, rule: str, condition: Condition) -> None:
-        """Note a question and its pieces; nothing where it cannot be split."""
+    def ask(self, rule: str, member: str, condition: Condition, words: PageWords = PLAIN_WORDS) -> None:
+        """Note a question and its pieces; nothing where it cannot be split, or plain words where these cannot."""
         constraints = conditions_of([condition], self.machine)
-        leaves = list(dict.fromkeys(leaf for each in constraints for leaf in (*each.left.leaves, *each.right.leaves)))
+        measures = [side for each in constraints for side in (each.left, each.right)]
+        measures += [each for each in (words.measure, words.share) if each is not None]
+        known, pieces = dict[Hashable, list[Piece]](), dict[Leaf, list[Piece]]()
         try:
-            pieces = {leaf: self.leaf_rows(leaf) for leaf in leaves}
+            for leaf in (leaf for each in measures for leaf in each.leaves):
+                key = leaf_key(self.machine.plan, leaf)
+                if key not in known:
+                    known[key] = self.leaf_rows(leaf)
+                pieces[leaf] = known[key]
         except LinkageError:
+            if words.measure is not None:
+                self.ask(rule, member, condition)
             return
         self.asked.append((rule, constraints, pieces))
+        self.said[rule] = member, words
 
     def new_row(self, request: RequestLike, kind: str = "") -> str:
         """Return the name of a new row, of a kind, that a request asks for."""
@@ -132,27 +149,52 @@ class LiveQuestions:
             | {"only": [live.rows[name][0] for name in names if name in live.rows]}
             for place, names, ends in zip(self.judge.places, self.only, self.ends, strict=True)
         ]
-        return {"overs": overs, "questions": [each for each in asked if each], "most": MOST}
+        travel = [abs(each.end - each.start) for each in self.machine.plan.strokes.values()]
+        return {"overs": overs, "questions": [each for each in asked if each], "most": MOST, "travel": travel, "near": NEAR}
 
     def question(self, live: LiveText, rule: str, constraints: list[Constraint], pieces: Mapping[Leaf, list[Piece]]) -> PageData:
         """Return a question as data; nothing where the program does not give one of its pieces."""
-        leaves, found = list(pieces), list[PageData]()
-        for leaf, own in pieces.items():
-            if not all(f"{name}{kind}" in live.rows for _, _, name in own for kind in ("", " gaps", " assumed")):
-                return {}
-            found.append({"at": int(isinstance(leaf, At)), "pieces": [piece_data(live, *each) for each in own]})
-        unit = display_unit(measures_of(self.machine.plan, constraints[0]), "mm")
+        kinds = ("", *(f" {which}" for which in TRUTHS))
+        followed = {leaf: all(f"{name}{kind}" in live.rows for _, _, name in own for kind in kinds) for leaf, own in pieces.items()}
+        if not all(followed[leaf] for each in constraints for side in (each.left, each.right) for leaf in side.leaves):
+            return {}
+        leaves = list({id(own): (leaf, own) for leaf, own in pieces.items() if followed[leaf]}.values())
+        places = {leaf: next(k for k, (_, each) in enumerate(leaves) if each is own) for leaf, own in pieces.items() if followed[leaf]}
+        found = [{"at": int(isinstance(leaf, At)), "pieces": [piece_data(live, *each) for each in own]} for leaf, own in leaves]
+        unit, measures = live_unit(self.machine.plan, constraints[0]), measures_of(self.machine.plan, constraints[0])
+        member, words = self.said[rule]
+        if any(not followed[leaf] for each in (words.measure, words.share) if each is not None for leaf in each.leaves):
+            words = PLAIN_WORDS
         with language("ru"):
-            russian = heading_of(rule)
-        return {
+            russian, text = heading_of(rule), translated(words.text)
+        told: PageData = {"words": [typeset(words.text), typeset(text)]} if words.text else {}
+        if words.measure is not None:
+            told |= {"says": tree(words.measure, places), "saysUnit": live_unit(self.machine.plan, words.measure)}
+        if words.share is not None:
+            told["share"] = tree(words.share, places)
+        return told | {
             "rule": typeset(rule),
             "ru": typeset(russian),
-            "unit": {"unit": typeset(shown_in(unit)), "factor": factor(shown_in(unit))},
+            "member": member,
+            "key": rule_key(rule, member),
+            "isLength": int(measures == "length"),
+            "unit": unit,
             "leaves": found,
             "constraints": [
-                {"symbol": each.symbol, "left": tree(each.left, leaves), "right": tree(each.right, leaves)} for each in constraints
+                {"symbol": each.symbol, "left": tree(each.left, places), "right": tree(each.right, places)} for each in constraints
             ],
         }
+
+
+def rule_key(rule: str, member: str) -> str:
+    """Return what a rule of a member is known by, whether or not it bears the member's name, as it does where several have it."""
+    return f"{member} {rule.removesuffix(f' {member}')}"
+
+
+def live_unit(plan: Plan, asked: Measure | Constraint) -> PageData:
+    """Return the unit that the value of a measure or a question is shown in, and its factor."""
+    unit = shown_in(display_unit(measures_of(plan, asked), "mm"))
+    return {"unit": typeset(unit), "factor": factor(unit)}
 
 
 def piece_data(live: LiveText, number: int, row: Sought, name: str) -> PageData:
@@ -165,13 +207,14 @@ def piece_data(live: LiveText, number: int, row: Sought, name: str) -> PageData:
     }  # fmt: skip
 
 
-def tree(measure: Measure, leaves: list[Leaf]) -> object:
+def tree(measure: Measure, places: Mapping[Leaf, int]) -> object:
     """Return a measure as data: a number, the place of a leaf, or an operator with its two sides."""
     if isinstance(measure, Given):
         return measure.value
     if isinstance(measure, CombinedMeasure):
-        return [measure.symbol, tree(measure.left, leaves), tree(measure.right, leaves)]
-    return {"leaf": next(place for place, each in enumerate(leaves) if each is measure)}
+        return [measure.symbol, tree(measure.left, places), tree(measure.right, places)]
+    assert isinstance(measure, Leaf)
+    return {"leaf": places[measure]}
 
 
 def over_data(over: Over, motion: Motion, rows: Mapping[tuple[str, int], int]) -> PageData:

@@ -29,13 +29,19 @@ function settings() {
   }
   return [...plain];
 }
+/* A number as it is copied: to what matters. */
+const figure = (value) => String(Number(value.toPrecision(7)));
 const asPython = () => {
-  const isPlain = ([name]) => !name.includes("."), value = (given) => (given.length ? `(${given.map(String).join(", ")})` : String(given)), found = settings();
+  const isPlain = ([name]) => !name.includes("."), value = (given) => (given.length ? `(${given.map(figure).join(", ")})` : figure(given)), found = settings();
   const dotted = found.filter((each) => !isPlain(each)).map(([name, given]) => `"${name}": ${value(given)}`);
-  return `${data.class}(${[...found.filter(isPlain).map(([name, given]) => `${name}=${value(given)}`), ...(dotted.length ? [`**{${dotted.join(", ")}}`] : [])].join(", ")})`;
+  const made = [...found.filter(isPlain).map(([name, given]) => `${name}=${value(given)}`), ...(dotted.length ? [`**{${dotted.join(", ")}}`] : [])].join(", ");
+  return `${data.module ? `from ${data.module} import ${data.class}\n\n` : ""}machine = ${data.class}(${made})${found.length ? "" : "  # unchanged"}\n`;
 };
-const asToml = () => ["[set]", ...settings().map(([name, given]) => `${name.includes(".") ? `"${name}"` : name} = ${given.length ? `[${given.join(", ")}]` : given}`)].join("\n");
-const asOptions = () => settings().map(([name, given]) => `--set ${name}=${[given].flat().join(",")}`).join(" ");
+const asToml = () => {
+  const lines = settings().map(([name, given]) => `${name.includes(".") ? `"${name}"` : name} = ${given.length ? `[${given.map(figure).join(", ")}]` : figure(given)}`);
+  return [`machine = "${data.machine}"`, "", "[set]", ...(lines.length ? lines : ["# unchanged"])].join("\n") + "\n";
+};
+const asOptions = () => settings().map(([name, given]) => `--set ${name}=${[given].flat().map(figure).join(",")}`).join(" ") || "# unchanged";
 const FORMS = { python: asPython, toml: asToml, options: asOptions };
 for (const [form, text] of Object.entries(FORMS)) on(byId(`as-${form}`), "click", (event) => { byId("text").value = text(); copied(text(), event.currentTarget.firstChild); });
 
@@ -162,7 +168,7 @@ function compared() {
 /* ---- units: as delivered, or one of the four systems ---- */
 
 let system = "";
-const things = [...dims, ...columns, ...strokes.filter((each) => each.unit), data.length, data.force, data.pressureUnit, ...data.judge.questions.map(({ unit }) => unit)].filter(Boolean);
+const things = [...dims, ...columns, ...strokes.filter((each) => each.unit), data.length, data.force, data.pressureUnit, ...data.judge.questions.flatMap(({ unit, saysUnit }) => [unit, saysUnit])].filter(Boolean);
 for (const each of things) each.base ??= each.unit;
 function inSystem(name) {
   system = name in data.systems ? name : "";

@@ -4,7 +4,8 @@ const unpacked = async (id) => {
   const bytes = Uint8Array.from(atob(document.getElementById(id).textContent), (letter) => letter.charCodeAt(0));
   return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"))).text();
 };
-unpacked("program").then(
-  (program) => document.body.append(Object.assign(document.createElement("script"), { textContent: program })),
+const put = (kind, text) => document.body.append(Object.assign(document.createElement(kind), { textContent: text }));
+Promise.all(["style", "program"].map(unpacked)).then(
+  ([style, program]) => { put("style", style); put("script", program); },
   () => document.body.append("This page needs a browser of 2023 or later: Chrome or Edge 80, Safari 16.4, Firefox 113."),
 );

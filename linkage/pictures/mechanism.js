@@ -63,6 +63,8 @@ function broken(points) {
   for (const p of points) { if (!p) { pen = "M"; continue; } text += `${pen}${p[0].toFixed(1)} ${p[1].toFixed(1)}`; pen = "L"; }
   return text;
 }
+/* What buttons take of the sheet on its right [px]: nothing of the machine lies under them. */
+const TOOLS = document.querySelector(".sheet-tools") ? 40 : 0;
 const sheet = byId("mechanism"), EDGE = 1.3;
 let zoom = 1, left0 = 0, top0 = 0, sheetWide = 0, sheetTall = 0, unit0 = 1;
 const px = (x, y) => [left0 + zoom * x, top0 - zoom * y];
@@ -241,11 +243,11 @@ function fit(grow, under = 0) {
   before = [left, right, bottom, top];
   const wide = right - left || 1e-3, high = top - bottom || 1e-3, pad = min(46, 0.11 * min(sheetWide, sheetTall));
   for (let turn = 0, margin = pad; turn < 2; turn++) {
-    zoom = min((sheetWide - 2 * margin) / wide, (sheetTall - under - 2 * margin) / high);
+    zoom = min((sheetWide - TOOLS - 2 * margin) / wide, (sheetTall - under - 2 * margin) / high);
     unit0 = max(scene.size * zoom, 3.4);
     margin = max(pad, 4.4 * unit0);
   }
-  left0 = 0.5 * sheetWide - 0.5 * (left + right) * zoom;
+  left0 = 0.5 * (sheetWide - TOOLS) - 0.5 * (left + right) * zoom;
   top0 = 0.5 * (sheetTall - under) + 0.5 * (bottom + top) * zoom;
 }
 /* Draw everything anew: after a change of the design or of the sheet; with what lies at the bottom, under the bodies, and on top. */

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 
 from ..errors import SingularError, unwarned
 from ..language import said, translated
-from ..motion import Motion, Planes, rates_of, whole_body
+from ..motion import Motion, Planes, pose_sentence, rates_of, whole_body
 from ..program import FloatArray
 from ..statics import loose_movements
 from ..units import factor, mm, show, shown_in
@@ -74,6 +74,8 @@ class Overlays:
             else:
                 layers.append(force_layer(forces))
                 notes += [remark.replace("rates=dict(", "velocities=dict(") for remark in forces.found.remarks]
+            if vars(self.forces) == vars(ForceQuestion()):  # all forces, of the machine's own loads
+                notes += filter(None, [pose_sentence(one_pose(motion, pose))])
         if self.rates is not None:
             layers.append(velocity_layer(motion, pose, self.rates))
             notes += layers[-1].notes

@@ -1,6 +1,6 @@
 const { strokes, units } = data;
-/* The questions of the verdicts, asked of the present design over all that the machine runs: coarsely while it changes, finer when it is still. */
-const asking = judging(engine, data.judge), DRAGGING = 9, STILL = 17;
+/* The questions of the verdicts, asked of the present design over all that the machine runs when the hand rests: coarsely while it holds something. */
+const asking = judging(engine, data.judge, data.joints.map(({ row }) => row)), DRAGGING = 9, STILL = 17, REST = 130;
 /* The paths that a machine declares run as strokes of their own, unless the page is of a path. */
 if (!strokes.some((each) => each.path)) for (const [over, { shape, name, places: ways }] of asking.spans().entries()) {
   if (shape === "path" && name && ways[0].length > 1) strokes.push({ name, start: 1, end: ways[0].length, at: 1, unit: "", factor: 1, turn: 0, path: { ...ways }, over });
@@ -313,172 +313,6 @@ function mark(each, list, up, dot, out) {
   byId(out).textContent = each ? (there ? fixed(value, places(max(...finite(list).map(abs), 0), 4)) + unitText(each.unit) : "\u2013") : "";
 }
 
-/* ---- verdicts ---- */
-
-const strokeText = (value) => { const stroke = strokes[runs]; return `${titled(stroke)} = ${shown(value, stroke, 4)}`; };
-const mm = (value) => fixed(value / data.length.factor, data.length.factor > 0.01 ? 2 : 1) + unitText(data.length.unit);
-/* Return the least and the greatest of some values with their strokes, a parabola laid through the poses next to them. */
-function extremes(values) {
-  let low = -1, high = -1;
-  for (const i of now.reached) if (isNumber(values[i])) { if (low < 0 || values[i] < values[low]) low = i; if (high < 0 || values[i] > values[high]) high = i; }
-  if (low < 0) return null;
-  const peak = (i) => {
-    const a = values[i - 1], b = values[i], c = values[i + 1], bend = a - 2 * b + c;
-    if (!isNumber(a) || !isNumber(c) || !bend) return { value: b, at: now.along[i] };
-    const t = (0.5 * (a - c)) / bend;
-    return abs(t) > 1 ? { value: b, at: now.along[i] } : { value: b - 0.25 * (a - c) * t, at: now.along[i] + t * (now.along[1] - now.along[0]) };
-  };
-  return { low: peak(low), high: peak(high) };
-}
-let known = { key: "" };
-function asked(n) {
-  const design = vector(present), key = `${n} ${design.join()}`;
-  if (known.key !== key) known = { key, ...asking.ask(design, n, n === STILL) };
-  return known;
-}
-const placeText = (at) => own.map((each, k) => `${each.name} = ${shown(at[k], each, 4)}`).join(", ");
-function situationText(each) {
-  const words = [];
-  if (each.direction) {
-    const direction = each.direction === "extending" ? say("extending") : each.direction === "retracting" ? say("retracting") : say("at rest");
-    words.push(each.drive ? say("{direction} {drive}", { direction, drive: each.drive }) : direction);
-  }
-  if (each.side) words.push(each.side === "piston" ? say("on the piston side") : say("on the rod side"));
-  if (each.case) words.push(say("in the case {case}", { case: each.case }));
-  if (each.name) words.push(say("over {over}", { over: each.name }));
-  if (each.strokes) words.push(say("at {place}", { place: placeText(each.strokes) }));
-  return words.join(", ");
-}
-function answerText({ rule, unit }, each) {
-  if (each.unknown) return say("as delivered: with these sizes the page does not follow it");
-  if (each.ok === null) return say("says nothing: no place is left to judge");
-  if (!(abs(each.value) >= 0) || (each.kept === false && each.margin >= 0)) return say("it has no value at places that were looked at");
-  const size = (value) => (isNumber(value) ? shown(value, unit, 4) : say("without bounds")), words = { value: size(each.value), place: situationText(each), limit: size(each.limit) };
-  const text = each.symbol === "<=" ? say("greatest {value}, {place}; not above {limit}", words) : say("least {value}, {place}; not below {limit}", words);
-  return data.limits[rule] ? `${text} (${limitText(data.limits[rule])})` : text;
-}
-function verdicts(n = STILL) {
-  const found = [], add = (ok, rule, text, more) => found.push({ ok, rule, text, ...more }), all = now.reached.length === COUNT, stroke = strokes[runs];
-  const from = shown(now.along[0], stroke, 4), to = shown(now.along[COUNT - 1], stroke, 4), answers = asked(n);
-  const gone = answers.lost.filter((each) => each.share && !each.allowed), deepest = gone.reduce((a, b) => (b.share > a.share ? b : a), gone[0]);
-  if (!all) {
-    const lost = [...now.along.keys()].filter((i) => now.reason[i]), worst = lost.reduce((a, b) => (now.missing[b] > (now.missing[a] || 0) ? b : a), lost[0]);
-    const spans = stretches(lost).map(([a, b]) => say("{from} to {to}", { from: shown(now.along[a], stroke, 4), to: shown(now.along[b], stroke, 4) })).join(", ");
-    add(false, say("assembly"), why(now, worst, say("not assembled at {stroke} = {spans}", { stroke: titled(stroke), spans })));
-    for (const text of ends(lost)) add(null, say("dead point"), text);
-  } else if (deepest) {
-    const what = say("{share} of the places looked at are lost, deepest at {place}", { share: `${fixed(100 * deepest.share, 1)}\u2009%`, place: placeText(deepest.strokes) });
-    add(false, say("assembly"), why({ reason: [deepest.reason], missing: [deepest.missing] }, 0, what));
-  } else add(true, say("assembly"), say("assembled over the whole stroke, {stroke} from {from} to {to}", { stroke: titled(stroke), from, to }));
-  const far = all && !stroke.path ? beyond() : null;
-  if (far) add(null, say("dead point"), say("the nearest is of {step} at {where}, {away} beyond the stroke", far));
-  let tight = null;
-  for (const { point, row } of data.joints) { const ext = extremes(now.values[row]); if (ext && (!tight || ext.low.value < tight.value)) tight = { ...ext.low, point }; }
-  if (tight) add(null, say("transmission"), say("least angle {angle}, of {joint} at {where}", { joint: tight.point, angle: `${fixed((tight.value * 180) / PI, 1)}\u00b0`, where: strokeText(tight.at) }));
-  if (data.task) add(null, say("task"), missWords());
-  const questions = data.judge.questions, named = ({ rule, ru }) => (language === "ru" && ru) || rule;
-  for (const [q, question] of questions.entries()) {
-    const each = answers.found[q];
-    add(gone.length && each.ok === false ? each.kept : each.ok, named(question), answerText(question, each), { open: each.ok === null });
-  }
-  for (const each of data.cylinders) cylinder(each, add);
-  if (isChanged()) {
-    const live = new Set([...questions.map(({ rule }) => rule), "assembly", "dead points"]);
-    for (const [state, rule, , ruled] of data.verdicts) if (state !== 2 && !live.has(rule)) add(null, (language === "ru" && ruled) || rule, say("as delivered: the page does not follow it"), { open: true });
-  }
-  add(null, "", say("looked at {n} values a stroke, {count} poses", { n: answers.n, count: answers.count }));
-  return found;
-}
-/* Return the nearest place beyond the ends of the running stroke at which the motion ends: of which step, where, how far away; null for none within a stroke's length. */
-function beyond() {
-  const { start, end } = strokes[runs], size = abs(end - start), reached = (value) => single(present, stands.map((each, k) => (k === runs ? value : each)));
-  let best = null;
-  for (const [from, sign] of [[min(start, end), -1], [max(start, end), 1]]) {
-    let good = 0, bad = 0;
-    for (let i = 1; i <= 16 && !bad; i++) { const away = (size * i) / 16; if (reached(from + sign * away).reason[0] === 0) good = away; else bad = away; }
-    if (!bad || (best && good > best.away)) continue;
-    for (let i = 0; i < 30; i++) { const middle = 0.5 * (good + bad); if (reached(from + sign * middle).reason[0] === 0) good = middle; else bad = middle; }
-    const last = reached(from + sign * bad), k = last.reason[0], step = k > 0 ? engine.steps[k - 1] : "";
-    if (!best || good < best.away) best = { away: good, at: from + sign * good, step };
-  }
-  return best && { step: data.steps[best.step] || best.step, where: strokeText(best.at), away: shown(best.away, strokes[runs], 3) };
-}
-function stretches(list) {
-  const found = [];
-  for (const i of list) { const last = found[found.length - 1]; if (last && last[1] === i - 1) last[1] = i; else found.push([i, i]); }
-  return found;
-}
-/* Return where the reach ends within the stroke, by bisection between the poses. */
-function ends(lost) {
-  const said = [];
-  for (const [a, b] of stretches(lost)) for (const [inside, outside] of [[a - 1, a], [b + 1, b]]) {
-    if (inside < 0 || inside >= COUNT || said.length > 3) continue;
-    let good = now.along[inside], bad = now.along[outside];
-    for (let i = 0; i < 20; i++) { const middle = 0.5 * (good + bad), at = [...stands]; at[runs] = middle; if (single(present, at).reason[0] === 0) good = middle; else bad = middle; }
-    const k = now.reason[outside], step = k > 0 ? engine.steps[k - 1] : "";
-    said.push(say("of {step} at {where}, where the reach ends", { step: data.steps[step] || step, where: strokeText(good) }));
-  }
-  return said;
-}
-const limitText = ([, text, , ru]) => (language === "ru" && ru) || text;
-function cylinder(each, add) {
-  const lengths = new Float64Array(COUNT).fill(NaN);
-  for (const i of now.reached) lengths[i] = apart(spot(now, each.P, i), spot(now, each.Q, i));
-  const ext = extremes(lengths), at = (row) => (row === undefined ? NaN : pose.values[row][0]);
-  if (!ext) return;
-  const fits = data.judge.questions.some(({ rule }) => rule === "length" || rule === `length ${each.name}`);
-  const closed = at(each.closed), stroke = at(each.stroke), words = { low: mm(ext.low.value), high: mm(ext.high.value), closed: mm(closed), open: mm(closed + stroke), stroke: mm(stroke), travel: mm(ext.high.value - ext.low.value) };
-  if (fits) { /* its length is one of the questions */ } else if (closed > 0) {
-    const inside = closed - ext.low.value, outside = ext.high.value - closed - stroke, faults = [];
-    if (inside > 1e-6) faults.push(say("{gap} too long closed", { gap: mm(inside) }));
-    if (outside > 1e-6) faults.push(say("{gap} missing open", { gap: mm(outside) }));
-    const text = stroke > 0 ? say("pins {low} to {high} apart; the cylinder is {closed} closed, {open} open", words) : say("pins {low} to {high} apart; the cylinder is {closed} closed", words);
-    add(!faults.length, each.name, [text, ...faults].join("; "));
-  } else if (stroke > 0) {
-    const gap = ext.high.value - ext.low.value - stroke;
-    add(gap <= 1e-6, each.name, [say("travels {travel}, its stroke is {stroke}", words), ...(gap > 1e-6 ? [say("{gap} missing", { gap: mm(gap) })] : [])].join("; "));
-  } else if (ext.high.value - ext.low.value > 1e-6) add(null, each.name, say("pins {low} to {high} apart", words));
-  if (each.beside && ext.high.value - ext.low.value > 1e-6) {
-    const slopes = now.reached.slice(1).map((i) => lengths[i] - lengths[i - 1]), k = slopes.findIndex((slope, i) => i && slope * slopes[i - 1] < 0);
-    if (k > 0) add(null, each.name, say("its length stands still at about {where}, where its thrust moves nothing", { where: strokeText(now.along[now.reached[k]]) }));
-  }
-  const pressed = each.pressure === undefined ? null : extremes(now.values[each.pressure]);
-  const asked = base.values[each.pressure] || [];
-  if (pressed && each.most === undefined) add(null, each.name, say("needs up to {pressure} at {where}", { pressure: shown(pressed.high.value, data.pressureUnit, 4), where: strokeText(pressed.high.at) }));
-  else if (!pressed && now.reached.length && [...asked].some(isNumber)) add(false, each.name, say("has no pressure with these sizes; is the rod thinner than the bore?"));
-}
-let toldBefore = "";
-function judge(n = STILL) {
-  const found = verdicts(n), key = JSON.stringify([language, found]);
-  byId("delivered").className = `${data.verdicts.length ? "" : "none"}${isChanged() ? " stale" : ""}`;
-  if (key === toldBefore) return;
-  toldBefore = key;
-  list(byId("live"), found);
-  count(found);
-}
-/* The badge: of the delivered design all delivered verdicts, of a changed one the live ones and how many are as delivered. */
-function count(found) {
-  const states = data.verdicts.filter(([state]) => state !== 2), changed = isChanged(), badge = byId("badge");
-  const named = (state, rule, ruled) => (language === "ru" && ruled) || rule, live = found.filter((each) => each.ok === false).map((each) => each.rule);
-  const told = changed ? [] : states.filter(([state]) => state === 0).map(([state, rule, , ruled]) => named(state, rule, ruled));
-  const fails = [...new Set([...told, ...live])], open = changed ? found.filter((each) => each.open).length : states.filter(([state]) => state === 3).length;
-  badge.dataset.fails = fails.length; badge.dataset.open = open;
-  const counts = { count: fails.length, open, ok: states.length - told.length - open, all: states.length };
-  if (fails.length === 1) badge.textContent = `\u2715 ${fails[0]}: ${say("does not hold")}`;
-  else if (fails.length) badge.textContent = say("{count} verdicts fail", counts);
-  else if (changed) badge.textContent = open ? say("the live verdicts hold; as delivered or silent: {open}", counts) : say("all live verdicts hold");
-  else badge.textContent = open ? say("{ok} of {all} verdicts hold; silent: {open}", counts) : states.length ? say("{ok} of {all} verdicts hold", counts) : say("all live verdicts hold");
-}
-function list(parent, found) {
-  parent.replaceChildren(...found.map(({ ok, rule, text }) => {
-    const item = make("li");
-    if (ok === true || ok === false) item.className = ok ? "ok" : "bad";
-    if (rule) { const bold = make("b"); bold.textContent = `${rule}: `; item.append(bold); }
-    item.append(text);
-    return item;
-  }));
-}
-
 /* ---- controls ---- */
 
 const sizeRows = new Map();
@@ -518,11 +352,11 @@ function typed(text, each) {
 function listSizes() {
   const parent = byId("dimensions");
   sizeRows.clear();
-  parent.replaceChildren(...chosen.map((i) => {
+  parent.replaceChildren(...byPart(chosen).flatMap(([part, own]) => [...(part ? [make("h3", { textContent: part })] : []), ...own.map((i) => {
     const each = dims[i], row = make("div"), label = make("span"), slide = make("div"), slider = make("input");
     const mark = make("i"), box = make("input"), unit = make("span"), drop = make("button");
     row.className = "size"; label.className = "name"; slide.className = "slide"; unit.className = "unit"; drop.className = "drop";
-    label.textContent = each.name; label.title = each.where || each.name;
+    label.textContent = part ? each.name.slice(part.length + 1) : each.name; label.title = each.where ? `${each.name}: ${each.where}` : each.name;
     Object.assign(slider, { type: "range", min: 0, max: 1000, step: "any" });
     slider.setAttribute("aria-label", each.name); slider.dataset.size = each.name;
     mark.style.left = `calc(8px + (100% - 16px) * ${((each.value - each.low) / (each.high - each.low)).toFixed(4)})`;
@@ -548,11 +382,20 @@ function listSizes() {
     slide.append(slider, mark); row.append(label, slide, box, unit, drop);
     sizeRows.set(i, { row, slider, box });
     return row;
-  }));
-  const add = byId("add"), first = make("option");
-  first.value = ""; first.textContent = say("Add a dimension …");
-  add.replaceChildren(first, ...dims.map((each, i) => [each, i]).filter(([, i]) => !chosen.includes(i)).map(([each, i]) => option(each.name, i)));
+  })]));
+  byId("add").placeholder = say("Find a dimension …");
+  byId("others").replaceChildren(...dims.filter((_, i) => !chosen.includes(i)).map((each) => make("option", { value: each.name, label: each.where || "" })));
   showSizes();
+}
+/* Dimensions by the part that they are of, in the order in which parts come first: [part, their places]. */
+const partNames = [...new Set(scene.names.filter((each) => each.includes(".")).map((each) => each.slice(0, each.lastIndexOf("."))))].sort((a, b) => b.length - a.length);
+function byPart(list) {
+  const found = new Map();
+  for (const i of list) {
+    const part = partNames.find((each) => dims[i].name.startsWith(`${each}.`)) ?? "";
+    found.set(part, [...(found.get(part) ?? []), i]);
+  }
+  return [...found].sort(([a], [b]) => (a !== "") - (b !== ""));
 }
 function option(text, value) { const found = make("option"); found.textContent = text; found.value = value; return found; }
 function put(i, value, exact) {
@@ -570,7 +413,15 @@ function showSizes() {
     row.classList.toggle("changed", value !== each.value);
   }
 }
-on(byId("add"), "change", (event) => { if (event.target.value !== "") { chosen.push(Number(event.target.value)); listSizes(); remember(); } });
+/* Show the dimension that is looked for: of that name, else the first in whose name the text stands. */
+on(byId("add"), "change", ({ target }) => {
+  const text = target.value.trim(), others = dims.map((_, i) => i).filter((i) => !chosen.includes(i)), plain = text.toLowerCase();
+  const found = others.find((i) => dims[i].name === text) ?? others.find((i) => dims[i].name.toLowerCase().includes(plain));
+  if (!text) return;
+  target.value = "";
+  if (found === undefined) { warn(say("no other dimension is called {text}", { text })); return; }
+  chosen.push(found); listSizes(); remember();
+});
 const called = (each) => (language === "ru" && each.ru) || each.name;
 const heading = (each) => (each.unit ? `${called(each)}, ${signed(each.unit)}` : called(each));
 function choosers() {
@@ -598,12 +449,7 @@ function speak() {
   for (const name of ["undo", "redo", "nearer", "farther", "whole", "grid", "measure"]) byId(name).setAttribute("aria-label", byId(name).title);
   systems();
   byId("play").setAttribute("aria-label", playing ? say("Pause") : say("Play"));
-  toldBefore = "";
-  const inUnits = data.verdictsIn[system];
-  list(byId("told"), data.verdicts.map(([ok, rule, text, ruled, ru], i) => {
-    const [english, russian] = (inUnits && inUnits[i]) || [text, ru || text];
-    return language === "ru" ? { ok: [false, true][ok], rule: ruled || rule, text: russian || english } : { ok: [false, true][ok], rule, text: english };
-  }));
+  toldBefore = hereBefore = "";
   listSizes(); choosers(); compared(); soon("fit");
 }
 
@@ -658,8 +504,8 @@ on(window, "hashchange", () => { if (recall()) { play(false); speak(); soon("des
 /* ---- one frame at a time ---- */
 
 const PERIOD = 5; /* seconds for there and back, or once round */
-let playing = false, clock = 0, last = null, waiting = false, todo = new Set(), judgedAt = 0, later;
-let comparing;
+let playing = false, clock = 0, last = null, waiting = false, todo = new Set(), later;
+let comparing, baseAt = "";
 const timing = { frames: 0, total: 0, most: 0 };
 /* The stretch of the running stroke that is played: the reached part that the present pose lies in. */
 function stretch() {
@@ -693,7 +539,9 @@ function frame(time) {
 function render(work) {
   const anew = ["design", "sweep"].some((each) => work.has(each)), sized = work.has("fit");
   if (anew || sized || !now) now = sweep(present, stands, runs);
-  if (isMoved() && (anew || sized)) base = sweep(original, stands, runs); else if (anew || sized || !base) base = first;
+  /* The delivered design along the same stroke is worked out again only where another stroke stands elsewhere. */
+  const beside = isMoved() ? JSON.stringify([runs, followed(stands).map((value, k) => (isDriven(k) ? 0 : value))]) : "";
+  if (beside !== baseAt || !base) { base = beside ? sweep(original, stands, runs) : first; baseAt = beside; }
   pose = single(present, stands);
   if (anew || sized) { edition++; const was = [zoom, left0, top0].join(); if (!gripped) { fit(!sized, room()); closer(); } pullScale(); pressureScale(); if (sized || !parts.length || was !== [zoom, left0, top0].join()) build(); legend(); }
   if (anew || sized || work.has("curve")) plotted();
@@ -706,11 +554,12 @@ function render(work) {
   followed(stands).forEach((value, k) => {
     const each = strokes[k];
     each.slider.value = String((1000 * (value - each.start)) / (each.end - each.start));
-    const text = fixed(value / each.factor, places(max(abs(each.start), abs(each.end)) / each.factor, 4)) + unitText(each.unit);
+    const text = each.path ? say("place {n} of {count}", { n: short(value, 3), count: each.end }) : fixed(value / each.factor, places(max(abs(each.start), abs(each.end)) / each.factor, 4)) + unitText(each.unit);
     each.out.textContent = text; each.slider.setAttribute("aria-valuetext", text);
   });
   if (anew || sized || work.has("size")) showSizes();
-  if (anew || sized) { clearTimeout(later); const idle = performance.now() - judgedAt; judgedAt = performance.now(); if (idle > 120 && anew && toldBefore) judge(DRAGGING); else if (!toldBefore) judge(); later = setTimeout(() => { judgedAt = performance.now(); judge(); }, 130); }
+  if (anew || sized) { asking.laid(vector(present)); if (!toldBefore) judge(); else { clearTimeout(later); later = setTimeout(rested, REST); } }
+  here();
 }
 function play(on) {
   playing = on;

@@ -6,6 +6,7 @@ let first = (base = now = sweep(present, stands, runs));
 strokeSliders();
 const restored = recall();
 speak();
+noted();
 frame(0);
 new ResizeObserver(() => soon("fit")).observe(sheet);
 new ResizeObserver(() => soon("curve")).observe(plot);
@@ -22,5 +23,5 @@ window.hydrolinkage = {
   },
   points: () => Object.fromEntries(scene.names.map((each, p) => [each, spot(pose, p, 0)])),
   sweep: () => ({ along: [...now.along], values: now.values.map((each) => [...each]), reason: [...now.reason] }),
-  play, verdicts,
+  play, verdicts, here: atPose,
 };

@@ -21,7 +21,7 @@ from ..language import noted, said
 from ..loads import FRICTIONLESS, PLAIN, Acting, ActingKeywords, Case, LoadCase, Loads, situation_of, takes_situation
 from ..loads.element import AT_REST, ForceElement, Load
 from ..loads.point import LinkMass, Support, Weight
-from ..motion import Answer, Column, Condition, HasVerdicts, Judge, Motion, Tabled, least, most, require_motion
+from ..motion import Answer, Column, Condition, HasVerdicts, Judge, Motion, PageWords, Tabled, at, least, most, require_motion
 from ..motion.conditions import condition_of_sine
 from ..motion.limits import where_words
 from ..motion.requests import stroke_of
@@ -427,6 +427,7 @@ class AxleLoad(Tabled, HasVerdicts):
 
     section = noted("Vehicle")
     caption = noted("Axle loads, over all that the machine runs")
+    headed = noted("Axle {name}")
 
     @classmethod
     def of(cls, support: Support, plan: Plan) -> AxleLoad | None:
@@ -448,6 +449,15 @@ class AxleLoad(Tabled, HasVerdicts):
             return {}
         found: dict[str, Condition] = {"axle load": least(axle_load(self.support.name)) >= 0.0}
         return found | ({"slipping": most(slipping()) <= 1.0} if self.is_first and any(map(is_rough, supports.values())) else {})
+
+    def page_words(self, judge: Judge) -> Mapping[str, PageWords]:
+        name, weights = self.support.name, [each for each in judge.plan.of_kind(ForceElement).values() if is_on_frame(judge.plan, each)]
+        kept = least(axle_load(name)) / at(axle_load(name, acting=Acting(loads=weights)), **judge.plan.sketch_strokes)
+        uses = noted("along the ground it uses at most {value} % of its friction, {place}")
+        return {
+            "axle load": PageWords(noted("it keeps {value} % of its load, least {place}"), 100.0 * kept, 1.0 - kept),
+            "slipping": PageWords(uses, 100.0 * most(slipping())),
+        }
 
     def load_limits(self, judge: Judge) -> Mapping[str, Condition]:
         return {}

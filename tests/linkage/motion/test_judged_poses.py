@@ -3,8 +3,8 @@
 import numpy as np
 from numpy.testing import assert_array_equal
 
-from linkage import Crank, Ground, Mechanism, Over, Stroke, deg, x
-from linkage.motion import judged_poses
+from linkage import Crank, Ground, Mechanism, Over, Stroke, Support, Weight, deg, x
+from linkage.motion import judged_poses, pose_sentence
 from tests.for_all import for_all
 
 
@@ -15,6 +15,18 @@ class Reach(Mechanism):
     O = Ground(0, 0)
     P = Crank(O, OP=1.0 + 0.1 * slide, angle=alpha)
     T = Crank(P, PT=0.9, angle=alpha + beta)
+
+
+class Tipping(Mechanism):
+    """A frame on two wheels 2 m apart, with a load on a boom that goes down before the front one at the origin."""
+
+    phi = Stroke(0.0, 90 * deg)
+    front_axle, rear_axle, M = Ground(0.0, 0.0), Ground(-2.0, 0.0), Ground(-1.0, 0.5)
+    O = Ground(0.0, 1.0)
+    G = Crank(O, OG=2.5, angle=phi)
+    body, load = Weight(M, mass=1000.0), Weight(G, mass=600.0)
+    front, rear = Support(front_axle, direction=(0, 1)), Support(rear_axle, direction=(0, 1))
+    near = Over(phi=(60 * deg, 90 * deg))
 
 
 TRAVEL = np.array([90 * deg, 120 * deg, 2.0])
@@ -61,6 +73,16 @@ def test_poses_boxes_and_conditions():
     assert some.sum() == 4 and some[0, 0, :2].all() and some[-1, -1, :2].all()
     several = judged_poses(machine.judge([Over(alpha=(0.5, 1.0), slide=0.0), Over(slide=(0.9, 1.1))]), grid)
     assert_array_equal(several, box | (slide == 1.0))
+
+
+def test_what_is_out_of_bounds_at_a_pose_is_told_with_its_number():
+    """A mast on two wheels: what its load puts on the rear one is worked out by hand."""
+    machine = Tipping()
+    near, far = (9.80665 * (1000.0 - 600.0 * 2.5 * np.cos(phi * deg)) / 2.0 for phi in (60.0, 20.0))
+    assert near > 0.0 > far
+    assert pose_sentence(machine.at(phi=60 * deg)) == "At this pose: all kept."
+    assert pose_sentence(machine.at(phi=20 * deg)) == f"At this pose: axle load rear {far / 1e3:.4g} kN; outside what is judged."
+    assert pose_sentence(Reach().at(alpha=0.5, beta=0.1, slide=0.0)) == ""
 
 
 def test_designs_of_a_batch_have_the_same_poses_judged():

@@ -1,6 +1,7 @@
 """What a live page says of its questions is what Python's judge says of the same poses: numbers to 1e-9, and whether they are kept."""
 
 import json
+import re
 import subprocess
 
 import numpy as np
@@ -11,7 +12,7 @@ from linkage import Dimension, LoadCase, Over, Stroke
 from linkage.cli.listing import registered
 from linkage.cli.machines import find
 from linkage.language import language
-from linkage.motion import HasVerdicts, live_text
+from linkage.motion import HasVerdicts, judged_poses, live_text, pose_sentence
 from linkage.pictures.browser_data import PageRequests, page_data
 from linkage.pictures.browser_file import page_part
 from linkage.reports import is_column
@@ -29,7 +30,8 @@ RUNNER = """
 const fs=require('fs'),job=JSON.parse(fs.readFileSync(0,'utf8'));
 const {engine,judging}=new Function(job.text+';return {engine,judging}')();
 const judge=judging(engine,job.judge),shown=x=>typeof x==='number'&&!Number.isFinite(x)?String(x):x;
-const found=job.asked.map(([design,n,refines])=>judge.ask(design,n,refines));
+const here=(design,at)=>judge.here(at,engine.sweep(design,at.map(s=>[s])));
+const found=job.asked.map(([design,n,refines])=>Array.isArray(n)?here(design,n):judge.ask(design,n,refines));
 process.stdout.write(JSON.stringify(found,(_,x)=>shown(x)));
 """
 
@@ -63,6 +65,12 @@ class CorneredOnce(Cornered):
     """The same with the boom's cylinder alone: fewer rules."""
 
     jib = aid = None
+
+
+class OnPath(CorneredOnce):
+    """The same, judged along its path alone."""
+
+    work = None
 
 
 class LostOnce(Lost):
@@ -221,6 +229,28 @@ def test_a_live_reserve_is_near_that_of_the_delivered_verdict():
     verdict = next(each for each in Grab().verdicts() if getattr(each, "rule", "") == "lifting pump")
     assert said["found"][place]["value"] == pytest.approx(verdict.answer.value, rel=1e-3)
     assert said["found"][place]["case"] == verdict.answer.case == "shock"
+
+
+@NEEDED
+def test_of_one_pose_it_says_what_python_says_and_whether_it_is_judged():
+    machine, random = OnPath(**{"load.mass": 900.0}), np.random.default_rng(4)
+    every = {name: random.uniform(each.start, each.end, 24) for name, each in machine.strokes.items()}
+    share = random.uniform(0.0, 2.0, 24)  # half of them near the path
+    for name, places in {"S": [0.0, 0.1, 0.25], "T": [0.0, 0.2, 0.1]}.items():
+        every[name][::2] = np.interp(share, range(3), places)[::2]
+    motion = machine.at(unreachable="nan", **every)
+    at = np.array([*every.values()]).T[motion.reached]
+    _, data, found = asked_in_node(machine, [({}, each.tolist(), False) for each in at])
+    judged = judged_poses(machine.judge(), motion)[motion.reached]
+    assert [each["covered"] for each in found] == judged.tolist() and {*judged.tolist()} == {True, False}
+    seen = set()
+    for strokes, said in zip(at, found, strict=True):
+        text = pose_sentence(machine.at(**dict(zip(machine.strokes, strokes, strict=True))))
+        assert ("outside what is judged" in text) is not said["covered"]
+        for question, each in zip(data["questions"], said["found"], strict=True):
+            assert (re.search(rf"\b{question['rule']} [-\d]", text) is not None) is (each["ok"] is False), (text, question["rule"], each)
+            seen.add(each["ok"])
+    assert seen == {True, False}
 
 
 def delivered(data, name, system):

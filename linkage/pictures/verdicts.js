@@ -1,0 +1,323 @@
+/* ---- verdicts: of the delivered design in its own words, of a changed one by the same questions; and what is out of bounds at this pose ---- */
+
+const limitText = ([, text, , ru]) => (language === "ru" && ru) || text;
+const mm = (value) => fixed(value / data.length.factor, data.length.factor > 0.01 ? 2 : 1) + unitText(data.length.unit);
+const strokeText = (value) => { const stroke = strokes[runs]; return `${titled(stroke)} = ${shown(value, stroke, 4)}`; };
+const placeText = (at) => own.map((each, k) => `${each.name} = ${shown(at[k], each, 4)}`).join(", ");
+const ruled = ({ rule, ru }) => (language === "ru" && ru) || rule;
+const questions = data.judge.questions, byKey = new Map(questions.map((each, q) => [each.key, q]));
+/* Angles of links of which less is in line [rad], and below which textbooks advise against a loop that carries load. */
+const IN_LINE = 1e-3, POOR = (40 * PI) / 180;
+let known = { key: "" };
+function asked(n) {
+  const design = vector(present), key = `${n} ${design.join()}`;
+  if (known.key !== key) known = { key, ...asking.ask(design, n, n === STILL) };
+  return known;
+}
+
+/* ---- in words ---- */
+
+function situationText(each) {
+  const words = [];
+  if (each.direction) {
+    const direction = each.direction === "extending" ? say("extending") : each.direction === "retracting" ? say("retracting") : say("at rest");
+    words.push(each.drive ? say("{direction} {drive}", { direction, drive: each.drive }) : direction);
+  }
+  if (each.side) words.push(each.side === "piston" ? say("on the piston side") : say("on the rod side"));
+  if (each.case) words.push(say("in the case {case}", { case: each.case }));
+  if (each.name) words.push(say("over {over}", { over: each.name }));
+  if (each.strokes) words.push(say("at {place}", { place: placeText(each.strokes) }));
+  return words.join(", ");
+}
+const size = (value, unit) => (isNumber(value) ? shown(value, unit, 4) : say("without bounds"));
+function answerText({ rule, unit, words, saysUnit }, each) {
+  if (each.unknown) return say("as delivered: with these sizes the page does not follow it");
+  if (each.ok === null) return say("says nothing: no place is left to judge");
+  if (!(abs(each.value) >= 0) || (each.kept === false && each.margin >= 0)) return say("it has no value at places that were looked at");
+  const limit = size(each.limit, unit), text = words && words[language === "ru" ? 1 : 0], told = each.says && isNumber(each.says.value) ? each.says : each;
+  if (text && each.kept && (!each.says || told === each.says)) {
+    const filled = { value: size(told.value, each.says ? saysUnit : unit), place: situationText(told), limit };
+    return text.replace(/\{(\w+)\}/g, (_, name) => filled[name]);
+  }
+  const given = { value: size(each.value, unit), place: situationText(each), limit };
+  const plain = each.symbol === "<=" ? say("greatest {value}, {place}; not above {limit}", given) : say("least {value}, {place}; not below {limit}", given);
+  return data.limits[rule] ? `${plain} (${limitText(data.limits[rule])})` : plain;
+}
+/* How much of its limit is used, 1 where it is met exactly; not a number where there is no such share. */
+function shareOf({ isLength }, each) {
+  if (each.share !== undefined) return max(each.share, 0);
+  if (isLength || !(abs(each.value) >= 0) || !(each.limit > 0)) return NaN;
+  return each.symbol === "<=" ? each.value / each.limit : each.value > 0 ? each.limit / each.value : NaN;
+}
+/* The delivered verdicts in the language and the units chosen. */
+function delivered() {
+  const inUnits = data.verdictsIn[system];
+  return data.verdicts.map(([state, rule, text, ru, russian], i) => {
+    const [english, other] = (inUnits && inUnits[i]) || [text, russian || text], [member, key, isOfPoses] = data.facts[i] || ["", "", 0];
+    return { state, key, plain: rule, rule: (language === "ru" && ru) || rule, text: (language === "ru" && other) || english, member, isOfPoses };
+  });
+}
+
+/* ---- what is said: rows with the member they are of, whether they are kept, and the share of their limit ---- */
+
+function verdicts(n = STILL) {
+  const found = [], add = (ok, rule, text, more) => found.push({ ok, rule, text, member: "", share: NaN, ...more }), changed = isChanged(), answers = asked(n);
+  const gone = answers.lost.filter((each) => each.share && !each.allowed);
+  const live = (question, q) => {
+    const each = answers.found[q], ok = gone.length && each.ok === false ? each.kept : each.ok;
+    add(ok, ruled(question), answerText(question, each), { member: question.member, share: shareOf(question, each), open: each.ok === null, q });
+  };
+  assembled(answers, gone, changed, add);
+  if (changed) for (const text of deadPoints()) add(true, say("dead points"), text);
+  if (changed) tight(answers, add);
+  if (data.task) add(null, say("task"), missWords());
+  for (const each of delivered()) {
+    const q = byKey.get(each.key), ok = [false, true][each.state];
+    if (!changed) add(ok, each.state === 2 ? "" : each.rule, each.text, { member: each.member, share: q === undefined ? NaN : shareOf(questions[q], answers.found[q]), open: each.state === 3, q });
+    else if (q === undefined && each.state !== 2 && !["assembly", "dead points"].includes(each.plain)) add(null, each.rule, each.text, { stale: true, open: true });
+  }
+  const told = new Set(data.facts.map(([, key]) => key));
+  for (const [q, question] of questions.entries()) if (changed || !(question.member || told.has(question.key))) live(question, q);
+  for (const each of data.cylinders) cylinder(each, changed, add);
+  return found;
+}
+/* Whether it is assembled over what the curve shows; of a changed design over all that it runs. */
+function assembled(answers, gone, changed, add) {
+  const all = now.reached.length === COUNT, stroke = strokes[runs], deepest = gone.reduce((a, b) => (b.share > a.share ? b : a), gone[0]);
+  if (!all) {
+    const lost = [...now.along.keys()].filter((i) => now.reason[i]), worst = lost.reduce((a, b) => (now.missing[b] > (now.missing[a] || 0) ? b : a), lost[0]);
+    const spans = stretches(lost).map(([a, b]) => say("{from} to {to}", { from: shown(now.along[a], stroke, 4), to: shown(now.along[b], stroke, 4) })).join(", ");
+    add(false, say("assembly"), why(now, worst, say("not assembled at {stroke} = {spans}", { stroke: titled(stroke), spans })));
+    for (const text of ends(lost)) add(null, say("dead point"), text);
+  } else if (deepest && changed) {
+    const what = say("{share} of the places looked at are lost, deepest at {place}", { share: `${fixed(100 * deepest.share, 1)}\u2009%`, place: placeText(deepest.strokes) });
+    add(false, say("assembly"), why({ reason: [deepest.reason], missing: [deepest.missing] }, 0, what));
+  } else if (changed) add(true, say("assembly"), say("it is assembled wherever it runs"));
+}
+/* The least transmission angle over all that the machine runs, where it is poor. */
+function tight(answers, add) {
+  const least = answers.least.filter(Boolean).reduce((a, b) => (a && a.value <= b.value ? a : b), null);
+  if (!least || least.value >= POOR) return;
+  const words = { poor: "40\u00b0", angle: `${fixed((least.value * 180) / PI, 1)}\u00b0`, joint: scene.names[data.joints[least.k].point] ?? data.joints[least.k].point, place: situationText({ ...least, name: answers.least.length > 1 ? least.name : "" }) };
+  add(null, "", say("The least transmission angle is {angle}, of {joint} {place}: below {poor} pin forces and play grow.", words));
+}
+/* Return for each stroke that runs first the nearest places beyond its ends at which the motion ends, in words. */
+function deadPoints() {
+  const [first] = asking.spans(vector(present)), start = first.places ? first.places.map(([a]) => a) : first.ends.map(([a]) => a), list = first.places || first.ends;
+  return own.flatMap(({ start: a, end: b }, k) => {
+    const low = min(...list[k]), high = max(...list[k]), size = abs(b - a);
+    if (!(high > low) && own.length > 1) return [];
+    const found = [[low, -1], [high, 1]].map(([from, sign]) => reachEnd(start, k, from, sign, size)).filter(Boolean);
+    return found.length ? [say("none within the stroke; the nearest: {places}", { places: found.join("; ") })] : [];
+  });
+}
+/* Return where the motion ends within a stroke's length beyond a value of it, in words; "" where it does not. */
+function reachEnd(start, k, from, sign, size) {
+  const at = (value) => engine.sweep(vector(present), start.map((each, j) => [j === k ? value : each]));
+  let good = 0, bad = 0;
+  for (let i = 1; i <= 16 && !bad; i++) { const away = (size * i) / 16; if (at(from + sign * away).reason[0] === 0) good = away; else bad = away; }
+  if (!bad) return "";
+  for (let i = 0; i < 30; i++) { const middle = 0.5 * (good + bad); if (at(from + sign * middle).reason[0] === 0) good = middle; else bad = middle; }
+  const reason = at(from + sign * bad).reason[0], step = reason > 0 ? engine.steps[reason - 1] : "", stroke = own[k];
+  return say("{step} at {where}, {away} beyond it", { step: data.called[step]?.[language === "ru" ? 1 : 0] ?? step, where: `${stroke.name} = ${shown(from + sign * good, stroke, 4)}`, away: shown(good, stroke, 3) });
+}
+function stretches(list) {
+  const found = [];
+  for (const i of list) { const last = found[found.length - 1]; if (last && last[1] === i - 1) last[1] = i; else found.push([i, i]); }
+  return found;
+}
+/* Return where the reach ends within the stroke, by bisection between the poses. */
+function ends(lost) {
+  const told = [];
+  for (const [a, b] of stretches(lost)) for (const [inside, outside] of [[a - 1, a], [b + 1, b]]) {
+    if (inside < 0 || inside >= COUNT || told.length > 3) continue;
+    let good = now.along[inside], bad = now.along[outside];
+    for (let i = 0; i < 20; i++) { const middle = 0.5 * (good + bad), at = [...stands]; at[runs] = middle; if (single(present, at).reason[0] === 0) good = middle; else bad = middle; }
+    const k = now.reason[outside], step = k > 0 ? engine.steps[k - 1] : "";
+    told.push(say("of {step} at {where}, where the reach ends", { step: data.steps[step] || step, where: strokeText(good) }));
+  }
+  return told;
+}
+/* Return the least and the greatest of some values with their strokes, a parabola laid through the poses next to them. */
+function extremes(values) {
+  let low = -1, high = -1;
+  for (const i of now.reached) if (isNumber(values[i])) { if (low < 0 || values[i] < values[low]) low = i; if (high < 0 || values[i] > values[high]) high = i; }
+  if (low < 0) return null;
+  const peak = (i) => {
+    const a = values[i - 1], b = values[i], c = values[i + 1], bend = a - 2 * b + c;
+    if (!isNumber(a) || !isNumber(c) || !bend) return { value: b, at: now.along[i] };
+    const t = (0.5 * (a - c)) / bend;
+    return abs(t) > 1 ? { value: b, at: now.along[i] } : { value: b - 0.25 * (a - c) * t, at: now.along[i] + t * (now.along[1] - now.along[0]) };
+  };
+  return { low: peak(low), high: peak(high) };
+}
+/* What no verdict says of a cylinder over the curve: how far apart its pins stand, where no length is declared, and what it needs. */
+function cylinder(each, changed, add) {
+  const lengths = new Float64Array(COUNT).fill(NaN), more = { member: data.groups[each.name] ? each.name : "" };
+  for (const i of now.reached) lengths[i] = apart(spot(now, each.P, i), spot(now, each.Q, i));
+  const ext = extremes(lengths);
+  if (!ext) return;
+  if (each.closed === undefined && each.stroke === undefined && ext.high.value - ext.low.value > 1e-6) add(null, each.name, say("pins {low} to {high} apart", { low: mm(ext.low.value), high: mm(ext.high.value) }), more);
+  if (changed && each.beside && ext.high.value - ext.low.value > 1e-6) {
+    const slopes = now.reached.slice(1).map((i) => lengths[i] - lengths[i - 1]), k = slopes.findIndex((slope, i) => i && slope * slopes[i - 1] < 0);
+    if (k > 0) add(null, each.name, say("its length stands still at about {where}, where its thrust moves nothing", { where: strokeText(now.along[now.reached[k]]) }), more);
+  }
+  const pressed = each.pressure === undefined ? null : extremes(now.values[each.pressure]), before = base.values[each.pressure] || [];
+  if (pressed && each.most === undefined) add(null, each.name, say("needs up to {pressure} at {where}", { pressure: shown(pressed.high.value, data.pressureUnit, 4), where: strokeText(pressed.high.at) }), more);
+  else if (!pressed && now.reached.length && [...before].some(isNumber)) add(false, each.name, say("has no pressure with these sizes; is the rod thinner than the bore?"), more);
+}
+
+/* ---- the list: groups that fold, the worst first; each place in it takes the machine there ---- */
+
+const unfolded = new Set();
+let toldBefore = "";
+/* Judge when nothing was changed for a while: coarsely while something is still pressed. */
+function rested() { judge(down.size ? DRAGGING : STILL); }
+function judge(n = STILL) {
+  const found = verdicts(n), key = JSON.stringify([language, system, isChanged(), found]);
+  byId("looked").textContent = say("looked at {n} values a stroke, {count} poses", { n: known.n, count: known.count });
+  if (key === toldBefore) return;
+  toldBefore = key;
+  list(found);
+  count(found);
+}
+const weight = ({ ok, share, rule }) => (ok === false ? 1e6 : rule ? 0 : -1e3) + (isNumber(share) ? share : -1);
+function list(found) {
+  const groups = new Map(), worst = (list) => max(...list.map(weight));
+  for (const each of found) {
+    const key = each.stale ? " stale" : each.member;
+    if (!groups.has(key)) groups.set(key, []);
+    groups.get(key).push(each);
+  }
+  const sorted = [...groups].sort(([a, one], [b, other]) => (a === " stale") - (b === " stale") || worst(other) - worst(one));
+  byId("groups").replaceChildren(...sorted.map(([member, rows]) => group(member, rows.sort((a, b) => weight(b) - weight(a)))));
+}
+function group(member, rows) {
+  const fold = make("details"), head = make("summary"), title = make("b"), fails = rows.filter((each) => each.ok === false).length, [worst] = rows, items = make("ul");
+  title.textContent = member === " stale" ? say("{n} verdicts do not follow your changes; they are as delivered", { n: rows.length }) : member ? data.groups[member][language === "ru" ? 1 : 0] : say("Machine");
+  head.className = fails ? "bad" : rows.some((each) => each.ok === true) ? "ok" : "";
+  head.append(title);
+  if (member !== " stale") {
+    const kept = rows.filter((each) => each.ok === true).length, rule = worst.rule.replace(` ${member}`, ""), text = fails ? rule : [isNumber(worst.share) ? rule : "", kept ? say("{n} kept", { n: kept }) : ""].filter(Boolean).join(" \u00b7 ");
+    head.append(make("span", { textContent: text }), bar(worst));
+  }
+  fold.open = unfolded.has(member) || ((fails > 0 || (data.task && !member)) && !unfolded.has(`!${member}`));
+  on(fold, "toggle", () => { unfolded[fold.open ? "add" : "delete"](member); unfolded[fold.open ? "delete" : "add"](`!${member}`); });
+  items.append(...rows.map(item));
+  fold.append(head, items);
+  return fold;
+}
+function item({ ok, rule, text, share, q }) {
+  const row = make("li");
+  if (ok === true || ok === false) row.className = ok ? "ok" : "bad";
+  if (q !== undefined) row.id = `rule-${q}`;
+  if (rule) row.append(make("b", { textContent: `${rule}: ` }));
+  row.append(...withPlaces(text), bar({ share }));
+  return row;
+}
+/* A bar of how much of its limit is used, and the share in figures. */
+function bar({ share }) {
+  const place = make("span", { className: "share" });
+  if (!isNumber(share)) return place;
+  const fill = make("i"), percent = `${fixed(100 * share, share < 0.995 || share > 1.005 ? 0 : 1)}\u2009%`;
+  fill.style.width = `${min(max(100 * share, 1), 100).toFixed(0)}%`;
+  if (share > 1) place.classList.add("over");
+  place.title = say("{share} of its limit is used", { share: percent });
+  place.append(make("span"), percent);
+  place.firstChild.append(fill);
+  return place;
+}
+const escaped = (text) => text.replace(/[.*+?^${}()|[\]\\]/g, "\\$&");
+const onePlace = `(?:${own.map(({ name }) => escaped(name)).sort((a, b) => b.length - a.length).join("|")}) = [-\u2212]?[\\d\u202f]+(?:[.,]\\d+)?[ \u2009\u00a0]?[^\\s,;:()\\d]+`;
+const PLACES = own.length ? new RegExp(`(?<![\\w.])${onePlace}(?:, ${onePlace})*`, "g") : /(?!)/g;
+/* Return a sentence with the places in it as buttons that take the machine there. */
+function withPlaces(text) {
+  const found = [];
+  let from = 0;
+  for (const { 0: place, index } of text.matchAll(PLACES)) {
+    const said = place.replace(/\.$/, ""), at = strokesIn(said);
+    if (!at) continue;
+    const button = make("a", { href: "#mechanism", role: "button", className: "place", textContent: said, title: say("Take the machine there") });
+    on(button, "click", (event) => { event.preventDefault(); goTo(at); });
+    found.push(text.slice(from, index), button);
+    from = index + said.length;
+  }
+  return [...found, text.slice(from)];
+}
+/* Return the strokes of a place in words, [number, value]; null where they are none of the machine's. */
+function strokesIn(text) {
+  const found = text.split(/, (?=[^ ]+ = )/).map((part) => {
+    const [name, value] = part.split(" = "), k = own.findIndex((each) => each.name === name), each = own[k];
+    const at = each ? sized(value.replace(/\u202f/g, "").replace(",", ".").replace("\u00b0", "deg").replace(/[\u2009\u00a0]/, " "), each) : NaN, low = each && min(each.start, each.end), high = each && max(each.start, each.end);
+    return isNumber(at) && at > low - 1e-3 * (high - low) && at < high + 1e-3 * (high - low) ? [k, min(max(at, low), high)] : null;
+  });
+  return found.every(Boolean) ? found : null;
+}
+function goTo(places) {
+  play(false);
+  if (strokes[runs].path) runsOn(places[0][0]);
+  const at = [...stands];
+  for (const [k, value] of places) at[k] = value;
+  if (places.every(([k]) => k !== runs)) runsOn(places[0][0]);
+  moved(present, at, say("The place"));
+  clock = phaseNow();
+  choosers(); soon("sweep"); remember();
+  sheet.scrollIntoView({ block: "nearest" });
+}
+/* The badge: of the delivered design all delivered verdicts, of a changed one the live ones and how many are as delivered. */
+function count(found) {
+  const states = data.verdicts.filter(([state]) => state !== 2), changed = isChanged(), badge = byId("badge");
+  const fails = [...new Set(found.filter((each) => each.ok === false).map((each) => each.rule))], open = changed ? found.filter((each) => each.open).length : states.filter(([state]) => state === 3).length;
+  badge.dataset.fails = fails.length; badge.dataset.open = open;
+  const counts = { count: fails.length, open, ok: states.filter(([state]) => state === 1).length, all: states.length };
+  byId("verdicts").classList.toggle("changed", changed);
+  if (fails.length === 1) badge.textContent = `\u2715 ${fails[0]}: ${say("does not hold")}`;
+  else if (fails.length) badge.textContent = say("{count} verdicts fail", counts);
+  else if (changed) badge.textContent = open ? say("the live verdicts hold; as delivered or silent: {open}", counts) : say("all live verdicts hold");
+  else badge.textContent = open ? say("{ok} of {all} verdicts hold; silent: {open}", counts) : states.length ? say("{ok} of {all} verdicts hold", counts) : say("all live verdicts hold");
+}
+
+/* ---- at this pose ---- */
+
+/* What is out of bounds where the machine stands: rules with their numbers, dead points; whether it is judged, and what is not followed. */
+function atPose() {
+  const at = followed(stands).slice(0, own.length), { covered, found } = asking.here(at, pose), faults = [];
+  for (const [q, each] of found.entries()) {
+    const { unit } = questions[q], value = isNumber(each.value) ? size(each.value, unit) : say("no value");
+    if (each.ok === false) faults.push({ q, rule: ruled(questions[q]), text: value, limit: isNumber(each.limit) ? size(each.limit, unit) : "", case: each.case });
+  }
+  for (const { point, row } of data.joints) {
+    const angle = pose.values[row][0];
+    if (abs(Math.sin(angle)) < IN_LINE) faults.push({ rule: `${say("dead point")} ${point}`, text: `${fixed((angle * 180) / PI, 2)}\u00b0`, limit: "", case: "" });
+  }
+  const unknown = found.flatMap((each, q) => (each.unknown ? [ruled(questions[q])] : []));
+  for (const { key, plain, rule, isOfPoses } of delivered()) if (isOfPoses && plain !== "assembly" && !byKey.has(key)) unknown.push(rule);
+  return { faults, covered, unknown, kept: found.some((each) => each.ok === true) };
+}
+let hereBefore = "";
+function here() {
+  const line = byId("here"), found = pose.reason[0] === 0 ? atPose() : null, key = JSON.stringify(found);
+  if (key === hereBefore) return;
+  hereBefore = key;
+  const parts = [make("b", { textContent: say("At this pose:") })];
+  if (found) {
+    parts.push(...found.faults.map(({ q, rule, text, limit, case: acting }) => {
+      const link = make("a", { href: "#verdicts", className: "bad", textContent: `${rule} ${text}${acting ? ` (${acting})` : ""}`, title: limit ? say("limit {limit}", { limit }) : "" });
+      on(link, "click", (event) => { event.preventDefault(); showRule(q); });
+      return link;
+    }));
+    if (!found.faults.length && (found.kept || !found.unknown.length)) parts.push(make("span", { className: "ok", textContent: say("all kept") }));
+    if (!found.covered) parts.push(make("span", { className: "beyond", textContent: say("outside what is judged") }));
+    if (found.unknown.length) parts.push(make("span", { className: "open", textContent: say("not followed here: {rules}", { rules: found.unknown.join(", ") }) }));
+  }
+  line.replaceChildren(...parts.flatMap((each) => [each, " "]));
+}
+/* Unfold a rule and go to it. */
+function showRule(q) {
+  const row = byId(`rule-${q}`) || byId("verdicts");
+  if (row.closest("details")) row.closest("details").open = true;
+  row.scrollIntoView({ block: "center" });
+  row.classList.add("shown");
+  setTimeout(() => row.classList.remove("shown"), 1500);
+}
+

@@ -1145,7 +1145,6 @@ def test_what_is_dragged_is_looked_at_coarsely_and_says_so(chromium, written):
         shown.tab.mouse.move(*place)
         shown.tab.mouse.down()
         shown.tab.mouse.move(place[0] - 6, place[1] + 6, steps=4)
-        assert shown.text("#looked") == said  # nothing is judged while the hand moves
         shown.settle()
         assert shown.text("#looked").startswith("looked at 9 values a stroke")
         shown.tab.mouse.up()

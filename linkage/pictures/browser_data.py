@@ -634,10 +634,10 @@ def verdicts_shown(requests: PageRequests) -> PageData:
             told = verdict_data(machine, judge, along)
         pairs = zip(told, plain, strict=True) if len(told) == len(plain) else ((each, each) for each in plain)
         found[name] = [0 if each[2:] == other[2:] else [each[2], *each[4:]] for each, other in pairs]
-    return {"verdicts": plain, "verdictsIn": found} | facts_of(machine, judge, along)
+    return {"verdicts": plain, "verdictsIn": found} | verdict_facts(machine, judge, along)
 
 
-def facts_of(machine: Mechanism, judge: Judge, along: Motion | None) -> PageData:
+def verdict_facts(machine: Mechanism, judge: Judge, along: Motion | None) -> PageData:
     """Return of each verdict the member that says it and whether it is of poses, and how members are headed, in English and Russian."""
     try:
         found = verdicts_of(machine, judge, along)

@@ -6,6 +6,7 @@ import pytest
 
 from linkage.cli import main
 from linkage.cli.machines import find
+from tests.for_all import for_all
 
 COMMANDS = {
     "grapple": "grapple",
@@ -38,8 +39,12 @@ def disagreement(arguments, name, capsys):
     return ""
 
 
-def test_commands_print_the_verdicts_of_the_machine(capsys):
-    assert not [words for arguments, name in COMMANDS.items() if (words := disagreement(arguments, name, capsys))]
+FEW = ("grapple", "hitch --count 2 --over S=0:0.1", "balance header_balancer --table --pressure 40kgf_cm2", "crane arm_drive")
+
+
+@for_all("arguments", FEW, slow=[arguments for arguments in COMMANDS if arguments not in FEW])
+def test_commands_print_the_verdicts_of_the_machine(arguments, capsys):
+    assert not disagreement(arguments, COMMANDS[arguments], capsys)
 
 
 @pytest.mark.slow

@@ -136,8 +136,8 @@ def test_plain_commands_take_the_files(run):
         assert "lift = Cylinder(A, B, bore=" in out
         code, out, err = run("table", name, "--count", "3")
         assert (code, err, len(out.splitlines())) == (0, "", 4)
-        assert run("plot", name, "-o", "picture.png", "--count", "11")[0] == 0
-        assert run("animate", name, "-o", "page.html", "--count", "5")[0] == 0
+    assert run("plot", "balancer.toml", "-o", "picture.png", "--count", "11")[0] == 0
+    assert run("animate", "small.json", "-o", "page.html", "--count", "5")[0] == 0
 
 
 @pytest.mark.parametrize(

@@ -68,6 +68,7 @@ USES = [
         "",
         ("Made.B: Stroke(0, 1) stands here without a", "= Stroke(0, 1), and write L0 here."),
     ),
+    ("FourBar.judge()", "", ("judge(...) is asked of a design, and", "one first, FourBar().judge(...) for a class FourBar.")),
     ("FourBar.sweep(3)", "", ("sweep(...) is asked of a design, and", "one first, FourBar().sweep(...) for a class FourBar.")),
     ("FourBar.at(phi=0.1)", "", ("at(...) is asked of a design, and", "one first, FourBar().at(...) for a class FourBar.")),
     (

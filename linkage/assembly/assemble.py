@@ -362,11 +362,6 @@ def is_loose(member: Member) -> bool:
     return isinstance(member, Pin) and member.group is None
 
 
-def is_open(member: Member) -> bool:
-    """Return whether a member is a group as it is written, without its equations."""
-    return isinstance(member, Group) and not (member.given or member.attached or member.slides)
-
-
 def sketched(member: Member) -> bool:
     """Return whether a member waits for the sketch to settle it."""
     return isinstance(member, Step) and (member.near is not None or member.drawn_at is not None)
@@ -382,7 +377,9 @@ class Parts:
         self.known: set[str] = set()
         self.settled: dict[str, Member] = {}
         self.drawing = Sketch({}, title)
-        self.pending = {name: member for name, member in members.items() if not (is_loose(member) or is_open(member))}
+        groups = of_kind(members, Group).items()
+        written = {name for name, group in groups if not (group.given or group.attached or group.slides)}  # without equations yet
+        self.pending = {name: member for name, member in members.items() if not (is_loose(member) or name in written)}
         used = all_behind(members, [name for name, member in members.items() if isinstance(member, (Point, Link, Guide))])
         self.idle = [name for name in of_kind(members, Stroke) if name not in used]
         self.pins = {name: pin for name, pin in of_kind(members, Pin).items() if is_loose(pin)}

@@ -7,7 +7,8 @@ import numpy as np
 from numpy.testing import assert_allclose, assert_array_equal
 
 from linkage.program import Kernel, interpret
-from linkage.program.kernel import BLOCK, FEW
+from linkage.program.kernel import FEW
+from linkage.program.numpy_backend import LARGEST
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.for_all import for_all
 from tests.linkage.random_mechanisms import random_mechanism
@@ -88,7 +89,7 @@ def test_some_of_these_poses_are_out_of_reach_and_some_are_not():
     assert sum(0.0 < share < 1.0 for share in shares) > len(shares) / 2
 
 
-SHAPES = [(1, 1), (1, FEW), (1, FEW + 1), (1, 2 * BLOCK + 3), (3, 40), (40, 3), (2, BLOCK + 1), (BLOCK + 1, 2), (7, 1)]
+SHAPES = [(1, 1), (1, FEW), (1, FEW + 1), (1, 2 * LARGEST + 3), (3, 40), (40, 3), (2, LARGEST + 1), (LARGEST + 1, 2), (7, 1)]
 EACH_WAY = [(1, 1), (3, 40), (40, 3)]  # floats, blocks along the poses, blocks along the designs
 
 

@@ -55,7 +55,7 @@ class PumpLine(LiftLine):
         return {f"{rule} {name}" if len(cylinders) > 1 else rule: one for rule, name, one in found}
 
     def page_words(self, judge: Judge) -> Mapping[str, PageWords]:
-        found, cylinders = dict[str, PageWords](), self.lifting(judge)
+        found, cylinders = dict[str, PageWords](), self.lifting_cylinders(judge)
         for each in cylinders:
             name, ways = f" {each.ram.name}" if len(cylinders) > 1 else "", each.ways_back
             found[f"lifting{name}"] = PageWords(noted("the least reserve is {value}, {place}"))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -10,20 +11,20 @@ from matplotlib.figure import Figure
 from linkage.pictures import style
 from linkage.pictures.sheet import panels
 
-WORDS: Mapping[str, object] = {"fontsize": style.TEXT, "color": style.MUTED}
+WORDS: Mapping[str, Any] = {"fontsize": style.TEXT, "color": style.MUTED}
 """The look of what stands along an axis."""
-CURVES: Mapping[str, object] = {"fontsize": style.SMALL, "frameon": False, "labelcolor": style.INK}
+CURVES: Mapping[str, Any] = {"fontsize": style.SMALL, "frameon": False, "labelcolor": style.INK}
 """The look of a legend."""
 
 
-def titled(title: str, size: tuple[float, float], across: int, down: int = 1, **room: object) -> tuple[Figure, list[Axes]]:
+def titled(title: str, size: tuple[float, float], across: int, down: int = 1, **room: Any) -> tuple[Figure, list[Axes]]:
     """Return an empty figure with a title above its axes, as `panels` makes it."""
     figure, axes = panels(size, across, down, **room)
     figure.suptitle(title, fontsize=style.TITLE + 2, fontweight="bold", color=style.INK, x=0.012, ha="left")
     return figure, axes
 
 
-def headed(ax: Axes, text: str, **look: object) -> None:
+def headed(ax: Axes, text: str, **look: Any) -> None:
     """Write what axes show above them, on the left."""
     ax.set_title(text, loc="left", **{"fontsize": style.TEXT, "color": style.INK, "pad": 6, **look})
 
@@ -34,6 +35,6 @@ def axis_words(ax: Axes, along: str, up: str) -> None:
     ax.set_ylabel(up, **WORDS)
 
 
-def beside(ax: Axes, text: str, at: tuple[float, float], off: tuple[float, float], **look: object) -> None:
+def beside(ax: Axes, text: str, at: tuple[float, float], off: tuple[float, float], **look: Any) -> None:
     """Write a text so many points off a place."""
     ax.annotate(text, at, xytext=off, textcoords="offset points", **{"fontsize": style.SMALL, "color": style.MUTED, **look})

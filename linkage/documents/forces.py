@@ -92,7 +92,8 @@ def drive_rows(subject: ReportSubject) -> Iterator[tuple[str, ...]]:
     asked: list[tuple[str, Request, str]] = [
         (name, drive_force(name), "kNm" if stroke_display_unit(plan, name) == "deg" else "kN") for name in one.drives
     ]
-    shown = [(name, column.request) for name, column in subject.member_columns if column.name == "thrust" and column.request is not None]
+    thrusts = [(name, column.request) for name, column in subject.member_columns if column.name == "thrust"]
+    shown = [(name, request) for name, request in thrusts if isinstance(request, Request)]
     members = {name for name, _ in shown}
     asked += [(said("thrust of {name}", name=name), thrust_from_forces(name, PLAIN), "kN") for name in one.thrusts if name not in members]
     questions = [each(request) for request in [*(request for _, request in shown), *(each[1] for each in asked)] for each in (least, most)]

@@ -82,8 +82,8 @@ def reported_columns(subject: ReportSubject, run: Run, found: Sequence[Column], 
     known = {column.name: column for column in found}
     for name in names:
         known_name("Column", name, known, where=f"the table of {subject.machine.plan.title}")
-    shown = dict.fromkeys([*(each for each in subject.machine.strokes if each in known), *names])
-    return [known[name] for name in shown if name not in run.held]
+    asked = dict.fromkeys([*(each for each in subject.machine.strokes if each in known), *names])
+    return [known[name] for name in asked if name not in run.held]
 
 
 def coordinates_of(machine: Mechanism) -> set[str]:

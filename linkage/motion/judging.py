@@ -6,7 +6,7 @@ from abc import abstractmethod
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import ClassVar, final
+from typing import Any, ClassVar, final
 
 import numpy as np
 
@@ -414,7 +414,7 @@ def pose_sentence(motion: Motion) -> str:
     plan, designs = require_motion(motion).plan, motion.designs
     judge = Judge(plan, designs, [*plan.of_kind(Over).values()] or [Over()])
     near = [place for place in judge.places if (covered(place, motion) & place.over.kept(motion)).all()]
-    at = {name: [float(np.ravel(value)[0])] for name, value in motion.strokes.items()}
+    at: dict[str, Any] = {name: [float(np.ravel(value)[0])] for name, value in motion.strokes.items()}
     occurring = dict.fromkeys(place.over.cases for place in near or judge.places)
     found, unknown = answers_at(Judge(plan, designs, [Over.poses(**at, cases=cases) for cases in occurring]))
     if not found and not unknown:

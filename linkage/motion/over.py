@@ -244,7 +244,7 @@ class Run:
     def poses(self) -> dict[str, FloatArray]:
         """All strokes at the values that are passed, shape (n,)."""
         count = len(self.ways.get(self.stroke, (0.0,)))
-        return {name: np.broadcast_to(value, count) for name, value in {**self.held, **self.ways}.items()}
+        return {name: np.broadcast_to(np.asarray(value, float), count) for name, value in {**self.held, **self.ways}.items()}
 
     @property
     def marks(self) -> FloatArray:

@@ -87,9 +87,9 @@ def plot_curves(curves: Sequence[Curve], limits: Mapping[str, Sequence[object]] 
     for ax, (motion, column, where) in zip(cells, shown, strict=True):
         panel(ax, motion, column, given.get(column.name))
         if where:  # each of several runs has strokes of its own that are held
-            along = StrokeAxis.of(motion)
+            axis = StrokeAxis.of(motion)
             ax.set_title(typeset(f"{column.heading}, {where}"), loc="left", fontsize=style.TITLE, fontweight="bold", color=style.INK, pad=9)
-            ax.set_xlabel("; ".join(each for each in (along.heading, along.held) if each), fontsize=style.TEXT, color=style.MUTED)
+            ax.set_xlabel("; ".join(each for each in (axis.heading, axis.held) if each), fontsize=style.TEXT, color=style.MUTED)
     return figure
 
 

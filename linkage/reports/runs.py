@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from types import MappingProxyType
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, cast
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from ..loads import PLAIN, PLAIN_CASE, Acting, LoadCase
 from ..mechanism import Mechanism
 from ..motion import Judge, Motion, Request, Run, case_named, least, most, out_of_reach, require_motion
 from ..motion.judge import Domain
+from ..motion.measures import MeasuredQuantity
 from ..motion.requests import Trait
 from ..plan import require_kind
 from ..quantities import as_mapping, numbers_in
@@ -72,7 +73,7 @@ def run_over(machine: Mechanism, place: Domain, acting: Acting) -> Run:
     """Return the run over an `Over` of one design."""
     cases, plan = place.cases(PLAIN), machine.plan
     case = (None if PLAIN_CASE in cases else cases[0]) if acting.case is None else None if acting.case == PLAIN_CASE else acting.case
-    strokes = {name: np.ravel(value).tolist() for name, value in place.motion.strokes.items()}
+    strokes: dict[str, Sequence[float]] = {name: np.ravel(value).tolist() for name, value in place.motion.strokes.items()}
     running, worst = place.running, ""
     if place.over.shape == "box" and running:
         first, *others = running
@@ -112,7 +113,7 @@ def worst_place(machine: Mechanism, middle: Run, place: Domain, acting: Acting) 
             is_least = isinstance(column.request, Request) and Trait.MAY_BE_UNLIMITED in column.request.traits
             if limit:
                 is_least = limit[2:] == ("below",)
-            side = least(column.request) if is_least else most(column.request)
+            side = (least if is_least else most)(cast(MeasuredQuantity, column.request))
             answer = machine.judge(place.over, acting).lost_allowed().answer(side)
         except LinkageError:
             return "", {}

@@ -452,7 +452,7 @@ class AxleLoad(Tabled, HasVerdicts):
 
     def page_words(self, judge: Judge) -> Mapping[str, PageWords]:
         name, weights = self.support.name, [each for each in judge.plan.of_kind(ForceElement).values() if is_on_frame(judge.plan, each)]
-        kept = least(axle_load(name)) / at(axle_load(name, acting=Acting(loads=weights)), **judge.plan.sketch_strokes)
+        kept = least(axle_load(name)) / at(axle_load(name, acting=Acting(loads=weights)), **judge.plan.sketch_strokes)  # type: ignore[arg-type]
         uses = noted("along the ground it uses at most {value} % of its friction, {place}")
         return {
             "axle load": PageWords(noted("it keeps {value} % of its load, least {place}"), 100.0 * kept, 1.0 - kept),

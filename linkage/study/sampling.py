@@ -125,7 +125,7 @@ class Sampling:
         whole = values if reached.all() else np.where(reached, values, np.nan)
         empty: Mask = np.asarray(np.isnan(whole) & reached)  # no value where there is a pose, though something limits it there
         lost: Mask = np.asarray(empty.any(axis=2))
-        for place in np.flatnonzero(lost.any(axis=1)):
+        for place in np.flatnonzero(lost.any(axis=1)).tolist():
             lost[place] = (empty[place] & ~nothing_limits(motion_of(grid), self.quantities[place]).reshape(m, n)).any(axis=1)
         for (place, _), each in zip(self._divisors, found[first + len(self._traced) :], strict=True):  # both signs, or zero somewhere
             low, high = (np.where(reached, each, end) for end in (np.inf, -np.inf))

@@ -317,7 +317,7 @@ class Search:
                 found[request.key] = kernel(grid.flat, way=RunOptions("numpy"), size=grid.size).values
         columns = [found[request.key][:, :, place] for place, request in enumerate(self.bound)]
         sides = np.array([high - low for low, high in self.box.ranges.values()])
-        return np.asarray(np.stack(columns, axis=0).transpose(2, 0, 1) * signs / self.scale[:, None]) * sides
+        return np.asarray(np.stack(columns, axis=0).transpose(2, 0, 1) * signs / self.scale[:, None] * sides)
 
     def words(self, place: int, value: float | None = None) -> str:
         """Return a target in words, or a value of it: `tilt = 5 deg at S = 100 mm`."""

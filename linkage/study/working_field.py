@@ -411,7 +411,7 @@ class LoadsFound:
     @cached_property
     def load(self) -> FloatArray:
         """The load (n,)."""
-        return np.min(self.of, axis=0, initial=np.inf)
+        return np.asarray(np.min(self.of, axis=0, initial=np.inf))
 
     def where(self, rows: Any) -> LoadsFound:
         """Return some of them."""

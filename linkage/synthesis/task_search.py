@@ -384,11 +384,11 @@ class TaskSearch:
         exact = exact_error(self.rows)
         ways = [Polishing(self, starts, own, kept.get(starts.fit)) for starts, own in zip(first, found, strict=True)]
         wave = 0
-        while not self.problem.count.is_spent and min(each.best for each in ways) > exact and any([each.next() for each in ways]):
-            work = PolishWork(*self.shared, self.ordered, self.most(sum(len(each.now) for each in ways)))
-            reached = stages.done(f"conditions {wave}", work, [(each.fit.combination, each.rows) for each in ways])
-            for each, end in zip(ways, reached, strict=True):
-                each.enter(end["at"][end["ended"]], each.rows["base"][end["ended"]])
+        while not self.problem.count.is_spent and min(way.best for way in ways) > exact and any([way.next() for way in ways]):
+            work = PolishWork(*self.shared, self.ordered, self.most(sum(len(way.now) for way in ways)))
+            reached = stages.done(f"conditions {wave}", work, [(way.fit.combination, way.rows) for way in ways])
+            for way, end in zip(ways, reached, strict=True):
+                way.enter(end["at"][end["ended"]], way.rows["base"][end["ended"]])
             wave += 1
         return [each for own, way in zip(found, ways, strict=True) for each in [*own, *way.ends]]
 

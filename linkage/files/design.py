@@ -96,7 +96,7 @@ def in_unit(value: float, unit: str) -> float | str:
     return text if parse(text) == value else value
 
 
-def option(value: object) -> Any:
+def option_said(value: object) -> Any:
     """Return an option of a load as a file holds it: a number, a word or a member's name; DefinitionError for anything else."""
     value = name_of(value) if isinstance(value, Member) else plain(value)
     if is_number(value) or isinstance(value, str):

@@ -15,7 +15,7 @@ from ..quantities import Number, Quantity, is_number, label, name_of, quantity
 from ..steps import Arrow
 from ..units import UNITS, parse
 from ..vectors import Side
-from .design import Design, degrees_text, option
+from .design import Design, degrees_text, option_said
 from .expression import arrow_in, expression, one_unit
 from .names import Names, by_whole_names, entry_as, is_list, listed, require_entry, shortened
 from .source import each_of
@@ -49,7 +49,7 @@ def file_value(value: object, design: Design, name: str = "") -> Any:
             return bool(value)
         case str():
             return word_of(value)
-    return option(value)
+    return option_said(value)
 
 
 @dataclass(frozen=True)
@@ -250,7 +250,7 @@ def written_carrier(value: Any, design: Design, name: str) -> str | None:
 
 def written_pair(value: Any, design: Design, name: str) -> list[Any]:
     """Return the numbers of a pair; DefinitionError for lists in it."""
-    return [option(each) for each in value]
+    return [option_said(each) for each in value]
 
 
 # -- the kinds ---------------------------------------------------------------------------------------------

@@ -19,7 +19,7 @@ import numpy.typing as npt
 from ..errors import AssemblyError, DefinitionError, cited, told, unwarned
 from ..language import said
 from ..numeric.box import highest_in, values_a_stroke, weights_of
-from ..numeric.line import CLOSE, SAMPLES, Index, bisected, highest, missing_lowest, peaks, runs_of, samples, zoomed
+from ..numeric.line import CLOSE, SAMPLES, Index, bisected, highest, missing_lowest, peaks, samples, stretches, zoomed
 from ..plan import Mask
 from ..program import FloatArray
 from .answer import OF_VALUE, UNBOUNDED, Answer, PerDesign
@@ -135,7 +135,7 @@ def below_zero(motion: Motion, f: Function | Request) -> tuple[Span, ...]:
     leg, t, value = (np.concatenate([known, *(each[row] for each in found)]) for row, known in enumerate((leg, t, value)))
     order = np.lexsort((t, leg))
     leg, t, value = leg[order], t[order], value[order]
-    firsts, lasts = np.array(runs_of(value < 0.0), int).reshape(-1, 2).T
+    firsts, lasts = np.array(stretches(value < 0.0), int).reshape(-1, 2).T
     low, high = (ends(between, leg, t, inside, by) for inside, by in ((firsts, -1), (lasts, 1)))
     units = {name: stroke_unit(motion.plan, name) for name in motion.strokes}
     strokes = [between.route.strokes(leg[inside], at) for inside, at in ((firsts, low), (lasts, high))]

@@ -17,7 +17,7 @@ import numpy as np
 
 from ..errors import AssemblyError, DefinitionError, SingularError, unwarned
 from ..loads import ForceElement, TwoPoint
-from ..numeric.line import CLOSE, SAMPLES, Curve, Index, highest, last_holding, runs_of, samples, sign_changes
+from ..numeric.line import CLOSE, SAMPLES, Curve, Index, highest, last_holding, samples, sign_changes, stretches
 from ..plan import Loop, Mask, Plan, failures, missing_words, name_or_pins, opening
 from ..program import FloatArray, Kernel, Level, RunOptions
 from ..quantities import Distance
@@ -120,7 +120,7 @@ class StrokeLine:
     def ranges_among(self, at: FloatArray, reached: Mask) -> list[Interval]:
         """Return the reachable ranges among samples, with their ends."""
         found: list[Interval] = []
-        for first, last in runs_of(reached):
+        for first, last in stretches(reached):
             low, low_stop = (at[first], "") if first == 0 else self.end_of_reach(at[first], at[first - 1])
             high, high_stop = (at[last], "") if last == len(at) - 1 else self.end_of_reach(at[last], at[last + 1])
             found.append(Interval(float(low), float(high), low_stop, high_stop))
@@ -302,7 +302,7 @@ class StrokeLine:
         found, loop = [], self.clearances.loops[row]
         low_end, high_end, known = x[0], x[-1], np.isfinite(seen)  # the ends of the way: where the loop has values it may begin within
         x, seen = x[known], seen[known]
-        for first, last in runs_of(seen <= level):
+        for first, last in stretches(seen <= level):
             run = slice(first, last + 1)
             deepest = float(x[run][seen[run] <= seen[run].min() + noise].mean())
             if seen[run].min() < -noise:

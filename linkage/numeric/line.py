@@ -248,7 +248,7 @@ def bisected(look: Look, leg: Index, inside: FloatArray, outside: FloatArray) ->
     return last_holding(lambda t: ~np.isnan(at_own_legs(look, leg, t)[0]), inside, outside, CLOSE)[0]
 
 
-def runs_of(mask: Mask) -> list[tuple[int, int]]:
+def stretches(mask: Mask) -> list[tuple[int, int]]:
     """Return the first and the last place of every stretch of a mask (n,) that is true, in their order."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]]).astype(int)))
     return [*zip(edges[::2].tolist(), (edges[1::2] - 1).tolist(), strict=True)]

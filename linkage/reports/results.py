@@ -33,7 +33,7 @@ def results(machine: Mechanism, motion: Motion, case: Case = None) -> list[Colum
         return columns
     whole = motion.moved(motion.strokes)
     if case is not None:
-        columns = [in_case(whole, column, case) for column in columns]
+        columns = [column_in_case(whole, column, case) for column in columns]
     taken = {column.name for column in columns}
     owner = type(machine)._owner("columns")
     is_own = owner is not Mechanism
@@ -41,7 +41,7 @@ def results(machine: Mechanism, motion: Motion, case: Case = None) -> list[Colum
     return columns + [column for column in [*([] if is_own else drive_columns(whole, case)), *further] if column.name not in taken]
 
 
-def in_case(motion: Motion, column: Column, case: Case) -> Column:
+def column_in_case(motion: Motion, column: Column, case: Case) -> Column:
     """Return a column in a load case; as it is where nothing asks for it, or no load counts in it."""
     if not isinstance(column.request, Request):
         return column

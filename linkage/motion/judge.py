@@ -63,8 +63,6 @@ INNER = 65
 """Values of the stroke over which `worst` is taken."""
 COARSE = 5
 """Values of each stroke of a coarse grid."""
-TIE = 1e-12
-"""Of the size of its two sides: worst places that differ by no more are as bad, and the first of them is told."""
 MET = 1e-9
 """Of the size of its two sides: a condition that is missed by no more is kept, to rounding."""
 TIE = 1e-9
@@ -806,9 +804,6 @@ class Judge:
         ]  # fmt: skip
         known = [k for k, each in enumerate(candidates) if not np.isnan(margins[k])]
         place = min(known, key=lambda k: margins[k], default=0)
-        size = max(abs(float(candidates[place].value)), abs(margins[place]))
-        near = margins[place] + (TIE * size if np.isfinite(size) else 0.0)
-        place = next((k for k in known if margins[k] <= near), place)  # of what ties the first, in the order of overs, cases, movements
         worst, value, strokes, kept = candidates[place], np.nan, dict[str, float](), False
         if known and np.isfinite(margins[place]):  # of a tie the place of the first: `Over`, case, extending before retracting
             near = TIE * (abs(margins[place]) + abs(float(worst.value)))

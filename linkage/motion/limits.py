@@ -11,7 +11,7 @@ import numpy as np
 from ..assembly import lost_at_sketch
 from ..errors import AssemblyError, DefinitionError
 from ..frozen import FrozenDict, refuses_changes
-from ..language import said, said_of, translated
+from ..language import ENGLISH, language, said, said_of, translated
 from ..plan import ArrayReading, Mask, Plan, failures, missing_words, opening
 from ..shown import Shown
 from ..steps import Step
@@ -254,7 +254,13 @@ def no_joint(plan: Plan, name: str, joints: Sequence[str]) -> DefinitionError:
 
 
 def where_words(plan: Plan, mask: Mask, strokes: Mapping[str, Any]) -> str:
-    """Return which poses are meant: `at 7 of 101 strokes, from S = 0.1598 to 0.1700 m`."""
+    """Return which poses are meant as errors and warnings say it, in English: `at 7 of 101 strokes, from S = 0.1598 to 0.1700 m`."""
+    with language(ENGLISH):
+        return where_said(plan, mask, strokes)
+
+
+def where_said(plan: Plan, mask: Mask, strokes: Mapping[str, Any]) -> str:
+    """Return the same in the language that is spoken, for verdicts and remarks."""
     count, total = int(mask.sum()), mask.size
     poses = next(iter(strokes.values())).ndim if strokes else 0
     if mask.ndim > poses:

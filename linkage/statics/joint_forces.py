@@ -13,7 +13,7 @@ from ..errors import DefinitionError, SingularError, known_name, unknown
 from ..language import said, translated
 from ..loads import PLAIN_CASE, Acting, ActingKeywords, Load, Loads, situation_of, takes_situation
 from ..motion import Motion, require_motion, stroke_unit
-from ..motion.limits import where_words
+from ..motion.limits import where_said, where_words
 from ..motion.requests import stroke_of
 from ..plan import Mask
 from ..program import FloatArray
@@ -341,7 +341,7 @@ def remarks_on(found: PoseForces) -> Iterator[str]:
     for name, tension in found.tensions.items():
         slack = tension < 0.0
         if slack.any():
-            where, push = where_words(poses.plan, slack, poses.motion.strokes), show(-float(np.nanmin(tension)), "N", 6)
+            where, push = where_said(poses.plan, slack, poses.motion.strokes), show(-float(np.nanmin(tension)), "N", 6)
             yield said(
                 "{name} goes slack {where}: there it would have to push, with up to {push}, and the constraint is not kept. Hang more "
                 "weight on it, or take a rod.",
@@ -363,7 +363,7 @@ def lift_off_words(found: PoseForces) -> Iterator[str]:
                 "{owner} lifts off ({kind}, {body} from {other}) {where}: there the contact would have to pull, with up to {pull}. Press "
                 "it on with a spring or a weight.",
                 owner=contact.owner, kind=translated(contact.kind), body=structure.name(contact.on), other=structure.name(contact.by),
-                where=where_words(poses.plan, mask, poses.motion.strokes), pull=show(-float(np.nanmin(push)), "N", 6),
+                where=where_said(poses.plan, mask, poses.motion.strokes), pull=show(-float(np.nanmin(push)), "N", 6),
             )  # fmt: skip
 
 
@@ -381,6 +381,6 @@ def self_locking_words(found: PoseForces) -> list[str]:
     return [
         said(
             "Self-locking while {direction} {where}: friction holds the load, which would move {stroke} without it; the drive must help.",
-            direction=translated(applied.rates.direction), where=where_words(motion.plan, mask, motion.strokes), stroke=stroke,
+            direction=translated(applied.rates.direction), where=where_said(motion.plan, mask, motion.strokes), stroke=stroke,
         )
     ]  # fmt: skip

@@ -23,7 +23,7 @@ from ..loads.element import AT_REST, ForceElement, Load
 from ..loads.point import LinkMass, Support, Weight
 from ..motion import Answer, Column, Condition, HasVerdicts, Judge, Motion, PageWords, Tabled, at, least, most, require_motion
 from ..motion.conditions import condition_of_sine
-from ..motion.limits import where_words
+from ..motion.limits import where_said
 from ..motion.requests import stroke_of
 from ..plan import Plan
 from ..program import FloatArray
@@ -145,7 +145,7 @@ def tipping_words(motion: Motion, acting: Acting) -> list[str]:
     for name, force in found.reactions.items() if found is not None else ():
         down = np.asarray(force < 0.0)
         if down.any():
-            where, size = where_words(motion.plan, down, motion.strokes), show(-float(np.nanmin(force)), "kN", 4)
+            where, size = where_said(motion.plan, down, motion.strokes), show(-float(np.nanmin(force)), "kN", 4)
             words.append(said("tipping {where}: {support} would have to be held down with {force}.", where=where, support=name, force=size))
     return words
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import hydraulics  # noqa: F401  its catalogue joins
-from linkage import Column, DefinitionError, Verdict
+from linkage import AssemblyError, Column, DefinitionError, Verdict
 from linkage.language import (
     add_catalogue,
     add_texts,
@@ -20,6 +20,7 @@ from linkage.language import (
     translated,
 )
 from linkage.units import show
+from mechanisms.three_point_hitch import ThreePointHitch
 from tests.tools.catalogues import BELOW, Entry, Message, catalogue_faults, compiled, entries, entry_faults, messages
 
 
@@ -154,3 +155,13 @@ def test_texts_of_ones_own_are_said_before_the_catalogues(monkeypatch):
     for name, texts, words in (("xx", {}, "xx"), ("ru", {"a": 1}, "pairs of text"), ("ru", {"a": ""}, "pairs"), ("ru", "a", "pairs")):
         with pytest.raises(DefinitionError, match=words):
             add_texts(name, texts)
+
+
+@pytest.mark.parametrize("strokes", [9.0, [0.1, 9.0]])
+def test_errors_stay_english(strokes):
+    hitch = ThreePointHitch()
+    with pytest.raises(AssemblyError) as plain:
+        hitch.at(S=strokes)
+    with language("ru"), pytest.raises(AssemblyError) as found:
+        hitch.at(S=strokes)
+    assert str(found.value) == str(plain.value)

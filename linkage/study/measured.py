@@ -17,6 +17,7 @@ from ..mechanism import Mechanism
 from ..motion import Grid, Motion, Request, at_values, each_at_its_stroke, evaluate_grid, stroke_display_unit
 from ..motion.grid import JoinedTo
 from ..motion.measures import At, Integral, Leaf, Measure, strokes_behind, traced, words_of
+from ..motion.requests import Trait
 from ..numeric.line import Index
 from ..numeric.quadrature import PANELS, gauss, quadrature
 from ..plan import Mask, Plan
@@ -268,10 +269,15 @@ def eager(motion: Motion, quantity: Any) -> FloatArray:
     return np.asarray(np.broadcast_to(found, motion.shape))
 
 
+def may_be_unlimited(quantity: Any) -> bool:
+    """Return whether nothing may limit a quantity at some poses."""
+    return isinstance(quantity, Request) and Trait.MAY_BE_UNLIMITED in quantity.traits
+
+
 def nothing_limits(motion: Motion, quantity: Any) -> Mask:
     """Return the mask of poses at which nothing limits a quantity, so that it has no value there."""
     found: Any = None
-    if isinstance(quantity, Request):
+    if may_be_unlimited(quantity):
         # what it would say may be refused there, or depend on more than the pose
         with suppress(AssemblyError, UntracedError), unwarned(), np.errstate(all="ignore"):
             found = quantity.unlimited(motion)

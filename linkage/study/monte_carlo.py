@@ -20,7 +20,7 @@ from ..program import FloatArray, RunOptions
 from ..quantities import is_number
 from ..units import display_unit
 from ..vectors import Numbers
-from .measured import Measured, StudyPoses, fold, fold_start, measured_title, nothing_limits, number_bound
+from .measured import Measured, StudyPoses, fold, fold_start, may_be_unlimited, measured_title, nothing_limits, number_bound
 from .tolerances import Tolerance, ToleranceLike, sampled_designs, tolerance_words, tolerances_of, values_shifted
 
 Task = TypeVar("Task")
@@ -276,7 +276,7 @@ class MonteCarloRun:
 
     def _free(self, poses: StudyPoses, quantity: Measured | Worst, values: FloatArray, part: slice = slice(None)) -> Mask:
         """Return at which of some poses nothing limits a quantity, so that it has no value there, shape (poses, designs)."""
-        found: Mask = np.isnan(values)
+        found: Mask = np.isnan(values) & may_be_unlimited(quantity)
         for block in blocks(self.count, poses.pose_count) if found.any() else ():
             if found[:, block].any():
                 free = nothing_limits(poses.of_all(self._block(block)), quantity)

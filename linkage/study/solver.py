@@ -487,9 +487,9 @@ class Local:
     def run(self, rounds: int = ROUNDS) -> SearchEnd:
         """Return what a search from the start comes to, with poses between the samples added until none is worse than these.
 
-        Where the limit of designs is reached it is the best so far; without variables it is the start.
+        Where the limit of designs is reached it is the best so far; without variables and unknowns of its own it is the start.
         """
-        if not self.n:
+        if not self.n and self.squares is None:
             return self.judged(self.start)
         try:
             unit = self.start

@@ -31,8 +31,9 @@ from linkage import (
 )
 from linkage.motion.measures import Given
 from linkage.study.problem import Problem
+from linkage.study.solver import Local
 from linkage.study.space import Space
-from linkage.synthesis.fit import Fit, Timing
+from linkage.synthesis.fit import Fit, Timing, fit_squares
 from mechanisms.classics.four_bar import FourBar
 from mechanisms.classics.klann import Klann
 from mechanisms.three_point_hitch import ThreePointHitch
@@ -146,6 +147,20 @@ def test_derivatives_are_those_of_the_misses(kind, timed):
         change = (fit.misses(unit + moved, base) - fit.misses(unit - moved, base)) / (2 * step)
         assert_allclose(found[:, :, place], change, rtol=0, atol=1e-6 * np.abs(found).max())
     assert np.abs(found).max() > 0.0
+
+
+def test_strokes_are_polished_of_a_design_without_variables():
+    """Choices alone: the points' own strokes are still to miss least, in order, among conditions."""
+    bar, at = FourBar(), np.array([0.4, 1.0, 1.9, 3.0])
+    space = Space.of(bar, {"OA": [0.04, 0.05]})
+    problem = Problem(bar, [Given(0.0)], [], space)
+    rows = PathTask(bar.at(phi=at)["P"].T, of="P").rows(bar)
+    fit, base = Fit(problem, rows, Timing.of(problem, "phi", False, 4), (0,)), np.zeros(4)
+    start = fit.timing.own(at + np.array([0.1, -0.1, 0.05, 0.0]))
+    local = Local(problem, (0,), start[: fit.n], squares=fit_squares(fit, start, base, in_order=True))
+    end = local.run()
+    assert fit.n == 0 and end.whole
+    assert_allclose(fit.misses(local.own[None], base[None]), 0.0, rtol=0, atol=1e-9)
 
 
 def test_a_known_bar_is_found_again_from_its_untimed_path():

@@ -132,7 +132,11 @@ def steps_to_neighbours(k: int, side: int) -> tuple[Index, Index]:
 def widened(cube: FloatArray) -> FloatArray:
     """Return the highest of each point of a grid and its neighbours."""
     for axis in range(cube.ndim):
-        cube = np.maximum(cube, np.maximum(shifted(cube, -1, -np.inf, axis), shifted(cube, 1, -np.inf, axis)))
+        found = cube.copy()
+        into, here = np.moveaxis(found, axis, 0), np.moveaxis(cube, axis, 0)
+        np.maximum(into[:-1], here[1:], out=into[:-1])
+        np.maximum(into[1:], here[:-1], out=into[1:])
+        cube = found
     return cube
 
 
@@ -151,11 +155,12 @@ def bends(cube: FloatArray, point: Index) -> FloatArray:
 
     They are taken to one side at borders and next to missing values, and none where that is not possible.
     """
-    total = np.zeros(point.shape)
+    total, index = np.zeros(point.shape), np.unravel_index(point, cube.shape)
     for axis in range(cube.ndim):
-        far_behind, behind, here, ahead, far_ahead = (
-            (shifted(cube, by, axis=axis) if by else cube).ravel()[point] for by in (-2, -1, 0, 1, 2)
-        )
+        there = index[axis] + np.arange(-2, 3)[:, None]
+        inside = np.clip(there, 0, cube.shape[axis] - 1)
+        beside = np.where(inside == there, cube[*index[:axis], inside, *index[axis + 1 :]], np.nan)
+        far_behind, behind, here, ahead, far_ahead = beside
         middle = np.abs(behind - 2.0 * here + ahead)
         sides = np.fmax(np.abs(here - 2.0 * behind + far_behind), np.abs(here - 2.0 * ahead + far_ahead))
         total += np.nan_to_num(np.where(np.isnan(middle), sides, middle), nan=0.0, posinf=-LOWEST)

@@ -655,8 +655,6 @@ class OilLine(PumpLine, GasLine):
             low, high = judge.answers(least_and_most(self.pressure_request(judge.plan)))
         except DefinitionError as error:
             return [Verdict.refused("line", error), *shut]
-        if low.value == high.value == 0.0:  # nothing presses on it, so there is nothing to say
-            return shut
         says = pressure_range(replace(low, value=0.0) if abs(low.value) < EMPTY * abs(high.value) else low, high, "bar")
         make_up = one_design(self.least(judge.motion))
         if low.value < make_up - EMPTY * max(abs(float(high.value)), 1.0):
@@ -665,8 +663,8 @@ class OilLine(PumpLine, GasLine):
                 says=says, make_up=show(make_up, "bar", 4),
             )  # fmt: skip
             return [Verdict("line", False, text, answer=low), *shut]
-        if not (low.value or high.value):  # nothing is in it that could be judged
-            return [*self._relieved(judge), *shut]
+        if low.value == high.value == 0.0:  # nothing presses on it, so there is nothing to say
+            return shut
         return [*(self._relieved(judge) or [Verdict("line", True, f"{says}.", answer=low)]), *shut]
 
     def pressure_request(self, plan: Declared) -> LawRequest:

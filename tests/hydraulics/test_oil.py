@@ -112,6 +112,17 @@ def test_a_closed_line_keeps_its_oil_and_its_pressure_is_the_work_on_it():
     assert level.pressure(motion) == pytest.approx(slope, rel=1e-8)
 
 
+class Unloaded(Levelled):
+    load = None
+    level = OilLine(Levelled.master.piston_side, Levelled.slave.piston_side, filled=dict(slave=0.72), make_up=5 * bar)
+
+
+def test_a_closed_line_without_a_load_is_below_what_fills_it_up():
+    (found,) = [each for each in Unloaded().verdicts() if each.rule == "line"]
+    assert found.ok is False and "below 5 bar it runs empty there" in found.sentence
+    assert not [each for each in Unloaded(**{"level.make_up": 0.0}).verdicts() if each.rule == "line"]
+
+
 class Tilted(Levelled):
     """Both sides joined, of one ratio; a valve puts oil into one and takes what the rods leave out of the other."""
 

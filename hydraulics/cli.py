@@ -7,8 +7,7 @@ from argparse import Namespace
 import numpy as np
 
 from linkage.cli.command import CSV, EVERY, Command, machine_options, option, pose_options
-from linkage.cli.machines import find
-from linkage.cli.settings import CHECK, OVER, design, judged_over, motion_at, print_verdicts, si_value
+from linkage.cli.settings import CHECK, OVER, judged_over, machine_of, motion_at, print_verdicts, si_value
 from linkage.cli.table import write_table
 from linkage.errors import DefinitionError, ensure, known_name
 from linkage.language import noted, said
@@ -50,7 +49,7 @@ CapacityCommand = Command(
 @CapacityCommand
 def print_capacity(options: Namespace) -> int:
     """Print what a machine lifts at a point, and what limits it."""
-    machine = design(find(options.machine), options.settings)
+    machine = machine_of(options)
     ram = cylinder_of(machine, options.cylinder)
     circuit, point = circuit_of(machine, ram, options), point_of(machine, options.at_point)
     share = options.share

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from importlib import import_module
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
@@ -43,10 +43,11 @@ def find(text: str) -> type[Mechanism]:
     raise DefinitionError(f"{unknown('Machine', text, entries)} {OWN}")
 
 
-def design_of_file(file: str, own: str | None) -> Mechanism | None:
+def design_of_file(file: str, own: str | None, found: Callable[[str], type[Mechanism]]) -> Mechanism | None:
     """Return the design that a file holds, by `machine` and `[set]`; None for any other text, and for a file that holds a machine itself.
 
-    `own` is a class that stands for the one the file names; what is code is run only where it is said so.
+    `own` is a class that stands for the one the file names; what is code is run only where it is said so. `found` finds a class
+    by its text.
     """
     if not file.endswith((".toml", ".json")):
         return None
@@ -60,9 +61,9 @@ def design_of_file(file: str, own: str | None) -> Mechanism | None:
     def kind(text: str, base: Path) -> type[Mechanism]:
         place, name = split(text)
         if text in registered() or own:
-            return find(own or text)
+            return found(own or text)
         ensure(not (place.endswith(".py") or name), f"{file}: {text} is code, and a file runs none unasked; say --machine {text}.")
-        return find(str(base / text))
+        return found(str(base / text))
 
     return StudyHead.of(file, (), kind, lambda _: {}).machine
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from argparse import Namespace
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from inspect import signature
 from typing import Any
@@ -51,14 +51,15 @@ LIMIT = repeatable(
 )
 
 
-def machine_of(options: Namespace) -> Mechanism:
-    """Return the machine that a command is on, with its settings; DefinitionError as `find` and `design` raise it."""
-    own = getattr(options, "own", None)
-    held = design_of_file(options.machine, own)
+def machine_of(options: Namespace, like: Callable[[str], type[Mechanism]] | None = None) -> Mechanism:
+    """Return the machine that a command is on, with its settings; `like` finds its class, else `find`. DefinitionError as both raise it."""
+    found, own = like or find, getattr(options, "own", None)
+    held = design_of_file(options.machine, own, found)
     if held is None:
         ensure(not own, f"--machine {own}: {options.machine} is no file of a design, with `machine` and `[set]`.")
-        return design(find(options.machine), options.settings)
-    return held.replaced(**dict(parsed_setting(held.plan, text) for text in options.settings))
+        return design(found(options.machine), options.settings)
+    changed = held.replaced(**dict(parsed_setting(held.plan, text) for text in options.settings))
+    return made(type(held), changed.dimensions) if options.settings else held  # made anew, as a class may have checks of its own
 
 
 def overs_of(machine: Mechanism, texts: Sequence[str]) -> list[Over] | None:
@@ -137,7 +138,11 @@ def print_verdicts(verdicts: Sequence[Verdict], options: Namespace) -> int:
 
 def design(machine: type[Mechanism], texts: Sequence[str]) -> Mechanism:
     """Return a design of a machine under settings such as `OB=180mm`; DefinitionError for what is unknown or unfit."""
-    given = dict(parsed_setting(machine.plan, text) for text in texts)
+    return made(machine, dict(parsed_setting(machine.plan, text) for text in texts))
+
+
+def made(machine: type[Mechanism], given: Mapping[str, Any]) -> Mechanism:
+    """Return a design of a machine with these dimensions; DefinitionError for what is unknown or unfit."""
     try:
         signature(machine.__init__).bind(None, **given)
     except TypeError as error:

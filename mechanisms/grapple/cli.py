@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from argparse import Namespace
+from functools import partial
 
 import numpy as np
 
 from linkage import Mechanism
 from linkage.cli.command import Command, figure_path, machine_options, option
 from linkage.cli.machines import find_like
-from linkage.cli.settings import design, judged_over, motion_at, print_verdicts
+from linkage.cli.settings import judged_over, machine_of, motion_at, print_verdicts
 from linkage.cli.table import write_table
 from linkage.errors import ensure
 from linkage.language import said
@@ -45,7 +46,8 @@ Gripping = Command(
 @Gripping
 def print_grapple(options: Namespace) -> int:
     """Print what a grapple's lever gives and what its stems need."""
-    machine = design(find_like(options.machine, Grapple, "grapple"), options.settings) if options.design is None else designed(options)
+    found = partial(find_like, base=Grapple, what="grapple")
+    machine = machine_of(options, found) if options.design is None else designed(options)
     path = figure_path(options, machine, "grapple")
     motion, over = motion_at(machine, options), judged_over(machine, options)
     assert isinstance(machine, Grapple)
@@ -67,6 +69,7 @@ def print_grapple(options: Namespace) -> int:
 def designed(options: Namespace) -> Mechanism:
     """Return the grapple designed for the duty of the options, and report its search."""
     ensure(options.machine == "grapple", f"{options.machine} is designed already; leave --design out, or the name.")
+    ensure(not options.own, f"--machine {options.own} is of a file that holds a design; leave it out, or --design.")
     found = design_for(duty_set(Duty, options, "D_0=600mm", KINDS), options.design)
     print(f"{found}\n")
     return found.machine

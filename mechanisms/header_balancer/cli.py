@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from argparse import Namespace
+from functools import partial
 
 from linkage import DefinitionError, Motion
 from linkage.cli.command import CSV, Command, count_option, figure_path, machine_options, option, picture_option
 from linkage.cli.machines import find_like
-from linkage.cli.settings import CHECK, OVER, overs_of, parsed_setting, print_verdicts
+from linkage.cli.settings import CHECK, OVER, machine_of, overs_of, parsed_setting, print_verdicts
 from linkage.cli.table import write_table
 from linkage.errors import ensure
 from linkage.plan import Plan
@@ -84,12 +85,14 @@ def print_header(motion: Motion, options: Namespace) -> None:
 
 def header_of(options: Namespace) -> HeaderBalancer:
     """Return the machine that the options mean."""
-    found = find_like(options.machine, HeaderBalancer, "balanced header")
-    given = dict(HEADERS[options.header]) if options.header else {}
-    given |= changes(found.plan, options)
-    if options.table and found is not HeaderBalancer:
+    machine = machine_of(options, partial(find_like, base=HeaderBalancer, what="balanced header"))
+    assert isinstance(machine, HeaderBalancer)
+    changed = changes(machine.plan, options)
+    is_shipped = type(machine) is HeaderBalancer and machine.dimensions == HeaderBalancer(**changed).dimensions
+    if options.table and not is_shipped:
         raise DefinitionError(f"--table goes with header_balancer and its headers; {options.machine} has dimensions of its own.")
     ensure(not (options.pressure and options.reaction), "--pressure and --reaction both choose the charge; give one of them.")
+    found, given = type(machine), dict(machine.replaced(**{**HEADERS.get(options.header, {}), **changed}).dimensions)
     if options.pressure:
         given["charge"] = value(options.pressure, "pressure", "--pressure")
     if options.reaction:

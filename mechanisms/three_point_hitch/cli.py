@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from argparse import Namespace
+from functools import partial
 
 from linkage import DefinitionError, max_table, pin_forces
 from linkage.cli.command import Command, figure_path, machine_options, option
 from linkage.cli.machines import find_like
-from linkage.cli.settings import design, judged_over, motion_at, print_verdicts
+from linkage.cli.settings import design, judged_over, machine_of, motion_at, print_verdicts
 from linkage.cli.table import write_table
 from linkage.statics import table_text
 
@@ -65,11 +66,15 @@ def print_hitch(options: Namespace) -> int:
 
 def hitch_of(options: Namespace) -> ThreePointHitch:
     """Return the hitch that the options mean."""
-    found = find_like(options.machine, ThreePointHitch, "three-point hitch", admissible={})
-    if not found.admissible and (options.zones or options.figure == "zones"):
+    machine = machine_of(options, partial(find_like, base=ThreePointHitch, what="three-point hitch", admissible={}))
+    assert isinstance(machine, ThreePointHitch)
+    if not type(machine).admissible and (options.zones or options.figure == "zones"):
         raise DefinitionError(f"{options.machine}: a file holds no admissible settings, over which the zones go; take them of a class.")
-    if options.category and found is not ThreePointHitch:
+    if not options.category:
+        return machine
+    shipped = design(ThreePointHitch, options.settings)
+    if type(machine) is not ThreePointHitch or machine.dimensions != shipped.dimensions:
         raise DefinitionError(f"--category {options.category} goes with three_point_hitch; {options.machine} has dimensions of its own.")
-    machine = design(CATEGORIES[options.category].machine if options.category else found, options.settings)
+    machine = design(CATEGORIES[options.category].machine, options.settings)
     assert isinstance(machine, ThreePointHitch)
     return machine

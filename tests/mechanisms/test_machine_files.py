@@ -173,3 +173,26 @@ def test_save_says_what_is_left_out(run):
     assert load("own.toml")().dimensions == ThreePointHitch(**{"OB": 0.32, "load.mass": 1000.0}).dimensions
     assert run("save", "klann", "klann.json") == (0, f"klann.json: the linkage with {len(SHIPPED['klann'].plan.members)} members.\n", "")
     assert "ends in .toml or .json" in run("save", "klann", "klann.xml")[2]
+
+
+def test_commands_of_a_kind_take_a_file_of_a_design(tmp_path, capsys):
+    """What a page copies, `machine` and `[set]`: as the command with the same `--set`, and the class of `--machine`."""
+    file = tmp_path / "design.toml"
+    told = {
+        "hitch": ("three_point_hitch", "OB", "320mm", "--count 3"),
+        "grapple": ("grapple", "bore", "63mm", "--count 3"),
+        "balance": ("header_balancer", "charge", "40kgf_cm2", "--count 3"),
+    }
+    for command, (machine, name, value, rest) in told.items():
+        file.write_text(f'machine = "{machine}"\n[set]\n{name} = "{value}"\n', encoding="utf-8")
+        wanted = main([command, machine, "--set", f"{name}={value}", *rest.split()]), capsys.readouterr().out
+        given = main([command, str(file), *rest.split()]), capsys.readouterr().out
+        assert given == wanted
+        assert main([command, machine, "--machine", machine]) == 2
+        assert "is no file of a design" in capsys.readouterr().err
+    file.write_text('machine = "three_point_hitch"\n[set]\nOB = "320mm"\n', encoding="utf-8")
+    assert main(["hitch", str(file), "--category", "1"]) == 2 and "has dimensions of its own" in capsys.readouterr().err
+    file.write_text('machine = "header_balancer"\n[set]\nm1 = 1600.0\n', encoding="utf-8")
+    assert main(["balance", str(file), "--table"]) == 2 and "has dimensions of its own" in capsys.readouterr().err
+    assert main(["show", str(file), "--set", "m1=-3"]) == 2 and "m1 = -3 is not above zero" in capsys.readouterr().err
+    assert main(["grapple", "--design", "--machine", "grapple"]) == 2 and "holds a design" in capsys.readouterr().err

@@ -6,6 +6,7 @@ import os
 import re
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -183,6 +184,11 @@ def test_capacity_of_any_machine(said):
     assert "ok   further load: " in out and "ok   lifting: " in out and "at 180 bar" in out
     code, out, _ = said("capacity", "loader.py", "--pressure", "20bar", "--count", "3", "--check")
     assert code == 1 and "FAIL further load: nothing more is lifted at G" in out and "FAIL lifting: at 20 bar" in out
+    Path("design.toml").write_text('machine = "loader.py"\n[set]\nOB = 0.25\n', encoding="utf-8")
+    designed = said("capacity", "design.toml", "--machine", "loader.py", "--count", "3")
+    assert designed == said("capacity", "loader.py", "--set", "OB=0.25", "--count", "3") and designed[0] == 0
+    code, _, err = said("capacity", "loader.py", "--machine", "loader.py")
+    assert code == 2 and "--machine loader.py: loader.py is no file of a design" in err
 
 
 @pytest.mark.parametrize(

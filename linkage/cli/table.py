@@ -117,7 +117,10 @@ def write_tables(tables: Sequence[Table], file: str | None) -> None:
             print_table(columns, row_count(columns), outside)
         if any(any(outside) for _, _, outside in tables):
             print(f"\n{dagger_words()}")
-    elif len(tables) == 1:
+        return
+    if file != "-":  # what a file of numbers does not say
+        print(*(f"{heading}\n\n" for heading, _, _ in tables if heading), sep="", end="")
+    if len(tables) == 1:
         write_table(tables[0][1], row_count(tables[0][1]), file)
     else:
         first = tables[0][1]

@@ -147,6 +147,8 @@ def test_forces_of_every_pin_and_on_a_body(said):
     found, pins = numbers(out), pin_forces(motion, case="transport")
     assert code == 0
     np.testing.assert_allclose(found["O, kN"], np.hypot(*pins.force("O")) / kN, rtol=1e-12)
+    _, out, _ = said("forces", "loader.py", "--count", "3", "--csv", "forces.csv", "--case", "transport")
+    assert out.startswith("Loader, on the road, frictionless. Drive forces are positive") and "\nforces.csv: 3 rows\n" in out
     _, out, _ = said("forces", "loader.py", "--on", "OBG", "--count", "3", "--csv", "-")
     found = numbers(out)
     for axis in "xy":

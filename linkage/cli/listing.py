@@ -80,10 +80,8 @@ def group_title(entry: EntryPoint, package: str) -> str:
 
 
 def wrapped(text: str, start: str) -> list[str]:
-    """Return a text that begins with a start as lines: on a terminal no wider than that, elsewhere one."""
-    if not sys.stdout.isatty():
-        return [f"{start}{text}".rstrip()]
-    width = max(get_terminal_size().columns, len(start) + 20)
+    """Return a text that begins with a start as lines no wider than the terminal; elsewhere than on one, than 100 columns."""
+    width = max(get_terminal_size().columns if sys.stdout.isatty() else 100, len(start) + 20)
     return wrap(text, width, initial_indent=start, subsequent_indent=" " * len(start)) or [start.rstrip()]
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from argparse import Namespace
 from collections.abc import Iterable, Iterator, Mapping
 from inspect import cleandoc
@@ -14,6 +15,7 @@ from ..plan import strokes_text, written_out
 from ..quantities import Dimension
 from ..reports import design_rows, stroke_rows
 from .command import Command, group, lined_up, machine_options, option, picture, picture_option, repeatable, whole_number
+from .listing import wrapped
 from .settings import CHECK, OVER, judged_code, machine_of, overs_of, strokes_given
 
 if TYPE_CHECKING:
@@ -62,6 +64,7 @@ def show_command(options: Namespace) -> int:
         print_section("Equations", str(printed_equations(machine, options, at)).splitlines())
     verdicts = machine.verdicts(over=over)
     print_section("Verdict", verdicts)
+    print_section("About it", said_of_itself(machine))
     return judged_code(verdicts, options)
 
 
@@ -112,8 +115,7 @@ def printed_equations(machine: Mechanism, options: Namespace, at: Mapping[str, f
 
 def sections(machine: Mechanism) -> Iterator[tuple[str, Iterable[str]]]:
     """Yield the title and the lines of each section that describes a design."""
-    yield type(machine).__name__, cleandoc(type(machine).__doc__ or "").splitlines()
-    yield "Strokes", lined_up(list(stroke_rows(machine)))
+    yield f"{type(machine).__name__}: strokes", lined_up(list(stroke_rows(machine)))
     yield "Design variables", lined_up(list(design_rows(machine)))
     count = f"{len(machine.strokes)} stroke{'s' if len(machine.strokes) != 1 else ''}"
     cylinders = [f"cylinder {bar.P} {bar.Q}" for bar in machine.plan.cylinders]
@@ -123,6 +125,14 @@ def sections(machine: Mechanism) -> Iterator[tuple[str, Iterable[str]]]:
     changed = {name: value for name, value in machine.dimensions.items() if value != defaults[name]}
     written = written_out(machine.plan, changed)  # as this design has the members, without the dimensions listed already
     yield "Construction, in order", [f"{name} = {text}" for name, text in written.items() if name not in dimensions]
+
+
+def said_of_itself(machine: Mechanism) -> list[str]:
+    """Return what a class says of itself, its paragraphs as wide as the terminal; what is indented stays as it is written."""
+    lines = []
+    for each in re.split(r"\n[ \t]*\n", cleandoc(type(machine).__doc__ or "")):
+        lines += [*(each.splitlines() if re.search(r"^[ *-]", each, re.MULTILINE) else wrapped(" ".join(each.split()), "")), ""]
+    return lines[:-1]
 
 
 def print_section(title: str, lines: Iterable[str]) -> None:

@@ -95,6 +95,17 @@ class PinForces(Shown):
     _found: PoseForces
     _split: str
 
+    def __repr__(self) -> str:
+        joints = [each for each in self.joints if each.has_force and not np.isnan(each.size).all()]
+        greatest = max(joints, key=lambda each: float(np.nanmax(each.size)), default=None)
+        worst = "" if greatest is None else f", greatest {greatest}: {float(np.nanmax(greatest.size)) / kN:.4g} kN"
+        return f"<PinForces of {self._heading}: {len(self.joints)} joints at {self.motion.reached.size} poses{worst}; print it for all>"
+
+    @property
+    def _heading(self) -> str:
+        """Of which machine, in which situation."""
+        return f"{self.motion.plan.title}, {self.case}, {self.direction}"
+
     def again(self, motion: Motion) -> PinForces:
         """Return the same of another motion of the machine: the same loads, case, direction and rates; NaN where they are refused."""
         return joint_forces(require_motion(motion), self._found.applied.acting, self._split)
@@ -216,7 +227,6 @@ class PinForces(Shown):
         return work_gap(self._found.poses, without_held(self._found.applied, self._structure.holders), self.drives)
 
     def __str__(self) -> str:
-        head = f"{self.motion.plan.title}, {self.case}, {self.direction}"
         units = {name: "Nm" if stroke_unit(self.motion.plan, name) == "rad" else "N" for name in self.drives}
         lines = [f"  {name}: {range_text(values, units[name])}" for name, values in self.drives.items()]
         lines += [f"  thrust of {name}: {range_text(values, 'kN')}" for name, values in self.thrusts.items()]
@@ -224,7 +234,7 @@ class PinForces(Shown):
         lines += [f"  {each}: {range_text(each.size, 'kN') if each.has_force else range_text(each.couple, 'Nm')}" for each in self.joints]
         lines += [f"  axle load {name}: {range_text(force, 'kN')}" for name, force in self.axle_loads.items()]
         against = "" if np.isnan(self.gap) else f"; against virtual work {self.gap:.0e}"
-        return "\n".join([head, *lines, f"  residual of equilibrium {self.residual:.0e}{against}", *(f"  {each}" for each in self.remarks)])
+        return "\n".join([self._heading, *lines, f"  residual of equilibrium {self.residual:.0e}{against}", *(f"  {each}" for each in self.remarks)])
 
 
 @final

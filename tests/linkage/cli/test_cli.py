@@ -73,11 +73,15 @@ def test_list_names_the_installed_machines(said):
     assert (code, err) == (0, "")
     assert {line.split()[0] for line in out.splitlines() if line} >= {"mower_lift", "three_point_hitch"}
     assert "Cylinder AB turns the lift arm OBC" in out
+    assert max(map(len, out.splitlines())) <= 100
+    assert "Did you mean hitch_category_1 or hitch_category_2 or three_point_hitch?" in said("show", "hitchh")[2]
 
 
 def test_show_says_what_an_engineer_asks(said):
     code, out, err = said("show", "mower_lift")
     assert (code, err) == (0, "")
+    assert any(map(str.isdigit, "".join(out.splitlines()[:3])))  # numbers first, prose last
+    assert out.index("Verdict") < out.index("About it") < out.index("The source contradicts itself")
     for words in (
         "The source contradicts itself", "S 550 to 800 mm", "OB 175 mm", "BOG 110.425 deg", "weight 900 kgf",
         "p_max 155 kgf/cm2", "lift.rod 45 mm", "frame A O", "O B G", "cylinder A B", "Gruebler count 1",

@@ -390,7 +390,10 @@ def test_what_is_not_there_is_named(make, word):
 
 
 def test_it_prints_forces_with_units_and_the_residual():
-    text = str(pin_forces(Hitch().sweep(5)))
+    forces = pin_forces(Hitch().sweep(5))
+    text, short = str(forces), repr(forces)
+    greatest = max(float(each.size.max()) for each in forces.joints) / 1e3
+    assert len(short) < 200 and f"{greatest:.4g} kN" in short and f"{len(forces.joints)} joints at 5 poses" in short
     assert "S: 36098.8 to 43054.8 N" in text
     assert "A (pin) on lift from frame: 36.0988 to 43.0548 kN" in text
     assert "residual of equilibrium" in text and "against virtual work" in text

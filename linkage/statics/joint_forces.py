@@ -234,7 +234,8 @@ class PinForces(Shown):
         lines += [f"  {each}: {range_text(each.size, 'kN') if each.has_force else range_text(each.couple, 'Nm')}" for each in self.joints]
         lines += [f"  axle load {name}: {range_text(force, 'kN')}" for name, force in self.axle_loads.items()]
         against = "" if np.isnan(self.gap) else f"; against virtual work {self.gap:.0e}"
-        return "\n".join([self._heading, *lines, f"  residual of equilibrium {self.residual:.0e}{against}", *(f"  {each}" for each in self.remarks)])
+        lines += [f"  residual of equilibrium {self.residual:.0e}{against}", *(f"  {each}" for each in self.remarks)]
+        return "\n".join([self._heading, *lines])
 
 
 @final

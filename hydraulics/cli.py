@@ -3,22 +3,23 @@
 from __future__ import annotations
 
 from argparse import Namespace
+from dataclasses import replace
 
 import numpy as np
 
 from linkage.cli.command import CSV, EVERY, Command, machine_options, option, pose_options
-from linkage.cli.settings import CHECK, OVER, judged_over, machine_of, motion_at, print_verdicts, si_value
-from linkage.cli.table import write_table
+from linkage.cli.settings import CHECK, OVER, judged_over, machine_of, motions_at, print_verdicts, si_value
+from linkage.cli.table import Table, heading_words, write_tables
 from linkage.errors import DefinitionError, ensure, known_name
 from linkage.language import noted, said
 from linkage.loads import Acting, ForceElement, LoadCase
 from linkage.mechanism import Mechanism
-from linkage.motion import Column, Judge, Motion, columns_of, least
+from linkage.motion import Column, Judge, columns_of, least
 from linkage.statics import LawRequest, elements_of, is_among, pull_direction
 from linkage.units import g0, show
 from linkage.verdict import Verdict
 
-from .inputs import Array, one_design, proper_share
+from .inputs import one_design, proper_share
 from .lift import LiftCircuit, line_verdicts
 from .member import Ram, found_in
 from .requests import capacity_request
@@ -61,21 +62,19 @@ def print_capacity(options: Namespace) -> int:
     along = x, y
     unit = pull_direction(along, "--")
     case = None if options.case is None else known_name("Load case", options.case, machine.plan.of_kind(LoadCase), machine.plan.title)
-    over = motion_at(machine, options)
-
-    def capacity(motion: Motion) -> Array:
-        """Return it along the stroke."""
-        return circuit.lifted(motion, point, along=along, share=share, cylinder=ram, case=case)
-
-    whole = over.moved(over.strokes)
-    places = (*over.strokes, f"{point}_x", f"{point}_y")
-    shown = [each for each in columns_of(over) if each.name in places]
-    columns = [*shown, *ram.columns_in(whole, case), Column(FURTHER, capacity(whole), "kN", 3)]
+    motions, tables = motions_at(machine, options), list[Table]()
+    for run, over in motions:
+        whole = over.moved(over.strokes)  # together, over the poses as they are
+        further = circuit.lifted(whole, point, along=along, share=share, cylinder=ram, case=case)
+        places = (*over.strokes, f"{point}_x", f"{point}_y")
+        shown = [each for each in columns_of(over) if each.name in places]
+        columns = [*shown, *ram.columns_in(whole, case), Column(FURTHER, further, "kN", 3)]
+        tables.append((heading_words(machine, None if run is None else replace(run, case=None), over), columns, ()))
     if options.csv != "-":
-        supply = show(one_design(circuit.supply(over)), "bar", 4)
+        supply = show(one_design(circuit.supply(motions[0][1])), "bar", 4)
         way = f"along ({x:g}, {y:g}) at {f'{share:g} of ' if share != 1.0 else ''}{supply}"
         print(f"{machine.plan.title}: {ram.name} lifts at {point} {way}, beside the machine's own loads. Pressures are gauge.\n")
-    write_table(columns, over.reached.size, options.csv)
+    write_tables(tables, options.csv)
     judge = machine.judge(judged_over(machine, options), Acting(case=case))
     asked = capacity_request(ram, Acting(), circuit, point, unit, share)
     return print_verdicts([capacity_verdict(judge, asked, point), *line_verdicts(circuit, judge), *ram.verdicts(judge)], options)

@@ -186,6 +186,14 @@ def test_capacity_of_any_machine(said):
     assert "ok   further load: " in out and "ok   lifting: " in out and "at 180 bar" in out
     code, out, _ = said("capacity", "loader.py", "--pressure", "20bar", "--count", "3", "--check")
     assert code == 1 and "FAIL further load: nothing more is lifted at G" in out and "FAIL lifting: at 20 bar" in out
+    overs = "from linkage import Over\nfrom loader import Loader\n\n\nclass Reaching(Loader):\n"
+    Path("reaching.py").write_text(f"{overs}    low, high = Over(S=(0.0, 0.1)), Over(S=(0.1, 0.2))\n", encoding="utf-8")
+    code, out, _ = said("capacity", "reaching.py", "--count", "3", "--csv", "-")
+    head, *rows = csv.reader(io.StringIO(out, newline=""))
+    assert code == 0 and head[0] == "run" and [row[0] for row in rows] == [*["over low"] * 3, *["over high"] * 3]
+    further = [float(row[head.index("further load, kN")]) for row in rows]
+    along = loader().at(S=[0.0, 0.05, 0.1, 0.1, 0.15, 0.2])
+    np.testing.assert_allclose(further, pump.capacity(along, "G") / kN, rtol=1e-12)
     Path("design.toml").write_text('machine = "loader.py"\n[set]\nOB = 0.25\n', encoding="utf-8")
     designed = said("capacity", "design.toml", "--machine", "loader.py", "--count", "3")
     assert designed == said("capacity", "loader.py", "--set", "OB=0.25", "--count", "3") and designed[0] == 0

@@ -17,7 +17,7 @@ from ..mechanism import Mechanism
 from ..motion import Answer, Column, Measure, Motion, Request, Tabled, judged_poses, least, most, places_text, speakers, transmission
 from ..motion.limits import StrokeLimits
 from ..motion.measures import Least, Most
-from ..motion.requests import Trait
+from ..motion.requests import may_be_unlimited
 from ..pictures import mechanism
 from ..pictures.curves import limit_of, note, panel
 from ..pictures.scene import Scene
@@ -316,8 +316,7 @@ def sides_asked(quantity: object) -> tuple[Callable[[Any], Measure], ...]:
 
     Of a pressure the greatest: the least is nought, on the side that does not hold.
     """
-    is_open = isinstance(quantity, Request) and Trait.MAY_BE_UNLIMITED in quantity.traits
-    return (least,) if is_open else (most,) if getattr(quantity, "measures", "") == "pressure" else (least, most)
+    return (least,) if may_be_unlimited(quantity) else (most,) if getattr(quantity, "measures", "") == "pressure" else (least, most)
 
 
 def values_in_rows(subject: ReportSubject, member: str, column: Column) -> Callable[[Motion], FloatArray]:

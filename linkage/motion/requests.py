@@ -250,6 +250,11 @@ def all_bound(plan: Plan, requests: Sequence[RequestLike]) -> tuple[Request, ...
     return tuple(bound(plan, request) for request in requests)
 
 
+def may_be_unlimited(quantity: object) -> bool:
+    """Return whether something asked for may have no bound at some poses, where it has no value then."""
+    return isinstance(quantity, Request) and Trait.MAY_BE_UNLIMITED in quantity.traits
+
+
 def identity_of(plan: Plan, request: RequestLike) -> Hashable:
     """Return what tells something asked for from others; None for a quantity that only itself is, and for what may change."""
     if type(request) is str:

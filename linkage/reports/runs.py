@@ -13,10 +13,10 @@ from ..errors import DefinitionError, LinkageError, known_name, unwarned
 from ..language import said
 from ..loads import PLAIN, PLAIN_CASE, Acting, LoadCase
 from ..mechanism import Mechanism
-from ..motion import Judge, Motion, Request, Run, case_named, least, most, out_of_reach, require_motion
+from ..motion import Judge, Motion, Run, case_named, least, most, out_of_reach, require_motion
 from ..motion.judge import Domain
 from ..motion.measures import MeasuredQuantity
-from ..motion.requests import Trait
+from ..motion.requests import may_be_unlimited
 from ..plan import require_kind
 from ..quantities import as_mapping, numbers_in
 from .results import column_among, results
@@ -110,7 +110,7 @@ def worst_place(machine: Mechanism, middle: Run, place: Domain, acting: Acting) 
             if column.request is None:
                 return "", {}
             limit = tuple(machine.featured().limits.get(column.name, ()))
-            is_least = isinstance(column.request, Request) and Trait.MAY_BE_UNLIMITED in column.request.traits
+            is_least = may_be_unlimited(column.request)
             if limit:
                 is_least = limit[2:] == ("below",)
             side = (least if is_least else most)(cast(MeasuredQuantity, column.request))

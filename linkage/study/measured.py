@@ -17,7 +17,7 @@ from ..mechanism import Mechanism
 from ..motion import Grid, Motion, Request, at_values, each_at_its_stroke, evaluate_grid, stroke_display_unit
 from ..motion.grid import JoinedTo
 from ..motion.measures import At, Integral, Leaf, Measure, strokes_behind, traced, words_of
-from ..motion.requests import Trait
+from ..motion.requests import may_be_unlimited
 from ..numeric.line import Index
 from ..numeric.quadrature import PANELS, gauss, quadrature
 from ..plan import Mask, Plan
@@ -267,11 +267,6 @@ def eager(motion: Motion, quantity: Any) -> FloatArray:
         return np.asarray(np.broadcast_to(sign * motion.inputs[owner], motion.shape))
     found = quantity.of(motion) if isinstance(quantity, Request) else quantity_values(motion, quantity, endless=True)
     return np.asarray(np.broadcast_to(found, motion.shape))
-
-
-def may_be_unlimited(quantity: Any) -> bool:
-    """Return whether nothing may limit a quantity at some poses."""
-    return isinstance(quantity, Request) and Trait.MAY_BE_UNLIMITED in quantity.traits
 
 
 def nothing_limits(motion: Motion, quantity: Any) -> Mask:

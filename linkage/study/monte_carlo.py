@@ -14,13 +14,14 @@ from ..errors import DefinitionError, cited, known_name, one_word, unwarned
 from ..frozen import FrozenDict, refuses_changes
 from ..mechanism import Mechanism
 from ..motion.measures import At, Condition, Constraint, Integral, Leaf, Measure, Worst, conditions_of, measure_of
+from ..motion.requests import may_be_unlimited
 from ..numeric.line import Index
 from ..plan import Mask, Plan
 from ..program import FloatArray, RunOptions
 from ..quantities import is_number
 from ..units import display_unit
 from ..vectors import Numbers
-from .measured import Measured, StudyPoses, fold, fold_start, may_be_unlimited, measured_title, nothing_limits, number_bound
+from .measured import Measured, StudyPoses, fold, fold_start, measured_title, nothing_limits, number_bound
 from .tolerances import Tolerance, ToleranceLike, sampled_designs, tolerance_words, tolerances_of, values_shifted
 
 Task = TypeVar("Task")

@@ -13,6 +13,7 @@ from sympy.printing.latex import LatexPrinter
 from sympy.printing.precedence import PRECEDENCE
 from sympy.printing.str import StrPrinter
 
+from ..language import said
 from .words import Cross, Deg, Direction, Dot, Norm, PointSymbol, Tcos, TurnV, TurnVL
 
 
@@ -195,6 +196,12 @@ class Latex(LatexPrinter):  # type: ignore[misc]
     def _factor(self, vector: sympy.Basic) -> str:
         text = self._print(vector)
         return rf"\left({text}\right)" if vector.is_MatAdd else str(text)
+
+    def _print_Piecewise(self, expr: sympy.Piecewise) -> str:
+        text = str(super()._print_Piecewise(expr))
+        for word, own in {"for": said("for"), "otherwise": said("otherwise")}.items():
+            text = text.replace(rf"\text{{{word}}}", rf"\text{{{own}}}")
+        return text
 
     def _print_Deg(self, expr: Deg) -> str:
         return rf"{self._print(expr.args[0])}^{{\circ}}"

@@ -323,7 +323,8 @@ def named_in_code(kind: type[Mechanism]) -> PageData:
     for key, entry in entry_points(MACHINES).items():
         if entry.attr == name and getattr(sys.modules.get(entry.module), name, None) is kind:
             return {"class": name, "module": entry.module, "machine": key}
-    short = Path(file).stem if module == "__main__" and file else module
+    stem = Path(file).stem  # a module that was loaded from a file, or was started, has a name that cannot be imported
+    short = stem if file and stem not in ("__init__", module.rpartition(".")[2]) else module
     return {"class": name, "module": short, "machine": f"{Path(file).name}:{name}" if file else f"{module}:{name}"}
 
 
@@ -405,7 +406,8 @@ def shown_first(requests: PageRequests, dims: Sequence[Sequence[Any]]) -> list[s
 def stroke_data(requests: PageRequests) -> list[PageData]:
     """Return the strokes: their ranges, where they stand, their units, and whether they go round.
 
-    A path is one more: the numbers of its places, and the values of the strokes that it drives, by their places.
+    A path is one more: the numbers of its places, and the values of the strokes that it drives, by their places; of one that the
+    machine declares its name, and its place among the `Over`s.
     """
     run, found = requests.run, list[PageData]()
     names = list(requests.machine.strokes)
@@ -420,8 +422,11 @@ def stroke_data(requests: PageRequests) -> list[PageData]:
         first, last = requests.first + 1, requests.first + len(requests.ends)
         turn = all(abs(way[-1] - way[0]) <= ROUND * np.ptp(way) for way in run.ways.values())
         path = {names.index(name): list(way) for name, way in run.ways.items()}
-        place = {"name": ALONG, "start": first, "end": last, "at": first, "unit": "", "factor": 1.0}
-        found.append(place | {"turn": int(turn), "path": path})
+        places = enumerate(requests.questions.judge.places if requests.along is None else ())
+        own = [(k, each.over.name) for k, each in places if each.over.name and each.over.shape == "path" and each.over.title == run.title]
+        name, over = (own[0][1], {"over": own[0][0]}) if own else (ALONG, {})
+        place = {"name": name, "start": first, "end": last, "at": first, "unit": "", "factor": 1.0}
+        found.append(place | {"turn": int(turn), "path": path} | over)
     return found
 
 

@@ -2,8 +2,8 @@ const { strokes, units } = data;
 /* The questions of the verdicts, asked of the present design over all that the machine runs when the hand rests: coarsely while it holds something. */
 const asking = judging(engine, data.judge, data.joints.map(({ row }) => row)), DRAGGING = 9, STILL = 17, REST = 130;
 /* The paths that a machine declares run as strokes of their own, unless the page is of a path. */
-if (!strokes.some((each) => each.path)) for (const [over, { shape, name, places: ways }] of asking.spans().entries()) {
-  if (shape === "path" && name && ways[0].length > 1) strokes.push({ name, start: 1, end: ways[0].length, at: 1, unit: "", factor: 1, turn: 0, path: { ...ways }, over });
+if (!strokes.some((each) => each.path && each.over === undefined)) for (const [over, { shape, name, places: ways }] of asking.spans().entries()) {
+  if (shape === "path" && name && ways[0].length > 1 && !strokes.some((each) => each.over === over)) strokes.push({ name, start: 1, end: ways[0].length, at: 1, unit: "", factor: 1, turn: 0, path: { ...ways }, over });
 }
 /* A dimension as it comes: its name, value, least and greatest [SI], unit, whether it is a length, and where it stands. */
 const columns = data.columns.map(([name, unit, row, ru, values, why]) => ({ name, unit, factor: units[unit], row: row < 0 ? undefined : row, ru, values, why }));

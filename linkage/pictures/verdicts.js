@@ -47,7 +47,7 @@ function answerText({ rule, unit, words, saysUnit }, each) {
 function shareOf({ isLength }, each) {
   if (each.share !== undefined) return max(each.share, 0);
   if (isLength || !(abs(each.value) >= 0) || !(each.limit > 0)) return NaN;
-  return each.symbol === "<=" ? each.value / each.limit : each.value > 0 ? each.limit / each.value : NaN;
+  return each.symbol === "<=" ? max(each.value / each.limit, 0) : each.value > 0 ? each.limit / each.value : NaN;
 }
 /* The delivered verdicts in the language and the units chosen. */
 function delivered() {
@@ -198,7 +198,7 @@ function group(member, rows) {
   head.className = fails ? "bad" : rows.some((each) => each.ok === true) ? "ok" : "";
   head.append(title);
   if (member !== " stale") {
-    const kept = rows.filter((each) => each.ok === true).length, rule = worst.rule.replace(` ${member}`, ""), text = fails ? rule : [isNumber(worst.share) ? rule : "", kept ? say("{n} kept", { n: kept }) : ""].filter(Boolean).join(" \u00b7 ");
+    const kept = rows.filter((each) => each.ok === true).length, rule = member ? worst.rule.replace(` ${member}`, "") : worst.rule, text = fails ? rule : [isNumber(worst.share) ? rule : "", kept ? say("{n} kept", { n: kept }) : ""].filter(Boolean).join(" \u00b7 ");
     head.append(make("span", { textContent: text }), bar(worst));
   }
   fold.open = unfolded.has(member) || ((fails > 0 || (data.task && !member)) && !unfolded.has(`!${member}`));
@@ -285,6 +285,10 @@ function atPose() {
   for (const [q, each] of found.entries()) {
     const { unit } = questions[q], value = isNumber(each.value) ? size(each.value, unit) : say("no value");
     if (each.ok === false) faults.push({ q, rule: ruled(questions[q]), text: value, limit: isNumber(each.limit) ? size(each.limit, unit) : "", case: each.case });
+  }
+  for (const each of columns) {
+    const given = data.limits[each.name], value = given && each.row !== undefined && !questions.some(({ rule }) => rule === each.name) ? pose.values[each.row][0] : NaN;
+    if (given && (given[2] === "below" ? value < given[0] - 1e-9 * each.factor : value > given[0] + 1e-9 * each.factor)) faults.push({ rule: called(each), text: size(value, each), limit: size(given[0], each), case: "" });
   }
   for (const { point, row } of data.joints) {
     const angle = pose.values[row][0];

@@ -48,7 +48,7 @@ from linkage.cli.machines import design_of_file, find
 from linkage.cli.settings import design as design_of
 from linkage.files import load
 from linkage.pictures import page_html
-from linkage.pictures.browser_data import PageRequests
+from linkage.pictures.browser_data import PageRequests, named_in_code
 from linkage.pictures.browser_file import page_part, said_in
 from linkage.pictures.chart_page import chart_page
 from linkage.pictures.load_chart import ChartText
@@ -56,6 +56,7 @@ from linkage.plan.trace import Trace
 from linkage.quantities import name_of
 from linkage.reports import results
 from linkage.units import MPa, bar, mm, unit_system
+from mechanisms.at_work.excavator import Excavator
 from mechanisms.at_work.telehandler import Telehandler
 from mechanisms.classics.stephenson_three import StephensonThree, StephensonThreeFar
 from mechanisms.grapple import Grapple
@@ -710,6 +711,26 @@ def test_what_is_copied_of_ones_own_class_runs_and_says_where_nothing_was_change
         assert main(["show", str(file), "--machine", f"{Path(__file__)}:Stacker"]) == 0
         assert re.search(rf"\bOA +{123 if changed else 120} mm", capsys.readouterr().out)
     assert texts["options", True] == "--set OA=0.123"
+
+
+def test_what_is_copied_of_a_files_machine_imports_the_file(tmp_path):
+    file = tmp_path / "own_bar.py"
+    file.write_text("from mechanisms.classics.four_bar import FourBar\n\n\nclass OwnBar(FourBar):\n    pass\n")
+    found = named_in_code(find(f"{file}:OwnBar"))
+    assert found == {"class": "OwnBar", "module": "own_bar", "machine": "own_bar.py:OwnBar"}
+    assert named_in_code(Grapple)["module"] == "mechanisms.grapple"
+
+
+def test_every_path_that_a_machine_declares_runs_and_what_is_out_of_bounds_is_told(chromium, tmp_path):
+    with Shown(chromium, page(Excavator(), tmp_path / "excavator.html")) as shown:
+        runs = shown("[...document.getElementById('run').options].map((each) => each.textContent)")
+        assert runs == ["lift", "swing", "curl", "loading", "grading"]
+        shown.slide('[data-stroke="grading"]', 0)
+        assert shown.state["at"] == pytest.approx({"lift": 0.176, "swing": 0.01, "curl": 0.335, "loading": 1.0, "grading": 1.0})
+    with Shown(chromium, page(HeaderBalancer(), tmp_path / "balancer.html"), PHONE) as shown:
+        assert "F_R free \N{MINUS SIGN}196.6" in shown.text("#here") and "all kept" not in shown.text("#here")
+        assert "2 no hang-up" in shown.text("#groups summary >> nth=0")
+        assert shown("(({ scrollWidth, clientWidth }) => scrollWidth <= clientWidth)(document.getElementById('here'))")
 
 
 @pytest.mark.parametrize("playing", [False, True])

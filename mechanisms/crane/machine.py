@@ -13,7 +13,7 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from hydraulics import Cylinder, LiftCircuit
-from linkage import LEFT, Dimension, Dyad, Featured, Ground, Link, OnLink, Over, Rope, Stroke, ref
+from linkage import LEFT, Dimension, Dyad, Ground, Link, OnLink, Over, Rope, Stroke, ref
 from linkage.quantities import Function
 from linkage.units import MPa, deg, mm
 
@@ -78,8 +78,6 @@ class Crane(CraneSkeleton):
         cases=["lifting", "side_slope"],
     )  # fmt: skip
     transport = Over.path(phi=[phi_0, 90 * deg], psi="psi_0", t=0.0, cases=["lifting", "side_slope"])  # positions 3 and 4
-
-    about = Featured("T_y", ["K", "T"])
 
 
 class BellCrankCrane(Crane):

@@ -17,6 +17,7 @@ from linkage.checks import require
 from linkage.errors import cited, ensure
 from linkage.language import noted, said, translated
 from linkage.loads import LinkMass, LoadCase, Weight
+from linkage.motion import Featured
 from linkage.program import FloatArray
 from linkage.units import deg, kN, mm, show
 from linkage.verdict import Verdict
@@ -75,6 +76,7 @@ class CraneSkeleton(Mechanism):
     J = Crank(O, OJ=l_c, angle=90 * deg - phi)
     K = Crank(J, JK=l_p, angle=angle(J, O) + psi)         # the arm's end
     T = OnLink(J, K, JT=l_p + t)                          # the telescope's end, with load and tool
+    about = Featured("T_y", ["K", "T"])
     main_boom, arm = Link(O, J), Link(J, K)
 
     ground = Outline.line((-3.0, 0.0), (10.5, 0.0))       # what stands around is drawn only; its figures are illustrative

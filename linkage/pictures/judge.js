@@ -1,7 +1,7 @@
 /* Questions of a design over all that the machine runs: on a grid, then by stencils about the worst; no more poses than `most` in all.
    What has no value counts as Python's judge counts it: lost, unlimited, outside, or nothing left. */
 const judging = (engine, { overs: given, questions, most, travel, near }, watched = []) => {
-  const { abs, max, min, floor } = Math, isNumber = Number.isFinite, MET = 1e-9, TIE = 1e-12;
+  const { abs, max, min, floor } = Math, isNumber = Number.isFinite, MET = 1e-9, TIE = 1e-9;
   /* The ends and places of each `Over` as a design has them: [row, value] follows it, as the program says, and is the value as delivered. */
   const delivered = (each) => (Array.isArray(each) ? each[1] : each), every = (over, act) => (over.places || over.ends).map((list) => list.map(act));
   const follows = given.some((over) => every(over, Array.isArray).flat().some(Boolean));

@@ -43,7 +43,7 @@ Curve: TypeAlias = tuple[Motion, Column, str]
 def plot_motion(motion: Motion, columns: Sequence[Column | RequestLike], limits: Mapping[str, Sequence[object]] | None) -> Figure:
     """Return a figure of columns over the stroke, a panel each; see `plot`."""
     along, found = StrokeAxis.of(motion), columns_named(motion, columns)
-    return plot_curves([(motion, column, "") for column in found], limits, along.held)
+    return plot_curves(motion, [(motion, column, "") for column in found], limits, along.held)
 
 
 def plot_machine(
@@ -68,22 +68,24 @@ def plot_machine(
         curves += [(motion, column, run_words(machine, run) if len(runs) > 1 else "") for column in columns_named(motion, shown)]
     names = {column.name for _, column, _ in curves}
     own_limits = {name: limit for name, limit in featured.limits.items() if name in names}
-    return plot_curves(curves, own_limits | dict(limits or {}), held if len(runs) == 1 else "")
+    return plot_curves(motion, curves, own_limits | dict(limits or {}), held if len(runs) == 1 else "")
 
 
-def plot_curves(curves: Sequence[Curve], limits: Mapping[str, Sequence[object]] | None, held: str) -> Figure:
-    """Return a figure of curves, a panel each, with their limits; `held` are the strokes that are held along all of them."""
-    motion = curves[0][0] if curves else None
+def plot_curves(first: Motion, curves: Sequence[Curve], limits: Mapping[str, Sequence[object]] | None, held: str) -> Figure:
+    """Return a figure of curves, a panel each, with their limits; `held` are the strokes that are held along all of them.
+
+    `first` is a motion that they are of.
+    """
     if limits is not None:
         require_type("limits", limits, Mapping, "a limit for each column by its name is expected, dict(tilt=(0.1, 'max'))")
     given = dict(limits or {})
     for name in given:
         known_name("Column", name, [*dict.fromkeys(column.name for _, column, _ in curves)], where="limits")
     shown = [each for each in curves if each[1].name not in each[0].strokes]
-    if not shown or motion is None:
-        title, along = (motion.plan.title, StrokeAxis.of(motion).name) if motion is not None else ("", "")
-        raise DefinitionError(f"{title}: there is no column to draw over {along}; name a result, not a stroke.")
-    figure, cells = panel_grid(len(shown), motion.plan.heading, held)
+    if not shown:
+        along = StrokeAxis.of(first).name
+        raise DefinitionError(f"{first.plan.title}: there is no column to draw over {along}; name a result, not a stroke.")
+    figure, cells = panel_grid(len(shown), first.plan.heading, held)
     for ax, (motion, column, where) in zip(cells, shown, strict=True):
         panel(ax, motion, column, given.get(column.name))
         if where:  # each of several runs has strokes of its own that are held

@@ -152,5 +152,8 @@ def test_a_colour_without_an_arrow_has_no_key():
 
 
 def test_a_heading_is_parted_between_strokes():
-    figure = plot(SHIPPED["levelled_telehandler"].load()())
+    telehandler = SHIPPED["levelled_telehandler"].load()()
+    figure = plot(telehandler, at=dict(lift=(0.0, 0.7)))
     assert figure.get_suptitle().splitlines()[1:] == ["tilt = 0 mm"]
+    along = [ax.get_xlabel() for ax in plot(telehandler).axes]  # its two paths: what is held stands along each
+    assert along == ["lift, mm; extend = 0 mm, tilt = 0 mm", "extend, mm; lift = 300 mm, tilt = 0 mm"]

@@ -13,7 +13,7 @@ import numpy as np
 from ..checks import require_whole
 from ..errors import AssemblyError, DefinitionError, LinkageError, SingularError, unwarned
 from ..language import said
-from ..loads import PLAIN_CASE, Acting, ForceElement, LoadCase
+from ..loads import PLAIN_CASE, Acting, Case, ForceElement, LoadCase
 from ..mechanism import Mechanism, require_mechanism
 from ..motion import Column, Judge, Motion, Request, Tabled, speakers, stroke_display_unit
 from ..motion.measures import MeasuredQuantity
@@ -165,12 +165,9 @@ class ReportSubject:
         if motion is self.curve and run.case is None:
             found, own = self.columns, self.member_columns
         else:
-            found, own = [], []
             with unwarned():
                 found = results(self.machine, motion, run.case)
-            for name, member in speakers(self.machine.plan, Tabled).items():
-                with unwarned(), suppress(LinkageError):
-                    own += [(name, column) for column in member.columns_in(motion, run.case, None)]
+            own = self.columns_of_members(motion, run.case)
         named = {column.name: column for column in found}
         for name, column in own:
             named.setdefault(f"{column.name} {name}", replace(column, name=f"{column.name} {name}"))
@@ -208,10 +205,14 @@ class ReportSubject:
     @cached_property
     def member_columns(self) -> list[tuple[str, Column]]:
         """What members show of themselves at the poses of the curves, each with the member's name; nothing for one that is refused."""
+        return [(name, asked_by_name(name, column)) for name, column in self.columns_of_members(self.curve)]
+
+    def columns_of_members(self, motion: Motion, case: Case = None) -> list[tuple[str, Column]]:
+        """Return what members show of themselves in a load case, each with the member's name; nothing for one that is refused."""
         found: list[tuple[str, Column]] = []
         for name, member in speakers(self.machine.plan, Tabled).items():
             with unwarned(), suppress(LinkageError):
-                found += [(name, asked_by_name(name, column)) for column in member.columns(self.curve)]
+                found += [(name, column) for column in member.columns_in(motion, case)]
         return found
 
     def quantities(self, names: Container[str]) -> dict[str, MeasuredQuantity]:

@@ -17,6 +17,7 @@ from ..motion import Judge, Motion, Run, case_named, least, most, out_of_reach, 
 from ..motion.judge import Domain
 from ..motion.measures import MeasuredQuantity
 from ..motion.requests import may_be_unlimited
+from ..numeric.line import stretches
 from ..plan import require_kind
 from ..quantities import as_mapping, numbers_in
 from .results import column_among, results
@@ -132,12 +133,11 @@ def run_along(motion: Motion) -> tuple[Run, int]:
     if len(shape) != 1 or motion._design_shape:
         said = f"one design along one path is expected, and this motion is of shape {shape}"
         raise DefinitionError(f"{title}: {said}; choose one path of it.")
-    ends = np.flatnonzero(np.diff(np.concatenate([[False], motion.reached, [False]])))
-    first, last = max(zip(ends[::2].tolist(), ends[1::2].tolist(), strict=True), key=lambda part: part[1] - part[0], default=(0, 0))
-    ways = {name: tuple(values[first:last].tolist()) for name, values in motion.strokes.items()}
+    first, last = max(stretches(motion.reached), key=lambda part: part[1] - part[0], default=(0, -1))
+    ways = {name: tuple(values[first : last + 1].tolist()) for name, values in motion.strokes.items()}
     moving = {name: way for name, way in ways.items() if len(set(way)) > 1}
     if not moving:
-        raise DefinitionError(f"{title}: nothing moves along this motion; it has {last - first} places in reach.")
+        raise DefinitionError(f"{title}: nothing moves along this motion; it has {last - first + 1} places in reach.")
     return Run(moving, {name: way[0] for name, way in ways.items() if name not in moving}), first
 
 

@@ -345,6 +345,8 @@ class Mechanism(Shown, metaclass=MechanismType):
         backend: BackendName | None = None,
         threads: int = 1,
         per_design: object = False,
+        rates: Mapping[str, object] | None = None,
+        accelerations: Mapping[str, object] | None = None,
         **strokes: object,
     ) -> list[FloatArray]:
         """Return values, ratios and forces of many poses in one pass, nothing else: `G, T = evaluate(["G", thrust()], S=...)`.
@@ -352,29 +354,36 @@ class Mechanism(Shown, metaclass=MechanismType):
         One array a request, shape (2, *designs, *strokes) of a point, (*designs, *strokes) of a quantity. Designs share the strokes, or
         have their own `per_design`, as in `at`. `out`, shape (components, *designs, *strokes), takes the results; the arrays returned are
         its rows. `backend` is "numpy", "numba" or "floats", or a class of your own that runs a schedule; without it the quickest for the
-        work, on one thread. Poses are taken one by one: unlike `at` it does not look for
+        work, on one thread. `rates` [1/s] and `accelerations` [1/s2] of strokes by name, numbers or arrays that fit the strokes, are what
+        dampers and inertia ask for. Poses are taken one by one: unlike `at` it does not look for
         change points between them. Raises AssemblyError out of reach and SingularError for ratios at a dead point, unless
         `unreachable="nan"`.
         """
         options = RunOptions(backend, threads)
-        return evaluate(self.plan, self._values, strokes, of, out, options, unreachable, is_yes("per_design", per_design))
+        own = is_yes("per_design", per_design)
+        return evaluate(self.plan, self._values, strokes, of, out, options, unreachable, own, rates, accelerations)
 
-    def function(self, of: Sequence[RequestLike]) -> PoseFunction:
+    def function(self, of: Sequence[RequestLike], *, rates: bool = False, accelerations: bool = False) -> PoseFunction:
         """Return values, ratios and forces of this design as a function of the strokes, in floats: `f = function(["G", ratio("G")])`.
 
         `f(0.1)` returns all components one after the other, here (G_x, G_y, dG_x, dG_y), in some microseconds: for root
-        finders and other loops that take one pose at a time. It raises what `evaluate` raises.
+        finders and other loops that take one pose at a time. It raises what `evaluate` raises. With `rates` it is a function of all
+        strokes and then of their rates [1/s], with `accelerations` of these [1/s2] too: `f(0.1, 0.05, 0.5)`.
         """
-        return PoseFunction(self.plan, self._values, of)
+        return PoseFunction(self.plan, self._values, of, time_orders(rates, accelerations))
 
-    def source(self, of: Sequence[RequestLike], *, language: str | Language = "c", name: str = "poses") -> str:
+    def source(
+        self, of: Sequence[RequestLike], *, language: str | Language = "c", name: str = "poses", rates: bool = False,
+        accelerations: bool = False,
+    ) -> str:  # fmt: skip
         """Return values and ratios as the text of a function in "c" or "javascript", for a controller or a page of one's own.
 
         `language` may be a `linkage.program.Language` of your own.
         Dimensions and strokes are its arguments, in the order that its first comment gives, SI and radians; NaN out of reach. Pins
-        that are found by iteration have no closed form and are refused by name.
+        that are found by iteration have no closed form and are refused by name. With `rates` and `accelerations` those of the strokes are
+        arguments too, where what is asked for follows them.
         """
-        return source_of(self.plan, self._values, of, language, name)
+        return source_of(self.plan, self._values, of, language, name, time_orders(rates, accelerations))
 
     def columns(self, motion: Motion) -> list[Column]:
         """Return the table of results: strokes, moving points, named outputs. A machine replaces it by its own."""
@@ -558,6 +567,14 @@ def idle_stroke(plan: Plan, stroke: str) -> DefinitionError:
     pin = f"{point} = Pin(near=(x, y))"
     remedy = f"Let that step have a length or an angle that follows {stroke}, or write {pin} and what holds it as links"
     return DefinitionError(f"{opening}, but {step} places {point} without it. {remedy}.", member=stroke)
+
+
+def time_orders(rates: object, accelerations: object) -> int:
+    """Return how many orders of derivatives by time are arguments of a function: 1 with rates, 2 with accelerations too."""
+    wanted = is_yes("rates", rates), is_yes("accelerations", accelerations)
+    if wanted == (False, True):
+        raise DefinitionError("accelerations=True: they say how rates change; ask for rates=True as well.")
+    return sum(wanted)
 
 
 def check_bindable(name: str, what: str) -> None:

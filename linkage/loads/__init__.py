@@ -6,7 +6,20 @@ a moment turns its link counter-clockwise; a support pushes its point along its 
 """
 
 from ..star import declare_public
-from .acting import PLAIN, PLAIN_CASE, Acting, ActingKeywords, Case, HasLoads, LoadCase, Loads, situation_of, takes_situation
+from .acting import (
+    AS_IT_RUNS,
+    PLAIN,
+    PLAIN_CASE,
+    Acting,
+    ActingKeywords,
+    Case,
+    HasLoads,
+    LoadCase,
+    Loads,
+    StrokeRates,
+    situation_of,
+    takes_situation,
+)  # fmt: skip
 from .element import (
     AT_REST,
     DIRECTIONS,

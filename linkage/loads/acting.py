@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, fields
 from inspect import Parameter, signature
 from math import pi
 from types import MappingProxyType
-from typing import ClassVar, Protocol, Self, TypeAlias, TypedDict, TypeVar, final
+from typing import ClassVar, Literal, Protocol, Self, TypeAlias, TypedDict, TypeVar, final
 
 from numpy.typing import ArrayLike
 
@@ -165,6 +165,12 @@ Case: TypeAlias = LoadCase | str | None
 """A load case, or its name; None for none."""
 
 
+AS_IT_RUNS: Literal["as it runs"] = "as it runs"
+"""What stands for rates and accelerations of strokes that are those of the motion: in a program they are inputs."""
+StrokeRates: TypeAlias = Mapping[str, ArrayLike] | Literal["as it runs"] | None
+"""How fast strokes move, or how their rates change, by name."""
+
+
 @final
 @refuses_changes
 @dataclass(frozen=True)
@@ -173,22 +179,28 @@ class Acting:
 
     `loads` are the machine's own where None, `case` a LoadCase or its name, `direction` one of DIRECTIONS, `rates` the speeds of strokes
     [1/s], `drive` the stroke that moves where several could. In a plain value None is no case and no friction; where something is judged,
-    None of case or direction means all that occur.
+    None of case or direction means all that occur. Rates and `accelerations` [1/s2] are those of the motion where it has a time and none
+    are given; AS_IT_RUNS says so, and makes them inputs of a program.
     """
 
     loads: Loads = None
     case: Case = None
     direction: str | None = None
-    rates: Mapping[str, ArrayLike] | None = None
+    rates: StrokeRates = None
     drive: str | None = None
+    accelerations: StrokeRates = None
 
     def __post_init__(self) -> None:
         if self.direction is not None:
             known_name("Direction", self.direction, DIRECTIONS)
         if self.drive is not None:
             object.__setattr__(self, "drive", name_of(self.drive))
-        if self.rates is not None:
-            require_type("Acting(rates", self.rates, Mapping, "a value for each stroke is expected, such as rates=dict(S=0.05)")
+        for name, given in (("rates", self.rates), ("accelerations", self.accelerations)):
+            if given is not None and given != AS_IT_RUNS:
+                require_type(f"Acting({name}", given, Mapping, f"a value for each stroke is expected, such as {name}=dict(S=0.05)")
+        if self.accelerations is not None and self.rates is None:
+            what = "accelerations say how rates change, and no rates are given"
+            raise DefinitionError(f"Acting: {what}; give both, Acting(rates=dict(S=0.0), accelerations=dict(S=0.5)).")
         keep_own(self)
 
     @property
@@ -223,7 +235,7 @@ class ActingKeywords(TypedDict, total=False):
 
     case: Case
     direction: str | None
-    rates: Mapping[str, ArrayLike] | None
+    rates: StrokeRates
     acting: Acting | None
 
 

@@ -233,6 +233,9 @@ class Poses(Protocol):
     def ratio(self, target: Reference, *, wrt: str | None = None, order: int = 1) -> Array:
         """Return the derivative of a point or a quantity by a stroke, of `order` 1 or 2."""
 
+    def velocity(self, target: Reference, rates: Mapping[str, Rate]) -> Array:
+        """Return the velocity of a point, shape (2, ...) [m/s], or the rate of a quantity, at rates of strokes [1/s]."""
+
 
 class Formulas(Poses, Protocol):
     """What the equations of forces are written on: poses whose numbers are symbols, and the lines that are there already."""
@@ -275,11 +278,15 @@ class Rates(dict[str, Rate]):
 
     `is_timed`: whether these are speeds that were given; where only a direction is known, their senses alone mean something.
     `direction`: one of DIRECTIONS, the word for it; in any but the first friction acts, against the senses of the rates.
+    `accelerations` are how the rates change [1/s2], by stroke; None where inertia is left out.
     """
 
-    def __init__(self, rates: Mapping[str, Rate] = MappingProxyType({}), is_timed: bool = False, direction: str = FRICTIONLESS) -> None:
+    def __init__(
+        self, rates: Mapping[str, Rate] = MappingProxyType({}), is_timed: bool = False, direction: str = FRICTIONLESS,
+        accelerations: Mapping[str, Rate] | None = None,
+    ) -> None:  # fmt: skip
         super().__init__(rates)
-        self.is_timed, self.direction = is_timed, direction
+        self.is_timed, self.direction, self.accelerations = is_timed, direction, accelerations
 
     @property
     def sense(self) -> int:

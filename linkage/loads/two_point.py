@@ -77,8 +77,7 @@ class TwoPoint(ForceElement):
         if not rates:
             return np.zeros(())
         A, B = self.ends
-        parts = [(motion.ratio(B, wrt=name) - motion.ratio(A, wrt=name)) * rate for name, rate in rates.items()]
-        arm, moved = motion[B] - motion[A], sum(parts[1:], parts[0])
+        arm, moved = motion[B] - motion[A], motion.velocity(B, rates) - motion.velocity(A, rates)
         return np.asarray((arm[0] * moved[0] + arm[1] * moved[1]) / motion.distance(A, B))[()]
 
     def closed_thrust(self, motion: Any, acting: Any) -> Array | None:

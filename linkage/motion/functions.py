@@ -11,17 +11,17 @@ import numpy as np
 
 from ..checks import require
 from ..errors import DefinitionError, SingularError, UntracedError, one_word
-from ..plan import Plan, require_kinds
+from ..plan import Plan, rate_name, require_kinds
 from ..program import LANGUAGES, NO_VALUE, QUICKEST, FloatArray, Kernel, RunOptions
-from ..quantities import numbers_in
+from ..quantities import numbers_in, real
 from ..units import Amount
 from . import conditions
 from .evaluation import BulkProgram, Evaluation, keeps_digits, members_behind, other_law_error
 from .grid import Grid, varies
 from .live import live_source, true_nodes
 from .motion import Motion
-from .requests import Request, RequestLike, all_bound, identities_of, known_bound
-from .strokes import at_values, float_array, known_strokes
+from .requests import Request, RequestLike, all_bound, as_they_run, identities_of, known_bound
+from .strokes import at_values, float_array, known_strokes, rate_values
 
 
 def evaluate(
@@ -33,17 +33,34 @@ def evaluate(
     way: RunOptions,
     unreachable: str,
     per_design: bool = False,
+    rates: Mapping[str, Any] | None = None,
+    accelerations: Mapping[str, Any] | None = None,
 ) -> list[FloatArray]:
     """Return the values of requests of designs at strokes; see Mechanism.evaluate."""
     require_kinds(plan, strokes)
+    moving = {} if rates is None and accelerations is None else rate_values(plan, rates, accelerations)
+    requests = as_they_run(requests, accelerations is not None) if moving else requests
     if out is None and unreachable in ("raise", "nan"):
         with suppress(UntracedError):
-            found = at_one_pose(plan, designs, strokes, requests) if way == QUICKEST else None
+            found = at_one_pose(plan, designs, strokes, requests, moving) if way == QUICKEST else None
             if found is None:
-                found = at_few_poses(plan, designs, strokes, requests, way)
+                found = at_few_poses(plan, designs, strokes, requests, way, moving)
             if found is not None:
                 return found
-    return evaluate_grid(Grid(plan, designs, at_values(strokes, plan, float_array), per_design=per_design), requests, out, way, unreachable)
+    at = at_values(strokes, plan, float_array)
+    if moving:
+        together = dict(zip((*at, *moving), fitted(plan, [*at.values(), *map(real, moving.values())]), strict=True))
+        at, moving = {name: together[name] for name in at}, {name: together[name] for name in moving}
+    return evaluate_grid(Grid(plan, designs, at, per_design=per_design, rate_inputs=moving), requests, out, way, unreachable)
+
+
+def fitted(plan: Plan, arrays: Sequence[FloatArray]) -> list[FloatArray]:
+    """Return strokes and their rates broadcast against each other; DefinitionError where they do not fit."""
+    try:
+        return [*np.broadcast_arrays(*arrays)]
+    except ValueError:
+        shapes = ", ".join(str(each.shape) for each in arrays)
+        raise DefinitionError(f"{plan.title}: the shapes of the strokes and of their rates do not fit each other: {shapes}.") from None
 
 
 def evaluate_grid(
@@ -73,7 +90,7 @@ def evaluate_bound(asked: Evaluation, out: FloatArray | None, unreachable: str) 
 def refuse(asked: Evaluation, unreachable: str) -> NoReturn:
     """Raise the error of poses without a value, in the words of a motion."""
     grid = asked.grid
-    motion = Motion(grid.plan, grid.designs, grid.strokes, unreachable, per_design=grid.per_design)
+    motion = Motion(grid.plan, grid.designs, grid.strokes, unreachable, per_design=grid.per_design, rate_inputs=grid.rate_inputs)
     for each in asked.requests:
         each.refuse(motion)
     for each in asked.requests:
@@ -88,7 +105,7 @@ def evaluate_apart(
     grid: Grid, requests: Sequence[RequestLike], out: FloatArray | None, way: RunOptions, unreachable: str
 ) -> list[FloatArray]:
     """Return the same of requests some of which have no program: these as a motion of the same poses gives them."""
-    motion = Motion(grid.plan, grid.designs, grid.strokes, unreachable, per_design=grid.per_design)
+    motion = Motion(grid.plan, grid.designs, grid.strokes, unreachable, per_design=grid.per_design, rate_inputs=grid.rate_inputs)
     found = []
     for each in requests:
         try:
@@ -104,11 +121,12 @@ def evaluate_apart(
 
 
 def at_one_pose(
-    plan: Plan, designs: Mapping[str, object], strokes: Mapping[str, object], requests: Sequence[RequestLike]
+    plan: Plan, designs: Mapping[str, object], strokes: Mapping[str, object], requests: Sequence[RequestLike], moving: Mapping[str, object]
 ) -> list[FloatArray] | None:
     """Return the values of requests at one pose within the declared strokes; None where it has to be looked at closely, or are several.
 
-    The program of requests that are known from before is found by what they are; nothing is bound or traced again.
+    `moving` are rates by the names of their inputs. The program of requests that are known from before is found by what they are; nothing
+    is bound or traced again.
     """
     if len(strokes) != len(plan.strokes) or plan.solved:
         return None
@@ -120,10 +138,15 @@ def at_one_pose(
         if not (stroke.start <= value <= stroke.end or stroke.end <= value <= stroke.start):
             return None
         values.append(float(value))  # NumPy's own would not raise where it is divided by zero
+    for value in moving.values():
+        if not (isinstance(value, float) or type(value) is int) or not isfinite(value):
+            return None
+        values.append(float(value))
     identities = identities_of(plan, requests)
     if identities is None:
         return None
-    program = plan.made(("one pose", identities), lambda _: PoseProgram(plan, all_bound(plan, requests)))
+    names = (*plan.strokes, *moving)
+    program = plan.made(("one pose", identities, names), lambda _: PoseProgram(plan, all_bound(plan, requests), names))
     pose = program.of_design(designs)
     found = None if pose is None else pose(values)
     return None if found is None else program.bulk.split(np.array(found))
@@ -134,8 +157,9 @@ FEW = 8192
 
 
 def at_few_poses(
-    plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, Any], requests: Sequence[RequestLike], way: RunOptions
-) -> list[FloatArray] | None:
+    plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, Any], requests: Sequence[RequestLike], way: RunOptions,
+    moving: Mapping[str, Any],
+) -> list[FloatArray] | None:  # fmt: skip
     """Return the same of one design at arrays of strokes, shape (n,), within the declared ranges; None as `at_one_pose` does."""
     if plan.solved or len(strokes) != len(plan.strokes) or not {*map(type, designs.values())} <= {float}:
         return None
@@ -148,13 +172,14 @@ def at_few_poses(
         if not (low <= value.min() and value.max() <= high):  # what is not finite neither
             return None
         sizes.add(value.size)
+    sizes |= {each.size if type(each) is np.ndarray and each.ndim == 1 else 0 for each in moving.values() if type(each) is not float}
     identities = identities_of(plan, requests)
     if identities is None or len(sizes) != 1:
         return None
     program = plan.made(("few poses", identities), lambda _: BulkProgram.of(plan, all_bound(plan, requests)))
     if program.angles:
         return None
-    result = program.kernel({**designs, **strokes}, None, way, (1, sizes.pop()))
+    result = program.kernel({**designs, **strokes, **moving}, None, way, (1, sizes.pop()))
     return program.split(result.values[:, 0]) if program.is_clear(result) else None
 
 
@@ -180,12 +205,12 @@ Pose: TypeAlias = Callable[[Sequence[float]], tuple[float, ...] | None]
 
 @final
 class PoseProgram:
-    """Some requests in floats: `of_design(designs)` is a function of the strokes, the design worked out."""
+    """Some requests in floats: `of_design(designs)` is a function of the strokes and their rates by `names`, the design worked out."""
 
-    def __init__(self, plan: Plan, requests: tuple[Request, ...]) -> None:
-        self.bulk, self._plan, self._requests = BulkProgram.of(plan, requests), plan, requests
+    def __init__(self, plan: Plan, requests: tuple[Request, ...], names: Sequence[str]) -> None:
+        self.bulk, self._plan, self._requests, self._names = BulkProgram.of(plan, requests), plan, requests, names
         self._tells_nearness = plan.trace.nearness(members_behind(plan, requests)).op != "constant"
-        self._order = [list(plan.strokes).index(node.value) for node in self.bulk.kernel.plan.pose_inputs]
+        self._order = [names.index(node.value) for node in self.bulk.kernel.plan.pose_inputs]
         self._latest: tuple[Mapping[str, Any] | None, Pose | None] = None, None
 
     def of_design(self, designs: Mapping[str, object]) -> Pose | None:
@@ -199,7 +224,7 @@ class PoseProgram:
         return pose
 
     def _pose(self, designs: Mapping[str, Any]) -> Pose:
-        kernel, order, may_fail, many = self.bulk.kernel, self._order, self.bulk.may_fail, len(self._plan.strokes)
+        kernel, order, may_fail, many = self.bulk.kernel, self._order, self.bulk.may_fail, len(self._names)
         floats, count = kernel.floats, len(kernel.plan.outputs)
         passed = floats.design([float(designs[node.value]) for node in kernel.plan.design_inputs])
         pose, is_ordered = floats.quick["pose"], order == list(range(many))
@@ -225,28 +250,33 @@ class PoseProgram:
 
     def _keeps_digits(self, designs: Mapping[str, object], strokes: Sequence[float]) -> bool:
         """Return whether a coarse look shows that all requests keep their digits at a pose."""
-        inputs = {**designs, **dict(zip(self._plan.strokes, strokes, strict=True))}
+        inputs = {**designs, **dict(zip(self._names, strokes, strict=True))}
         every = np.ones((len(self._requests), 1, 1), bool)
         return not self._plan.solved and bool(keeps_digits(self._plan, self._requests, inputs, every).all())
 
 
 @final
 class PoseFunction:
-    """Requests of one design as a function of the strokes, in floats; it can be sent to other processes."""
+    """Requests of one design as a function of the strokes, in floats; it can be sent to other processes.
 
-    def __init__(self, plan: Plan, designs: Mapping[str, Any], requests: Sequence[RequestLike]) -> None:
+    Of a function with `orders` the rates of all strokes follow these, and with 2 then their accelerations.
+    """
+
+    def __init__(self, plan: Plan, designs: Mapping[str, Any], requests: Sequence[RequestLike], orders: int = 0) -> None:
         if any(np.ndim(value) for value in designs.values()):
             raise DefinitionError(f"{plan.title}: a function of floats is of one design; use evaluate for several.")
-        self._plan, self._designs, self._names = plan, dict(designs), tuple(plan.strokes)
-        self._requests = tuple(requests) if isinstance(requests, Iterator) else requests
+        self._plan, self._designs, self._orders = plan, dict(designs), orders
+        self._names = (*plan.strokes, *(rate_name(name, order + 1) for order in range(orders) for name in plan.strokes))
+        requests = tuple(requests) if isinstance(requests, Iterator) else requests
+        self._requests = as_they_run(requests, orders > 1) if orders else requests
         try:
             found = all_bound(plan, self._requests)
-            self._pose = None if plan.solved else PoseProgram(plan, found).of_design(self._designs)
+            self._pose = None if plan.solved else PoseProgram(plan, found, self._names).of_design(self._designs)
         except UntracedError:
             self._pose = None
 
     def __call__(self, *strokes: float, **named: float) -> tuple[float, ...]:
-        """Return all components one after the other at strokes [SI], in their order or by name."""
+        """Return all components one after the other at strokes [SI], in their order or by name; rates follow in their order."""
         if self._pose is None or (named and len(strokes) + len(named) != len(self._names)):
             return self._closely(strokes, named)
         at = strokes
@@ -257,29 +287,35 @@ class PoseFunction:
 
     def _closely(self, strokes: Sequence[float], named: Mapping[str, float]) -> tuple[float, ...]:
         """Return the same where a guard or a failing operation tells, or the strokes are given in another way."""
-        plan, names = self._plan, list(self._plan.strokes)
-        known_strokes(named, {name: plan.strokes[name] for name in names[len(strokes) :]}, plan.title)
-        values = [*strokes, *(named[name] for name in names[len(strokes) :])]
+        plan, names = self._plan, self._names
+        if not self._orders or named:
+            known_strokes(named, {name: plan.strokes[name] for name in [*plan.strokes][len(strokes) :]}, plan.title)
+        values = [*strokes, *(named[name] for name in names[len(strokes) :] if name in named)]
         if len(values) != len(names):
-            raise DefinitionError(f"{plan.title}: one value for each stroke is expected: {', '.join(names)}.")
+            what = "each stroke" if not self._orders else "each stroke and then for each of their rates"
+            raise DefinitionError(f"{plan.title}: one value for {what} is expected: {', '.join(names)}.")
         at = dict(zip(names, values, strict=True))
         require_kinds(plan, at)
         given = {name: numbers_in(value) for name, value in at.items()}
         for name, found in given.items():
             if found.size != 1 or not np.isfinite(found).all():
-                what = f"{plan.title}: the stroke {name}={at[name]!r:.60}"
+                what = f"{plan.title}: the {'stroke ' if name in plan.strokes else ''}{name}={at[name]!r:.60}"
                 raise DefinitionError(f"{what}: one finite number is expected; evaluate takes arrays.")
-        grid = Grid(plan, self._designs, {name: found.reshape(()) for name, found in given.items()})
+        shaped = {name: found.reshape(()) for name, found in given.items()}
+        rates = {name: shaped.pop(name) for name in names[len(plan.strokes) :]}
+        grid = Grid(plan, self._designs, shaped, rate_inputs=rates)
         return tuple(float(part) for found in evaluate_grid(grid, self._requests, None, QUICKEST, "raise") for part in np.ravel(found))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return PoseFunction, (self._plan, self._designs, self._requests)
+        return PoseFunction, (self._plan, self._designs, self._requests, self._orders)
 
 
 # Values and ratios as the text of a function in another language: for a controller, or a page of one's own.
 
 
-def source_of(plan: Plan, designs: Mapping[str, Any], requests: Sequence[RequestLike], language: object, name: str) -> str:
+def source_of(
+    plan: Plan, designs: Mapping[str, Any], requests: Sequence[RequestLike], language: object, name: str, orders: int = 0
+) -> str:
     """Return requests as text in a language; see Mechanism.source."""
     writer = LANGUAGES.given(language) or LANGUAGES[one_word("language", language, tuple(LANGUAGES))]
     require(isinstance(name, str) and name.isascii() and name.isidentifier(), "name", name, "a function's name is expected, such as poses")
@@ -287,7 +323,7 @@ def source_of(plan: Plan, designs: Mapping[str, Any], requests: Sequence[Request
         raise DefinitionError(f"name={name!r} has a meaning in {language} already; give the function another name, such as poses.")
     if any(np.ndim(value) for value in designs.values()):
         raise DefinitionError(f"{plan.title}: source() states one design; its dimensions are arguments of the text, which serves all.")
-    bound = all_bound(plan, requests)
+    bound = all_bound(plan, as_they_run(requests, orders > 1) if orders else requests)
     design = {name: float(value) for name, value in designs.items()}
     nodes = plan.made(
         ("source", tuple(each.key for each in bound)), lambda twin: [node for each in bound for node in true_nodes(twin, each)]

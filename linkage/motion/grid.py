@@ -14,7 +14,7 @@ import numpy as np
 from ..assembly import NONE_SOLVED, GroupSolution, solve_groups, with_angles
 from ..errors import DefinitionError
 from ..frozen import FrozenDict, read_only
-from ..loads import Poses
+from ..loads import AT_REST, Poses
 from ..plan import ArrayReading, Mask, Plan
 from ..program import QUICKEST, FloatArray, Kernel, Level, Node, RunOptions, ancestors, interpret
 from ..vectors import Numbers
@@ -28,7 +28,8 @@ class Grid:
 
     `strokes` are arrays of one shape; with `per_design` this begins with that of the designs, or with ones in its place, and each
     design has strokes of its own.
-    `joining` says how angles are made continuous.
+    `joining` says how angles are made continuous. `rate_inputs` are the rates and accelerations of strokes by the names of their
+    inputs, shaped as the strokes; without them nothing moves.
     """
 
     def __init__(
@@ -39,6 +40,7 @@ class Grid:
         *,
         per_design: bool = False,
         joining: Joining | None = None,
+        rate_inputs: Mapping[str, FloatArray] = AT_REST,
     ) -> None:
         self.plan, self.per_design = plan, per_design
         self.designs: FrozenDict[str, Any] = designs if type(designs) is FrozenDict else FrozenDict(designs)
@@ -67,6 +69,9 @@ class Grid:
         self.shape = (*self.design_shape, *self.stroke_shape)
         self.joins_itself, self.joining = joining is None, joining or joined_by_stroke
         self._angles: dict[Kernel, FloatArray] = {}
+        shaped = {name: np.broadcast_to(value, shape) for name, value in rate_inputs.items()}
+        self.rate_inputs = FrozenDict({name: read_only(value) for name, value in shaped.items()})
+        self._of_poses = FrozenDict({**self.strokes, **self.rate_inputs}) if rate_inputs else self.strokes
         self._is_pose = self._is_plain and not plan.solved and all(value.size == 1 for value in self.strokes.values())
 
     @cached_property
@@ -77,7 +82,11 @@ class Grid:
     @cached_property
     def flat_strokes(self) -> dict[str, FloatArray]:
         """The strokes as a kernel takes them: (n,), or (m, n) where each design has its own."""
-        return {name: value.reshape(self.size) if self.per_design else value.reshape(-1) for name, value in self.strokes.items()}
+        return self._flat_of(self.strokes)
+
+    def _flat_of(self, values: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
+        """Return numbers of the poses as a kernel takes them."""
+        return {name: value.reshape(self.size) if self.per_design else value.reshape(-1) for name, value in values.items()}
 
     @cached_property
     def flat_designs(self) -> dict[str, Any]:
@@ -90,7 +99,7 @@ class Grid:
     @cached_property
     def flat(self) -> dict[str, Any]:
         """The inputs as a kernel takes them: designs (m,), poses (n,) or (m, n)."""
-        return {**self.flat_designs, **self.flat_strokes, **self.solved.inputs}
+        return {**self.flat_designs, **self.flat_strokes, **self._flat_of(self.rate_inputs), **self.solved.inputs}
 
     @cached_property
     def solved(self) -> GroupSolution:
@@ -128,7 +137,7 @@ class Grid:
         designs = self.designs.items()
         shaped = {name: np.reshape(value, np.shape(value) + tail) if varies(value) else np.float64(value) for name, value in designs}
         solved = {name: self.full(value[None])[0] for name, value in self.solved.inputs.items()}
-        found = {**shaped, **self.strokes, **solved}
+        found = {**shaped, **self._of_poses, **solved}
         return FrozenDict({name: read_only(value) if isinstance(value, np.ndarray) else value for name, value in found.items()})
 
     def run(self, kernel: Kernel) -> tuple[FloatArray, bool]:
@@ -137,7 +146,7 @@ class Grid:
         One pose of one design goes straight to the program in floats: there the way through arrays would cost more than the pose.
         """
         if self._is_pose:
-            row, count = kernel.floats.pose(self.designs, self.strokes), len(kernel.plan.outputs)
+            row, count = kernel.floats.pose(self.designs, self._of_poses), len(kernel.plan.outputs)
             values = np.array(row[:count])
             return values.reshape((count, *self.shape)) if self.shape else values, all(guard > 0.0 for guard in row[count:])
         result = kernel(self.flat, size=self.size)

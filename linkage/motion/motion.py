@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
+from copy import copy
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Self, TypeVar, cast
 
@@ -10,8 +11,9 @@ import numpy as np
 
 from ..assembly import ambiguous_angle
 from ..errors import DefinitionError, SingularError, SingularWarning, cited, one_word, unknown, unwarned, warn
+from ..loads import AT_REST
 from ..numeric import differences
-from ..plan import ArrayReading, Mask, Part, Plan, failures, negative, require_kinds
+from ..plan import ArrayReading, Mask, Part, Plan, failures, negative, rate_name, require_kinds
 from ..program import FloatArray, Kernel
 from ..quantities import FRAME_AXES, Angle, Axes, Coordinate, Distance, Member, Number, Quantity, Reference, as_mapping, needs, quantity
 from ..shown import Shown
@@ -24,9 +26,9 @@ from .grid import Grid, JoinedTo, Joining, MotionLike, joined_in_order, not_join
 from .limits import Limits, no_joint, span_text, stroke_unit, where_words
 from .over import Over, over_of
 from .poles import body_points, body_rates, pole_of, whole_body
-from .requests import Request, RequestLike, Value, bound, dimensions_of, natural_size, places_of, slope, stroke_of, switches_of
+from .requests import Request, RequestLike, Value, as_they_run, bound, dimensions_of, natural_size, places_of, slope, stroke_of, switches_of
 from .stroke_search import Interruption
-from .strokes import checked_name, checked_rate, method_of, order_of, rates_of
+from .strokes import checked_name, checked_rate, method_of, order_of, rate_values, rates_of
 
 Made = TypeVar("Made")
 Kind = TypeVar("Kind", bound=Member)
@@ -38,7 +40,7 @@ class Motion(Shown):
     Arrays are component-first, designs before strokes: a position has the shape (2, *designs, *strokes).
     Raises AssemblyError where a pose cannot be assembled, unless `unreachable="nan"`. With `per_design` the arrays of strokes begin with
     the shape of the designs, each of which has strokes of its own. `joining` says how angles are made continuous. `tangent` is how several
-    strokes go on along a path, `over` the declared `Over` that a sweep keeps.
+    strokes go on along a path, `over` the declared `Over` that a sweep keeps, `rate_inputs` as a Grid takes them.
     """
 
     _limits_of: ClassVar[Callable[[Any], Limits]] = stroke_search.limits
@@ -55,12 +57,13 @@ class Motion(Shown):
         joining: Joining | None = None,
         tangent: Mapping[str, FloatArray] | None = None,
         over: Over | None = None,
+        rate_inputs: Mapping[str, FloatArray] = AT_REST,
     ) -> None:
         is_made = isinstance(plan, Plan) and isinstance(designs, Mapping) and isinstance(strokes, Mapping)
         if not is_made or designs.keys() != plan.table.entries.keys() or strokes.keys() != plan.strokes.keys():
             raise DefinitionError("Motion(...) is made by a design: machine.sweep(...) or machine.at(...).")
         one_word("unreachable", unreachable, ("raise", "nan"))
-        self._grid = Grid(plan, designs, strokes, per_design=per_design, joining=joining)
+        self._grid = Grid(plan, designs, strokes, per_design=per_design, joining=joining, rate_inputs=rate_inputs)
         self.plan, self.unreachable = plan, unreachable
         self.shape, self._design_shape = self._grid.shape, self._grid.design_shape
         self._tangent, self._over = tangent, over
@@ -95,6 +98,30 @@ class Motion(Shown):
     def strokes(self) -> dict[str, FloatArray]:
         """The strokes by name [m or rad], arrays of one shape."""
         return self._grid.strokes
+
+    @property
+    def rates(self) -> dict[str, FloatArray]:
+        """The rates of the strokes by name [1/s], shaped as these; empty where the motion has no time."""
+        return self._rates_of_order(1)
+
+    @property
+    def accelerations(self) -> dict[str, FloatArray]:
+        """The accelerations of the strokes by name [1/s2], shaped as these; empty where they are not known."""
+        return self._rates_of_order(2)
+
+    def _rates_of_order(self, order: int) -> dict[str, FloatArray]:
+        names = {name: rate_name(name, order) for name in self.plan.strokes}
+        return {name: self._grid.rate_inputs[each] for name, each in names.items() if each in self._grid.rate_inputs}
+
+    def _at_rates(self, rates: object, accelerations: object) -> Motion:
+        """Return the same poses at rates of strokes that are given, in the place of its own."""
+        grid, shape = self._grid, np.shape(next(iter(self.strokes.values()), 0.0))
+        given = rate_values(self.plan, rates, accelerations)
+        moving = {name: checked_rate(name, value, shape, self.plan.title) for name, value in given.items()}
+        joining, found = None if grid.joins_itself else grid.joining, copy(self)
+        own = Grid(self.plan, grid.designs, grid.strokes, per_design=grid.per_design, joining=joining, rate_inputs=moving)
+        vars(found).update(_grid=own, _kept={})
+        return found
 
     @property
     def over(self) -> Over:
@@ -398,14 +425,18 @@ class Motion(Shown):
         first, second = (body_rates(points, self.__getitem__, moving.__getitem__, self.shape) for points in (of_body, of_other))
         return pole_of(first, second, np.max(np.broadcast_arrays(*speeds), axis=0))
 
-    def gradient(self, of: RequestLike, wrt: Sequence[str]) -> FloatArray:
+    def gradient(self, of: RequestLike, wrt: Sequence[str], *, rates: object = None, accelerations: object = None) -> FloatArray:
         """Return the exact derivatives of a position, an output, a ratio or a force by dimensions, all in one reverse pass.
 
         `gradient("tilt", wrt=["OB", "CD", "M.x"])` has the shape (3, ...), that of a point (3, 2, ...); `gradient(ratio("G"), ...)` is
-        how the transfer ratio follows the dimensions, `gradient(thrust(), wrt=["OB", "load.mass"])` how the drive's force does.
+        how the transfer ratio follows the dimensions, `gradient(thrust(), wrt=["OB", "load.mass"])` how the drive's force does. Forces
+        follow `rates` [1/s] and `accelerations` [1/s2] of strokes by name where these are given, else those of the motion.
         Raises SingularError at a dead point, DefinitionError for the law of a load that cannot be traced.
         """
         plan = self.plan
+        if rates is not None or accelerations is not None:
+            return self._at_rates(rates, accelerations).gradient(of, wrt)
+        (of,) = as_they_run([of], bool(self.accelerations)) if self.rates else [of]
         what, dimensions = bound(plan, of), dimensions_of(plan, wrt)
         names, signs = tuple(name for name, _ in dimensions), np.tile([float(sign) for _, sign in dimensions], what.rows)
         kernel, touched = plan.made(("switches", what.key, names), lambda plan: switches_of(plan, what, names))

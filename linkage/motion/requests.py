@@ -19,7 +19,7 @@ from weakref import ref
 import numpy as np
 
 from ..errors import DefinitionError, UntracedError, cited
-from ..loads import DIRECTIONS, Acting
+from ..loads import AS_IT_RUNS, DIRECTIONS, Acting
 from ..pickling import object_of, picklable
 from ..plan import NEAR, REGULAR, ArrayReading, Mask, Plan
 from ..program import FloatArray, Kernel, Node, Notes, ancestors, gradient
@@ -248,6 +248,14 @@ def all_bound(plan: Plan, requests: Sequence[RequestLike]) -> tuple[Request, ...
     if not isinstance(requests, Iterable) or isinstance(requests, (Mapping, Set, np.ndarray)):
         raise DefinitionError(f'{plan.title}: {cited(requests)}: a list of what is asked for is expected, such as ["G"].')
     return tuple(bound(plan, request) for request in requests)
+
+
+def as_they_run(requests: Sequence[RequestLike], accelerated: bool) -> Sequence[RequestLike]:
+    """Return requests in a situation whose rates, and accelerations where they are `accelerated`, are inputs; anything else as it is."""
+    acting = Acting(rates=AS_IT_RUNS, accelerations=AS_IT_RUNS if accelerated else None)
+    if type(requests) not in (list, tuple):
+        return requests
+    return [each.under(acting) if isinstance(each, Request) else each for each in requests]
 
 
 def may_be_unlimited(quantity: object) -> bool:

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..checks import require_whole
 from ..errors import DefinitionError, cited, known_name, one_word
-from ..plan import Plan, require_kinds
+from ..plan import Plan, rate_name, require_kinds
 from ..program import FloatArray
 from ..quantities import Member, Stroke, as_mapping, is_number, is_whole, keywords, real
 from .grid import MotionLike
@@ -142,11 +142,35 @@ def checked_name(kind: str, target: object, known: Collection[str], title: str) 
 def rates_of(what: str, given: object, motion: MotionLike, *, gaps: bool = False) -> dict[str, FloatArray]:
     """Return the stroke rates by name, a float or an array over the poses, NaN where there may be `gaps`; DefinitionError for others."""
     title = motion.plan.title
-    if not isinstance(given, Mapping):
-        example = f"{what}={as_mapping({next(iter(motion.strokes), 'S'): 0.05})}"
-        raise DefinitionError(f"{title}: {what}={given!r}: a value for each stroke is expected, such as {example}.")
-    known = {checked_name("Stroke", name, motion.strokes, title): value for name, value in given.items()}
+    known = strokes_named(what, given, motion.strokes, title)
     return {name: checked_rate(f"{what}: {name}", value, motion.shape, title, gaps=gaps) for name, value in known.items()}
+
+
+def strokes_named(what: str, given: object, strokes: Collection[str], title: str) -> dict[str, Any]:
+    """Return what is given for strokes by their names; DefinitionError for anything but a mapping, and for what is no stroke."""
+    if not isinstance(given, Mapping):
+        example = f"{what}={as_mapping({next(iter(strokes), 'S'): 0.05})}"
+        raise DefinitionError(f"{title}: {what}={given!r}: a value for each stroke is expected, such as {example}.")
+    return {checked_name("Stroke", name, strokes, title): value for name, value in given.items()}
+
+
+def rate_values(plan: Plan, rates: object, accelerations: object) -> dict[str, Any]:
+    """Return rates and accelerations of all strokes by the names of their inputs, zero where none is given.
+
+    DefinitionError for accelerations alone, and for what no stroke can have.
+    """
+    if rates is None:
+        what = f"{plan.title}: accelerations= say how rates change, and no rates= are given"
+        raise DefinitionError(f"{what}; give both, such as rates={as_mapping(dict.fromkeys(plan.strokes, 0.0))}.")
+    found: dict[str, Any] = {}
+    for order, (what, given) in enumerate((("rates", rates), ("accelerations", accelerations)), 1):
+        known = {} if given is None else strokes_named(what, given, plan.strokes, plan.title)
+        for name, value in known.items():
+            if type(value) is not float:
+                checked_rate(f"{what}: {name}", value, np.shape(value), plan.title)
+        names = plan.strokes if given is not None else ()
+        found |= {rate_name(name, order): known.get(name, 0.0) for name in names}
+    return found
 
 
 def checked_rate(what: str, value: object, shape: tuple[int, ...], title: str, *, gaps: bool = False) -> FloatArray:

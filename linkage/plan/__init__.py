@@ -8,6 +8,6 @@ from .part import Part, check_circuits, has_no_axes, with_parts
 from .plan import TRACING, Plan, plan_measure, require_kind, require_kinds
 from .reading import ArrayReading, Reading
 from .table import DesignVariable, Table
-from .trace import NEAR, REGULAR, Guard, Loop, Nearness, Trace
+from .trace import NEAR, REGULAR, Guard, Loop, Nearness, Trace, rate_name
 
 declare_public(globals())

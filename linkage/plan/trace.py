@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Mapping, Sequence
+from collections.abc import Container, Hashable, Mapping, Sequence
 from dataclasses import dataclass, fields
 from functools import cached_property, reduce
+from types import MappingProxyType
 from typing import Any, final
 
 import numpy as np
@@ -22,6 +23,11 @@ REGULAR = 0.3
 NEAR = 0.01
 #: Fixed points so many times farther away than the machine is large leave so few digits that every pose is looked at closely.
 AWAY = 1e4
+
+
+def rate_name(stroke: str, order: int = 1) -> str:
+    """Return the name of the input that is a stroke's rate, of `order` 2 its acceleration."""
+    return f"{stroke}.{'rate' if order == 1 else 'acceleration'}"
 
 
 @final
@@ -73,7 +79,7 @@ class Trace(Reading):
         self.angles: list[Node] = []
         self.kept: dict[object, object] = {}
         self.is_sizing = False
-        self._tangents: dict[str, Tangent] = {}
+        self._tangents: dict[Hashable, Tangent] = {}
 
     def components(self, vector: Vec) -> tuple[Node, Node]:
         """Return the nodes of both components of a vector or a place."""
@@ -84,6 +90,22 @@ class Trace(Reading):
         if name not in self._tangents:
             self._tangents[name] = Tangent(self.graph, {self.inputs[name]: 1.0})
         return self._tangents[name]
+
+    def rate_input(self, stroke: str, order: int = 1) -> Node:
+        """Return the input that is the rate of a stroke [1/s], of `order` 2 its acceleration [1/s2]."""
+        return self.graph.input(rate_name(stroke, order), Level.POSE)
+
+    def by_time(self, rates: Mapping[str, Node], accelerations: Mapping[str, Node] = MappingProxyType({})) -> Tangent:
+        """Return the derivatives by time at rates of strokes; twice they are accelerations, where the rates are inputs.
+
+        What a rate that is a number changes by is not in it.
+        """
+        seeds = {self.inputs[name]: rate for name, rate in rates.items()}
+        seeds |= {rates[name]: change for name, change in accelerations.items() if name in rates and rates[name].op == "input"}
+        key = tuple((node.number, seed.number) for node, seed in seeds.items())
+        if key not in self._tangents:
+            self._tangents[key] = Tangent(self.graph, seeds)
+        return self._tangents[key]
 
     def fork(self) -> Trace:
         """Return this trace on a graph of its own: what is read there leaves nothing here, and what was read here is known there."""

@@ -242,8 +242,8 @@ def rates_in(motion: AnyMotion, acting: Acting, drive: str | None = None) -> Rat
     """
     motion = require_motion(motion)
     direction, drive, sense = acting.movement, acting.drive if drive is None else drive, SENSES[acting.movement]
-    if acting.rates is not None:
-        given = rates_of("rates", acting.rates, motion)
+    given = known_rates(motion, acting)
+    if given:
         named = [drive] if drive is not None else [*given] if len(given) == 1 else []
         wrong = next((name for name in named if sense and np.any(sense * np.asarray(given.get(name, 0.0)) < 0.0)), None)
         if wrong is not None:
@@ -253,6 +253,18 @@ def rates_in(motion: AnyMotion, acting: Acting, drive: str | None = None) -> Rat
         return AT_REST
     tangent: Mapping[str, Rate] = path_tangent(motion) or {stroke_of(motion.plan, drive, "drive"): 1.0}
     return Rates({name: sense * rate for name, rate in tangent.items()}, direction=direction)
+
+
+def known_rates(motion: Motion, acting: Acting) -> Mapping[str, FloatArray]:
+    """Return the rates of strokes that a situation gives, or a motion in time has; empty where nothing says how fast they move."""
+    if acting.rates is None and not isinstance(motion, Motion):
+        return {}
+    if acting.rates is not None and not isinstance(acting.rates, str):
+        return rates_of("rates", acting.rates, motion)
+    if acting.rates is not None and not motion.rates:
+        what = f"rates={acting.rates!r}: this motion has no rates of its own"
+        raise DefinitionError(f'{motion.plan.title}: {what}; give some, rates=dict({next(iter(motion.strokes), "S")}=0.05).')
+    return motion.rates
 
 
 def path_tangent(motion: AnyMotion) -> dict[str, FloatArray]:

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..errors import DefinitionError, UntracedError, cited, known_name
 from ..language import said
-from ..loads import AT_REST, FRICTIONLESS, Acting, Case, Loads, TwoPoint, situation_of
+from ..loads import FRICTIONLESS, Acting, Case, Loads, TwoPoint, situation_of
 from ..motion import Judge, Motion, most, require_motion, stroke_unit
 from ..motion.requests import stroke_of
 from ..plan import Plan
@@ -20,7 +20,7 @@ from ..program import FloatArray, Node
 from ..units import show
 from ..vectors import Scalar
 from ..verdict import Remark, Verdict
-from .applied import applied_loads, plan_in_case
+from .applied import applied_loads, plan_in_case, rates_in
 from .holding import closed_ties, holders_of
 from .joint_forces import JointForce, PinForces, joint_forces, joint_on, joints_of
 from .joints import Contact, Structure
@@ -40,9 +40,10 @@ def force_request(
 
 
 def require_rest(request: LawRequest, plan: Plan) -> None:
-    """Raise UntracedError while it moves, for friction follows from the forces that it changes."""
-    if request.situation.movement != FRICTIONLESS or request.situation.rates is not None:
-        raise UntracedError(f"{plan.title}: {request}: while it moves it has values, and no program that gives derivatives. Ask at rest.")
+    """Raise UntracedError in a direction of motion, for friction follows from the forces that it changes."""
+    if request.situation.movement != FRICTIONLESS:
+        what = f"{plan.title}: {request}: in a direction it has values, and no program that gives derivatives"
+        raise UntracedError(f"{what}. Ask without one.")
 
 
 # The force of a drive.
@@ -52,16 +53,16 @@ def drive_force(drive: str | None = None, loads: Loads = None, case: Case = None
     """Return the request for the generalised force of a stroke, in `evaluate`, `function` and `gradient`: [N], a crank's torque [Nm].
 
     It is `driving_force(motion, loads, drive, case=case)`, frictionless: `motion.gradient(drive_force(), wrt=["OB", "load.mass"])`.
-    `acting` says loads and case in one, with a direction or rates too; then it has values and no derivatives.
+    `acting` says loads, case and rates in one. With a direction too it has values and no derivatives.
     A load's law must be plain arithmetic of numbers at one pose; DefinitionError, with the load's name, where it is not.
     """
     given = situation_of("drive_force", acting, loads=loads, case=case)
 
     def formula(motion: AnyMotion, acting: Acting) -> FloatArray:
-        """Return it over a motion's poses; of a traced one as a number of the program, at rest."""
+        """Return it over a motion's poses; of a traced one as a number of the program."""
         if not isinstance(motion, TracedMotion):
             return stroke_force(require_motion(motion), acting, drive)
-        applied = applied_loads(motion, acting, AT_REST)
+        applied = applied_loads(motion, acting, rates_in(motion, acting))
         applied = without_held(applied, holders_of(motion.plan, applied.elements))
         (force,) = by_work(FlatPoses(motion, ""), applied, stroke_of(motion.plan, drive, "drive"))
         return cast(FloatArray, force)
@@ -130,9 +131,9 @@ class JointPart:
     def traced_part(self, acting: Acting, shared: Hashable, motion: TracedMotion) -> tuple[TracedMotion, Node]:
         """Return it on a program, on which all joint forces are traced once for all that are asked for: they are kept as `shared`."""
         kept = motion.plan.trace.kept
-        if shared not in kept:  # at rest; the notes say that the joints hold what they are said to
+        if shared not in kept:  # the notes say that the joints hold what they are said to
             motion = held_in_case(motion, acting)
-            applied = applied_loads(motion, acting, AT_REST)
+            applied = applied_loads(motion, acting, rates_in(motion, acting))
             system, u = eliminated_forces(Structure(motion.plan, applied.elements, applied.thrusts), motion, applied)
             for each in assumed_joints(system.structure, system.poses):
                 motion.notes.assumed.setdefault(motion.node(each[0]), "its joints")
@@ -152,7 +153,7 @@ def structure_in_plan(motion: TracedMotion, acting: Acting) -> tuple[Structure, 
     if key in kept:
         return cast("tuple[Structure, tuple[Hashable, ...]]", kept[key])
     motion = held_in_case(motion, acting)
-    applied = applied_loads(motion, acting, AT_REST)
+    applied = applied_loads(motion, acting, rates_in(motion, acting))
     structure = Structure(motion.plan, applied.elements, applied.thrusts)
     loads = ((each.point, each.on, *(motion.node(part).number for part in each.force)) for each in applied.loads)
     thrusts = ((each.name, each.member.ends, motion.node(each.thrust).number) for each in applied.thrusts)
@@ -171,7 +172,7 @@ def pin_force(
 
     It is that of `pin_forces(motion, loads, case=case).force(point, on)`, frictionless: on the body `on` from the other one, `by`
     where several meet there.
-    `acting` says loads and case in one, with a direction, a drive or rates too; then it has values and no derivatives.
+    `acting` says loads, case and rates in one. With a direction or a drive too it has values and no derivatives.
     A load's law must be plain arithmetic of numbers at one pose; DefinitionError, with the load's name, where it is not.
     """
     names: tuple[object, ...] = point, on, by

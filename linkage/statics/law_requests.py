@@ -12,14 +12,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import DefinitionError, LawError, UntracedError, unwarned
-from ..loads import DIRECTIONS, PLAIN, Acting, ForceElement, Load, LoadCase, Push, Rates
+from ..loads import DIRECTIONS, PLAIN, Acting, ForceElement, Load, LoadCase, Push, Rate, Rates, StrokeRates
 from ..motion import Motion, OnePose, Request, SmoothPiece, require_motion
 from ..motion.grid import MotionLike
 from ..motion.requests import NO_TRAIT, Trait, identity_of, stroke_of
 from ..motion.strokes import checked_name, order_of
 from ..plan import TRACING, ArrayReading, Mask, Plan, Trace
 from ..program import FloatArray, Node, Notes, SparseSystem, Traced, interpret, is_zero, node_of
-from ..quantities import Angle, Distance, Member, Quantity, Reference
+from ..quantities import Angle, Distance, Member, Quantity, Reference, name_of
 from ..steps import Arrow, Point
 from ..vectors import Scalar
 from .applied import AppliedElement, AppliedLoads, Parts, element_parts, motion_in_case, plan_in_case
@@ -101,6 +101,37 @@ class TracedMotion(OnePose):
             own: dict[str, Any] = {each.name: self._own(getattr(made, each.name)) for each in fields(made)}
             return replace(made, **own)
         return made
+
+    # -- rates of strokes ------------------------------------------------------------------------------------
+
+    @property
+    def rates(self) -> dict[str, FloatArray]:
+        """The rates of the strokes [1/s], inputs of the program."""
+        return {name: self.number(self._reading.rate_input(name)) for name in self.plan.strokes}
+
+    @property
+    def accelerations(self) -> dict[str, FloatArray]:
+        """The accelerations of the strokes [1/s2], inputs of the program."""
+        return {name: self.number(self._reading.rate_input(name, 2)) for name in self.plan.strokes}
+
+    def velocity(self, target: Reference, rates: Mapping[str, Rate]) -> FloatArray:
+        """Return the velocity of a point or the rate of a quantity, at rates of strokes."""
+        return self._by_time(target, rates, {}, 1)
+
+    def acceleration(self, target: Reference, rates: Mapping[str, Rate], accelerations: Mapping[str, Rate]) -> FloatArray:
+        """Return the acceleration of a point or a quantity, at rates and accelerations of strokes."""
+        return self._by_time(target, rates, accelerations, 2)
+
+    def _by_time(self, target: Reference, rates: Mapping[str, Rate], accelerations: Mapping[str, Rate], order: int) -> FloatArray:
+        self.through |= self.plan.reaches(target if isinstance(target, str) else target.name or target)
+        moving, driven = ({name: self.node(each) for name, each in given.items()} for given in (rates, accelerations))
+        places = nodes = [self.node(each) for each in self._nodes(target)]
+        for _ in range(order):
+            nodes = list(map(self._reading.by_time(moving, driven).of, nodes))
+        beside = {name: each for name, each in driven.items() if name not in moving or moving[name].op != "input"}
+        if beside:
+            nodes = [a + self._reading.by_time(beside).of(b) for a, b in zip(nodes, places, strict=True)]
+        return self._shaped(tuple(nodes))
 
     # -- numbers ---------------------------------------------------------------------------------------------
 
@@ -493,7 +524,16 @@ def situation_identity(acting: Acting) -> Hashable:
     listed = () if loads is None else loads if isinstance(loads, (list, tuple)) else (loads,)
     given = (acting.case, *listed)
     parts = [each if each is None or isinstance(each, str) else ref(each) if is_unchanging(each) else ... for each in given]
-    return None if acting.rates is not None or ... in parts else (loads is None, *parts)
+    parts += [rates_identity(acting.rates), rates_identity(acting.accelerations)]
+    return None if ... in parts else (loads is None, *parts)
+
+
+def rates_identity(rates: StrokeRates) -> Hashable:
+    """Return what tells rates of strokes from others; an ellipsis for arrays, which may change."""
+    if rates is None or isinstance(rates, str):
+        return rates
+    plain = all(isinstance(each, float | int) for each in rates.values())
+    return tuple((name_of(name), float(each)) for name, each in rates.items()) if plain else ...
 
 
 def once_in(motion: AnyMotion, acting: Acting, what: Hashable, make: Callable[[], Made]) -> Made:

@@ -19,7 +19,7 @@ from ..checks import require
 from ..errors import DefinitionError, known_name
 from ..language import noted, said
 from ..loads import FRICTIONLESS, PLAIN, Acting, ActingKeywords, Case, LoadCase, Loads, situation_of, takes_situation
-from ..loads.element import AT_REST, ForceElement, Load
+from ..loads.element import ForceElement, Load
 from ..loads.point import LinkMass, Support, Weight
 from ..motion import Answer, Column, Condition, HasVerdicts, Judge, Motion, PageWords, Tabled, at, least, most, require_motion
 from ..motion.conditions import condition_of_sine
@@ -88,7 +88,7 @@ def standing_of(motion: AnyMotion, acting: Acting, supports: Mapping[str, Suppor
     """Return how a vehicle stands on some supports over a motion's poses, as numbers of a program where it is traced."""
     motion = held_in_case(motion, acting)
     poses = FlatPoses(motion, "The axle loads", set())
-    applied = applied_loads(motion, acting, AT_REST if isinstance(motion, TracedMotion) else rates_in(motion, acting))
+    applied = applied_loads(motion, acting, rates_in(motion, acting))
     first, right = next(iter(supports.values())), to_the_right(poses, supports)
     start, force, moment = poses.at(name_of(first.point)), poses.zeros(2).T, poses.zeros()
     for load in applied.loads:

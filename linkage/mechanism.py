@@ -354,8 +354,8 @@ class Mechanism(Shown, metaclass=MechanismType):
         One array a request, shape (2, *designs, *strokes) of a point, (*designs, *strokes) of a quantity. Designs share the strokes, or
         have their own `per_design`, as in `at`. `out`, shape (components, *designs, *strokes), takes the results; the arrays returned are
         its rows. `backend` is "numpy", "numba" or "floats", or a class of your own that runs a schedule; without it the quickest for the
-        work, on one thread. `rates` [1/s] and `accelerations` [1/s2] of strokes by name, numbers or arrays that fit the strokes, are what
-        dampers and inertia ask for. Poses are taken one by one: unlike `at` it does not look for
+        work, on one thread. `rates` [1/s] and `accelerations` [1/s2] say by name how strokes move, for dampers and inertia. They are
+        numbers or arrays that fit the strokes. Poses are taken one by one: unlike `at` it does not look for
         change points between them. Raises AssemblyError out of reach and SingularError for ratios at a dead point, unless
         `unreachable="nan"`.
         """
@@ -367,8 +367,8 @@ class Mechanism(Shown, metaclass=MechanismType):
         """Return values, ratios and forces of this design as a function of the strokes, in floats: `f = function(["G", ratio("G")])`.
 
         `f(0.1)` returns all components one after the other, here (G_x, G_y, dG_x, dG_y), in some microseconds: for root
-        finders and other loops that take one pose at a time. It raises what `evaluate` raises. With `rates` it is a function of all
-        strokes and then of their rates [1/s], with `accelerations` of these [1/s2] too: `f(0.1, 0.05, 0.5)`.
+        finders and other loops that take one pose at a time. It raises what `evaluate` raises. With `rates` the
+        rates of all strokes [1/s] follow these, with `accelerations` then their accelerations [1/s2]: `f(0.1, 0.05, 0.5)`.
         """
         return PoseFunction(self.plan, self._values, of, time_orders(rates, accelerations))
 

@@ -166,7 +166,7 @@ Case: TypeAlias = LoadCase | str | None
 
 
 AS_IT_RUNS: Literal["as it runs"] = "as it runs"
-"""What stands for rates and accelerations of strokes that are those of the motion: in a program they are inputs."""
+"""The rates and accelerations of the motion. In a program they are inputs."""
 StrokeRates: TypeAlias = Mapping[str, ArrayLike] | Literal["as it runs"] | None
 """How fast strokes move, or how their rates change, by name."""
 
@@ -179,8 +179,8 @@ class Acting:
 
     `loads` are the machine's own where None, `case` a LoadCase or its name, `direction` one of DIRECTIONS, `rates` the speeds of strokes
     [1/s], `drive` the stroke that moves where several could. In a plain value None is no case and no friction; where something is judged,
-    None of case or direction means all that occur. Rates and `accelerations` [1/s2] are those of the motion where it has a time and none
-    are given; AS_IT_RUNS says so, and makes them inputs of a program.
+    None of case or direction means all that occur. `accelerations` [1/s2] are how rates change. Without both a motion in time gives its
+    own. AS_IT_RUNS says this too, and makes them inputs of a program.
     """
 
     loads: Loads = None

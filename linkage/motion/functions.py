@@ -55,7 +55,7 @@ def evaluate(
 
 
 def fitted(plan: Plan, arrays: Sequence[FloatArray]) -> list[FloatArray]:
-    """Return strokes and their rates broadcast against each other; DefinitionError where they do not fit."""
+    """Return strokes and their rates broadcast against each other. Raise DefinitionError where they do not fit."""
     try:
         return [*np.broadcast_arrays(*arrays)]
     except ValueError:
@@ -205,7 +205,7 @@ Pose: TypeAlias = Callable[[Sequence[float]], tuple[float, ...] | None]
 
 @final
 class PoseProgram:
-    """Some requests in floats: `of_design(designs)` is a function of the strokes and their rates by `names`, the design worked out."""
+    """Some requests in floats. `of_design(designs)` is a function of strokes and rates, in the order of `names`."""
 
     def __init__(self, plan: Plan, requests: tuple[Request, ...], names: Sequence[str]) -> None:
         self.bulk, self._plan, self._requests, self._names = BulkProgram.of(plan, requests), plan, requests, names

@@ -430,7 +430,7 @@ class Motion(Shown):
 
         `gradient("tilt", wrt=["OB", "CD", "M.x"])` has the shape (3, ...), that of a point (3, 2, ...); `gradient(ratio("G"), ...)` is
         how the transfer ratio follows the dimensions, `gradient(thrust(), wrt=["OB", "load.mass"])` how the drive's force does. Forces
-        follow `rates` [1/s] and `accelerations` [1/s2] of strokes by name where these are given, else those of the motion.
+        follow `rates` [1/s] and `accelerations` [1/s2] of strokes by name. Without these they follow those of the motion.
         Raises SingularError at a dead point, DefinitionError for the law of a load that cannot be traced.
         """
         plan = self.plan

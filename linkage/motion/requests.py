@@ -251,7 +251,7 @@ def all_bound(plan: Plan, requests: Sequence[RequestLike]) -> tuple[Request, ...
 
 
 def as_they_run(requests: Sequence[RequestLike], accelerated: bool) -> Sequence[RequestLike]:
-    """Return requests in a situation whose rates, and accelerations where they are `accelerated`, are inputs; anything else as it is."""
+    """Return requests at rates that are inputs, and at accelerations where they are `accelerated`. Names stay as they are."""
     acting = Acting(rates=AS_IT_RUNS, accelerations=AS_IT_RUNS if accelerated else None)
     if type(requests) not in (list, tuple):
         return requests

@@ -147,7 +147,7 @@ def rates_of(what: str, given: object, motion: MotionLike, *, gaps: bool = False
 
 
 def strokes_named(what: str, given: object, strokes: Collection[str], title: str) -> dict[str, Any]:
-    """Return what is given for strokes by their names; DefinitionError for anything but a mapping, and for what is no stroke."""
+    """Return what is given for strokes by name. Raise DefinitionError for another type, and for an unknown stroke."""
     if not isinstance(given, Mapping):
         example = f"{what}={as_mapping({next(iter(strokes), 'S'): 0.05})}"
         raise DefinitionError(f"{title}: {what}={given!r}: a value for each stroke is expected, such as {example}.")
@@ -155,9 +155,9 @@ def strokes_named(what: str, given: object, strokes: Collection[str], title: str
 
 
 def rate_values(plan: Plan, rates: object, accelerations: object) -> dict[str, Any]:
-    """Return rates and accelerations of all strokes by the names of their inputs, zero where none is given.
+    """Return rates and accelerations of all strokes by the names of their inputs. Zero stands where none is given.
 
-    DefinitionError for accelerations alone, and for what no stroke can have.
+    Raise DefinitionError for accelerations alone, and for a value that is not finite.
     """
     if rates is None:
         what = f"{plan.title}: accelerations= say how rates change, and no rates= are given"

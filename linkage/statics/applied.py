@@ -256,7 +256,7 @@ def rates_in(motion: AnyMotion, acting: Acting, drive: str | None = None) -> Rat
 
 
 def known_rates(motion: Motion, acting: Acting) -> Mapping[str, FloatArray]:
-    """Return the rates of strokes that a situation gives, or a motion in time has; empty where nothing says how fast they move."""
+    """Return the rates of strokes that a situation gives, or a motion in time has. Empty where they are not known."""
     if acting.rates is None and not isinstance(motion, Motion):
         return {}
     if acting.rates is not None and not isinstance(acting.rates, str):

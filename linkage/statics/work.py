@@ -257,14 +257,14 @@ def frictionless(
 
 
 def kept(motion: AnyMotion, acting: Acting, rates: Rates, what: Hashable, make: Callable[[], Made]) -> Made:
-    """Return what all cylinders ask of the same loads on a motion at rest, made once; each time for loads that may change."""
-    return once_in(motion, acting, ("held", what), make) if rates is AT_REST else make()
+    """Return what all cylinders ask of the same loads on a motion, made once. Made each time where it moves as one of them says."""
+    return once_in(motion, acting, ("held", what), make) if rates is AT_REST or rates.is_timed else make()
 
 
 def applied_on(motion: AnyMotion, acting: Acting, rates: Rates) -> AppliedLoads:
     """Return the loads that act, at a motion's poses or as nodes; UntracedError where a program cannot follow what they follow."""
     applied = applied_loads(motion, acting, rates)
-    if isinstance(motion, TracedMotion) and rates and len(motion.plan.strokes) > 1:
+    if isinstance(motion, TracedMotion) and rates and not rates.is_timed and len(motion.plan.strokes) > 1:
         numbers = []
         for some in (applied, applied_loads(motion, acting, AT_REST)):
             parts = [*(part for each in some.loads for part in each.force), *(each.thrust for each in some.thrusts)]
@@ -285,14 +285,14 @@ def poses_held(motion: Motion, applied: AppliedLoads, what: str) -> FlatPoses:
 def member_rates(motion: AnyMotion, member: TwoPoint, acting: Acting, line: PressureLine | None) -> Rates:
     """Return how strokes move while a member grows or shrinks: along the path, else by the stroke it holds or follows most."""
     direction, sense, still = acting.movement, SENSES[acting.movement], replace(acting, direction=None, drive=None)
+    moves = rates_in(motion, still)
     if not sense:
-        return rates_in(motion, still)
-    if acting.rates is not None:
-        moves = rates_in(motion, still)
+        return moves
+    if moves:
         if np.any(sense * np.nan_to_num(member.growth(motion, moves)) < 0.0):
             what = f"{member.name or member}: direction={direction!r} is its own, and at these rates it goes the other way at some poses"
             raise DefinitionError(f"{motion.plan.title}: {what}; drop one of them.")
-        return Rates(moves, True, direction)
+        return Rates(moves, True, direction, moves.accelerations)
     tangent: Mapping[str, Rate] = path_tangent(motion) or {line.stroke if line is not None else stroke_followed(motion.plan, member): 1.0}
     growth = member.growth(motion, tangent)
     way = sense * np.sign(growth if is_traced(growth) else np.nan_to_num(growth))

@@ -6,6 +6,7 @@ from numpy.testing import assert_allclose
 
 from hydraulics import FloatCircuit
 from linkage import Spring, drive_force, driving_force, pin_force, pin_forces
+from linkage.loads import ForceElement
 from tests.for_all import for_all
 from tests.laws.random_machines import random_machine
 
@@ -48,7 +49,7 @@ def test_programs_take_rates_as_inputs(seed):
     assert_allclose(found, np.broadcast_arrays(*wanted), rtol=0, atol=1e-11 * scale)
     f, last = machine.function(requests, rates=True), [given[name][-1] for given in (strokes, rates) for name in motion.strokes]
     assert_allclose(f(*last), [each[-1] for each in found], rtol=0, atol=1e-11 * scale)
-    dimension = next(name for name in machine.plan.table.entries if name.endswith(".mass") or name.endswith(".coefficient"))
+    dimension = next(name for name in machine.plan.table.entries if name.partition(".")[0] in machine.plan.of_kind(ForceElement))
     value, step = machine[dimension], 1e-4 * max(abs(machine[dimension]), 1.0)
     near = [machine.replaced(**{dimension: value + way * step}).evaluate(requests, rates=rates, **strokes) for way in (1, -1)]
     for request, more, less in zip(requests, *near, strict=True):

@@ -55,11 +55,13 @@ from .pictures.draw import draw as draw
 from .pictures.draw import plot as plot
 from .pictures.film import animate as animate
 from .plan import Part as Part
+from .quantities import Course as Course
 from .quantities import Curve as Curve
 from .quantities import Dimension as Dimension
 from .quantities import Stroke as Stroke
 from .quantities import angle as angle
 from .quantities import distance as distance
+from .quantities import ramp as ramp
 from .quantities import ref as ref
 from .quantities import x as x
 from .quantities import y as y

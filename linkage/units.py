@@ -216,7 +216,7 @@ def factor(unit: str) -> float:
 
 def display_unit(measure: str, length: str = "m") -> str:
     """Return the unit that an "angle", a "length", a "force" or a "pressure" is shown in, a length in that which is said; else ""."""
-    return {"angle": "deg", "length": length, "force": "kN", "pressure": "bar"}.get(measure, "")
+    return {"angle": "deg", "length": length, "force": "kN", "pressure": "bar", "time": "s"}.get(measure, "")
 
 
 DIGITS = r"(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"

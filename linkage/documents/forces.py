@@ -24,7 +24,7 @@ from .outcome import amount_text, figures
 from .run import ReportSubject
 
 KINDS = (noted("pin"), noted("guide"), noted("slot"), noted("driven point"), noted("crank's drive"), noted("slider"), noted("telescope"))
-DIRECTIONS = (noted("frictionless"), noted("extending"), noted("retracting"), noted("own loads"))
+DIRECTIONS = (noted("frictionless"), noted("extending"), noted("retracting"), noted("as it runs"), noted("own loads"))
 """The words of joints, of directions and of the plain load case, as results have them."""
 
 

@@ -7,7 +7,6 @@ a moment turns its link counter-clockwise; a support pushes its point along its 
 
 from ..star import declare_public
 from .acting import (
-    AS_IT_RUNS,
     PLAIN,
     PLAIN_CASE,
     Acting,
@@ -21,6 +20,7 @@ from .acting import (
     takes_situation,
 )  # fmt: skip
 from .element import (
+    AS_IT_RUNS,
     AT_REST,
     DIRECTIONS,
     FRICTIONLESS,

@@ -17,7 +17,7 @@ from ..frozen import immutable, keep_own, refuses_changes
 from ..quantities import Member, Reference, in_degrees, name_of
 from ..quantities.quantity import plain
 from ..units import deg, require_measure
-from .element import DIRECTIONS, FRICTIONLESS, ForceElement, Load, Poses
+from .element import AS_IT_RUNS, DIRECTIONS, FRICTIONLESS, ForceElement, Load, Poses
 from .point import gravity_vector
 
 PLAIN_CASE = "plain"
@@ -165,8 +165,6 @@ Case: TypeAlias = LoadCase | str | None
 """A load case, or its name; None for none."""
 
 
-AS_IT_RUNS: Literal["as it runs"] = "as it runs"
-"""The rates and accelerations of the motion. In a program they are inputs."""
 StrokeRates: TypeAlias = Mapping[str, ArrayLike] | Literal["as it runs"] | None
 """How fast strokes move, or how their rates change, by name."""
 

@@ -6,7 +6,7 @@ from abc import abstractmethod
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import MISSING, Field, dataclass, fields, is_dataclass
 from types import MappingProxyType
-from typing import Any, ClassVar, Protocol, Self, TypeAlias, TypeVar, final
+from typing import Any, ClassVar, Literal, Protocol, Self, TypeAlias, TypeVar, final
 
 import numpy as np
 import numpy.typing as npt
@@ -267,9 +267,12 @@ class Formulas(Poses, Protocol):
 
 
 FRICTIONLESS = "frictionless"
-SENSES: Mapping[str, int] = MappingProxyType({FRICTIONLESS: 0, "extending": 1, "retracting": -1})
+DIRECTIONS = (FRICTIONLESS, "extending", "retracting")
 """At rest, or without friction; while the stroke, or the cylinder that is asked for, grows; while it shrinks. Of a path: on, back."""
-DIRECTIONS = tuple(SENSES)
+AS_IT_RUNS: Literal["as it runs"] = "as it runs"
+"""The rates and accelerations of the motion, which are inputs in a program; and the one movement of a path in time, in which friction
+and dampers take the sense and the size of its rates."""
+SENSES: Mapping[str, int] = MappingProxyType(dict(zip((*DIRECTIONS, AS_IT_RUNS), (0, 1, -1, 1), strict=True)))
 
 
 @final
@@ -277,7 +280,7 @@ class Rates(dict[str, Rate]):
     """How strokes move, by name [1/s], a number or an array over the poses each; empty at rest.
 
     `is_timed`: whether these are speeds that were given; where only a direction is known, their senses alone mean something.
-    `direction`: one of DIRECTIONS, the word for it; in any but the first friction acts, against the senses of the rates.
+    `direction`: one of DIRECTIONS or AS_IT_RUNS, the word for it; in any but the first friction acts, against the senses of the rates.
     `accelerations` are how the rates change [1/s2], by stroke; None where inertia is left out.
     """
 

@@ -7,6 +7,7 @@ from .follow import followed
 from .functions import PoseFunction, evaluate, evaluate_grid, source_of
 from .gaps import gap, nearest_places
 from .grid import Grid
+from .instants import Instants
 from .judge import Judge, Question, case_named
 from .judging import HasVerdicts, PageWords, geometry_verdicts, judge_verdicts, judged_poses, limits_over, pose_sentence
 from .limits import places_text, stroke_display_unit, stroke_measure, stroke_unit

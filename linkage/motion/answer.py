@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from math import nan
 from typing import Any, Self, TypeAlias, final
 
 import numpy as np
@@ -45,7 +46,7 @@ NONE_LOST = Lost()
 
 PerDesign: TypeAlias = Any
 """What one design has, of a batch an array over its designs."""
-PER_DESIGN = ("value", "ok", "status", "case", "direction", "drive", "side", "over")
+PER_DESIGN = ("value", "ok", "status", "case", "direction", "drive", "side", "over", "time")
 """What each design of a batch has an answer of its own."""
 
 
@@ -77,6 +78,8 @@ class Answer:
     count: int = 0
     units: Mapping[str, str] = field(default_factory=dict)
     measures: str = ""
+    time: PerDesign = nan
+    """When it is [s], of a path in time; NaN of any other. Of two phases that meet there it is in the one that it lies in."""
     named: frozenset[str] = frozenset()
     """What has to be named, as there are several: "case", "direction", "drive", "side", "over"."""
 
@@ -91,7 +94,14 @@ class Answer:
 
     @property
     def where(self) -> str:
-        """Where it stands, in words: `at S = 0.1234 m`, `at S1 = 0.1000 m, phi = 25.00 deg`; of several, the ranges."""
+        """Where it stands, in words: `at S = 0.1234 m`, `at S1 = 0.1000 m, phi = 25.00 deg`; of several, the ranges.
+
+        Of a path in time `at 0.1875 s (lift = 114.1 mm)`.
+        """
+        if self.strokes and not np.ndim(self.time) and not np.isnan(self.time):
+            forms = {name: ("deg", "z.2f") if unit == "rad" else ("mm", "z.1f") for name, unit in self.units.items()}
+            strokes = ", ".join(f"{name} = {show(float(value), *forms[name])}" for name, value in self.strokes.items())
+            return said("at {time} ({place})", time=show(float(self.time), "s", 4), place=strokes)
         return said("at {place}", place=places_text(self.strokes, self.units)) if self.strokes else ""
 
     @property

@@ -18,6 +18,7 @@ from ..loads import AT_REST, Poses
 from ..plan import ArrayReading, Mask, Plan
 from ..program import QUICKEST, FloatArray, Kernel, Level, Node, RunOptions, ancestors, interpret
 from ..vectors import Numbers
+from .instants import Instants
 
 Made = TypeVar("Made")
 
@@ -188,6 +189,7 @@ class MotionLike(Poses, Protocol):
     reached: Mask
     _grid: Grid
     _design_shape: tuple[int, ...]
+    _instants: Instants | None
 
     @property
     def designs(self) -> Mapping[str, Numbers]: ...
@@ -340,7 +342,7 @@ RECENT = 256
 
 
 def recalled(motion: MotionLike, what: Hashable, make: Callable[[], Made]) -> Made:
-    """Return what follows from one design, the strokes and `what` alone, made once for equal ones; of a batch it is made each time.
+    """Return what follows from one design, the strokes, their courses and `what` alone, made once for equal ones; of a batch each time.
 
     It is taken for what `make` returns anew: nothing in it may change, and nothing in it hangs on what was asked before.
     """
@@ -348,7 +350,8 @@ def recalled(motion: MotionLike, what: Hashable, make: Callable[[], Made]) -> Ma
         return make()
     known: dict[Hashable, Any] = motion.plan.made("recent", lambda _: {})
     strokes = tuple((name, value.shape, blake2b(value.tobytes(), digest_size=16).digest()) for name, value in motion.strokes.items())
-    key = what, tuple(motion.designs), tuple(map(float, motion.designs.values())), strokes, motion._grid.per_design
+    timed = None if motion._instants is None else motion._instants.key  # the same strokes passed otherwise have other forces
+    key = what, tuple(motion.designs), tuple(map(float, motion.designs.values())), strokes, timed, motion._grid.per_design
     kept = known.get(key)  # another thread may throw it away meanwhile
     if kept is not None:
         return cast(Made, kept)

@@ -30,6 +30,7 @@ from .answer import LOST, LOST_SHARE, NONE_LOST, NOTHING_LEFT, OF_VALUE, PER_DES
 from .evaluation import Evaluation
 from .functions import evaluate_bound
 from .grid import Grid, recalled
+from .instants import Instants
 from .limits import LoopMargin, stroke_unit
 from .measures import (
     At,
@@ -147,6 +148,7 @@ class WorstPiece:
     unbounded: Mask
     lawless: PerDesign = 0.0
     unlimited: PerDesign = 0.0
+    time: PerDesign = np.nan
 
     @property
     def mover(self) -> Hashable:
@@ -168,8 +170,9 @@ class Domain:
         with unwarned():
             own = given is not None and given._grid.per_design
             poses = None if given is None or given.is_swept else given.strokes
+            self.instants = self.over.instants(plan, self.number) if poses is None else None
             strokes = self.over.places(plan, self.number) if poses is None else with_strokes(poses)
-            self.motion = Motion(plan, designs, strokes, "nan", per_design=own, over=self.over)
+            self.motion = Motion(plan, designs, strokes, "nan", per_design=own, over=self.over, instants=self.instants)
 
     def number(self, quantity: str | Quantity) -> float:
         """Return the value of a design variable by its name, or of a quantity of the design [SI]; DefinitionError where designs differ."""
@@ -187,11 +190,13 @@ class Domain:
     @cached_property
     def running(self) -> tuple[str, ...]:
         """The strokes that run."""
-        return strokes_moved(self.motion)
+        return strokes_moved(self.motion if self.instants is None else self.sampled)
 
     @cached_property
     def sampled(self) -> Motion:
         """Some poses over it, NaN out of reach: 101 along one stroke or a path, a grid of 21 or 7 values a stroke of several."""
+        if self.instants is not None:
+            return self.timed(self.instants.shares(np.linspace(0.0, 1.0, 101)), "nan")
         if self.over.shape == "poses" or not self.running:
             return self.motion
         ends = {name: np.ravel(value) for name, value in self.motion.strokes.items()}
@@ -207,20 +212,24 @@ class Domain:
     def swept(self, count: int | None, unreachable: str) -> Motion:
         """Return the motion over it, which keeps the `Over`: at so many equal shares of the way (101), or at its poses alone.
 
+        Over a path in time the instants are equally far apart.
+
         DefinitionError where it is a box in which several strokes run: that is no one way.
         """
         title, shape = f"{self.plan.title}: sweep(over={self.over.name or self.over})", self.over.shape
         strokes, tangent = {name: np.ravel(value) for name, value in self.motion.strokes.items()}, None
         if shape == "poses" and count is not None:
             raise DefinitionError(f"{title}: it has {self.motion.reached.size} poses and nothing between them; leave out the count.")
+        number = 101 if count is None else count
+        if shape != "poses" and (not is_whole(number) or number < 2):
+            raise DefinitionError(f"{title}: {cited(count)}: a whole number of poses is expected, 2 at least.")
+        if self.instants is not None:
+            return self.timed(self.instants.shares(np.linspace(0.0, 1.0, number)), unreachable)
         if shape != "poses":
             if len(self.running) != 1 and not self.is_path:
                 ways = keywords(dict.fromkeys(self.running or self.plan.strokes, 11))
                 what = f"{title}: {len(self.running)} strokes run in this box"
                 raise DefinitionError(f"{what}; write sweep({ways}), or sweep over an Over.path.")
-            number = 101 if count is None else count
-            if not is_whole(number) or number < 2:
-                raise DefinitionError(f"{title}: {cited(count)}: a whole number of poses is expected, 2 at least.")
             held = {name: float(value[0]) for name, value in strokes.items()}
             run = Run({name: tuple(strokes[name].tolist()) for name in self.running}, held)
             moved, going = run.at(np.linspace(0.0, 1.0, number))
@@ -228,9 +237,15 @@ class Domain:
             tangent = None if shape == "box" else {name: going.get(name, np.zeros(number)) for name in strokes}
         return Motion(self.plan, self.designs, strokes, unreachable, tangent=tangent, over=self.over)
 
+    def timed(self, instants: Instants, unreachable: str) -> Motion:
+        """Return the motion over a path in time at some instants, which it keeps."""
+        return Motion(self.plan, self.designs, instants.strokes, unreachable, over=self.over, instants=instants)
+
     @property
     def is_path(self) -> bool:
         """Whether it is a path, along which several strokes go on together; one that stays where it is moves nothing."""
+        if self.instants is not None:
+            return True
         return self.over.shape == "path" and len(self.motion.strokes) > 1 and bool(self.running)
 
     @property
@@ -250,6 +265,8 @@ class Domain:
         if not movements and request.under(Acting(case=PLAIN_CASE), keep=True) is request:
             return [Situation()]
         directions = [acting.direction] if acting.direction is not None else [*movements] or [""]
+        if self.instants is not None and acting.direction is None:  # as it runs
+            directions = [""]
         drives: list[str] = [""]
         if Trait.OF_STROKES in request.traits and not self.is_path:
             drives = [acting.drive] if acting.drive else [*(self.running or self.plan.strokes)]
@@ -286,6 +303,7 @@ class Domain:
     def searched(self, rows: Sequence[Sought]) -> tuple[list[WorstPiece], Coverage]:
         """Return the same, looked for."""
         asked, shape = Asked(self, rows), (len(rows), *self.motion._design_shape)
+        time = np.full(shape, np.nan)
         if self.over.shape == "poses" or not self.motion.strokes:  # nothing between the poses
             with np.errstate(all="ignore"):
                 flat = asked(self.motion).reshape(*shape, -1)
@@ -298,11 +316,12 @@ class Domain:
             found = warned_once(lambda: extremum(self.motion, asked, 1.0))
             value, unbounded = (np.broadcast_to(np.asarray(each), shape) for each in (found.value, found.unbounded))
             strokes = {name: np.broadcast_to(np.asarray(each), shape) for name, each in found.strokes.items()}
+            time = np.broadcast_to(np.asarray(found.time), shape)
         lawless, unlimited = (np.broadcast_to(each, shape) for each in (asked.seen.lawless, asked.seen.unlimited))
         pieces = list[WorstPiece]()
         for k, row in enumerate(rows):
             where = {name: each[k] for name, each in strokes.items()}
-            pieces.append(WorstPiece(row, row.value(value[k]), where, unbounded[k], lawless[k], unlimited[k]))
+            pieces.append(WorstPiece(row, row.value(value[k]), where, unbounded[k], lawless[k], unlimited[k], time[k]))
         return pieces, asked.seen
 
     # -- what is lost ------------------------------------------------------------------------------------
@@ -393,7 +412,8 @@ class Asked:
         self._bound: dict[int, Request] = {}
         self._rows: dict[int, Asked] = {}
         for k, row in enumerate(rows):
-            bound = traced(self.plan, row.request)
+            of_force = isinstance(row.request, Request) and row.request.under(Acting(case=PLAIN_CASE), keep=True) is not row.request
+            bound = None if of_force and place.instants is not None else traced(self.plan, row.request)  # forces follow the rates there
             if bound is not None:
                 self._bound[k] = bound
 
@@ -538,6 +558,7 @@ class Candidate:
     """What was seen over its `Over`; None where it is only about poses that the question itself says."""
     lawless: FloatArray
     unlimited: FloatArray
+    time: FloatArray
     undefined: Mask
     """Whether its measures have values and what is calculated from these has none, such as 0 / 0 or the root of what is negative."""
 
@@ -545,7 +566,7 @@ class Candidate:
         """Return that of one design of a batch of some shape, by its place in it."""
         own = {
             name: np.broadcast_to(getattr(self, name), shape)[place]
-            for name in ("value", "margin", "unbounded", "lawless", "unlimited", "undefined")
+            for name in ("value", "margin", "unbounded", "lawless", "unlimited", "time", "undefined")
         }
         strokes = {name: np.broadcast_to(value, shape)[place] for name, value in self.strokes.items()}
         return replace(self, strokes=strokes, seen=None if self.seen is None else self.seen.of_design(place), **own)
@@ -635,7 +656,11 @@ class Judge:
         return Acting(self.acting.loads, case or self.acting.case, answer.direction or None, self.acting.rates, answer.drive or None)
 
     def there(self, answer: Answer) -> Motion:
-        """Return the pose of an answer of one design."""
+        """Return the pose of an answer of one design, of a path in time at its instant."""
+        instants = next((each.instants for each in self.places if each.over.name == answer.over and each.instants is not None), None)
+        if instants is not None and not np.isnan(answer.time):
+            there = instants.at(np.asarray(answer.time))
+            return Motion(self.plan, self.designs, there.strokes, "nan", instants=there)
         return self.motion.moved({name: np.asarray(value) for name, value in answer.strokes.items()})
 
     @property
@@ -762,7 +787,8 @@ class Judge:
             unlimited = np.asarray(reduce(np.fmax, (each.unlimited for each in chosen), 0.0))
             undefined = np.asarray(np.isnan(margin) & ~np.any([np.isnan(each.value) for each in chosen], axis=0))
             situation = situation_found(chosen)
-            made.append(Candidate(value, margin, where, unbounded, situation, side, place, seen, lawless, unlimited, undefined))
+            time = np.asarray(next((each.time for each in chosen if each.strokes), np.nan))
+            made.append(Candidate(value, margin, where, unbounded, situation, side, place, seen, lawless, unlimited, time, undefined))
         return made
 
     def lost(self, candidate: Candidate) -> Lost:
@@ -832,7 +858,7 @@ class Judge:
         return Answer(
             question, value, ok, status, strokes, worst.situation.case, worst.situation.direction, worst.situation.drive, worst.side,
             worst.place.over.name, lost, float(worst.unlimited), outside, worst.place.width if worst.seen is not None else {}, count, units,
-            measures_of(self.plan, question), named,
+            measures_of(self.plan, question), float(worst.time) if known else np.nan, named,
         )  # fmt: skip
 
     def reached(self) -> Answer:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from copy import copy
+from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Self, TypeVar, cast
 
@@ -11,6 +12,7 @@ import numpy as np
 
 from ..assembly import ambiguous_angle
 from ..errors import DefinitionError, SingularError, SingularWarning, cited, one_word, unknown, unwarned, warn
+from ..frozen import read_only
 from ..loads import AT_REST
 from ..numeric import differences
 from ..plan import ArrayReading, Mask, Part, Plan, failures, negative, rate_name, require_kinds
@@ -23,6 +25,7 @@ from . import conditions, stroke_search
 from .conditions import Conditioning
 from .evaluation import BulkProgram, Evaluation, examined, near_singular, other_law_error
 from .grid import Grid, JoinedTo, Joining, MotionLike, joined_in_order, not_joined, to_rounding
+from .instants import Instants
 from .limits import Limits, no_joint, span_text, stroke_unit, where_words
 from .over import Over, over_of
 from .poles import body_points, body_rates, pole_of, whole_body
@@ -40,7 +43,8 @@ class Motion(Shown):
     Arrays are component-first, designs before strokes: a position has the shape (2, *designs, *strokes).
     Raises AssemblyError where a pose cannot be assembled, unless `unreachable="nan"`. With `per_design` the arrays of strokes begin with
     the shape of the designs, each of which has strokes of its own. `joining` says how angles are made continuous. `tangent` is how several
-    strokes go on along a path, `over` the declared `Over` that a sweep keeps, `rate_inputs` as a Grid takes them.
+    strokes go on along a path, `over` the declared `Over` that a sweep keeps, `rate_inputs` as a Grid takes them. Of a path in time
+    `instants` say when its poses are passed.
     """
 
     _limits_of: ClassVar[Callable[[Any], Limits]] = stroke_search.limits
@@ -58,15 +62,19 @@ class Motion(Shown):
         tangent: Mapping[str, FloatArray] | None = None,
         over: Over | None = None,
         rate_inputs: Mapping[str, FloatArray] = AT_REST,
+        instants: Instants | None = None,
     ) -> None:
         is_made = isinstance(plan, Plan) and isinstance(designs, Mapping) and isinstance(strokes, Mapping)
         if not is_made or designs.keys() != plan.table.entries.keys() or strokes.keys() != plan.strokes.keys():
             raise DefinitionError("Motion(...) is made by a design: machine.sweep(...) or machine.at(...).")
         one_word("unreachable", unreachable, ("raise", "nan"))
+        if instants is not None:
+            ways = (instants.rates, instants.accelerations)
+            rate_inputs = {rate_name(name, order): each for order, known in enumerate(ways, 1) for name, each in known.items()}
         self._grid = Grid(plan, designs, strokes, per_design=per_design, joining=joining, rate_inputs=rate_inputs)
         self.plan, self.unreachable = plan, unreachable
         self.shape, self._design_shape = self._grid.shape, self._grid.design_shape
-        self._tangent, self._over = tangent, over
+        self._tangent, self._over, self._instants = tangent if instants is None else instants.rates, over, instants
         self._held: tuple[Motion, str] | None = None
         self._values: dict[Hashable, FloatArray] = {}
         self._kept: dict[Hashable, Any] = {}
@@ -101,7 +109,10 @@ class Motion(Shown):
 
     @property
     def rates(self) -> dict[str, FloatArray]:
-        """The rates of the strokes by name [1/s], shaped as these; empty where the motion has no time."""
+        """The rates of the strokes by name [1/s], shaped as these, exact; empty where the motion has no time.
+
+        At a break, where two phases of a course meet, they are those of the phase that begins there.
+        """
         return self._rates_of_order(1)
 
     @property
@@ -120,7 +131,7 @@ class Motion(Shown):
         moving = {name: checked_rate(name, value, shape, self.plan.title) for name, value in given.items()}
         joining, found = None if grid.joins_itself else grid.joining, copy(self)
         own = Grid(self.plan, grid.designs, grid.strokes, per_design=grid.per_design, joining=joining, rate_inputs=moving)
-        vars(found).update(_grid=own, _kept={})
+        vars(found).update(_grid=own, _kept={}, _instants=None)
         return found
 
     @property
@@ -142,6 +153,11 @@ class Motion(Shown):
         return self._over is not None
 
     @property
+    def time(self) -> FloatArray | None:
+        """The instants of its poses [s], shape (poses,), where it runs over a path in time; None of any other motion."""
+        return None if self._instants is None else read_only(self._instants.time)
+
+    @property
     def inputs(self) -> dict[str, Any]:
         """Design variables and strokes by name, shaped to broadcast against results."""
         return self._grid.inputs
@@ -153,6 +169,8 @@ class Motion(Shown):
 
     def __repr__(self) -> str:
         spans = [f"{name} = {span_text(values, stroke_unit(self.plan, name))}" for name, values in self.strokes.items()]
+        if self._instants is not None:
+            spans.insert(0, f"time = {span_text(self._instants.time, 's')}")
         poses = f"{', '.join(spans) or 'no stroke'}; shape {self.shape}"
         reached = "all reached" if self.reached.all() else f"{int(self.reached.sum())} of {self.reached.size} reached"
         if self.interruptions is None:
@@ -206,7 +224,13 @@ class Motion(Shown):
         axes = part.axes(self.plan.members)
         strokes = {each: np.array(np.broadcast_to(self[f"{name}.{each}"], self.shape)) for each in part.plan.strokes}
         designs = {each: steady_dimension(self, part, each, axes) for each in part.plan.table.entries}
-        motion = Motion(part.plan, designs, strokes, "nan", per_design=bool(self._design_shape))
+        instants = self._instants
+        if instants is not None:  # the part's strokes follow those of the whole
+            names = {each: f"{name}.{each}" for each in part.plan.strokes}
+            rates = {each: self.velocity(of_whole) for each, of_whole in names.items()}
+            accelerations = {each: self.acceleration(of_whole) for each, of_whole in names.items()}
+            instants = replace(instants, courses={}, rates=rates, accelerations=accelerations)
+        motion = Motion(part.plan, designs, strokes, "nan", per_design=bool(self._design_shape), instants=instants)
         motion._held = (self, name)
         return motion
 
@@ -282,6 +306,8 @@ class Motion(Shown):
     @property
     def is_path(self) -> bool:
         """Whether the poses go along a path: a declared one, or one on which several strokes move together."""
+        if self._instants is not None:
+            return True
         moving = sum(bool(np.any(value[..., 1:] != value[..., :-1])) for value in self.strokes.values() if value.ndim)
         return moving > 1 and len(self._stroke_shape) == 1 if self._over is None else moving > 0 and self._over.shape == "path"
 
@@ -324,9 +350,20 @@ class Motion(Shown):
         found = np.where(refused, np.nan, found) if refused.any() else found
         return self._finite(found, refused, f"{words} by {stroke}")
 
-    def velocity(self, target: Reference, rates: Mapping[str, object]) -> FloatArray:
-        """Return the velocity of a point [m/s], shape (2, ...), or the rate of an output, from stroke rates [1/s]."""
-        return self._along(target, rates_of("rates", rates, self, gaps=self.unreachable == "nan"))
+    def velocity(self, target: Reference, rates: Mapping[str, object] | None = None) -> FloatArray:
+        """Return the velocity of a point [m/s], shape (2, ...), or the rate of an output, from stroke rates [1/s].
+
+        A motion in time has rates of its own; others are given.
+        """
+        return self._along(target, self._rates_or_own("velocity", rates))
+
+    def _rates_or_own(self, what: str, rates: Mapping[str, object] | None) -> dict[str, FloatArray]:
+        """Return the rates that are given, else the motion's own; DefinitionError where there are neither."""
+        if rates is None and self._instants is None:
+            example = as_mapping({next(iter(self.strokes), "S"): 0.05})
+            remedy = f"give rates={example}, or sweep over a path in time"
+            raise DefinitionError(f"{self.plan.title}: {what}: nothing says how quickly the strokes move; {remedy}.")
+        return rates_of("rates", self.rates if rates is None else rates, self, gaps=self.unreachable == "nan")
 
     def _along(self, target: Reference, rates: Mapping[str, FloatArray]) -> FloatArray:
         """Return the sum of the ratios by the strokes, each times its rate; NaN where the pose is not reached."""
@@ -334,11 +371,16 @@ class Motion(Shown):
         still = np.where(self.reached, np.zeros((*parts, *self.shape)), np.nan)
         return sum((self.ratio(target, wrt=name) * rate for name, rate in rates.items()), still)
 
-    def acceleration(self, target: Reference, rates: Mapping[str, object], accelerations: Mapping[str, object] | None = None) -> FloatArray:
-        """Return the acceleration of a point [m/s2], shape (2, ...), from stroke rates and accelerations."""
-        gaps = self.unreachable == "nan"
-        given, asked = rates_of("rates", rates, self, gaps=gaps), {} if accelerations is None else accelerations
-        driven = rates_of("accelerations", asked, self, gaps=gaps)
+    def acceleration(
+        self, target: Reference, rates: Mapping[str, object] | None = None, accelerations: Mapping[str, object] | None = None
+    ) -> FloatArray:
+        """Return the acceleration of a point [m/s2], shape (2, ...), from stroke rates and accelerations.
+
+        A motion in time has its own. Where rates are given, accelerations that are not are 0.
+        """
+        given = self._rates_or_own("acceleration", rates)
+        asked = accelerations if accelerations is not None else self.accelerations if rates is None else {}
+        driven = rates_of("accelerations", asked, self, gaps=self.unreachable == "nan")
         member = self._member(target)
         along = [tuple(sorted((first, second))) for first in given for second in given]
         masks = [self._refused(Value(member, each), f"The acceleration of {member.name or member}") for each in dict.fromkeys(along)]
@@ -411,10 +453,12 @@ class Motion(Shown):
         """Return the pole of a body, its instant centre, against the frame or another body, shape (2, ...) [m]; over a sweep, its path.
 
         A body goes by its name ("EDF"), its link's, or two of its points ("E D"). Several strokes go as one, `wrt=`, or at `rates` as
-        in `velocity`. Both coordinates are infinite where the body only translates, NaN where it stands still against the other one and
-        out of reach. Raises SingularError at a dead point, where the ratios are refused, unless the motion has `unreachable="nan"`.
+        in `velocity`. A motion in time has rates of its own. Both coordinates are infinite where the body only translates. They are NaN
+        where it stands still against the other one, and out of reach. Raises SingularError at a dead point, where the ratios are refused,
+        unless the motion has `unreachable="nan"`.
         """
-        given = dict.fromkeys([stroke_of(self.plan, wrt)], 1.0) if rates is None else rates
+        own = self.rates if wrt is None else {}
+        given = rates if rates is not None else own or dict.fromkeys([stroke_of(self.plan, wrt)], 1.0)
         if rates is not None and wrt is not None:
             raise DefinitionError(f"{self.plan.title}: pole(wrt=..., rates=...): rates say already which strokes move; leave out wrt=.")
         of_body, of_other = body_points(self.plan, body), body_points(self.plan, other)
@@ -500,7 +544,10 @@ class Motion(Shown):
         return stroke_search.interruptions(self) if self.unreachable == "nan" else ()
 
     def moved(self, strokes: Mapping[str, object]) -> Self:
-        """Return the same designs at other strokes [SI], each at its own where the arrays begin with the designs; NaN out of reach."""
+        """Return the same designs at other strokes [SI], each at its own where the arrays begin with the designs; NaN out of reach.
+
+        It has no time.
+        """
         given = strokes if isinstance(strokes, Mapping) else {}
         if given.keys() != self.strokes.keys():
             known = as_mapping(dict.fromkeys(self.strokes, "..."))

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any, ClassVar, Self, final
 
 import numpy as np
+import numpy.typing as npt
 
 from ..checks import require
 from ..errors import DefinitionError, cited, known_name, unknown
@@ -15,13 +16,30 @@ from ..language import said
 from ..loads import PLAIN_CASE, Case, LoadCase
 from ..plan import Mask, Plan, require_kind
 from ..program import FloatArray
-from ..quantities import Member, PoseCondition, Quantity, Stroke, is_number, keywords, name_of, needs, numbers_in, quantity, real
-from ..units import Amount, amount_or_float
+from ..quantities import (
+    Course,
+    Curve,
+    Member,
+    PoseCondition,
+    Quantity,
+    Stroke,
+    course_of,
+    is_number,
+    keywords,
+    name_of,
+    needs,
+    numbers_in,
+    quantity,
+    real,
+)
+from ..quantities.course import check_rising
+from ..units import Amount, amount_or_float, amounts_in, require_measure
 from .grid import MotionLike
+from .instants import Instants
 from .limits import places_text, span_text, stroke_unit
 from .strokes import check_magnitude, strokes_over_axes
 
-OPTIONS = ("only", "cases", "lost")
+OPTIONS = ("only", "cases", "lost", "time")
 """What an `Over` takes beside strokes: no stroke of a machine may be called so."""
 ALLOWED = "allowed"
 
@@ -34,6 +52,8 @@ class Over(Member):
 
     `Over(phi=(15 * deg, 80 * deg), t=0.0)` is a box: a pair runs, a number is held, strokes that are not named run over their range.
     `Over.path(phi=[...], psi=[...])` are straight legs through places in this order, `Over.poses(...)` these poses and nothing between.
+    `Over.path(time=[0, 2, 4], phi=[...], psi=[...])` is a path in time [s], and so is one with a `Course`, a `ramp` or a `Curve` over time
+    for a stroke: then rates and accelerations are known, and the machine moves as it runs.
 
     `only=[x("T") <= 4]` are conditions on poses: what lies outside is not asked. `cases=("full",)` are the load cases that occur there,
     "plain" the machine's own loads; default all declared and the plain one. With `lost="allowed"` places that cannot be assembled are
@@ -46,6 +66,8 @@ class Over(Member):
     only: tuple[PoseCondition, ...]
     cases: tuple[str, ...] | None
     lost: str
+    time: tuple[float, ...] | None
+    """The instants of a path in time [s]: of each place, or those at which it begins and ends; None of any other."""
 
     def __init__(
         self, *, only: Sequence[PoseCondition] | PoseCondition = (), cases: Sequence[object] | None = None, lost: str = "",
@@ -55,10 +77,28 @@ class Over(Member):
 
     @classmethod
     def path(
-        cls, *, only: Sequence[PoseCondition] | PoseCondition = (), cases: Sequence[object] | None = None, lost: str = "", **strokes: object
+        cls, *, only: Sequence[PoseCondition] | PoseCondition = (), cases: Sequence[object] | None = None, lost: str = "",
+        time: npt.ArrayLike | None = None, **strokes: object,
     ) -> Self:
-        """Return straight legs through places in this order: an array of values for each stroke, as many each; a number is held."""
-        return cls._of_places("path", strokes, only, cases, lost)
+        """Return straight legs through places in this order, or a path in time.
+
+        Parameters
+        ----------
+        only, cases, lost
+            As of `Over`.
+        time : array_like, optional
+            The instants of the places [s], rising; or a pair `(begin, end)`, where strokes have courses. Without it the longest course
+            decides.
+        **strokes
+            An array of values for each stroke [m or rad], as many each; a number is held. Over time also a `Course`, such as `ramp(...)`,
+            or a `Curve` of seconds. One that ends before the others holds its last value.
+
+        Raises
+        ------
+        DefinitionError
+            Instants that do not rise, values without instants, a periodic curve that does not fit the time of the path.
+        """
+        return cls._of_places("path", strokes, only, cases, lost, time)
 
     @classmethod
     def poses(
@@ -68,19 +108,27 @@ class Over(Member):
         return cls._of_places("poses", strokes, only, cases, lost)
 
     @classmethod
-    def _of_places(cls, shape: str, strokes: Mapping[str, object], only: object, cases: object, lost: object) -> Self:
+    def _of_places(
+        cls, shape: str, strokes: Mapping[str, object], only: object, cases: object, lost: object, time: object = None
+    ) -> Self:
         found = cls()
         object.__setattr__(found, "_name", "")
-        found._hold(shape, strokes, only, cases, lost)
+        found._hold(shape, strokes, only, cases, lost, time)
         return found
 
-    def _hold(self, shape: str, strokes: Mapping[str, object], only: object, cases: object, lost: object) -> None:
+    def _hold(
+        self, shape: str, strokes: Mapping[str, object], only: object, cases: object, lost: object, time: object = None
+    ) -> None:
         """Keep what was given; DefinitionError for a wrong stroke, condition, case or word."""
+        if "time" in strokes:
+            what = f"Over{'' if shape == 'box' else f'.{shape}'}(time={cited(strokes['time'])})"
+            raise DefinitionError(f"{what}: time is that of a path; write Over.path(time=..., ...), no box and no poses.")
         values = {name: box_ends(name, value) if shape == "box" else place_values(shape, name, value) for name, value in strokes.items()}
         counts = {name: len(value) for name, value in values.items() if isinstance(value, tuple)}
         if shape != "box" and len({*counts.values()}) > 1:
             each = ", ".join(f"{name} has {count}" for name, count in counts.items())
             raise DefinitionError(f"Over.{shape}: {each} values; give each stroke as many, or one number where it is held.")
+        instants = instants_given(time, values)
         listed = only if isinstance(only, (list, tuple)) else (only,)
         for condition in listed:
             if not isinstance(condition, PoseCondition):
@@ -93,7 +141,7 @@ class Over(Member):
             raise DefinitionError(f'Over(cases={cited(cases)}): names of load cases are expected, cases=("full",); leave it out for all.')
         require(lost in ("", ALLOWED), "Over(lost", lost, '"allowed" is expected, or nothing: places that are lost are then a fault')
         names = tuple(map(name_of, cases)) if isinstance(cases, (list, tuple)) else None
-        held = {"shape": shape, "strokes": FrozenDict(values), "only": tuple(listed), "cases": names, "lost": lost}
+        held = {"shape": shape, "strokes": FrozenDict(values), "only": tuple(listed), "cases": names, "lost": lost, "time": instants}
         for name, value in held.items():
             object.__setattr__(self, name, value)
 
@@ -124,11 +172,31 @@ class Over(Member):
 
     # -- of a machine ------------------------------------------------------------------------------------
 
+    def instants(self, plan: Plan, number: Callable[[str | Quantity], float]) -> Instants | None:
+        """Return a path in time at all breaks of its courses; None for any other. `number` gives the value of a quantity of the design."""
+        if self.time is None:
+            return None
+        courses, (begin, end) = dict[str, Course](), (self.time[0], self.time[-1])
+        for name in plan.strokes:
+            given = self.strokes[name]
+            is_course = isinstance(given, (Course, Curve))
+            amount = Amount(0.0, given.measures) if isinstance(given, Course) and given.measures else 0.0
+            require_kind(plan, name, amount if is_course else given, f"{plan.title}: {self}: {name}")
+            known = given if is_course else self.numbers(given, plan, number)
+            courses[name] = Course(self.time, known, "straight") if isinstance(known, list) else course_of(known, begin, end)
+        found = Instants.over(courses, begin, end)
+        for name, value in found.strokes.items():
+            check_magnitude(name, (float(np.min(value)), float(np.max(value))), plan)
+        return found
+
     def places(self, plan: Plan, number: Callable[[str | Quantity], float]) -> dict[str, FloatArray]:
         """Return strokes [m or rad] that span it, arrays of one shape; `number` gives the value of a quantity of the design.
 
         Of a box its corners, an axis for each stroke that runs; of a path the places in an array of one axis; poses in one of two.
         """
+        instants = self.instants(plan, number)
+        if instants is not None:
+            return instants.strokes
         for name, value in self.strokes.items():
             require_kind(plan, name, value, f"{plan.title}: {self}: {name}")
         if self.shape != "box":
@@ -205,7 +273,9 @@ class Over(Member):
 
     def __str__(self) -> str:
         word = "Over" if self.shape == "box" else f"Over.{self.shape}"
-        given = [keywords({name: ends_text(value) for name, value in self.strokes.items()})] if self.strokes else []
+        of_places = any(isinstance(value, tuple) for value in self.strokes.values())
+        given = [f"time={[*self.time] if of_places else self.time}"] if self.time is not None else []
+        given += [keywords({name: ends_text(value) for name, value in self.strokes.items()})] if self.strokes else []
         given += [f"only=[{', '.join(map(str, self.only))}]"] if self.only else []
         given += [f"cases={self.cases!r}"] if self.cases is not None else []
         return f"{word}({', '.join([*given, *([f'lost={self.lost!r}'] if self.lost else [])])})"
@@ -289,7 +359,8 @@ def ends_text(value: object) -> str:
     """Return the value of a stroke as it is written."""
     if isinstance(value, tuple):
         return f"({', '.join(map(ends_text, value))})"
-    return repr(float(value)) if is_number(value) else str(getattr(value, "name", "") or value)
+    is_member = isinstance(value, Member) and bool(value.name)
+    return repr(float(value)) if is_number(value) else value.name if is_member else str(value)
 
 
 def is_end(value: object) -> bool:
@@ -316,12 +387,49 @@ def place_values(shape: str, name: str, value: object) -> Any:
     """Return what a stroke of a path is given: numbers or quantities in their order, or one where it is held."""
     if is_end(value) and not is_number(value):
         return value
+    if isinstance(value, (Course, Curve)):
+        require(shape == "path", f"Over.{shape}({name}", value, "a course is of a path; write Over.path(...)")
+        return value
     if isinstance(value, (list, tuple)) and any(isinstance(each, (str, Quantity, Amount)) for each in value) and all(map(is_end, value)):
         return tuple(amount_or_float(each) if is_number(each) else each for each in value)
     found = numbers_in(value)
     if found.ndim > 1 or not found.size or not np.all(np.isfinite(found)):
         raise DefinitionError(f"Over.{shape}({name}={cited(value)}): finite numbers in their order are expected, or one, in SI.")
     return tuple(found.tolist()) if found.ndim else amount_or_float(value) if is_number(value) else float(found)
+
+
+def instants_given(time: Any, values: Mapping[str, Any]) -> tuple[float, ...] | None:
+    """Return the instants of a path [s]: those given, else from where to where its courses go; None where it is none in time."""
+    courses = {name: value for name, value in values.items() if isinstance(value, (Course, Curve))}
+    lists = {name: value for name, value in values.items() if isinstance(value, tuple)}
+    if time is None:
+        if not courses:
+            return None
+        for name in lists:
+            what = f"Over.path({name}={cited(lists[name])}): beside a course each value has an instant"
+            raise DefinitionError(f"{what}; give time=[...], one for each, or a Course(times, values).")
+        ends = [course.breaks[[0, -1]] for course in courses.values()]
+        found = (float(min(low for low, _ in ends)), float(max(high for _, high in ends)))
+    else:
+        for each in amounts_in(time):
+            require_measure(each, "time", "Over.path: time")
+        instants = numbers_in(time)
+        fits = instants.ndim == 1 and instants.size > 1 and bool(np.isfinite(instants).all())
+        require(fits, "Over.path(time", time, "instants in seconds are expected, one for each value, or a pair (begin, end)")
+        check_rising("Over.path: time", instants)
+        found = tuple(instants.tolist())
+        for name, value in lists.items():
+            if isinstance(time, tuple) and len(time) == 2:
+                what = f"Over.path(time={cited(time)}, {name}={cited(value)}): {len(value)} values beside the begin and the end of a path"
+                raise DefinitionError(f"{what}; give time=[...], an instant for each value, or a Course(times, values).")
+            if len(value) != len(found):
+                raise DefinitionError(f"Over.path: time has {len(found)} instants and {name} {len(value)} values; give as many of each.")
+    for name, each in courses.items():
+        turns = (found[-1] - found[0]) / each.period if isinstance(each, Curve) and each.period is not None else 1.0
+        if round(turns) < 1 or abs(turns - round(turns)) > 1e-9 * turns:
+            what = f"Over.path: {name} has a period of {each.duration:.6g} s, and the path lasts {found[-1] - found[0]:.6g} s"
+            raise DefinitionError(f"{what}; give time=(begin, end) over whole periods of all its curves.")
+    return found
 
 
 def with_strokes(strokes: Mapping[str, FloatArray]) -> Mapping[str, FloatArray]:

@@ -24,6 +24,7 @@ from ..plan import Mask
 from ..program import FloatArray
 from .answer import OF_VALUE, UNBOUNDED, Answer, PerDesign
 from .grid import JoinedTo, joined_in_order, recalled
+from .instants import Instants
 from .limits import LoopMargin, place_text, places_text, stroke_unit
 from .motion import Motion, require_motion
 from .requests import Request, identity_of
@@ -68,18 +69,20 @@ def extremum_reached(motion: Motion, f: Function, sense: float, *, everywhere: b
     if len(motion._stroke_shape) > 1 and len(strokes_moved(motion)) > 1:
         box = InBox(motion, f, sense, everywhere=everywhere)
         top, front = highest_in(box), box.front
-        value, unbounded, strokes = top.value, top.unbounded, box.strokes(top.unit)
+        value, unbounded, strokes, time = top.value, top.unbounded, box.strokes(top.unit), None
     else:
         between = OnLegs(motion, f, sense, everywhere=everywhere)
         found, front = highest(between.look, between.route.counts), between.front
         value, unbounded, strokes = found.value, found.unbounded, between.route.strokes(found.leg, found.t)
+        time = between.route.time(found.leg, found.t)
     shape, units = (*front, *motion._design_shape), {name: stroke_unit(motion.plan, name) for name in motion.strokes}
 
     def shaped(values: npt.NDArray[Any]) -> PerDesign:
         return values.reshape(shape) if shape else values.item()  # (K, D); a single one as a plain number
 
     status = shaped(np.where(unbounded, UNBOUNDED, OF_VALUE))
-    return Answer(f, shaped(sense * value), None, status, {name: shaped(each) for name, each in strokes.items()}, units=units)
+    at = np.nan if time is None else shaped(time)
+    return Answer(f, shaped(sense * value), None, status, {name: shaped(each) for name, each in strokes.items()}, units=units, time=at)
 
 
 def strokes_moved(motion: Motion) -> tuple[str, ...]:
@@ -189,11 +192,15 @@ LONGEST = 16  # times the samples of one leg: of any way, however often it turns
 @final
 @dataclass(frozen=True, eq=False)
 class Legs:
-    """Legs from corner to corner: the strokes [SI] at the corners (legs + 1,), and in how many intervals each leg is looked at."""
+    """Legs from corner to corner: the strokes [SI] at the corners (legs + 1,), and in how many intervals each leg is looked at.
+
+    Of a path in time they are the stretches between the breaks of its courses, along which the strokes go as these say: `instants`.
+    """
 
     corners: Mapping[str, FloatArray]
     counts: tuple[int, ...]
     is_path: bool
+    instants: Instants | None = None
 
     @classmethod
     def of(cls, motion: Motion) -> Legs:
@@ -201,9 +208,18 @@ class Legs:
 
         A single stroke, and a grid in which a single one moves, goes from its least to its greatest value. Several strokes in arrays
         of one axis go from pose to pose, where poses on a straight line are no corners. From one sample to the next no stroke moves
-        more than 1/4096 of its range.
+        more than 1/4096 of its range, and no more than 1/4096 of the time passes.
         """
-        strokes = motion.strokes
+        strokes, instants = motion.strokes, motion._instants
+        if instants is not None and instants.courses:
+            legs, inner = np.arange(len(instants.breaks) - 1), np.linspace(0.0, 1.0, 17)
+            looked = instants.at_share(legs[:, None], inner[None, :])
+            lasting = np.diff(instants.breaks)
+            lengths = lasting / lasting.sum()
+            for name, rates in looked.rates.items():
+                travel = float(np.ptp(looked.strokes[name]))
+                lengths = np.maximum(lengths, np.abs(rates).max(axis=1) * lasting / (travel or np.inf))
+            return cls(instants.at(instants.breaks).strokes, counts_of(lengths), True, instants)
         values = np.array([np.ravel(value) for value in strokes.values()])
         if len(values) == 1 or next(iter(strokes.values())).ndim > 1:
             values = np.stack([values.min(axis=1), values.max(axis=1)], axis=1)
@@ -211,17 +227,35 @@ class Legs:
         scaled = values / np.where(ranges > 0.0, ranges, 1.0)
         places = corners(scaled)
         lengths = np.abs(np.diff(scaled[:, places], axis=1)).max(axis=0)
-        share = SAMPLES * min(1.0, LONGEST / max(float(lengths.sum()), 1e-300))
-        counts = tuple(int(count) for count in np.maximum(np.ceil(share * lengths - 1e-6), 2.0))
-        return cls({name: value[places] for name, value in zip(strokes, values, strict=True)}, counts, motion.is_path)
+        return cls({name: value[places] for name, value in zip(strokes, values, strict=True)}, counts_of(lengths), motion.is_path)
+
+    def at(self, leg: Index, t: FloatArray) -> Instants | None:
+        """Return the instants of places, each on its own side of a break; None where the way is none in time."""
+        return None if self.instants is None else self.instants.at_share(leg, t)
+
+    def time(self, leg: Index, t: FloatArray) -> FloatArray | None:
+        """Return the instants of places [s], shape as these: a hair before a break where it is its end that counts; None without time."""
+        if self.instants is None:
+            return None
+        at, last = self.instants.at_share(leg, t).time, len(self.instants.breaks) - 2
+        return np.where((t == 1.0) & (leg < last), np.nextafter(at, -np.inf), at)
 
     def strokes(self, leg: Index, t: FloatArray) -> dict[str, FloatArray]:
         """Return the strokes [SI] at places, shape as these; exact at the corners."""
+        if self.instants is not None:
+            return self.instants.at_share(leg, t).strokes
         return {name: np.where(t == 1.0, at[leg + 1], at[leg] + (at[leg + 1] - at[leg]) * t) for name, at in self.corners.items()}
 
     def tangent(self, leg: Index) -> dict[str, FloatArray] | None:
-        """Return how the strokes go on in legs, shape as these; None where it is no path."""
-        return {name: at[leg + 1] - at[leg] for name, at in self.corners.items()} if self.is_path else None
+        """Return how the strokes go on in legs, shape as these; None where it is no path, and of one in time, whose rates say it."""
+        has_tangent = self.is_path and self.instants is None
+        return {name: at[leg + 1] - at[leg] for name, at in self.corners.items()} if has_tangent else None
+
+
+def counts_of(lengths: FloatArray) -> tuple[int, ...]:
+    """Return in how many intervals legs of some lengths, as parts of the ranges of the strokes, are looked at."""
+    share = SAMPLES * min(1.0, LONGEST / max(float(lengths.sum()), 1e-300))
+    return tuple(int(count) for count in np.maximum(np.ceil(share * lengths - 1e-6), 2.0))
 
 
 def corners(values: FloatArray) -> Sequence[int]:
@@ -289,8 +323,9 @@ class OnLegs:
         self.route = Legs.of(motion)
         self.leg, self.t = leg, t = samples(self.route.counts)
         self.first = Motion(
-            motion.plan, motion.designs, self.route.strokes(leg, t), "nan", joining=joined_in_order, tangent=self.route.tangent(leg)
-        )
+            motion.plan, motion.designs, self.route.strokes(leg, t), "nan", joining=joined_in_order, tangent=self.route.tangent(leg),
+            instants=self.route.at(leg, t),
+        )  # fmt: skip
         self.seen = sense * values_of(f, self.first, everywhere=everywhere)
         self.front = self.seen.shape[: self.seen.ndim - len(self.first.shape)]
         self._starts = np.cumsum([0, *(count + 1 for count in self.route.counts[:-1])])
@@ -325,10 +360,10 @@ class OnLegs:
         def shaped(values: Any) -> Any:
             return values.reshape(*first._design_shape, t.shape[-1])
 
-        strokes = {name: shaped(value) for name, value in self.route.strokes(leg, t).items()}
+        strokes, instants = {name: shaped(value) for name, value in self.route.strokes(leg, t).items()}, self.route.at(leg, t)
         motion = Motion(
             first.plan, first.designs, strokes, "nan", per_design=True, joining=JoinedTo(first._grid, shaped(near)),
-            tangent=tangent and {name: shaped(value) for name, value in tangent.items()},
+            tangent=tangent and {name: shaped(value) for name, value in tangent.items()}, instants=instants and instants.shaped(shaped),
         )  # fmt: skip
         return motion, self.sense * values_of(self.f, motion, everywhere=self.everywhere)
 

@@ -2,6 +2,7 @@
 
 from ..star import declare_public
 from .axes import FRAME_AXES, Axes
+from .course import Course, course_of, ramp
 from .curve import Curve, CurveValue
 from .inputs import Dimension, Stroke, Variable
 from .joint import FRAME_SIDE, Driven, Joint, Jointed, JointSide, guided, pinned

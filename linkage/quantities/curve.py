@@ -43,7 +43,7 @@ class Curve:
     name: str
 
     def __init__(self, xs: npt.ArrayLike, ys: npt.ArrayLike, *, period: float | None = None, name: str = "curve") -> None:
-        self.__dict__.update(xs=column("xs", xs), ys=column("ys", ys), period=period, name=name)
+        self.__dict__.update(xs=column("xs", xs, "Curve"), ys=column("ys", ys, "Curve"), period=period, name=name)
         fault = ""
         if len(self.xs) != len(self.ys) or len(self.xs) < 2:
             fault = f"{len(self.xs)} values of x and {len(self.ys)} of y; a table has two rows or more"
@@ -76,6 +76,16 @@ class Curve:
         return None if self.period is not None else (low - ROUNDING * (high - low), high + ROUNDING * (high - low))
 
     @property
+    def breaks(self) -> FloatArray:
+        """The values of x of its rows, where one polynomial follows another; instants [s] where it is a course."""
+        return self.xs
+
+    @property
+    def duration(self) -> float:
+        """From its first row to its last one [s], where it is a course."""
+        return float(self.xs[-1] - self.xs[0])
+
+    @property
     def title(self) -> str:
         """What it is called in a message: its name, and from where to where it goes."""
         return f"{self.name}, a table from {self.xs[0]:.6g} to {self.xs[-1]:.6g},"
@@ -91,7 +101,7 @@ class Curve:
         if self.period is not None:
             turn, middle = 2.0 * pi / self.period, 0.5 * float(self.xs[0] + self.xs[-1])
             x = wrap((x - middle) * turn) * (1.0 / turn) + middle
-        derived = self._pieces
+        derived = self.pieces
         for _ in range(order):
             derived = derived[1:] * np.arange(1, len(derived))[:, None] if len(derived) > 1 else np.zeros_like(derived)
         start, *powers = (self._chosen(x, row, pick) for row in (self.xs[:-1], *derived))
@@ -115,7 +125,7 @@ class Curve:
         return between(0, len(row))
 
     @cached_property
-    def _pieces(self) -> FloatArray:
+    def pieces(self) -> FloatArray:
         """The polynomials between the rows, by powers of the distance from the row: shape (4, rows - 1)."""
         h, rise = np.diff(self.xs), np.diff(self.ys) / np.diff(self.xs)
         count = len(h) + 1  # the second derivative at every row is such that the first one is continuous
@@ -145,13 +155,13 @@ class Curve:
     __repr__ = __str__
 
 
-def column(what: str, given: npt.ArrayLike) -> FloatArray:
+def column(what: str, given: npt.ArrayLike, owner: str) -> FloatArray:
     """Return one column of a table, read-only; DefinitionError for anything but finite numbers."""
     try:
         found = read_only(real(given))
     except (ValueError, TypeError):
         found = np.zeros(())
-    require(found.ndim == 1 and np.isfinite(found).all(), f"Curve: {what}", given, "a list of finite numbers is expected")
+    require(found.ndim == 1 and np.isfinite(found).all(), f"{owner}: {what}", given, "a list of finite numbers is expected")
     return found
 
 

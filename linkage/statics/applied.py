@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import DefinitionError, SingularError, cited, known_name, told, unknown
-from ..loads import PLAIN_CASE, Acting, Case, Damper, HasLoads, LoadCase, Loads
+from ..loads import AS_IT_RUNS, FRICTIONLESS, PLAIN_CASE, Acting, Case, Damper, HasLoads, LoadCase, Loads
 from ..loads.acting import check_factor, shut_members
 from ..loads.element import AT_REST, SENSES, ForceElement, Friction, Load, Poses, Push, Rate, Rates, TwoPinned, check_together
 from ..motion import Motion, rates_of, require_motion
@@ -237,12 +237,17 @@ class LoadsAlone(ForceElement):
 def rates_in(motion: AnyMotion, acting: Acting, drive: str | None = None) -> Rates:
     """Return how the strokes move in a situation; `drive` is the one that moves where several could and the situation names none.
 
-    Along a path they move as the path's tangent goes. DefinitionError where nobody says which one moves, and for
-    rates that go against the direction.
+    Along a path they move as the path's tangent goes, over a path in time at its rates. DefinitionError where nobody says which one
+    moves, for rates that go against the direction, and for a direction over a path in time.
     """
     motion = require_motion(motion)
     direction, drive, sense = acting.movement, acting.drive if drive is None else drive, SENSES[acting.movement]
     given = known_rates(motion, acting)
+    if given and isinstance(motion, Motion) and not isinstance(acting.rates, Mapping):
+        if sense:
+            what = f"{motion.plan.title}: direction={direction!r}: over a path in time the machine moves one way, as it runs"
+            raise DefinitionError(f"{what}; leave the direction out, or say direction={FRICTIONLESS!r}.")
+        return Rates(given, True, FRICTIONLESS if acting.direction else AS_IT_RUNS)
     if given:
         named = [drive] if drive is not None else [*given] if len(given) == 1 else []
         wrong = next((name for name in named if sense and np.any(sense * np.asarray(given.get(name, 0.0)) < 0.0)), None)

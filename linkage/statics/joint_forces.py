@@ -11,7 +11,7 @@ import numpy as np
 
 from ..errors import DefinitionError, SingularError, known_name, unknown
 from ..language import said, translated
-from ..loads import PLAIN_CASE, Acting, ActingKeywords, Load, Loads, situation_of, takes_situation
+from ..loads import AS_IT_RUNS, PLAIN_CASE, Acting, ActingKeywords, Load, Loads, situation_of, takes_situation
 from ..motion import Motion, require_motion, stroke_unit
 from ..motion.limits import where_said, where_words
 from ..motion.requests import stroke_of
@@ -53,7 +53,7 @@ def joint_forces(motion: Motion, acting: Acting, split: str = "refuse") -> PinFo
     applied = applied_loads(motion, acting, rates)
     found = agreeing(forces_at(poses_held(motion, applied, "The joint forces"), applied, split), split)
     return PinForces(
-        motion, joints_of(found.structure, found.contacts, found.poses), found.drives, found.thrusts, applied.case, acting.movement,
+        motion, joints_of(found.structure, found.contacts, found.poses), found.drives, found.thrusts, applied.case, rates.direction,
         found.poses.mask(found.locked), tuple(remarks_on(found)), found, split,
     )  # fmt: skip
 
@@ -338,7 +338,7 @@ def range_text(values: FloatArray, unit: str) -> str:
 def remarks_on(found: PoseForces) -> Iterator[str]:
     """Yield in words where forces are not what the machine is meant to have: where it locks itself, comes apart, goes slack, tips over."""
     poses, applied = found.poses, found.applied
-    yield from locked_words(found, applied.acting.movement)
+    yield from locked_words(found, applied.rates.direction)
     yield from lift_off_words(found)
     yield from self_locking_words(found)
     if not applied.loads and not applied.thrusts:
@@ -389,9 +389,10 @@ def self_locking_words(found: PoseForces) -> list[str]:
         mask = (free * rate < 0.0) & (found.drives[stroke] * rate > 0.0)
     if not mask.any():
         return []
+    direction = said("it runs") if applied.rates.direction == AS_IT_RUNS else translated(applied.rates.direction)
     return [
         said(
             "Self-locking while {direction} {where}: friction holds the load, which would move {stroke} without it; the drive must help.",
-            direction=translated(applied.rates.direction), where=where_said(motion.plan, mask, motion.strokes), stroke=stroke,
+            direction=direction, where=where_said(motion.plan, mask, motion.strokes), stroke=stroke,
         )
     ]  # fmt: skip

@@ -119,6 +119,10 @@ class AnyMotion(Poses, Protocol):
         """How several strokes go on along a path of poses; None where the poses are no path."""
 
     @property
+    def rates(self) -> Mapping[str, FloatArray]:
+        """The rates of the strokes over a path in time, by name; empty of any other motion."""
+
+    @property
     def reached(self) -> Mask:
         """The mask of the poses that are reached."""
 

@@ -151,7 +151,7 @@ def locked_words(found: PoseForces | Solution, direction: str) -> list[str]:
         return []
     motion, mask = found.poses.motion, found.poses.mask(found.locked)
     points = ", ".join(dict.fromkeys(each.contact.point for each in found.frictions))
-    what = f"{motion.plan.title} locks itself while {direction} {where_words(motion.plan, mask, motion.strokes)}"
+    what = f"{motion.plan.title} locks itself while {direction.removeprefix('as ')} {where_words(motion.plan, mask, motion.strokes)}"
     remedy = "Lower the friction, or make the transmission angles larger"
     text = f"{what}: with the friction at {points} no bounded drive force moves it. {remedy}."
     if motion.unreachable == "raise":

@@ -13,7 +13,7 @@ import numpy as np
 from ..checks import require_number
 from ..errors import DefinitionError, UntracedError
 from ..loads import Acting, ActingKeywords, Loads, TwoPoint, situation_of, takes_situation
-from ..loads.element import AT_REST, SENSES, ForceElement, Rate, Rates
+from ..loads.element import AS_IT_RUNS, AT_REST, SENSES, ForceElement, Rate, Rates
 from ..motion import Motion, require_motion
 from ..motion.requests import stroke_of
 from ..plan import Mask
@@ -284,9 +284,11 @@ def poses_held(motion: Motion, applied: AppliedLoads, what: str) -> FlatPoses:
 
 def member_rates(motion: AnyMotion, member: TwoPoint, acting: Acting, line: PressureLine | None) -> Rates:
     """Return how strokes move while a member grows or shrinks: along the path, else by the stroke it holds or follows most."""
-    direction, sense, still = acting.movement, SENSES[acting.movement], replace(acting, direction=None, drive=None)
+    direction, sense, still = acting.movement, SENSES[acting.movement], replace(acting, direction=None if SENSES[acting.movement] else acting.direction, drive=None)
     moves = rates_in(motion, still)
     if not sense:
+        return moves
+    if moves.direction == AS_IT_RUNS:  # over a path in time it goes as that runs, whichever direction is looked at
         return moves
     if moves:
         if np.any(sense * np.nan_to_num(member.growth(motion, moves)) < 0.0):

@@ -1,0 +1,354 @@
+"""Courses: what a stroke does over time, phase by phase a polynomial, so that rates and accelerations are exact."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
+from math import comb, sqrt
+from typing import Any, Self, TypeAlias, final
+
+import numpy as np
+import numpy.typing as npt
+
+from ..checks import require, require_number
+from ..errors import DefinitionError, cited, one_word
+from ..frozen import FrozenDict, own, read_only, refuses_changes
+from ..units import Amount, amounts_in, display_unit, require_measure, show
+from ..vectors import FloatArray
+from .curve import Curve, column
+from .quantity import is_number
+
+KINDS = ("smooth", "straight", "monotone")
+"""How a course goes through the rows of a table: a cubic spline; straight legs; cubic, and between two rows never beyond both."""
+JUMP = 1e-9
+"""Of the size of a course: what jumps by no more goes on, to rounding."""
+NOISE = 16.0 * float(np.finfo(float).eps)
+"""Of the size of its terms: a derivative that is no larger is zero, to rounding."""
+
+Phases: TypeAlias = tuple[FloatArray, FloatArray, float]
+"""Instants (n + 1,) [s], the polynomials between them by powers of the time since each begins (k, n), and the last value."""
+
+
+@final
+@refuses_changes
+class Course:
+    """What a stroke does over time: `Course([0.0, 2.0, 4.0], [0.10, 0.30, 0.10])` is a value and its exact derivatives at every instant.
+
+    Parameters
+    ----------
+    times : array_like
+        Instants [s], shape (n,), rising.
+    values : array_like
+        The values there [m or rad], shape (n,).
+    kind : str
+        "smooth" is a cubic spline, "straight" are straight legs, "monotone" never goes beyond the rows that it is between (PCHIP).
+
+    Raises
+    ------
+    DefinitionError
+        The instants do not rise, there are fewer than two, or not as many values; an unknown kind.
+
+    Notes
+    -----
+    `course(x)` is the value at x seconds, `course(x, 1)` its rate, `course(x, 2)` its acceleration. At a break, where two phases meet, it
+    is that of the phase that begins there. Before it begins and after it ends a course stands still. `breaks` are the instants where it
+    begins, goes on by another polynomial, and ends; `duration` is from the first to the last [s].
+    """
+
+    breaks: FloatArray
+    steps: tuple[Mapping[str, Any], ...]
+    """What it is made of, in order: a table, a ramp, a hold, or phases; as a file writes it."""
+    measures: str
+    """What its values measure, where amounts were given: "length" or "angle"; else ""."""
+
+    def __init__(self, times: npt.ArrayLike, values: npt.ArrayLike, kind: str = "smooth") -> None:
+        one_word("kind", kind, KINDS)
+        for each in amounts_in(times):
+            require_measure(each, "time", "Course: times")
+        found, rows = column("times", times, "Course"), column("values", values, "Course")
+        check_rising("Course: time", found)
+        require(len(rows) == len(found) > 1, "Course: values", values, f"one for each of {len(found)} instants is expected, two at least")
+        measures = {each.measures for each in amounts_in(values)}
+        self._hold([{"times": tuple(found.tolist()), "values": tuple(rows.tolist()), "kind": kind}], measures.pop() if measures else "")
+
+    @classmethod
+    def of_phases(cls, times: npt.ArrayLike, phases: npt.ArrayLike, end: float | None = None, measures: str = "") -> Self:
+        """Return the course of given polynomials.
+
+        Parameters
+        ----------
+        times : array_like
+            The instants at which they meet [s], shape (n + 1,), rising.
+        phases : array_like
+            Their coefficients by powers of the time since each begins, shape (k, n).
+        end : float, optional
+            The value at the end, where it is known better than by the last of them.
+        measures : str
+            "length" or "angle", where that is known.
+        """
+        found, rows = column("times", times, "Course"), np.atleast_2d(np.array(phases, float))
+        check_rising("Course: time", found)
+        fits = rows.shape[1:] == (len(found) - 1,) and bool(np.isfinite(rows).all())
+        require(fits, "Course: phases", phases, f"rows of {len(found) - 1} finite numbers are expected, one row for each power")
+        step = {"times": tuple(found.tolist()), "phases": tuple(map(tuple, rows.tolist()))}
+        return cls.of_steps([step | ({} if end is None else {"end": float(end)})], measures)
+
+    @classmethod
+    def of_steps(cls, steps: Sequence[Mapping[str, Any]], measures: str = "") -> Self:
+        """Return what is made of steps in their order; DefinitionError where the value jumps from one to the next."""
+        found = cls.__new__(cls)
+        found._hold(steps, measures)
+        return found
+
+    def _hold(self, steps: Sequence[Mapping[str, Any]], measures: str) -> None:
+        breaks, phases, last = np.zeros(0), list[FloatArray](), 0.0
+        for step in steps:
+            times, rows, end = phases_of(step, last)
+            if breaks.size:
+                check_jump(last, float(rows[0, 0]), max(map(abs, (last, *rows[0], end))), measures)
+                times = times - times[0] + breaks[-1]
+            breaks = np.concatenate([breaks, times[1:] if breaks.size else times])
+            phases.append(rows)
+            last = end
+        powers = max(map(len, phases))
+        whole = np.concatenate([np.pad(rows, ((0, powers - len(rows)), (0, 0))) for rows in phases], axis=1)
+        held = {"breaks": read_only(breaks), "_phases": read_only(whole), "_last": last}
+        self.__dict__.update(held, steps=tuple(FrozenDict({key: own(value) for key, value in step.items()}) for step in steps))
+        self.__dict__["measures"] = measures
+
+    @property
+    def duration(self) -> float:
+        """How long it takes [s]."""
+        return float(self.breaks[-1] - self.breaks[0])
+
+    @property
+    def key(self) -> bytes:
+        """What tells it from courses that go otherwise."""
+        return self.breaks.tobytes() + self._phases.tobytes()
+
+    def __call__(self, x: npt.ArrayLike, order: int = 0, *, phase: npt.ArrayLike | None = None) -> Any:
+        """Return the value at instants, or a derivative by time.
+
+        Parameters
+        ----------
+        x : array_like
+            Instants [s], of any shape.
+        order : int
+            0 is the value [m or rad], 1 the rate, 2 the acceleration, and so on.
+        phase : array_like, optional
+            An instant within the phase that counts at each x, where that is a break.
+
+        Returns
+        -------
+        array of float
+            Shaped as x; a float for one instant.
+        """
+        time = np.asarray(x, float)
+        within = time if phase is None else np.asarray(phase, float)
+        begin, end = self.breaks[[0, -1]]
+        number = np.clip(np.searchsorted(self.breaks, within, side="right") - 1, 0, len(self.breaks) - 2)
+        rows = self._phases
+        for _ in range(order):
+            rows = rows[1:] * np.arange(1, len(rows))[:, None] if len(rows) > 1 else np.zeros_like(rows)
+        away = np.clip(time, begin, end) - self.breaks[number]
+        total, size = np.zeros(np.shape(away)), np.zeros(np.shape(away))
+        for row in rows[::-1, number]:
+            total, size = total * away + row, size * np.abs(away) + np.abs(row)
+        if order:
+            total = np.where((within < begin) | (within > end) | (np.abs(total) <= NOISE * size), 0.0, total)
+        else:
+            total = np.where(time >= end, self._last, total)
+        return float(total) if total.ndim == 0 else total
+
+    def jumps(self, order: int) -> tuple[float, ...]:
+        """Return the instants [s] between its ends at which a derivative of that order jumps: 1 for the rate, 2 for the acceleration."""
+        inner, middle = self.breaks[1:-1], 0.5 * (self.breaks[1:] + self.breaks[:-1])
+        before, after = (np.asarray(self(inner, order, phase=each)) for each in (middle[:-1], middle[1:]))
+        size = np.max(np.abs(self(np.linspace(*self.breaks[[0, -1]], 4 * len(self.breaks)), order)), initial=0.0)
+        size = max(float(size), float(np.max(np.abs(before), initial=0.0)), float(np.max(np.abs(after), initial=0.0)))
+        return tuple(inner[np.abs(after - before) > JUMP * size].tolist())
+
+    # -- courses made of courses -------------------------------------------------------------------------
+
+    def hold(self, seconds: float) -> Course:
+        """Return this, and then its last value for so many seconds."""
+        for each in amounts_in(seconds):
+            require_measure(each, "time", "hold")
+        require_number("hold", seconds, "a number of seconds above zero is expected", above=0.0)
+        return Course.of_steps([*self.steps, {"hold": float(seconds)}], self.measures)
+
+    def then(self, course: Course) -> Course:
+        """Return this, and behind its end another; DefinitionError where the value jumps there."""
+        require(isinstance(course, Course), "then", course, "a course is expected, such as then(ramp(0.3, 0.1, speed=0.1))")
+        return Course.of_steps([*self.steps, *course.steps], self.measures or course.measures)
+
+    def part(self, begin: float, end: float) -> Course:
+        """Return what it is from one instant to another [s], which it keeps; DefinitionError beyond its ends."""
+        first, last = self.breaks[[0, -1]].tolist()
+        fits = is_number(begin) and is_number(end) and first <= begin < end <= last
+        require(fits, "part", (begin, end), f"two instants from {first:.6g} to {last:.6g} s are expected, the earlier one first")
+        number = int(np.clip(np.searchsorted(self.breaks, begin, side="right") - 1, 0, len(self.breaks) - 2))
+        stop = int(np.searchsorted(self.breaks, end, side="left"))
+        times = np.concatenate([[begin], self.breaks[number + 1 : stop], [end]])
+        rows, away = np.array(self._phases[:, number:stop]), float(begin - self.breaks[number])
+        known = rows[:, 0].copy()
+        rows[:, 0] = [sum(comb(j, k) * known[j] * away ** (j - k) for j in range(k, len(known))) for k in range(len(known))]
+        return Course.of_phases(times, rows, self(end), self.measures)
+
+    def __neg__(self) -> Course:
+        return Course.of_phases(self.breaks, -self._phases, -self._last, self.measures)
+
+    def __add__(self, number: float) -> Course:
+        if not is_number(number):
+            return NotImplemented
+        rows = np.array(self._phases)
+        rows[0] += number
+        return Course.of_phases(self.breaks, rows, self._last + number, self.measures)
+
+    __radd__ = __add__
+
+    def __sub__(self, number: float) -> Course:
+        return self + -number if is_number(number) else NotImplemented
+
+    def __str__(self) -> str:
+        text = ""
+        for number, step in enumerate(self.steps):
+            if "hold" in step:
+                text += f".hold({step['hold']!r})"
+                continue
+            if "ramp" in step:
+                own_text = f"ramp({', '.join([*map(repr, step['ramp']), *(f'{key}={step[key]!r}' for key in step if key != 'ramp')])})"
+            elif "phases" in step:
+                end = f", {step['end']!r}" if "end" in step else ""
+                own_text = f"Course.of_phases({[*step['times']]!r}, {[*map(list, step['phases'])]!r}{end})"
+            else:
+                kind = "" if step["kind"] == KINDS[0] else f", kind={step['kind']!r}"
+                own_text = f"Course({[*step['times']]!r}, {[*step['values']]!r}{kind})"
+            text += f".then({own_text})" if number else own_text
+        return text
+
+    __repr__ = __str__
+
+
+def ramp(a: float, b: float, *, speed: float, acceleration: float | None = None, jerk: float | None = None) -> Course:
+    """Return the quickest way from one value to another within limits, from rest to rest.
+
+    Parameters
+    ----------
+    a, b : float
+        From where to where [m or rad].
+    speed : float
+        The greatest rate [1/s of these]. Alone it holds all the way, and the rate jumps at both ends.
+    acceleration : float, optional
+        The greatest acceleration [1/s2]: it speeds up, goes on and brakes; where the way is too short it never reaches the speed.
+    jerk : float, optional
+        How quickly the acceleration may change [1/s3]: seven phases, of which those fall away for which the way is too short.
+
+    Returns
+    -------
+    Course
+        It begins at 0 s.
+
+    Raises
+    ------
+    DefinitionError
+        A limit that is no number above zero, a jerk without an acceleration, two ends that are one.
+    """
+    for name, value in (("ramp(a", a), ("ramp(b", b)):
+        require_number(name, value, "a finite number is expected")
+    limits = {"speed": speed, "acceleration": acceleration, "jerk": jerk}
+    for name, value in limits.items():
+        if value is not None or name == "speed":
+            require_number(f"ramp({name}", value, "a finite number above zero is expected", above=0.0)
+    if a == b:
+        raise DefinitionError(f"ramp({cited(a)}, {cited(b)}): nothing moves; give the stroke that number, or hold(...) behind a course.")
+    require(jerk is None or acceleration is not None, "ramp(jerk", jerk, "it limits an acceleration; give acceleration= too")
+    measures = next((each.measures for each in amounts_in([a, b])), "")
+    given = {name: float(value) for name, value in limits.items() if value is not None}
+    return Course.of_steps([{"ramp": (float(a), float(b)), **given}], measures)
+
+
+def course_of(given: Course | Curve | float, begin: float, end: float) -> Course:
+    """Return what a stroke is given over a path in time as a course: a number stands still, a periodic curve goes on over the path."""
+    if isinstance(given, Course):
+        return given
+    if not isinstance(given, Curve):
+        return Course.of_phases([begin, end], [[float(given)]])
+    first, period, rows = float(given.xs[0]), given.period, given.pieces
+    turns = np.zeros(1) if period is None else np.arange(np.floor((begin - first) / period), np.ceil((end - first) / period))
+    starts = np.concatenate([given.xs[:-1] + turn * (period or 0.0) for turn in turns])
+    last = float(given.xs[-1] + turns[-1] * (period or 0.0))
+    return Course.of_phases([*starts, last], np.tile(rows, len(turns)), float(given.ys[-1]))
+
+
+# Steps as polynomials.
+
+
+def phases_of(step: Mapping[str, Any], last: float) -> Phases:
+    """Return the phases of a step; `last` is the value at which it begins where it does not say that itself."""
+    if "hold" in step:
+        return np.array([0.0, step["hold"]]), np.array([[last]]), last
+    if "ramp" in step:
+        return ramp_phases(*step["ramp"], *(step.get(key) for key in ("speed", "acceleration", "jerk")))
+    times = np.array(step["times"])
+    if "phases" in step:
+        rows = np.array(step["phases"])
+        return times, rows, step.get("end", float(np.polynomial.polynomial.polyval(times[-1] - times[-2], rows[:, -1])))
+    values = np.array(step["values"])
+    if step["kind"] == "monotone" and len(times) > 2:
+        from scipy.interpolate import PchipInterpolator
+
+        rows = PchipInterpolator(times, values).c[::-1]
+    elif step["kind"] == "smooth" and len(times) > 2:
+        rows = Curve(times, values).pieces
+    else:
+        rows = np.array([values[:-1], np.diff(values) / np.diff(times)])
+    return times, rows, float(values[-1])
+
+
+def ramp_phases(a: float, b: float, speed: float, most: float | None, jerk: float | None) -> Phases:
+    """Return the phases of a ramp within a speed, an acceleration and a jerk."""
+    way, sense = abs(b - a), 1.0 if b > a else -1.0
+    if most is None:
+        return np.array([0.0, way / speed]), np.array([[a], [sense * speed]]), b
+    if jerk is None:
+        speed = min(speed, sqrt(way * most))
+        lengths, jerks = [speed / most, way / speed - speed / most, speed / most], [0.0, 0.0, 0.0]
+        begins = [sense * most, 0.0, -sense * most]
+    else:
+        rise = most / jerk
+        quickest = 0.5 * most * (sqrt(rise * rise + 4.0 * way / most) - rise)
+        if quickest < most * rise:  # the way is too short for the acceleration
+            quickest = (0.25 * way * way * jerk) ** (1.0 / 3.0)
+        speed = min(speed, quickest)
+        rise = min(rise, sqrt(speed / jerk))
+        level = speed / (jerk * rise) - rise
+        onward = way / speed - 2.0 * rise - level
+        lengths, jerks = [rise, level, rise, onward, rise, level, rise], [jerk, 0.0, -jerk, 0.0, -jerk, 0.0, jerk]
+        begins = [0.0, jerk * rise, jerk * rise, 0.0, 0.0, -jerk * rise, -jerk * rise]
+        jerks, begins = [sense * each for each in jerks], [sense * each for each in begins]
+    kept = [k for k, length in enumerate(lengths) if length > 1e-12 * sum(lengths)]
+    times, rows, value, rate = [0.0], list[list[float]](), a, 0.0
+    for k in kept:
+        length, bend, third = lengths[k], begins[k], jerks[k]
+        rows.append([value, rate, bend / 2.0, third / 6.0])
+        value += length * (rate + length * (bend / 2.0 + length * third / 6.0))
+        rate += length * (bend + length * third / 2.0)
+        times.append(times[-1] + length)
+    return np.array(times), np.array(rows).T, b
+
+
+def check_rising(what: str, times: FloatArray) -> None:
+    """Raise DefinitionError for instants that do not rise, with the row."""
+    for row, (before, after) in enumerate(pairwise(times.tolist()), start=2):
+        if after <= before:
+            raise DefinitionError(f"{what} must rise from row to row: in row {row} {after:.6g} s follows {before:.6g} s.")
+
+
+def check_jump(before: float, after: float, size: float, measures: str) -> None:
+    """Raise DefinitionError where a course ends at another value than that at which the next one begins."""
+    if abs(after - before) > JUMP * size:
+        unit, off = ("rad", display_unit("angle")) if measures == "angle" else ("m", "mm")
+        apart = show(Amount(abs(after - before), measures), off, 4)
+        words = f"ends at {before:.3f} {unit}, goes on at {after:.3f} {unit}: {apart} apart"
+        raise DefinitionError(f"Course.then: {words}; let the next course begin where this one ends, or put a ramp between them.")

@@ -1,0 +1,171 @@
+"""Motions in time: instants, rates, accelerations, friction as it runs, extremes on both sides of a break, readers, refusals."""
+
+import pickle
+import re
+
+import numpy as np
+import pytest
+
+from linkage import (
+    Course,
+    Curve,
+    DefinitionError,
+    Force,
+    Guide,
+    GuideFriction,
+    Mechanism,
+    OnGuide,
+    Over,
+    Stroke,
+    drive_force,
+    least,
+    most,
+    pin_forces,
+    ramp,
+    x,
+    y,
+)
+from linkage.loads import Acting, Damper
+from linkage.units import deg
+from tests.linkage.motion.test_swept import Lever
+
+
+class Blocks(Mechanism):
+    """Two blocks on guides, each pulled back by 1000 N and pressed down by 5000 N: friction of 500 N, the way it goes."""
+
+    a, b = Stroke(0.0, 1.0), Stroke(0.0, 1.0)
+    low, high = Guide((0, 0), angle=0.0), Guide((0, 1), angle=0.0)
+    A, B = OnGuide(low, at=a), OnGuide(high, at=b)
+    pull_a, pull_b = Force(A, (-1000.0, -5000.0)), Force(B, (-1000.0, -5000.0))
+    rub_a, rub_b = GuideFriction(A, 0.1), GuideFriction(B, 0.1)
+    there = Over.path(a=ramp(0.1, 0.6, speed=0.5, acceleration=1.0).hold(0.5).then(ramp(0.6, 0.2, speed=0.8)), b=0.3)
+    twice = Over.path(a=ramp(0.1, 0.6, speed=1.0, acceleration=4.0).hold(0.25).then(ramp(0.6, 0.2, speed=1.6)), b=0.3)
+    legs = Over.path(time=[0, 1, 3, 4], a=[0.1, 0.4, 0.4, 0.2], b=[0.2, 0.2, 0.6, 0.6])
+    plain = Over.path(a=[0.1, 0.4, 0.4, 0.2], b=[0.2, 0.2, 0.6, 0.6])
+
+
+class DampedLever(Lever):
+    """The lever with a damper in its cylinder's place, one way of its own course as quick as it likes."""
+
+    slow = Damper("A", "B", 2000.0)
+    up = Over.path(S=ramp(0.02, 0.18, speed=0.1, acceleration=0.5))
+    quick = Over.path(S=ramp(0.02, 0.18, speed=0.2, acceleration=2.0))
+
+
+def test_a_motion_in_time_has_instants_and_exact_rates():
+    motion = Blocks().sweep(401, over="there")
+    course = Blocks.plan.members["there"].strokes["a"]
+    assert motion.time == pytest.approx(np.linspace(0.0, course.duration, 401), abs=1e-15) and motion.over is Blocks.plan.members["there"]
+    assert motion.strokes["a"].tolist() == course(motion.time).tolist() and set(motion.rates) == set(motion.accelerations) == {"a", "b"}
+    assert motion.rates["a"][1:-1] == pytest.approx(course(motion.time, 1)[1:-1]) and not motion.rates["b"].any()
+    assert motion.velocity("A")[0] == pytest.approx(motion.rates["a"]) and motion.acceleration("A")[0] == pytest.approx(
+        motion.accelerations["a"]
+    )
+    assert motion.acceleration("A", rates=motion.rates).any() is np.False_  # given rates win, and without accelerations these are 0
+    assert Blocks().sweep(11, over="plain").time is None and Blocks().sweep(11, over="plain").rates == {}
+    with pytest.raises(DefinitionError, match=r"give rates=dict\(a=0.05\)"):
+        Blocks().sweep(11, over="plain").velocity("A")
+
+
+def test_a_pose_at_an_instant_is_that_of_its_strokes_bit_for_bit():
+    lever, motion = DampedLever(), DampedLever().sweep(37, over="up")
+    for k in (0, 5, 18, 36):
+        pose = lever.at(S=motion.strokes["S"][[k]])
+        assert pose["G"][:, 0].tolist() == motion["G"][:, k].tolist()
+
+
+def test_friction_goes_as_it_runs_and_stands_where_nothing_moves():
+    motion = Blocks().sweep(4001, over="there")
+    rate, force = motion.rates["a"], drive_force("a").of(motion)
+    assert force == pytest.approx(1000.0 + 500.0 * np.sign(rate)) and 0.0 in np.sign(rate)
+    forces = pin_forces(motion)
+    assert forces.direction == "as it runs" and forces.drives["a"] == pytest.approx(force)
+    assert drive_force("a", acting=Acting(direction="frictionless")).of(motion) == pytest.approx(1000.0 + 0.0 * rate)
+    for ask in (
+        lambda: pin_forces(motion, direction="extending"),
+        lambda: drive_force("a", acting=Acting(direction="retracting")).of(motion),
+    ):
+        with pytest.raises(DefinitionError, match="moves one way, as it runs; leave the direction out"):
+            ask()
+    with pytest.raises(DefinitionError, match="as it runs"):
+        Blocks().answers([most(drive_force("a"))], over="there", acting=Acting(direction="extending"))
+
+
+def test_both_sides_of_a_break_are_judged():
+    """It goes on at 0.5 m/s and holds; at the break the hold counts for one, what comes before it for the other."""
+    high, low = Blocks().answers([most(drive_force("a")), least(drive_force("a"))], over="there")
+    assert (high.value, low.value) == pytest.approx((1500.0, 500.0)) and high.direction == ""
+    assert str(low).startswith("0.5 kN at 2 s (a = 600.0 mm, b = 300.0 mm)")
+    straight = Blocks().answers([most(drive_force("b")), least(drive_force("a"))], over="legs")
+    assert [each.value for each in straight] == pytest.approx([1500.0, 500.0])
+    assert [each.time for each in straight] == pytest.approx([1.0, 3.0])
+
+
+def test_the_same_strokes_twice_as_fast_have_other_extremes_in_one_process():
+    lever = DampedLever()
+    force = [lever.answers([most(drive_force("S"))], over=each)[0] for each in ("up", "quick", "up")]
+    damped = [each.sweep(2001, over=name) for each, name in ((lever, "up"), (lever, "quick"))]
+    direct = [float(np.max(drive_force("S").of(each))) for each in damped]
+    assert [each.value for each in force[:2]] == pytest.approx(direct, rel=1e-6) and force[2].value == force[0].value
+    assert direct[1] > direct[0] + 100.0
+
+
+def test_answers_do_not_depend_on_the_number_of_instants():
+    for name in ("there", "legs"):
+        found = [Blocks().sweep(count, over=name) for count in (2, 7, 401)]
+        each_of = [Blocks().judge(motion).answers([most(x("A")), most(drive_force("a"))]) for motion in found]
+        assert len({tuple((one.value, one.time) for one in answers) for answers in each_of}) == 1
+
+
+def test_time_stretched_by_k_scales_rates_and_accelerations():
+    fast, slow = (Blocks().sweep(101, over=name) for name in ("twice", "there"))
+    assert fast.time == pytest.approx(slow.time / 2.0) and fast.strokes["a"] == pytest.approx(slow.strokes["a"])
+    near = np.abs(slow.time[:, None] - Blocks.plan.members["there"].strokes["a"].breaks).min(axis=1) > 1e-9
+    assert fast.velocity("A")[:, near] == pytest.approx(2.0 * slow.velocity("A")[:, near], abs=1e-12)
+    assert fast.acceleration("A")[:, near] == pytest.approx(4.0 * slow.acceleration("A")[:, near], abs=1e-12)
+
+
+def test_a_course_put_together_of_its_parts_changes_no_answer():
+    course = Course([0.0, 1.0, 2.5, 4.0], [0.02, 0.15, 0.05, 0.18])
+    questions = [most(y("G")), least(y("G")), most(drive_force("S")), least(drive_force("S"))]
+    whole = DampedLever().answers(questions, over=Over.path(S=course))
+    for cut in (0.3, 1.0, 3.3):
+        split = DampedLever().answers(questions, over=Over.path(S=course.part(0.0, cut).then(course.part(cut, 4.0))))
+        assert [each.value for each in split] == pytest.approx([each.value for each in whole], rel=1e-12)
+
+
+def test_a_course_that_ends_before_the_others_holds_its_last_value():
+    motion = Blocks().sweep(41, over=Over.path(a=ramp(0.1, 0.3, speed=0.1), b=ramp(0.1, 0.5, speed=0.1)))
+    assert (
+        motion.time[-1] == 4.0
+        and motion.strokes["a"][30] == 0.3
+        and motion.rates["a"][30] == 0.0
+        and motion.rates["b"][30] == pytest.approx(0.1)
+    )
+
+
+def test_a_motion_in_time_is_pickled_and_moved():
+    motion = Blocks().sweep(21, over="legs")
+    again = pickle.loads(pickle.dumps(motion))
+    assert again.time.tolist() == motion.time.tolist() and again.rates["b"].tolist() == motion.rates["b"].tolist()
+    assert motion.moved(motion.strokes).time is None and "time = 0 to 4 s" in repr(motion)
+
+
+def test_what_is_no_path_in_time_is_refused_in_words():
+    for make, words in [
+        (lambda: Over.path(time=(0, 2), a=[0.1, 0.2, 0.3], b=0.1), "3 values beside the begin and the end of a path"),
+        (lambda: Over.path(time=[0, 2, 2], a=[0.1, 0.2, 0.3], b=0.1), "in row 3 2 s follows 2 s"),
+        (lambda: Over.path(time=[0, 2, 3, 4], a=[0.1, 0.2, 0.3], b=0.1), "time has 4 instants and a 3 values"),
+        (lambda: Over.path(a=ramp(0.1, 0.2, speed=0.1), b=[0.1, 0.2]), "each value has an instant"),
+        (lambda: Over.path(time=3.0, a=0.1, b=0.1), "instants in seconds are expected"),
+        (lambda: Over.path(time=[0, 10 * deg], a=0.1, b=0.1), "was given as an angle"),
+        (lambda: Over.path(time=(0, 10), a=Curve([0, 2, 4], [0.1, 0.2, 0.1], period=4), b=0.1), "a period of 4 s, and the path lasts 10 s"),
+        (lambda: Over(time=(0, 2), a=(0.1, 0.2)), "time is that of a path"),
+        (lambda: Over.poses(time=[0, 2], a=[0.1, 0.2], b=0.1), "time is that of a path"),
+        (lambda: Over(a=ramp(0.1, 0.2, speed=0.1)), "Over(a="),
+        (lambda: Blocks().sweep(over=Over.path(a=ramp(0.0, 20 * deg, speed=0.1), b=0.1)), "given as an angle"),
+        (lambda: Blocks().sweep(over=Over.path(a=ramp(0.0, 0.2, speed=0.1))), "where b stand"),
+        (lambda: type("Timed", (Mechanism,), {"time": Stroke(0.0, 1.0)}), "cannot be named time"),
+    ]:
+        with pytest.raises(DefinitionError, match=re.escape(words)):
+            make()

@@ -284,7 +284,8 @@ def poses_held(motion: Motion, applied: AppliedLoads, what: str) -> FlatPoses:
 
 def member_rates(motion: AnyMotion, member: TwoPoint, acting: Acting, line: PressureLine | None) -> Rates:
     """Return how strokes move while a member grows or shrinks: along the path, else by the stroke it holds or follows most."""
-    direction, sense, still = acting.movement, SENSES[acting.movement], replace(acting, direction=None if SENSES[acting.movement] else acting.direction, drive=None)
+    direction, sense = acting.movement, SENSES[acting.movement]
+    still = replace(acting, direction=None if sense else acting.direction, drive=None)
     moves = rates_in(motion, still)
     if not sense:
         return moves

@@ -33,6 +33,6 @@ html_extra_path = ["_generated/extra"]
 (HERE / "_generated" / "extra").mkdir(parents=True, exist_ok=True)  # Sphinx looks for it before the pages are made
 html_static_path = ["static"]
 html_css_files = ["pages.css"]
-html_search_scorer = str(HERE / "made" / "scorer.js")
+html_search_scorer = str(HERE / "_generated" / "scorer.js")
 html_theme_options = {"navigation_with_keys": True}
 linkcheck_ignore = [r"http://localhost.*"]

@@ -8,7 +8,6 @@ from __future__ import annotations
 import json
 import os
 import shutil
-from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 from pathlib import Path
@@ -42,36 +41,35 @@ def make_all(folder: Path) -> None:
     shutil.rmtree(folder, ignore_errors=True)
     for name in ("machines", "figures", "api", "images", "extra/live", "extra/thumbs"):
         (folder / name).mkdir(parents=True)
-    entries = machines.registered()
-    gallery.make(entries, folder)
     commands.make(folder / "commands.md")
     api.make(folder / "api")
+    pages = written_pages()
+    searches.make(pages, folder)
     with ProcessPoolExecutor(os.cpu_count(), mp_context=get_context("spawn")) as pool:
         waiting = [pool.submit(drawn.draw_all, name, folder / "images") for name in drawn.MAKERS]
         waiting.append(pool.submit(notebook.make, HERE / "notebook.ipynb", folder / "notebook.md"))
-        waiting += [pool.submit(machines.make, name, folder) for name in entries]
-        shown = {page: pool.submit(examples.make, page, HERE, folder) for page in drawing_pages()}
+        tiles = {name: pool.submit(machines.make, name, folder) for name in machines.registered()}
+        shown = {page: pool.submit(examples.make, page, HERE, folder) for page, text in pages.items() if examples.shows(text)}
         for each in waiting:
             each.result()
+        gallery.make({name: each.result() for name, each in tiles.items()}, folder)
         found = {page: each.result() for page, each in shown.items()}
     (folder / "examples.json").write_text(json.dumps(found, indent=1), encoding="utf-8")
 
 
-def drawing_pages() -> Iterator[str]:
-    """Yield the pages, by their names without .md, whose examples draw or write something."""
-    for path in sorted([*HERE.glob("*.md"), *HERE.glob("howto/*.md")]):
-        if examples.shows(path.read_text(encoding="utf-8")):
-            yield path.relative_to(HERE).with_suffix("").as_posix()
+def written_pages() -> dict[str, str]:
+    """Return the texts of the pages that are written by hand, by their names without .md."""
+    paths = sorted([*HERE.glob("*.md"), *HERE.glob("howto/*.md")])
+    return {path.relative_to(HERE).with_suffix("").as_posix(): path.read_text(encoding="utf-8") for path in paths}
 
 
 def show_examples(app: Any, page: str, source: list[str]) -> None:
-    """Put behind each block of examples what it drew, its words behind the title, and pictures of this build for those that are kept."""
+    """Put behind each block of examples what it drew, and pictures of this build for those that are kept."""
     found = json.loads((GENERATED / "examples.json").read_text(encoding="utf-8"))
-    text = examples.with_results(source[0], found.get(page, {}))
+    source[0] = examples.with_results(source[0], found.get(page, {}))
     if "/" not in page:
         made = {path.name for path in (GENERATED / "images").iterdir()}
-        text = drawn.IMAGE.sub(lambda each: f"](/_generated/images/{each[1]})" if each[1] in made else each[0], text)
-    source[0] = searches.indexed(page, text)
+        source[0] = drawn.IMAGE.sub(lambda each: f"](/_generated/images/{each[1]})" if each[1] in made else each[0], source[0])
 
 
 def put_paths(app: Any, page: str, template: str, context: dict[str, Any], doctree: Any) -> None:

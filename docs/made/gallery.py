@@ -4,10 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from html import escape
-from importlib.metadata import EntryPoint
 from pathlib import Path
-
-from .machines import doc, title
 
 GROUPS = {
     "Machines at work": (
@@ -49,17 +46,16 @@ def groups(names: Iterable[str]) -> dict[str, list[str]]:
     return {group: each for group, each in found.items() if each}
 
 
-def make(entries: Mapping[str, EntryPoint], folder: Path) -> None:
-    """Write the gallery and the list."""
-    found = groups(entries)
-    machines = {name: entry.load()() for name, entry in entries.items()}
+def make(titles: Mapping[str, tuple[str, str]], folder: Path) -> None:
+    """Write the gallery and the list, from each machine's title and the first line of what it says of itself."""
+    found = groups(titles)
     tiles, listed = [], ["# Machines\n", "Each page is made from the machine's own code when these pages are built.\n"]
     for group, names in found.items():
         tiles.append(f'<p class="gallery-group"><strong>{escape(group)}</strong></p>\n<div class="gallery">')
-        tiles += [tile(name, title(machines[name])) for name in names]
+        tiles += [tile(name, titles[name][0]) for name in names]
         tiles.append("</div>\n")
         listed.append(f"\n## {group}\n")
-        listed += [f"* {{doc}}`{title(machines[name])} </_generated/machines/{name}>`: {first_line(doc(machines[name]))}" for name in names]
+        listed += [f"* {{doc}}`{titles[name][0]} </_generated/machines/{name}>`: {titles[name][1]}" for name in names]
     toctree = "\n".join(f"/_generated/machines/{name}" for names in found.values() for name in names)
     listed.append(f"\n```{{toctree}}\n:hidden:\n\n{toctree}\n```\n")
     (folder / "gallery.md").write_text("\n".join(tiles), encoding="utf-8")
@@ -70,10 +66,3 @@ def tile(name: str, heading: str) -> str:
     """Return a machine's tile: its picture opens its live page, its name its own page."""
     picture = f'<a href="@live/{name}.html"><img src="@thumbs/{name}.png" alt="{escape(heading)}, live"></a>'
     return f'<figure>{picture}<figcaption><a href="@machines/{name}.html">{escape(heading)}</a></figcaption></figure>'
-
-
-def first_line(text: str) -> str:
-    """Return the first line of a docstring, as Markdown."""
-    from .machines import as_markdown
-
-    return as_markdown(text.partition("\n")[0])

@@ -53,8 +53,8 @@ def doc(machine: Mechanism) -> str:
     return inspect.cleandoc(type(machine).__doc__ or "")
 
 
-def make(name: str, folder: Path) -> None:
-    """Write a machine's page, its pictures and its live page into a folder."""
+def make(name: str, folder: Path) -> tuple[str, str]:
+    """Write a machine's page, its pictures and its live page into a folder; return its title and the first line of its page."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         machine = registered()[name].load()()
@@ -63,6 +63,7 @@ def make(name: str, folder: Path) -> None:
         thumb(machine).savefig(folder / "extra" / "thumbs" / f"{name}.png")
         page(machine, folder / "extra" / "live" / f"{name}.html")
         (folder / "machines" / f"{name}.md").write_text(text(name, machine), encoding="utf-8")
+        return title(machine), as_markdown(doc(machine).partition("\n")[0])
 
 
 def thumb(machine: Mechanism) -> Figure:
@@ -136,7 +137,7 @@ def told(machine: Mechanism) -> Iterator[str]:
     except LinkageError as error:
         limits = wrapped(str(error))
     yield f"## Limits\n\nWhat `print(motion.limits())` says:\n\n```text\n{limits}\n```\n"
-    verdicts = machine.verdicts(motion)
+    verdicts = machine.verdicts()
     if verdicts:
         yield f"## Verdicts\n\n{verdict_list(verdicts)}\n"
     yield from equation_lines(machine)

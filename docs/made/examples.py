@@ -1,7 +1,8 @@
-"""What the examples of a page draw or write: run once more, as the tests run them, and shown behind their block."""
+"""What the examples of a page draw or write, shown behind their block; of the others those alone are run that a picture needs."""
 
 from __future__ import annotations
 
+import ast
 import contextlib
 import doctest
 import io
@@ -47,16 +48,10 @@ def results(text: str) -> Iterator[tuple[int, Any]]:
         try:
             os.chdir(scratch)
             sys.displayhook = given.append
-            for example in doctest.DocTestParser().get_examples(text):
-                if example.options.get(doctest.SKIP):
-                    continue
+            for example in needed(doctest.DocTestParser().get_examples(text)):
                 given.clear()
                 with contextlib.redirect_stdout(io.StringIO()):
-                    if example.exc_msg is None:
-                        exec(compile(example.source, "<page>", "single"), names)
-                    else:
-                        with contextlib.suppress(Exception):
-                            exec(compile(example.source, "<page>", "single"), names)
+                    exec(compile(example.source, "<page>", "single"), names)
                 for each in given:
                     if isinstance(each, Figure):
                         yield example.lineno, each
@@ -65,6 +60,30 @@ def results(text: str) -> Iterator[tuple[int, Any]]:
         finally:
             sys.displayhook = hook
             os.chdir(home)
+
+
+def needed(examples: list[doctest.Example]) -> list[doctest.Example]:
+    """Return the examples that show something or act, and those that set what these use; what only prints is left to the tests."""
+    found: list[doctest.Example] = []
+    used: set[str] = set()
+    for example in reversed([each for each in examples if not each.options.get(doctest.SKIP)]):
+        body = ast.parse(example.source).body
+        nodes = [node for statement in body for node in ast.walk(statement)]
+        names = [node for node in nodes if isinstance(node, ast.Name)]
+        loaded = {node.id for node in names if isinstance(node.ctx, ast.Load)}
+        sets = {node.id for node in names if not isinstance(node.ctx, ast.Load)}
+        sets |= {node.name for node in nodes if isinstance(node, ast.ClassDef | ast.FunctionDef)}
+        changed = {node.value.id for node in nodes if isinstance(node, ast.Subscript | ast.Attribute) and changes(node)}
+        acts = any(isinstance(node, ast.Import | ast.ImportFrom) for node in nodes) or not (example.want or sets)
+        if acts or shows(example.want) or used & (sets | changed):
+            found.append(example)
+            used |= loaded
+    return found[::-1]
+
+
+def changes(node: ast.Subscript | ast.Attribute) -> bool:
+    """Return whether a row or an attribute of a name is set there."""
+    return isinstance(node.ctx, ast.Store) and isinstance(node.value, ast.Name)
 
 
 def closing_fence(text: str, line: int) -> int:

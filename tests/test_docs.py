@@ -6,6 +6,7 @@ import re
 import subprocess
 import sys
 import threading
+import tomllib
 from functools import partial
 from html.parser import HTMLParser
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
@@ -65,6 +66,17 @@ def test_docstrings_and_what_is_said_are_short_too():
     said = [each.text for path, source in sources().items() for each in messages(path, source)]
     assert mean_length(*said) <= LONGEST_MEAN
     assert [each for each in said for count, _ in sentences(each) if count > LONGEST_MESSAGE] == []
+
+
+def test_what_holds_and_what_changed_is_read_in_one_sitting():
+    design, changes = ((ROOT / name).read_text(encoding="utf-8") for name in ("docs/design.md", "CHANGELOG.md"))
+    assert design.count("\n") <= 400 and len(design.encode()) <= 45_000
+    assert len(changes.encode()) <= 10_000
+
+
+def test_the_citation_has_the_version_of_the_package():
+    version = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["version"]
+    assert f"\nversion: {version}\n" in (ROOT / "CITATION.cff").read_text(encoding="utf-8")
 
 
 @for_all("page", PAGES, ids=lambda page: page.stem)

@@ -19,7 +19,7 @@ from ..motion import Column, Motion, Over, Request, columns_of, out_of_reach, st
 from ..plan import Plan, plan_measure
 from ..program import FloatArray
 from ..quantities import Dimension, Quantity, Stroke
-from ..reports import NOTHING, At, Run, force_columns, results, run_of, runs_of, stroke_middles
+from ..reports import NOTHING, At, Run, force_columns, motion_over, reached_motion, results, run_of, runs_of, stroke_middles
 from ..steps import Point
 from ..units import UNITS, parse, parse_span
 from ..verdict import Verdict
@@ -202,7 +202,7 @@ def motions_at(machine: Mechanism, options: Namespace) -> list[tuple[Run | None,
             steps = [(run, {run.stroke: stroke_steps(machine, run, options.count, every)}) for run in runs]
             return [(run, with_gaps(machine, {**run.held, **values})) for run, values in steps]
         ensure(every is None, f"--every {every}: steps are of one stroke, and the rows run along a path; give --count.")
-        return [(run, with_gaps(machine, run.divided(options.count) if run.is_curve else run.poses)) for run in runs]
+        return [(run, run_with_gaps(machine, run, options.count)) for run in runs]
     free = next((name for name in machine.strokes if name not in given), None)
     if free is None or any(len(values) > 1 for values in given.values()):
         ensure(every is None, f"--every {every}: no stroke runs from end to end here; leave it out, or hold the others, --at S=0.6.")
@@ -260,6 +260,15 @@ def with_gaps(machine: Mechanism, strokes: Mapping[str, Any]) -> Motion:
         return motion
 
 
+def run_with_gaps(machine: Mechanism, run: Run, count: int) -> Motion:
+    """Return the poses of a run, so many or a few more along its way; with gaps, of which one remark tells."""
+    if run.instants is None:
+        return with_gaps(machine, run.divided(count) if run.is_curve else run.poses)
+    motion = reached_motion(machine, motion_over(machine, run, np.linspace(0.0, 1.0, count)))
+    tell_gaps(motion)
+    return motion
+
+
 def tell_gaps(motion: Motion, error: AssemblyError | None = None) -> None:
     """Say in one remark where a motion cannot be assembled, what is missing there and the remedy; `error` is what says so."""
     if error is not None or not motion.reached.all():
@@ -269,7 +278,8 @@ def tell_gaps(motion: Motion, error: AssemblyError | None = None) -> None:
 
 def motion_along(machine: Mechanism, count: int, at: At = NOTHING) -> Motion:
     """Return the motion along one stroke or several together, the others held as `at` says, else in their middle; with gaps."""
-    return with_gaps(machine, run_of(machine, at).over(np.linspace(0.0, 1.0, count)))
+    run = run_of(machine, at)
+    return with_gaps(machine, run.over(np.linspace(0.0, 1.0, count))) if run.instants is None else run_with_gaps(machine, run, count)
 
 
 def strokes_given(machine: Mechanism, options: Namespace) -> dict[str, Any]:

@@ -18,7 +18,7 @@ from ..mechanism import Mechanism, require_mechanism
 from ..motion import Column, Judge, Motion, Request, Tabled, speakers, stroke_display_unit
 from ..motion.measures import MeasuredQuantity
 from ..quantities import Quantity
-from ..reports import At, Run, column_requests, is_column, results, runs_of
+from ..reports import At, Run, column_requests, is_column, motion_over, results, runs_of
 from ..reports.results import asked_by_name
 from ..statics import PinForces, drive_force, pin_forces, pin_forces_under
 from ..units import UNITS, show
@@ -110,7 +110,7 @@ class ReportSubject:
     def along(self, run: Run, count: int) -> Motion:
         """Return a run at so many poses, those apart as they are; NaN out of reach."""
         with unwarned():
-            return self.machine.at(unreachable="nan", **run.over(np.linspace(0.0, 1.0, count)))
+            return motion_over(self.machine, run, np.linspace(0.0, 1.0, count))
 
     @property
     def stroke(self) -> str:

@@ -85,7 +85,8 @@ class Exporter(ABC):
 
 def sheet_run(job: ExportJob) -> Run:
     """Return the run of a workbook: the machine's first, under its own loads, that goes from one value to another; else one stroke's."""
-    straight = [run for run in runs_of(job.machine, job.at) if run.is_curve and {*map(len, run.ways.values())} == {2} and run.case is None]
+    runs = [run for run in runs_of(job.machine, job.at) if run.is_curve and run.instants is None and run.case is None]
+    straight = [run for run in runs if {*map(len, run.ways.values())} == {2}]
     return straight[0] if straight else one_run(job.machine, job.at)
 
 

@@ -54,7 +54,7 @@ from .measures import (
 )
 from .motion import Motion
 from .over import ALLOWED, Over, Run, with_strokes
-from .requests import Request, SmoothPiece, Trait, identity_of
+from .requests import Request, SmoothPiece, Trait, identity_of, is_of_force
 from .search import assembly_error_at, extremum, least_margins, strokes_moved
 from .strokes import at_values, strokes_over_axes
 
@@ -262,7 +262,7 @@ class Domain:
         if not isinstance(request, Request):
             return [Situation()]
         movements = request.movements(self.plan, rubs(self.plan, self.motion, acting))
-        if not movements and request.under(Acting(case=PLAIN_CASE), keep=True) is request:
+        if not movements and not is_of_force(request):
             return [Situation()]
         directions = [acting.direction] if acting.direction is not None else [*movements] or [""]
         if self.instants is not None and acting.direction is None:  # as it runs
@@ -412,8 +412,8 @@ class Asked:
         self._bound: dict[int, Request] = {}
         self._rows: dict[int, Asked] = {}
         for k, row in enumerate(rows):
-            of_force = isinstance(row.request, Request) and row.request.under(Acting(case=PLAIN_CASE), keep=True) is not row.request
-            bound = None if of_force and place.instants is not None else traced(self.plan, row.request)  # forces follow the rates there
+            is_timed = place.instants is not None and is_of_force(row.request)  # forces follow the rates there
+            bound = None if is_timed else traced(self.plan, row.request)
             if bound is not None:
                 self._bound[k] = bound
 

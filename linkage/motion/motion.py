@@ -563,6 +563,13 @@ class Motion(Shown):
         with unwarned():
             return type(self)(self.plan, self.designs, dict(zip(self.strokes, arrays, strict=True)), "nan", per_design=own, joining=joining)
 
+    def _with_gaps(self) -> Motion:
+        """Return the same poses, NaN in the place of errors."""
+        if self._instants is None:
+            return self.moved(self.strokes)
+        with unwarned():
+            return Motion(self.plan, self.designs, self.strokes, "nan", over=self._over, instants=self._instants)
+
     # -- reach -------------------------------------------------------------------------------------------
 
     def _settle_unreached(self) -> None:

@@ -290,7 +290,8 @@ class Run:
     """The values that each moving stroke passes, as many each, and the values of those held [m or rad].
 
     `title` names the `Over` that it is of, `case` is the load case in which it is shown, None the machine's own loads. `apart` are poses
-    with nothing between them. `worst` names the column at whose worst place strokes are held.
+    with nothing between them. `worst` names the column at whose worst place strokes are held. Over a path in time, `declared`, the way is
+    passed as its `instants` say.
     """
 
     ways: Mapping[str, tuple[float, ...]]
@@ -299,6 +300,8 @@ class Run:
     case: Case = None
     apart: bool = False
     worst: str = ""
+    declared: Over | None = None
+    instants: Instants | None = None
 
     @property
     def stroke(self) -> str:
@@ -336,6 +339,8 @@ class Run:
 
         Of poses apart these are the poses.
         """
+        if self.instants is not None:
+            return self.instants.shares(shares).strokes
         if not self.is_curve:
             return dict(self.poses)
         passed = np.array(shares, float)
@@ -346,10 +351,12 @@ class Run:
     @property
     def is_path(self) -> bool:
         """Whether it is more than one stroke from end to end: several together, or one that passes other values on its way."""
-        return len(self.ways) > 1 or len(self.ways[self.stroke]) != 2
+        return self.instants is not None or len(self.ways) > 1 or len(self.ways[self.stroke]) != 2
 
     def divided(self, count: int) -> dict[str, Any]:
         """Return all strokes at so many poses or a few more: what is passed, and as many poses between any two of them."""
+        if self.instants is not None:
+            return self.instants.shares(np.linspace(0.0, 1.0, count)).strokes
         legs = len(self.ways[self.stroke]) - 1
         place = np.linspace(0.0, legs, legs * max(1, -(-(count - 1) // legs)) + 1)
         return {**self.held, **{name: np.interp(place, np.arange(legs + 1), way) for name, way in self.ways.items()}}

@@ -19,7 +19,7 @@ from weakref import ref
 import numpy as np
 
 from ..errors import DefinitionError, UntracedError, cited
-from ..loads import AS_IT_RUNS, DIRECTIONS, Acting
+from ..loads import AS_IT_RUNS, DIRECTIONS, PLAIN_CASE, Acting
 from ..pickling import object_of, picklable
 from ..plan import NEAR, REGULAR, ArrayReading, Mask, Plan
 from ..program import FloatArray, Kernel, Node, Notes, ancestors, gradient
@@ -256,6 +256,11 @@ def as_they_run(requests: Sequence[RequestLike], accelerated: bool) -> Sequence[
     if type(requests) not in (list, tuple):
         return requests
     return [each.under(acting) if isinstance(each, Request) else each for each in requests]
+
+
+def is_of_force(quantity: object) -> bool:
+    """Return whether something asked for follows the loads, so that it differs from load case to load case."""
+    return isinstance(quantity, Request) and quantity.under(Acting(case=PLAIN_CASE), keep=True) is not quantity
 
 
 def may_be_unlimited(quantity: object) -> bool:

@@ -106,10 +106,14 @@ class Column:
 
 
 def columns_of(motion: Motion) -> list[Column]:
-    """Return the strokes, the coordinates of the points that move, and the named outputs of a motion, a column each."""
+    """Return the strokes, the coordinates of the points that move, and the named outputs of a motion, a column each.
+
+    The first column of a motion in time is its instants.
+    """
     require_motion(motion)
     plan = motion.plan
-    table = [Column(name, value, stroke_display_unit(plan, name), request=name) for name, value in motion.strokes.items()]
+    table = [] if motion.time is None else [Column(noted("time"), np.broadcast_to(motion.time, motion.shape), "s")]
+    table += [Column(name, value, stroke_display_unit(plan, name), request=name) for name, value in motion.strokes.items()]
     for point in plan.moving:
         for axis, values in zip("xy", motion[point], strict=True):
             table.append(Column(f"{point}_{axis}", values, "m", request=Coordinate(point, axis)))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from functools import cached_property, partial
 from itertools import permutations
 from pathlib import Path
@@ -36,11 +37,11 @@ from ..plan import Plan, name_or_pins, opening, plan_measure, require_kind
 from ..plugins import MACHINES, entry_points
 from ..program import FloatArray, Node
 from ..quantities import is_number, joined_names
-from ..reports import NOTHING, At, LiveColumn, column_requests, is_changing, reached_motion, run_along, run_of
+from ..reports import NOTHING, At, LiveColumn, column_requests, is_changing, motion_over, reached_motion, run_along, run_of
 from ..statics import AnyMotion, JointForce, LawRequest, TracedMotion, applied_loads, ground_loads, pin_force, pin_forces
 from ..units import SYSTEMS, UNITS, deg, display_unit, factor, shown_in, unit_system
 from .browser_file import MACHINE, START, PageData, page_part, page_text
-from .browser_judge import LiveQuestions, rule_key
+from .browser_judge import PLACES, LiveQuestions, rule_key
 from .curves import check_poses, limit_of, typeset
 from .influence import influences
 from .labels import offsets
@@ -104,9 +105,13 @@ class PageRequests:
     ) -> None:
         self.machine, self.plan, self.along, self.over = machine, machine.plan, along, over
         self.run, self.first = (run_of(machine, at), 0) if along is None else run_along(along)
-        self.ends = self.run.ways[self.run.stroke]
+        run, steps = self.run, np.linspace(0.0, 1.0, PLACES)
+        if run.instants is not None:  # the page goes straight from place to place
+            self.run = run = replace(run, ways={name: tuple(run.over(steps)[name].tolist()) for name in run.ways})
+        self.ends = run.ways[run.stroke]
         evenly = {**self.run.held, self.run.stroke: np.linspace(self.ends[0], self.ends[-1], count)}
-        self.motion = reached_motion(machine, self.run.divided(count) if self.run.is_path else evenly)
+        timed = None if run.instants is None else motion_over(machine, run, np.linspace(0.0, 1.0, count))
+        self.motion = reached_motion(machine, timed or (run.divided(count) if run.is_path else evenly))
         self.count = self.motion.shape[0]
         self.scene = Scene(self.motion)
         with language("en"):  # what is said otherwise in Russian is asked for apart
@@ -426,6 +431,10 @@ def stroke_data(requests: PageRequests) -> list[PageData]:
         own = [(k, each.over.name) for k, each in places if each.over.name and each.over.shape == "path" and each.over.title == run.title]
         name, over = (own[0][1], {"over": own[0][0]}) if own else (ALONG, {})
         place = {"name": name, "start": first, "end": last, "at": first, "unit": "", "factor": 1.0}
+        if run.instants is not None:
+            first, last = run.instants.breaks[[0, -1]].tolist()
+            place |= {"start": first, "end": last, "at": first, "unit": "s"}
+            turn = True
         found.append(place | {"turn": int(turn), "path": path} | over)
     return found
 

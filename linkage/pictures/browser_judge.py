@@ -14,12 +14,12 @@ from ..errors import DefinitionError, LawError, LinkageError, UntracedError, unw
 from ..language import heading_of, language, translated
 from ..loads import PLAIN_CASE
 from ..mechanism import Mechanism
-from ..motion import Column, Condition, HasVerdicts, LiveText, Motion, Over, PageWords, Request, RequestLike, least, most, speakers
-from ..motion.judge import Sought, leaf_key, measures_of
+from ..motion import Column, Condition, HasVerdicts, LiveText, PageWords, Request, RequestLike, least, most, speakers
+from ..motion.judge import Domain, Sought, leaf_key, measures_of
 from ..motion.judging import NEAR
 from ..motion.measures import At, CombinedMeasure, Constraint, Given, Integral, Leaf, Measure, conditions_of, dimension_value
 from ..motion.over import ALLOWED
-from ..motion.requests import NodeRequest, bound
+from ..motion.requests import NodeRequest, bound, is_of_force
 from ..plan import Plan
 from ..program import Node
 from ..quantities import is_number, quantity
@@ -34,6 +34,8 @@ PLAIN_WORDS = PageWords("")
 """Of a condition that is said by its own number."""
 MOST = 5000
 """Poses that a page looks at for all its questions together."""
+PLACES = 65
+"""Places of a path in time on a page, which goes straight from one to the next."""
 TRUTHS = {"gaps": "where it has a bound", "assumed": "where it is true"}
 
 
@@ -60,7 +62,7 @@ class LiveQuestions:
         self.machine, self.judge = machine, machine.judge(over)
         self.by_name: dict[str, RequestLike] = {}
         self.only = [[self.new_row(each.margin, " only") for each in place.over.only] for place in self.judge.places]
-        self.ends = [self.rows_of_ends(place.over.strokes) for place in self.judge.places]
+        self.ends = [self.rows_of_ends(place.over.strokes if place.instants is None else {}) for place in self.judge.places]
         self.asked: list[tuple[str, list[Constraint], dict[Leaf, list[Piece]]]] = []
         self.said: dict[str, tuple[str, PageWords]] = {}
         with unwarned():
@@ -118,6 +120,8 @@ class LiveQuestions:
             raise DefinitionError(f"{leaf}: an integral is not followed in the page.")
         found = []
         for number, place in enumerate(self.judge.places[:1] if isinstance(leaf, At) else self.judge.places):
+            if place.instants is not None and is_of_force(leaf.quantity):
+                raise DefinitionError(f"{leaf}: over a path in time forces follow its rates, which the page has not.")
             if is_column(leaf.quantity) and PLAIN_CASE not in place.cases(self.judge.acting):
                 continue  # a table's own column is under the machine's own loads, which do not occur here
             for row in self.judge.sought(leaf, place):
@@ -145,7 +149,7 @@ class LiveQuestions:
         can_look = all(name in live.rows for names in (*self.only, *(ends.values() for ends in self.ends)) for name in names)
         asked = [self.question(live, *each) for each in self.asked] if can_look else []
         overs = [
-            over_data(place.over, place.motion, {key: live.rows[name][0] for key, name in ends.items() if name in live.rows})
+            over_data(place, {key: live.rows[name][0] for key, name in ends.items() if name in live.rows})
             | {"only": [live.rows[name][0] for name in names if name in live.rows]}
             for place, names, ends in zip(self.judge.places, self.only, self.ends, strict=True)
         ]
@@ -217,12 +221,17 @@ def tree(measure: Measure, places: Mapping[Leaf, int]) -> object:
     return {"leaf": places[measure]}
 
 
-def over_data(over: Over, motion: Motion, rows: Mapping[tuple[str, int], int]) -> PageData:
+def over_data(place: Domain, rows: Mapping[tuple[str, int], int]) -> PageData:
     """Return an `Over` as data: the ends of a box, or the places of a path or of poses, stroke by stroke [m or rad].
 
-    What follows the design is a row of the program, with the value of the delivered one: [row, value].
+    What follows the design is a row of the program, with the value of the delivered one: [row, value]. Of a path in time these are places
+    at equal steps of `time`, from its begin to its end [s].
     """
-    found = {"name": over.name, "shape": over.shape, "lost": int(over.lost == ALLOWED)}
+    over, motion = place.over, place.motion
+    found: PageData = {"name": over.name, "shape": over.shape, "lost": int(over.lost == ALLOWED)}
+    if place.instants is not None:
+        motion = place.timed(place.instants.shares(np.linspace(0.0, 1.0, PLACES)), "nan")
+        found["time"] = place.instants.breaks[[0, -1]].tolist()
     values = {name: np.broadcast_to(np.asarray(value, float), motion._stroke_shape).ravel() for name, value in motion.strokes.items()}
     listed = []
     for name, value in values.items():

@@ -21,7 +21,7 @@ from ..motion import Column, Motion, Request, RequestLike, columns_of
 from ..motion.measures import Constraint, Given, Leaf, Least, Most
 from ..program import FloatArray
 from ..quantities import Quantity, is_number
-from ..reports import At, column_among, results, run_of, run_words, runs_of
+from ..reports import At, column_among, motion_over, results, run_of, run_words, runs_of
 from ..units import factor, require_measure
 from . import style
 from .sheet import panels, quiet
@@ -54,7 +54,7 @@ def plot_machine(
     runs = [run for run in runs_of(machine, at) if run.is_curve] or [run_of(machine, at)]
     curves, held = list[Curve](), ""
     for run in runs:
-        motion = machine.at(unreachable="nan", **run.over(np.linspace(0.0, 1.0, poses)))
+        motion = motion_over(machine, run, np.linspace(0.0, 1.0, poses))
         own = {column.name: column for column in results(machine, motion, run.case)}
         shown = columns or [
             name for name in dict.fromkeys([column_among(machine, [*own.values()], None).name, *featured.limits]) if name in own
@@ -81,7 +81,7 @@ def plot_curves(first: Motion, curves: Sequence[Curve], limits: Mapping[str, Seq
     given = dict(limits or {})
     for name in given:
         known_name("Column", name, [*dict.fromkeys(column.name for _, column, _ in curves)], where="limits")
-    shown = [each for each in curves if each[1].name not in each[0].strokes]
+    shown = [each for each in curves if each[1].name not in (*each[0].strokes, StrokeAxis.of(each[0]).name)]
     if not shown:
         along = StrokeAxis.of(first).name
         raise DefinitionError(f"{first.plan.title}: there is no column to draw over {along}; name a result, not a stroke.")

@@ -20,7 +20,7 @@ from PIL import Image
 from ..checks import require, require_type
 from ..disk import check_place, replacing, spoken
 from ..errors import DefinitionError, FileError, LinkageError
-from ..language import said
+from ..language import said, translated
 from ..mechanism import Mechanism, played_along, require_mechanism
 from ..motion import Motion
 from ..program import FloatArray
@@ -32,7 +32,7 @@ from .drawing import Drawing
 from .poses import named_points, trace
 from .scene import Scene
 from .sheet import sheet
-from .strokes import RATE, Playback, StrokeAxis, frame_count, playback, stroke_words, unreached_words
+from .strokes import Playback, StrokeAxis, frame_count, playback, stroke_words, unreached_words
 
 GIF_DPI = 100
 MP4_DPI = 150
@@ -61,7 +61,7 @@ def animate(
     mid-stroke. A motion along one path, `machine.sweep(101, over="digging")`, is played along that path. `trace` names points whose paths
     are drawn; `limit` is the column's limit, `(value [SI], text, "above" or "below")`.
     What is not given is what the machine is about (`Mechanism.featured`), else the last column that changes, no path and no limit.
-    `progress(done, total)` is called as it goes. An existing
+    A path in time plays in real time. `progress(done, total)` is called as it goes. An existing
     file is replaced whole, or left as it was. Raises DefinitionError for another kind of file, a batch of designs or an unknown
     name, FileError for a path that cannot be written.
     """
@@ -92,9 +92,9 @@ def animate(
     stage = Stage(played, trace, limit, GIF_DPI if kind == ".gif" else MP4_DPI)
     if kind == ".gif":  # a pose that comes twice is drawn once
         sample = np.concatenate([stage.frame(pose) for pose in (played.order[0], played.order[len(played.order) // 2])])
-        write_gif(target, drawn_frames(stage, list(dict.fromkeys(played.order)), report), played.order, sample)
+        write_gif(target, drawn_frames(stage, list(dict.fromkeys(played.order)), report), played.order, sample, played.seconds)
     else:
-        write_mp4(target, drawn_frames(stage, played.order, report), stage.canvas.get_width_height())
+        write_mp4(target, drawn_frames(stage, played.order, report), stage.canvas.get_width_height(), 1.0 / played.seconds)
     return target
 
 
@@ -180,7 +180,8 @@ class Stage:
         self.run.set_data(along.values[: pose + 1], values[: pose + 1])
         self.marker.set_data(along.values[pose : pose + 1], values[pose : pose + 1])
         strokes = (stroke_words(motion.plan, name, float(motion.strokes[name][pose]), fixed=True) for name in self.moving)
-        self.stroke.set_text(", ".join(strokes))
+        time = [] if motion.time is None else [f"{motion.time[pose]:.2f} {translated('s')}"]
+        self.stroke.set_text(", ".join([*time, *strokes]))
         self.value.set_text(column_text(values, pose))
         self.canvas.restore_region(self.still)
         renderer = self.canvas.get_renderer()
@@ -234,8 +235,13 @@ COLOURS, APART = 120, 9
 """How many colours the palette holds, and how far they stand apart, of 255."""
 
 
-def write_gif(path: Path, frames: Iterable[npt.NDArray[np.uint8]], order: Sequence[int], sample: npt.NDArray[np.uint8]) -> None:
-    """Write frames, one for each pose of `order` met first, in that order; `sample` is a picture with all colours."""
+def write_gif(
+    path: Path, frames: Iterable[npt.NDArray[np.uint8]], order: Sequence[int], sample: npt.NDArray[np.uint8], seconds: float
+) -> None:
+    """Write frames, one for each pose of `order` met first, in that order, each for so many seconds.
+
+    `sample` is a picture with all colours.
+    """
     palette = palette_of(sample)
     pictures: dict[int, Image.Image] = {}
     for pose, frame in zip(dict.fromkeys(order), frames, strict=True):
@@ -243,7 +249,7 @@ def write_gif(path: Path, frames: Iterable[npt.NDArray[np.uint8]], order: Sequen
         pictures[pose] = picture.convert("RGB").quantize(palette=palette, dither=Image.Dither.NONE)
     first, *others = [pictures[pose] for pose in order]
     with replacing(path) as stream:
-        options: dict[str, Any] = {"duration": 1000 // RATE, "loop": 0, "disposal": 1, "optimize": True}
+        options: dict[str, Any] = {"duration": round(1000.0 * seconds), "loop": 0, "disposal": 1, "optimize": True}
         first.save(stream, "GIF", save_all=True, append_images=others, **options)
 
 
@@ -267,8 +273,11 @@ def palette_of(sample: npt.NDArray[np.uint8]) -> Image.Image:
 # Frames written as an MP4 (H.264) through ffmpeg.
 
 
-def write_mp4(path: Path, frames: Iterable[npt.NDArray[np.uint8]], size: tuple[int, int]) -> None:
-    """Write frames of a size, width and height in pixels; LinkageError where ffmpeg is not installed, FileError where it fails."""
+def write_mp4(path: Path, frames: Iterable[npt.NDArray[np.uint8]], size: tuple[int, int], rate: float) -> None:
+    """Write frames, so many a second, of a size, width and height in pixels.
+
+    LinkageError where ffmpeg is not installed, FileError where it fails.
+    """
     try:
         import imageio_ffmpeg
     except ImportError:
@@ -279,7 +288,7 @@ def write_mp4(path: Path, frames: Iterable[npt.NDArray[np.uint8]], size: tuple[i
     with replacing(path) as stream, TemporaryDirectory() as folder:
         film, written = Path(folder) / "film.mp4", 0
         options: dict[str, Any] = {"quality": 8, "macro_block_size": 16, "output_params": ["-preset", "veryfast"]}
-        writer = imageio_ffmpeg.write_frames(str(film), size, pix_fmt_in="rgb0", fps=RATE, **options)
+        writer = imageio_ffmpeg.write_frames(str(film), size, pix_fmt_in="rgb0", fps=rate, **options)
         writer.send(None)
         try:
             for written, frame in enumerate(frames, 1):  # noqa: B007 - counted to the end

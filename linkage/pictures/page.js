@@ -2,8 +2,8 @@ const { strokes, units } = data;
 /* The questions of the verdicts, asked of the present design over all that the machine runs when the hand rests: coarsely while it holds something. */
 const asking = judging(engine, data.judge, data.joints.map(({ row }) => row)), DRAGGING = 9, STILL = 17, REST = 130;
 /* The paths that a machine declares run as strokes of their own, unless the page is of a path. */
-if (!strokes.some((each) => each.path && each.over === undefined)) for (const [over, { shape, name, places: ways }] of asking.spans().entries()) {
-  if (shape === "path" && name && ways[0].length > 1 && !strokes.some((each) => each.over === over)) strokes.push({ name, start: 1, end: ways[0].length, at: 1, unit: "", factor: 1, turn: 0, path: { ...ways }, over });
+if (!strokes.some((each) => each.path && each.over === undefined)) for (const [over, { shape, name, places: ways, time }] of asking.spans().entries()) {
+  if (shape === "path" && name && ways[0].length > 1 && !strokes.some((each) => each.over === over)) strokes.push({ name, start: time ? time[0] : 1, end: time ? time[1] : ways[0].length, at: time ? time[0] : 1, unit: time ? "s" : "", factor: 1, turn: time ? 1 : 0, path: { ...ways }, over });
 }
 /* A dimension as it comes: its name, value, least and greatest [SI], unit, whether it is a length, and where it stands. */
 const columns = data.columns.map(([name, unit, row, ru, values, why]) => ({ name, unit, factor: units[unit], row: row < 0 ? undefined : row, ru, values, why }));
@@ -36,10 +36,10 @@ function sweep(design, at, run) {
 /* Along a path all strokes that it drives follow the place on it, in straight lines from one of its places to the next. */
 const own = strokes.filter((each) => !each.path);
 function followed(at, run = runs) {
-  const { path, start } = strokes[run], found = [...at];
+  const { path, start, end } = strokes[run], found = [...at];
   for (const k in path) {
-    const i = min(max(floor(at[run] - start), 0), path[k].length - 2);
-    found[k] = path[k][i] + (path[k][i + 1] - path[k][i]) * (at[run] - start - i);
+    const u = ((at[run] - start) / (end - start)) * (path[k].length - 1), i = min(max(floor(u), 0), path[k].length - 2);
+    found[k] = path[k][i] + (path[k][i + 1] - path[k][i]) * (u - i);
   }
   return found;
 }
@@ -503,7 +503,8 @@ on(window, "hashchange", () => { if (recall()) { play(false); speak(); soon("des
 
 /* ---- one frame at a time ---- */
 
-const PERIOD = 5; /* seconds for there and back, or once round */
+const PERIOD = 5; /* seconds for there and back, or once round; a path in time takes its own */
+const period = () => { const { path, unit, start, end } = strokes[runs]; return path && unit ? end - start : PERIOD; };
 let playing = false, clock = 0, last = null, waiting = false, todo = new Set(), later;
 let comparing, baseAt = "";
 const timing = { frames: 0, total: 0, most: 0 };
@@ -523,7 +524,7 @@ function frame(time) {
   waiting = false;
   const began = performance.now();
   if (playing) {
-    clock = (clock + ((time - (last ?? time)) / 1000 / PERIOD) * Number(byId("speed").value)) % 1;
+    clock = (clock + ((time - (last ?? time)) / 1000 / period()) * Number(byId("speed").value)) % 1;
     last = time;
     const [low, high] = stretch(), share = isTurn() ? clock : 0.5 - 0.5 * cos(2 * PI * clock), at = [...stands];
     at[runs] = low + (high - low) * share;
@@ -554,7 +555,7 @@ function render(work) {
   followed(stands).forEach((value, k) => {
     const each = strokes[k];
     each.slider.value = String((1000 * (value - each.start)) / (each.end - each.start));
-    const text = each.path ? say("place {n} of {count}", { n: short(value, 3), count: each.end }) : fixed(value / each.factor, places(max(abs(each.start), abs(each.end)) / each.factor, 4)) + unitText(each.unit);
+    const text = each.path && !each.unit ? say("place {n} of {count}", { n: short(value, 3), count: each.end }) : fixed(value / each.factor, places(max(abs(each.start), abs(each.end)) / each.factor, 4)) + unitText(each.unit);
     each.out.textContent = text; each.slider.setAttribute("aria-valuetext", text);
   });
   if (anew || sized || work.has("size")) showSizes();

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from math import ceil
 from typing import final
 
 import numpy as np
@@ -15,7 +16,7 @@ from ..mechanism import Mechanism
 from ..motion import Column, Motion, check_any, last_holding, require_motion, stroke_display_unit
 from ..plan import Plan
 from ..program import FloatArray
-from ..reports import NOTHING, At, Run, column_among, reached_motion, results, run_of
+from ..reports import NOTHING, At, Run, column_among, motion_over, reached_motion, results, run_of
 from ..units import factor, shown_in
 
 
@@ -24,6 +25,7 @@ from ..units import factor, shown_in
 class StrokeAxis:
     """The stroke that a motion runs along, as a picture shows it: its name, its unit, and its values in that unit, shape (n,).
 
+    Over a path in time it is the time [s].
     `held` are the other strokes in words, at their values or, where several run together, from one to another. Where each of these
     turns back, the axis is the share of the `way`.
     """
@@ -42,6 +44,8 @@ class StrokeAxis:
         if motion._design_shape or len(motion._stroke_shape) != 1:
             needed = f"{plan.title}: curves over a stroke need one design and one row of poses, this motion has the shape {motion.shape}"
             raise DefinitionError(f"{needed}; sweep one stroke and give every other a value: {', '.join(plan.strokes)}.")
+        if motion.time is not None:
+            return cls(said("time"), "s", motion.time, others_in_words(motion, ""))
         moving = {name: values for name, values in motion.strokes.items() if np.ptp(values) > 0.0}
         travels = {name: abs(stroke.end - stroke.start) or 1.0 for name, stroke in plan.strokes.items()}
         shares = {name: float(np.ptp(values)) / travels[name] for name, values in moving.items()}
@@ -129,6 +133,9 @@ MANY = 1_000_000
 RATE = 25
 """Frames a second."""
 
+FRAMES = 300
+"""Frames of a path in time, at the most: a longer one has fewer a second."""
+
 CLOSED = 1e-6
 """Points that end so near to where they began, compared with the linkage, have gone round."""
 
@@ -136,30 +143,39 @@ CLOSED = 1e-6
 @final
 @dataclass(frozen=True, eq=False)
 class Playback:
-    """A motion along one stroke, the poses in reach in the order they are shown, the column to follow."""
+    """A motion along one stroke, the poses in reach in the order they are shown, the column to follow.
+
+    Each is shown for `seconds`; over a path in time they are real.
+    """
 
     motion: Motion
     order: tuple[int, ...]
     column: Column
     is_turn: bool
+    seconds: float = 1.0 / RATE
 
 
 def playback(machine: Mechanism, count: int, column: str | None = None, *, at: At | Motion = NOTHING, eased: bool = True) -> Playback:
     """Return what is played over one stroke or several together, the others held: `count` poses, there and back.
 
     `at` holds strokes at a value, or says which values those that move pass [m or rad]; without it that is `run_of`. A full
-    turn that ends where it began goes round, and so does a path that ends where it began. Eased, the poses stand closer at the
+    turn that ends where it began goes round, and so does a path that ends where it began. Over a path in time `count` does not count: it
+    is played once, in its own time, 25 poses a second or as many as are 300 in all. Eased, the poses stand closer at the
     ends, so that even frames start and stop softly. Poses out of reach are left out; raises AssemblyError where none is in reach.
     """
-    run = run_of(machine, at)
+    run, count, seconds = run_of(machine, at), frame_count(count), 1.0 / RATE
+    if run.instants is not None:
+        lasting = float(np.ptp(run.instants.breaks))
+        seconds = max(seconds, 0.01 * ceil(100.0 * lasting / FRAMES))  # what a .gif can show is hundredths
+        count = max(round(lasting / seconds), 1) + 1
     turn = is_turn(machine, run)
-    shares = np.linspace(0.0, 1.0, frame_count(count))
-    values = run.over(0.5 - 0.5 * np.cos(np.pi * shares) if eased and not turn else shares)
-    motion = reached_motion(machine, values)
-    turn = (turn or run.is_path) and bool(motion.reached.all()) and ends_where_begun(motion)
+    shares = np.linspace(0.0, 1.0, count)
+    shares = 0.5 - 0.5 * np.cos(np.pi * shares) if eased and not turn and run.instants is None else shares
+    motion = reached_motion(machine, motion_over(machine, run, shares))
+    turn = ((turn or run.is_path) and bool(motion.reached.all()) and ends_where_begun(motion)) or run.instants is not None
     there = [int(pose) for pose in np.flatnonzero(motion.reached)]
     shown = column_among(machine, results(machine, motion, run.case), column)
-    return Playback(motion, tuple(there if turn else there + there[-2:0:-1]), shown, turn)
+    return Playback(motion, tuple(there if turn else there + there[-2:0:-1]), shown, turn, seconds)
 
 
 def is_turn(machine: Mechanism, run: Run) -> bool:

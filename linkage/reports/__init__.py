@@ -9,6 +9,7 @@ from .runs import (
     At,
     Run,
     first_stroke,
+    motion_over,
     one_run,
     reached_motion,
     run_along,

@@ -31,7 +31,7 @@ def results(machine: Mechanism, motion: Motion, case: Case = None) -> list[Colum
     columns = columns_by(machine, motion) if is_held else columns_of(motion)
     if not is_held or not is_loaded(motion):
         return columns
-    whole = motion.moved(motion.strokes)
+    whole = motion._with_gaps()
     if case is not None:
         columns = [column_in_case(whole, column, case) for column in columns]
     taken = {column.name for column in columns}
@@ -85,7 +85,7 @@ def force_columns(motion: Motion, case: Case = None, direction: str | None = Non
     """
     if not is_loaded(require_motion(motion)):
         return []
-    whole = motion.moved(motion.strokes)
+    whole = motion._with_gaps()
     return [*drive_columns(whole, case, direction), *member_columns(whole, case, direction)]
 
 
@@ -98,7 +98,7 @@ def drive_columns(motion: Motion, case: Case = None, direction: str | None = Non
     """Yield the generalised force of each stroke under the machine's own loads: of a length [N], of an angle [Nm]."""
     for name in motion.strokes:
         what, unit = (noted("torque"), "Nm") if stroke_unit(motion.plan, name) == "rad" else (noted("drive force"), "kN")
-        force = driving_force(motion, drive=name, case=case, direction=direction or "frictionless")
+        force = driving_force(motion, drive=name, case=case, direction=direction)
         title, digits = what if len(motion.strokes) == 1 else f"{what} {name}", 2 if unit == "Nm" else 4
         yield Column(title, force, unit, digits, request=drive_force(name, case=case) if direction is None else None)
 

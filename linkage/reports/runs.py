@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from types import MappingProxyType
 from typing import Any, TypeAlias, cast
 
@@ -19,6 +20,7 @@ from ..motion.measures import MeasuredQuantity
 from ..motion.requests import may_be_unlimited
 from ..numeric.line import stretches
 from ..plan import require_kind
+from ..program import FloatArray
 from ..quantities import as_mapping, numbers_in
 from .results import column_among, results
 
@@ -87,7 +89,8 @@ def run_over(machine: Mechanism, place: Domain, acting: Acting) -> Run:
             strokes |= {name: [found.get(name, held[name])] for name in others}
     ways = {name: tuple(strokes[name]) for name in running}
     still = {name: values[0] for name, values in strokes.items() if name not in running}
-    return Run(ways, still, place.over.title, case, place.over.shape == "poses", worst)
+    declared = place.over if place.instants is not None else None
+    return Run(ways, still, place.over.title, case, place.over.shape == "poses", worst, declared, place.instants)
 
 
 def run_words(machine: Mechanism, run: Run) -> str:
@@ -127,9 +130,10 @@ def run_along(motion: Motion) -> tuple[Run, int]:
     Of a sweep along an `Over.path` these are the places of the path. Of one that is not reached everywhere it is the longest part that is.
     DefinitionError for a grid, a batch, fewer than two places.
     """
-    title, shape = require_motion(motion).plan.title, motion.shape
+    title, shape, place = require_motion(motion).plan.title, motion.shape, None
     if motion.is_swept and motion.over.shape == "path":
-        motion = Judge(motion.plan, motion.designs, [motion]).places[0].motion  # the places that its `Over` names
+        place = Judge(motion.plan, motion.designs, [motion]).places[0]
+        motion = place.motion  # the places that its `Over` names
     if len(shape) != 1 or motion._design_shape:
         said = f"one design along one path is expected, and this motion is of shape {shape}"
         raise DefinitionError(f"{title}: {said}; choose one path of it.")
@@ -138,7 +142,10 @@ def run_along(motion: Motion) -> tuple[Run, int]:
     moving = {name: way for name, way in ways.items() if len(set(way)) > 1}
     if not moving:
         raise DefinitionError(f"{title}: nothing moves along this motion; it has {last - first + 1} places in reach.")
-    return Run(moving, {name: way[0] for name, way in ways.items() if name not in moving}), first
+    run = Run(moving, {name: way[0] for name, way in ways.items() if name not in moving})
+    if place is not None and place.instants is not None:
+        run = replace(run, declared=place.over, instants=place.instants)
+    return run, first
 
 
 def one_run(machine: Mechanism, at: At) -> Run:
@@ -172,9 +179,17 @@ def stroke_way(machine: Mechanism, name: str, value: object) -> tuple[float, ...
     return values
 
 
-def reached_motion(machine: Mechanism, strokes: At) -> Motion:
+def motion_over(machine: Mechanism, run: Run, shares: FloatArray) -> Motion:
+    """Return the poses of a run at shares of its way (n,), 0 to 1, in time at these instants; NaN out of reach."""
+    if run.instants is None:
+        return machine.at(unreachable="nan", **run.over(shares))
+    instants = run.instants.shares(shares)
+    return Motion(machine.plan, machine.dimensions, instants.strokes, "nan", over=run.declared, instants=instants)
+
+
+def reached_motion(machine: Mechanism, strokes: At | Motion) -> Motion:
     """Return a machine at strokes [m or rad], NaN where it cannot be assembled; AssemblyError where it cannot anywhere."""
-    motion = machine.at(unreachable="nan", **strokes)
+    motion = strokes if isinstance(strokes, Motion) else machine.at(unreachable="nan", **strokes)
     if not motion.reached.any():
         raise out_of_reach(motion)
     return motion

@@ -119,13 +119,18 @@ UNITS: dict[str, tuple[float, str]] = {
     "lbf/in": (lbf / inch, "stiffness"),
     "kW": (1e3, "power"), "hp": (550 * lbf * ft, "power"),
     "m/s": (1.0, "speed"), "mm/s": (mm, "speed"), "in/s": (inch, "speed"),
+    "m/s2": (1.0, "acceleration"), "mm/s2": (mm, "acceleration"), "m/s3": (1.0, "jerk"), "mm/s3": (mm, "jerk"),
+    "rad/s": (rad, "angular speed"), "deg/s": (deg, "angular speed"),
+    "rad/s2": (rad, "angular acceleration"), "deg/s2": (deg, "angular acceleration"),
+    "rad/s3": (rad, "angular jerk"), "deg/s3": (deg, "angular jerk"),
     "rad/m": (1.0, "angle per length"),
 }  # fmt: skip
 
 
 SI: dict[str, str] = {
     "length": "m", "angle": "rad", "time": "s", "mass": "kg", "force": "N", "moment": "Nm", "pressure": "Pa", "volume": "m3", "area": "m2",
-    "flow": "m3/s", "stiffness": "N/m", "power": "W", "speed": "m/s", "angle per length": "rad/m",
+    "flow": "m3/s", "stiffness": "N/m", "power": "W", "speed": "m/s", "acceleration": "m/s2", "jerk": "m/s3",
+    "angular speed": "rad/s", "angular acceleration": "rad/s2", "angular jerk": "rad/s3", "angle per length": "rad/m",
 }  # fmt: skip
 """What each measure has in SI."""
 
@@ -297,7 +302,8 @@ SIGNS = (
     noted("lbf ft"), noted("Pa"), noted("kPa"), noted("MPa"), noted("bar"), noted("kgf_cm2"), noted("kgf/cm2"), noted("psi"), noted("l"),
     noted("litre"), noted("cm3"), noted("m3"), noted("gal"), noted("in3"), noted("mm2"), noted("cm2"), noted("m2"), noted("in2"),
     noted("l/min"), noted("gal/min"), noted("m3/s"), noted("N/m"), noted("N/mm"), noted("kN/m"), noted("kgf/mm"), noted("lbf/in"),
-    noted("kW"), noted("hp"), noted("m/s"), noted("mm/s"), noted("in/s"), noted("rad/m"),
+    noted("kW"), noted("hp"), noted("m/s"), noted("mm/s"), noted("in/s"), noted("m/s2"), noted("mm/s2"), noted("m/s3"), noted("mm/s3"),
+    noted("rad/s"), noted("deg/s"), noted("rad/s2"), noted("deg/s2"), noted("rad/s3"), noted("deg/s3"), noted("rad/m"),
 )  # fmt: skip
 """The units that another language writes in its own way."""
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar, cast, final
 from unicodedata import normalize
 
@@ -37,6 +38,8 @@ class Names:
     """The machines that the file holds for its parts."""
     load_beside: Callable[[str], type[Mechanism]] | None = None
     """What loads the machine of another file in the same folder; None of what is written."""
+    folder: Path | None = None
+    """Where other files stand that it names; None of a text."""
     of_parts: list[str] = field(default_factory=list)
     """The strokes that parts bring, `lower.S`."""
 

@@ -77,7 +77,7 @@ def built(
     found = names_of(sections, faults)
     kinds = {name: registry().kind(section) for name, section in found.items()}
     held = machines_read(data, faults, trust, folder, depth, machines)
-    names = Names(found, kinds, machines=held, load_beside=beside(folder, load_part))
+    names = Names(found, kinds, machines=held, load_beside=beside(folder, load_part), folder=folder)
     for name, entry in sections.get("parts", {}).items():
         if isinstance(entry, Mapping) and "machine" in entry:
             with faults.at("parts", name, "machine"):

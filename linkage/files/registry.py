@@ -20,10 +20,11 @@ from .. import loads, plugins, steps, surroundings
 from ..errors import DefinitionError, ensure, unknown
 from ..motion import OPTIONS, Over, Planes, stroke_unit
 from ..plan import Part
-from ..quantities import Dimension, Member, Number, PoseCondition, Quantity, Stroke, is_number, quantity, ref
+from ..quantities import Course, Curve, Dimension, Member, Number, PoseCondition, Quantity, Stroke, is_number, quantity, ref
 from ..quantities.quantity import plain
 from ..statics import Rope
 from ..units import UNITS, parse
+from .course_file import STEPS, course_read, course_written, is_course, numbers_read, rows_read
 from .design import Design, degrees_text
 from .entry import PATH, FileEntry, worded
 from .expression import expression, one_unit
@@ -31,7 +32,7 @@ from .names import Keywords, Names, by_whole_names, entry_as, listed, shortened
 from .parts_file import part_read, part_written
 from .validators import amount_of, arrow_of, coordinates_of, number_of, points_of, quantity_of, stroke_ends, strokes_of, word_list_of
 
-# -- where a machine is looked at: `[over.loading]` with strokes, `path`, `poses`, `only`, `cases`, `lost` --------
+# -- where a machine is looked at: `[over.loading]` with strokes, `path`, `poses`, `time`, `csv`, `only`, `cases`, `lost` --------
 
 SHAPES = ("path", "poses")
 """What says that strokes are places in an order, or poses with nothing between, where it is true."""
@@ -41,7 +42,9 @@ _COMPARED = re.compile(r"([^<>=!]+)(<=|>=)([^<>=!]+)")
 def over_read(given: object, names: Names) -> Over:
     """Return where is looked, as a table says it; DefinitionError, with the key, for what it is not."""
     given = entry_as(given, Mapping, 'is not a table of strokes, such as { phi = ["15 deg", "80 deg"], t = 0.0 }')
-    given, known = dict(by_whole_names(given)), names.strokes
+    given, known = dict(by_whole_names(given, tuple(STEPS))), names.strokes
+    if "csv" in given:
+        given = {**rows_read(given.pop("csv"), names.folder, known), **given}
     shapes = [word for word in SHAPES if isinstance(given.get(word), bool)]
     for key in given:
         if key not in (*known, *OPTIONS, *shapes):
@@ -49,12 +52,17 @@ def over_read(given: object, names: Names) -> Over:
             raise DefinitionError(f"{what} Beside strokes there are {', '.join((*SHAPES, *OPTIONS))}.")
     chosen = [word for word in shapes if given[word]]
     ensure(len(chosen) <= 1, "it is a path and poses at once; a path goes on between its places, poses have nothing between them.")
-    make = {"path": Over.path, "poses": Over.poses}.get(chosen[0] if chosen else "", Over)
+    is_timed = "time" in given or any(map(is_course, given.values()))
+    make = {"path": Over.path, "poses": Over.poses}.get(chosen[0] if chosen else "path" if is_timed else "", Over)
     options: Keywords = {key: given[key] for key in ("cases", "lost") if key in given}
+    if "time" in given:
+        options["time"] = numbers_read("times", given["time"], names)
     if "only" in given:
         options["only"] = [condition_of(text, names) for text in listed(given["only"])]
     for key, value in given.items():  # of a stroke one value or several: numbers [SI], texts with a unit, quantities of the design
-        if key in known:
+        if key in known and is_course(value):
+            options[key] = course_read(value, names)
+        elif key in known:
             options[key] = tuple(amount_of(each, names, "") for each in value) if isinstance(value, list) else amount_of(value, names, "")
     made: Over = make(**options)
     return made
@@ -76,7 +84,12 @@ def condition_of(text: object, names: Names) -> PoseCondition:
 def over_written(member: Over, design: Design) -> Keywords:
     """Return where is looked as a table; DefinitionError for a condition that a file cannot hold."""
     found: Keywords = {} if member.shape == "box" else {member.shape: True}
+    if member.time is not None:
+        found["time"] = [*member.time]
     for name, value in member.strokes.items():
+        if isinstance(value, (Course, Curve)):
+            found[name] = course_written(value, stroke_unit(design.plan, name) == "rad")
+            continue
         parts: list[float | str] = []
         for each in listed(value):
             end = float(each) if is_number(each) else design.scalar(quantity(each))

@@ -1,0 +1,101 @@
+"""Paths in time in files: what is saved reads back to the last bit, what a file says is what the class says, rows of a table, refusals."""
+
+import re
+
+import numpy as np
+import pytest
+
+from linkage import Course, Crank, Curve, FileError, Ground, Mechanism, Over, Stroke, export, ramp
+from linkage.files import load, to_toml
+from tests.linkage.motion.test_in_time import Blocks, DampedLever
+from tests.linkage.quantities.test_course import random_course
+
+
+class Wheel(Mechanism):
+    phi = Stroke(0.0, 6.283)
+    O = Ground(0, 0)
+    A = Crank(O, angle=phi, OA=0.1)
+    spin = Over.path(phi=Curve([0, 1, 2, 3], [0.1, 0.5, 0.2, 0.1], period=3), time=(0, 6))
+    turned = Over.path(phi=ramp(0.0, 1.5, speed=1.0, acceleration=2.0, jerk=7.0).hold(0.3).then(-ramp(-1.5, 0.2, speed=0.7)))
+    table = Over.path(phi=Course([0, 1, 2], [0.1, 0.9, 0.2], kind="monotone"))
+
+
+HEAD = """\
+name = "Blocks"
+[strokes]
+a = [0.0, 1.0]
+b = [0.0, 1.0]
+[guides]
+low = { from = [0.0, 0.0], angle = 0.0 }
+high = { from = [0.0, 1.0], angle = 0.0 }
+[points]
+A = { OnGuide = "low", at = "a" }
+B = { OnGuide = "high", at = "b" }
+[over.go]
+"""
+
+
+def same(one, other, name):
+    """Check that two motions over an `Over` are equal bit by bit."""
+    first, second = (each.sweep(41, over=name) for each in (one, other))
+    assert first.time.tolist() == second.time.tolist()
+    for stroke in first.strokes:
+        for kind in ("strokes", "rates", "accelerations"):
+            assert getattr(first, kind)[stroke].tolist() == getattr(second, kind)[stroke].tolist(), (name, stroke, kind)
+
+
+def test_what_is_saved_reads_back_to_the_last_bit():
+    for machine in (Blocks, DampedLever, Wheel):
+        again = load(to_toml(machine()))
+        for name, over in machine.plan.of_kind(Over).items():
+            if over.time is not None:
+                same(machine(), again(), name)
+
+
+def test_random_courses_are_saved_to_the_last_bit():
+    for seed in range(12):
+        one = type("Turned", (Wheel,), {"any": Over.path(phi=random_course(np.random.default_rng(seed)))})
+        same(one(), load(to_toml(one()))(), "any")
+
+
+def test_a_file_says_what_the_class_says():
+    go = """
+    a = [{ ramp = ["100 mm", "300 mm"], speed = "150 mm/s", acceleration = "0.8 m/s2" }, { hold = "0.5 s" }]
+    b = { times = ["0 s", "1 s", "2 s"], values = [0.1, "200 mm", 0.15], kind = "monotone" }
+    """
+    motion = load(HEAD + go)().sweep(31, over="go")
+    a, b = ramp(0.1, 0.3, speed=0.15, acceleration=0.8).hold(0.5), Course([0, 1, 2], [0.1, 0.2, 0.15], kind="monotone")
+    assert motion.time[-1] == max(a.duration, b.duration)
+    assert motion.strokes["a"].tolist() == a(motion.time).tolist() and motion.strokes["b"].tolist() == b(motion.time).tolist()
+    legs = load(HEAD + 'time = ["0 s", "2 s"]\na = ["100 mm", "300 mm"]\nb = 0.2')().sweep(3, over="go")
+    assert legs.rates["a"].tolist() == pytest.approx([0.1, 0.1, 0.1])
+
+
+def test_a_table_of_rows_is_what_export_writes(tmp_path):
+    motion = Blocks().sweep(21, over="legs")
+    export(motion, tmp_path / "cycle.csv")
+    first = (tmp_path / "cycle.csv").read_text().splitlines()[0]
+    assert first.startswith('"time, s","a, m","b, m"')
+    (tmp_path / "machine.toml").write_text(HEAD + 'csv = "cycle.csv"')
+    again = load(tmp_path / "machine.toml")().sweep(21, over="go")
+    assert again.time.tolist() == motion.time.tolist() and again.strokes["a"].tolist() == motion.strokes["a"].tolist()
+    assert again.rates["b"][5:14] == pytest.approx(motion.rates["b"][5:14])
+
+
+def test_what_a_file_gets_wrong_is_refused_in_words(tmp_path):
+    for go, words in [
+        ("a = { hold = 0.5 }\nb = 0.1", "begin with a ramp"),
+        ("a = { ramp = [0.1, 0.2] }\nb = 0.1", "a ramp has two ends and a speed"),
+        ('a = { ramp = [0.1, 0.2], speed = "3 kg" }\nb = 0.1', "use one of m/s"),
+        ("a = { ramp = [0.1, 0.2], sped = 0.1 }\nb = 0.1", "sped"),
+        ("a = { times = [0, 1] }\nb = 0.1", "times and values stand beside each other"),
+        ("a = [{ ramp = [0.1, 0.2], speed = 0.1 }, { ramp = [0.3, 0.2], speed = 0.1 }]\nb = 0.1", "100 mm apart"),
+        ("time = [0, 1, 1]\na = [0.1, 0.2, 0.3]\nb = 0.1", "must rise"),
+        ('csv = "none.csv"', "folder"),
+    ]:
+        with pytest.raises(FileError, match=re.escape(words)):
+            load(HEAD + go)
+    (tmp_path / "rows.csv").write_text('"time, s","a, m"\n0,0.1\n1,oops\n')
+    (tmp_path / "machine.toml").write_text(HEAD + 'csv = "rows.csv"\nb = 0.1')
+    with pytest.raises(FileError, match="in line 3 'oops' is no number"):
+        load(tmp_path / "machine.toml")

@@ -15,7 +15,7 @@ from linkage.errors import DefinitionError, unknown
 from linkage.frozen import refuses_changes
 from linkage.language import noted
 from linkage.loads import Glyph, Halves, Load, Parameter, Poses, Rates, TwoPoint
-from linkage.loads.point import DOWN, on_slope, vector
+from linkage.loads.point import DOWN, on_slope, shared_mass
 from linkage.quantities import Axes, Member, NamedMembers, Number, Operand, Quantity, Reference, Where, label, name_of, quantity, spelled
 from linkage.steps import Link, Point
 from linkage.units import mm
@@ -93,14 +93,13 @@ class BarrelAndRod(TwoPoint):
         return Halves(names, labels, self._inner_ends, (noted("gland"), noted("oil")))
 
     def moving(self, motion: Poses, rates: Rates) -> list[Load]:
-        """Return the weights of its barrel and its rod, each half at its own pin, half at its other end."""
+        """Return the weights of its barrel and its rod, each half at its own pin, half at its other end; and their inertia."""
         found = []
         for name, points in self._masses.items():
             if points[1] not in motion.plan.members:
                 what = f"{self}: a mass of a barrel or a rod is on a body of the class"
                 raise DefinitionError(f"{what}; declare this cylinder in {motion.plan.title}.")
-            weight = vector(0.5 * self.count * self.number(motion, name), self._gravity)
-            found += [Load(point, weight, points) for point in points]
+            found += shared_mass(motion, points, self.count * self.number(motion, name), self._gravity, rates, points)
         return found
 
     def in_gravity(self, gravity: tuple[float, float] | None, slope: float) -> Self:

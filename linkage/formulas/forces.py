@@ -16,7 +16,7 @@ import numpy as np
 import sympy
 
 from ..errors import DefinitionError
-from ..loads import AT_REST, Acting, ForceElement, Rates, Support, TwoPinned, TwoPoint
+from ..loads import AT_REST, Acting, ForceElement, Rate, Rates, Support, TwoPinned, TwoPoint
 from ..mechanism import Mechanism
 from ..motion import Motion, stroke_unit
 from ..motion.requests import stroke_of
@@ -301,6 +301,14 @@ class ForceLines:
         elif chain is not None and name_of(target) in chain.points:
             return np.array([Term(each) for each in chain.rates_of(name_of(target))], object)
         raise DefinitionError(f"{self.plan.title}: {target} carries nothing here, so that no equation gives its ratio.")
+
+    def velocity(self, target: Reference, rates: Mapping[str, Rate]) -> Any:
+        """Raise DefinitionError: equations of forces are written at rest."""
+        raise DefinitionError(f"{self.plan.title}: {target}: no equation gives a velocity.")
+
+    def acceleration(self, target: Reference, rates: Mapping[str, Rate], accelerations: Mapping[str, Rate]) -> Any:
+        """Raise DefinitionError as `velocity` does."""
+        return self.velocity(target, rates)
 
     def between(self, P: Reference, Q: Reference) -> Any:
         vector = self.listing.between(name_of(P), name_of(Q))

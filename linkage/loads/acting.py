@@ -178,7 +178,8 @@ class Acting:
     `loads` are the machine's own where None, `case` a LoadCase or its name, `direction` one of DIRECTIONS, `rates` the speeds of strokes
     [1/s], `drive` the stroke that moves where several could. In a plain value None is no case and no friction; where something is judged,
     None of case or direction means all that occur. `accelerations` [1/s2] are how rates change. Without both a motion in time gives its
-    own. AS_IT_RUNS says this too, and makes them inputs of a program.
+    own. AS_IT_RUNS says this too, and makes them inputs of a program. The inertia of masses counts where accelerations are known;
+    `inertia=False` leaves it out, `inertia=True` insists on it.
     """
 
     loads: Loads = None
@@ -187,6 +188,7 @@ class Acting:
     rates: StrokeRates = None
     drive: str | None = None
     accelerations: StrokeRates = None
+    inertia: bool | None = None
 
     def __post_init__(self) -> None:
         if self.direction is not None:
@@ -196,6 +198,8 @@ class Acting:
         for name, given in (("rates", self.rates), ("accelerations", self.accelerations)):
             if given is not None and given != AS_IT_RUNS:
                 require_type(f"Acting({name}", given, Mapping, f"a value for each stroke is expected, such as {name}=dict(S=0.05)")
+        if self.inertia is not None and not isinstance(self.inertia, bool):
+            raise DefinitionError(f"Acting(inertia={cited(self.inertia)}): True or False is expected, or nothing.")
         if self.accelerations is not None and self.rates is None:
             what = "accelerations say how rates change, and no rates are given"
             raise DefinitionError(f"Acting: {what}; give both, Acting(rates=dict(S=0.0), accelerations=dict(S=0.5)).")

@@ -236,6 +236,9 @@ class Poses(Protocol):
     def velocity(self, target: Reference, rates: Mapping[str, Rate]) -> Array:
         """Return the velocity of a point, shape (2, ...) [m/s], or the rate of a quantity, at rates of strokes [1/s]."""
 
+    def acceleration(self, target: Reference, rates: Mapping[str, Rate], accelerations: Mapping[str, Rate]) -> Array:
+        """Return the acceleration of a point, shape (2, ...) [m/s2], from rates [1/s] and accelerations [1/s2] of strokes."""
+
 
 class Formulas(Poses, Protocol):
     """What the equations of forces are written on: poses whose numbers are symbols, and the lines that are there already."""
@@ -355,7 +358,7 @@ class ForceElement(Jointed):
         return ()
 
     def moving(self, motion: Poses, rates: Rates) -> list[Load]:
-        """Return the forces while strokes move at rates [1/s], as far as they are known; others with friction or damping."""
+        """Return the forces while strokes move at rates [1/s]: dampers and masses ask for them."""
         return self.loads(motion)
 
     def pushes(self, motion: Poses, rates: Rates) -> list[Push]:

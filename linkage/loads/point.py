@@ -16,7 +16,7 @@ from ..quantities import Axes, Member, Reference, is_number, label, name_of, rea
 from ..quantities.quantity import plain
 from ..steps import Link, Point
 from ..units import g0, require_measure
-from .element import Array, ForceElement, Friction, Glyph, Load, Parameter, Poses, couple, value_text
+from .element import AT_REST, Array, ForceElement, Friction, Glyph, Load, Parameter, Poses, Rate, Rates, couple, value_text
 
 DOWN = (0.0, -g0)  # gravity, m/s2
 
@@ -24,7 +24,7 @@ DOWN = (0.0, -g0)  # gravity, m/s2
 @final
 @immutable
 class Weight(ForceElement):
-    """The weight of a mass [kg] at a point: `load = Weight(G, mass=1200)`.
+    """The weight of a mass [kg] at a point: `load = Weight(G, mass=1200)`. Where it is accelerated, its inertia acts too.
 
     `gravity` (x, y) [m/s2] is 9.80665 downwards unless another is given; a load case may replace or turn it.
     """
@@ -41,7 +41,11 @@ class Weight(ForceElement):
         object.__setattr__(self, "gravity", gravity_vector(self.gravity, "Weight"))
 
     def loads(self, motion: Poses) -> list[Load]:
-        return [Load(name_of(self.point), vector(self.number(motion, "mass"), self.gravity))]
+        return self.moving(motion, AT_REST)
+
+    def moving(self, motion: Poses, rates: Rates) -> list[Load]:
+        point, mass = name_of(self.point), self.number(motion, "mass")
+        return shared_mass(motion, (point,), mass, self.gravity, rates)
 
     def glyphs(self, members: Mapping[str, Member]) -> tuple[Glyph, ...]:
         return (Glyph("weight", (name_of(self.point),)),)
@@ -200,6 +204,22 @@ def vector(size: Array | float, direction: tuple[Array | float, Array | float]) 
     return np.stack(np.broadcast_arrays(*(size * part for part in direction)))
 
 
+def shared_mass(
+    motion: Poses, points: tuple[str, ...], mass: Array | float, gravity: tuple[float, float], rates: Rates, on: tuple[str, ...] = ()
+) -> list[Load]:
+    """Return what a mass that some points share puts on them: its weight, and its inertia where accelerations are known.
+
+    Two points are the ends of a uniform bar, which may stretch. Others are points with equal masses.
+    """
+    felt = [gravity for _ in points]
+    if rates.accelerations is not None:
+        each = [motion.acceleration(point, rates, rates.accelerations) for point in points]
+        if len(points) == 2:
+            each = [(2.0 * each[0] + each[1]) / 3.0, (each[0] + 2.0 * each[1]) / 3.0]
+        felt = [(gravity[0] - own[0], gravity[1] - own[1]) for own in each]
+    return [Load(point, vector(mass, own) / len(points), on) for point, own in zip(points, felt, strict=True)]
+
+
 def two_parts(given: object, what: str) -> tuple[Parameter, Parameter]:
     """Return a vector's parts; DefinitionError unless there are two."""
     parts = two_of(given)
@@ -301,41 +321,70 @@ class LinkMass(OnBody):
     `at=(along, across)` [m] is that centre in the body's axes: from its first point towards the second, and to the left.
     Without it the centre lies in the middle of the points named, as that of a uniform bar does; each point bears an equal
     share, so that the mass of a cylinder or a telescope goes out with its ends. `gravity` (x, y) [m/s2] as for a Weight.
+    `inertia` [kg m2] is the body's own about that centre. With `at` and without it the mass is a point. Two points without
+    `at` are a uniform bar, also one that stretches. Three and more have equal masses.
     """
 
     link: Body
     mass: Parameter
     at: tuple[float, float] | None = None
     gravity: tuple[float, float] = DOWN
-    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"mass": "kg"})
+    inertia: Parameter | None = None
+    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"mass": "kg", "inertia": ""})
     argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"at": "pair", "gravity": "gravity"})
-    not_negative: ClassVar[frozenset[str]] = frozenset({"mass"})
+    not_negative: ClassVar[frozenset[str]] = frozenset({"mass", "inertia"})
+    optional: ClassVar[frozenset[str]] = frozenset({"inertia"})
 
     def __post_init__(self) -> None:
         super().__post_init__()
         if self.at is not None and not all(map(is_number, two_parts(self.at, "LinkMass(at=...)"))):
             raise DefinitionError(f"LinkMass: at={cited(self.at)} is not a place; write (along, across) in m.")
         require_measure(self.at, "length", "LinkMass: at")
+        if self.inertia is not None and self.at is None:
+            what = "LinkMass: inertia= is about the centre of gravity, and at= does not say where that is"
+            raise DefinitionError(f"{what}; write at=(along, across) in m, or leave inertia= out for a uniform bar.")
         object.__setattr__(self, "gravity", gravity_vector(self.gravity, "LinkMass"))
 
     def glyphs(self, members: Mapping[str, Member]) -> tuple[Glyph, ...]:
         return (Glyph("mass", self.points(members, ""), away=self.at),)
 
     def loads(self, motion: Poses) -> list[Load]:
+        return self.moving(motion, AT_REST)
+
+    def moving(self, motion: Poses, rates: Rates) -> list[Load]:
         P, Q, arm = self.axis(motion)
-        weight = vector(self.number(motion, "mass"), self.gravity)
+        mass = self.number(motion, "mass")
         if self.at is None:
-            points = self.points(motion.plan.members, motion.plan.title)
-            return [Load(point, weight / len(points), (P, Q)) for point in points]
-        along = arm / np.hypot(arm[0], arm[1])
+            return shared_mass(motion, self.points(motion.plan.members, motion.plan.title), mass, self.gravity, rates, (P, Q))
+        along, (x, y) = arm / np.hypot(arm[0], arm[1]), self.gravity
         r = along * float(self.at[0]) + np.stack([-along[1], along[0]]) * float(self.at[1])
-        return [Load(P, weight, (P, Q)), *couple(P, Q, arm, r[0] * weight[1] - r[1] * weight[0])]
+        turning: Array | None = None
+        if rates.accelerations is not None:
+            spin, angular = body_turning(motion, P, Q, arm, rates, rates.accelerations)
+            centre = motion.acceleration(P, rates, rates.accelerations) + np.stack([-r[1], r[0]]) * angular - r * spin**2
+            x, y = x - centre[0], y - centre[1]
+            turning = None if self.inertia is None else self.number(motion, "inertia") * angular
+        force = vector(mass, (x, y))
+        moment = r[0] * force[1] - r[1] * force[0]
+        return [Load(P, force, (P, Q)), *couple(P, Q, arm, moment if turning is None else moment - turning)]
 
     def in_axes(self, axes: Axes) -> LinkMass:
         return self.renewed(at=(self.at[0], -self.at[1])) if axes.mirrored and self.at is not None else self
 
     def in_gravity(self, gravity: tuple[float, float] | None, slope: float) -> LinkMass:
         return self.renewed(gravity=on_slope(self.gravity if gravity is None else gravity, slope))
+
+
+def body_turning(
+    motion: Poses, P: str, Q: str, arm: Array, rates: Rates, accelerations: Mapping[str, Rate]
+) -> tuple[Array, Array]:
+    """Return the angular velocity [rad/s] and acceleration [rad/s2] of the line P Q, which may stretch; `arm` is Q - P [m]."""
+    moved = motion.velocity(Q, rates) - motion.velocity(P, rates)
+    change = motion.acceleration(Q, rates, accelerations) - motion.acceleration(P, rates, accelerations)
+    square = arm[0] ** 2 + arm[1] ** 2
+    spin = (arm[0] * moved[1] - arm[1] * moved[0]) / square
+    stretching = arm[0] * moved[0] + arm[1] * moved[1]
+    return spin, (arm[0] * change[1] - arm[1] * change[0] - 2.0 * stretching * spin) / square
 
 
 # Dry friction of pins and guides: it acts against the motion, in proportion to the force it helps to make.

@@ -253,7 +253,10 @@ def rates_in(motion: AnyMotion, acting: Acting, drive: str | None = None) -> Rat
         wrong = next((name for name in named if sense and np.any(sense * np.asarray(given.get(name, 0.0)) < 0.0)), None)
         if wrong is not None:
             raise DefinitionError(f"{motion.plan.title}: direction={direction!r} and the rate of {wrong} contradict each other; drop one.")
-        return Rates(given, True, direction)
+        return Rates(given, True, direction, known_accelerations(motion, acting))
+    if acting.inertia:
+        what = f"{motion.plan.title}: inertia=True, and nothing says how the strokes move"
+        raise DefinitionError(f"{what}; give rates= and accelerations=, or a motion in time.")
     if not sense:
         return AT_REST
     tangent: Mapping[str, Rate] = path_tangent(motion) or {stroke_of(motion.plan, drive, "drive"): 1.0}
@@ -270,6 +273,20 @@ def known_rates(motion: Motion, acting: Acting) -> Mapping[str, FloatArray]:
         what = f"rates={acting.rates!r}: this motion has no rates of its own"
         raise DefinitionError(f'{motion.plan.title}: {what}; give some, rates=dict({next(iter(motion.strokes), "S")}=0.05).')
     return motion.rates
+
+
+def known_accelerations(motion: Motion, acting: Acting) -> Mapping[str, FloatArray] | None:
+    """Return the accelerations of strokes beside rates that are known. None where inertia is left out.
+
+    Rates that are given alone leave it out, unless it is asked for: then they do not change.
+    """
+    given, own = acting.accelerations, acting.rates is None or isinstance(acting.rates, str)
+    if acting.inertia is False:
+        return None
+    if given is not None and not isinstance(given, str):
+        return rates_of("accelerations", given, motion)
+    found = motion.accelerations if own and (given is not None or isinstance(motion, Motion)) else {}
+    return found if found or acting.inertia else None
 
 
 def path_tangent(motion: AnyMotion) -> dict[str, FloatArray]:

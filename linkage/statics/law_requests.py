@@ -524,7 +524,7 @@ def situation_identity(acting: Acting) -> Hashable:
     listed = () if loads is None else loads if isinstance(loads, (list, tuple)) else (loads,)
     given = (acting.case, *listed)
     parts = [each if each is None or isinstance(each, str) else ref(each) if is_unchanging(each) else ... for each in given]
-    parts += [rates_identity(acting.rates), rates_identity(acting.accelerations)]
+    parts += [rates_identity(acting.rates), rates_identity(acting.accelerations), acting.inertia]
     return None if ... in parts else (loads is None, *parts)
 
 

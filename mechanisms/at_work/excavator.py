@@ -28,7 +28,7 @@ class Boom(Mechanism):
     up = angle(B, A)
     beam = Link(B, D, A, E)
 
-    steel = LinkMass((B, A), mass=227.343, at=(1.025, 0.384))
+    steel = LinkMass((B, A), mass=227.343, at=(1.025, 0.384), inertia=67.768)
     ram = Cylinder(C, D, bore=80 * mm, rod=45 * mm, works="both", closed=0.905, stroke=0.400)
     line = LiftCircuit(ram, pressure=200 * bar, relief=230 * bar)
     shape = Outline([(-0.10, -0.05), (0.05, -0.10), (1.02, 0.24), (2.08, -0.08), (2.10, 0.06), (1.10, 0.76), (0.86, 0.76)], on=(B, A))
@@ -47,7 +47,7 @@ class Arm(Mechanism):
     fold = angle(A, L)
     stick = Link(A, F, L, G, J)
 
-    steel = LinkMass((A, L), mass=130.123, at=(0.225, 0.227))
+    steel = LinkMass((A, L), mass=130.123, at=(0.225, 0.227), inertia=30.258)
     ram = Cylinder(E, F, bore=80 * mm, rod=56 * mm, works="both", closed=1.046, stroke=0.510)
     line = LiftCircuit(ram, pressure=200 * bar, relief=230 * bar)
     shape = Outline([(-0.30, 0.16), (-0.14, 0.38), (0.25, 0.20), (1.08, 0.05), (1.08, -0.05), (0.0, -0.09)], on=(A, L))
@@ -66,7 +66,7 @@ class Bucket(Mechanism):
     turn = angle(L, M)
     bucket = Link(L, K, M)
 
-    steel = LinkMass((L, M), mass=53.0, at=(0.289, 0.166))
+    steel = LinkMass((L, M), mass=53.0, at=(0.289, 0.166), inertia=3.021)
     soil = LinkMass((L, M), mass=100.0, at=(0.280, 0.180))
     dig = Force(M, (-10e3 * np.sin(turn), 10e3 * np.cos(turn)))  # N, across LM, against the curl
     ram = Cylinder(G, H, bore=63 * mm, rod=45 * mm, works="both", closed=0.840, stroke=0.420)

@@ -113,7 +113,7 @@ USES = [
     ),
     ('Damper("A", "B")', "", ("Damper(...): missing a required argument: 'coefficient'; it takes A, B, coefficient.",)),
     ('Moment("O B")', "", ("Moment(...): missing a required argument: 'M'; it takes link, M.",)),
-    ('LinkMass("O B")', "", ("LinkMass(...): missing a required argument: 'mass'; it takes link, mass, at, gravity.",)),
+    ('LinkMass("O B")', "", ("LinkMass(...): missing a required argument: 'mass'; it takes link, mass, at, gravity, inertia.",)),
     ('Force("G")', "", ("Force(...): missing a required argument: 'vector'; it takes point, vector.",)),
     ('Vector("A")', "", ("Vector(...): missing a required argument: 'Q'; it takes P, Q.",)),
     ('Turn("v")', "", ("Turn(...): missing a required argument: 'angle'; it takes vector, angle, length.",)),

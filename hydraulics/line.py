@@ -22,7 +22,7 @@ from numpy.typing import ArrayLike
 from linkage.errors import DefinitionError, UntracedError, one_word, unwarned
 from linkage.frozen import refuses_changes
 from linkage.language import said, with_and
-from linkage.loads import Acting, ActingKeywords, Case, Loads, situation_of
+from linkage.loads import AS_IT_RUNS, Acting, ActingKeywords, Case, Loads, situation_of
 from linkage.loads.element import Declared, ForceElement, Formulas, Parameter, Poses, Share, Tie, require_poses
 from linkage.motion import Answer, Judge, Motion, greatest, lowest
 from linkage.plan import Mask, Plan
@@ -132,7 +132,7 @@ def way_back(
     T / k_m where it resists. The first pressure is what the load alone makes in the side that empties, the second what the other side
     must give beyond the third one, that of its tank. It is below zero where the load does it by itself.
     """
-    acting, sense = replace(acting, direction=way, rates=None), -1.0 if way == "retracting" else 1.0
+    acting, sense = acting.towards(way), -1.0 if way == "retracting" else 1.0
     size, drives = ram.sized(motion, way), -sense * line_thrust(ram, line, motion, acting, with_tanks=False) + 0.0
     empties, other = (size.outward_area, size.pull_area) if way == "retracting" else (size.pull_area, size.outward_area)
     other = empties if ram.is_single_acting else other  # nothing pushes it back: what is missing where it empties
@@ -248,7 +248,8 @@ class LiftLine(Circuit):
     def work_of(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Work:
         size, k_m = cylinder.sized(motion, acting.direction), self.efficiency(motion, "mechanical")
         if size.works == "both" and acting.direction is None:
-            ways = (replace(acting, direction=way, rates=None) for way in ("extending", "retracting"))
+            ways = [acting.towards(way) for way in ("extending", "retracting")]
+            ways = ways if acting.rates is None else [replace(acting, direction=AS_IT_RUNS)] * 2
             out, back = (line_thrust(cylinder, self, motion, way) for way in ways)
             pushes = out + back >= 0.0  # against a pushing load it extends, against a pulling one it retracts
             return Work(np.where(pushes, out, back), np.where(pushes, 1.0, -1.0), size, k_m)
@@ -468,7 +469,7 @@ class LiftLine(Circuit):
 
         def carried(load: Array) -> Array:
             """Return the thrust that the machine and a load there need, in the direction in which it lifts."""
-            ways = [replace(beside(load), direction=way, rates=None) for way in ("extending", "retracting")]
+            ways = [beside(load).towards(way) for way in ("extending", "retracting")]
             out, back = (pump_thrust(motion, ram, way) for way in ways)
             return np.where(sense > 0.0, out, -back)
 

@@ -132,7 +132,7 @@ class HoldingValve(OnLines, HasVerdicts):
     def load_pressure(self, motion: AnyMotion, loads: Loads = None, **situation: Unpack[ActingKeywords]) -> Array:
         """Return what the load alone makes in the line at rest, shape (...) [Pa gauge]; 0 where it drives the other way."""
         acting = situation_of("load_pressure", loads=loads, **situation)
-        thrust, own, _ = self.works(held_in_case(motion, acting), replace(acting, direction=None, rates=None), False)
+        thrust, own, _ = self.works(held_in_case(motion, acting), acting.towards(None), False)
         return np.asarray(np.maximum(thrust / own, 0.0))[()]
 
     def lowered(self, motion: AnyMotion, acting: Acting) -> tuple[Array, Array]:
@@ -143,7 +143,7 @@ class HoldingValve(OnLines, HasVerdicts):
         """
         motion = held_in_case(motion, acting)
         line, _ = self.lines(motion.plan.members)
-        thrust, own, other = self.works(motion, replace(acting, rates=None), acting.direction is None)
+        thrust, own, other = self.works(motion, acting.towards(acting.direction), acting.direction is None)
         if isinstance(line, LiftLine) and line.kind_open(motion.plan.members) == "held":
             k_m = line.efficiency(motion, "mechanical")
             thrust = np.where(thrust * np.sign(own) > 0.0, thrust * k_m, thrust / k_m)

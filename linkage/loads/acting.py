@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from inspect import Parameter, signature
 from math import pi
 from types import MappingProxyType
@@ -192,7 +192,7 @@ class Acting:
 
     def __post_init__(self) -> None:
         if self.direction is not None:
-            known_name("Direction", self.direction, DIRECTIONS)
+            known_name("Direction", self.direction, (*DIRECTIONS, AS_IT_RUNS))
         if self.drive is not None:
             object.__setattr__(self, "drive", name_of(self.drive))
         for name, given in (("rates", self.rates), ("accelerations", self.accelerations)):
@@ -210,13 +210,18 @@ class Acting:
         """The direction as a plain value takes it."""
         return self.direction or FRICTIONLESS
 
+    def towards(self, direction: str | None) -> Self:
+        """Return it in a direction, without rates that are given: these say another one."""
+        given = isinstance(self.rates, Mapping)
+        return replace(self, direction=direction, **dict.fromkeys(("rates", "accelerations") if given else ()))  # type: ignore[arg-type]
+
     def within(self, outer: Acting, what: str = "") -> Self:
         """Return this with what is not said here taken from `outer`; where `what` is said to be asked, DefinitionError for what differs."""
         said = {each.name: getattr(self, each.name) for each in fields(self)}
         for name, value in said.items():
             other = getattr(outer, name)
             if value is None:
-                said[name] = other
+                said[name] = None if name == "accelerations" and self.rates is not None else other
             elif what and other is not None and other is not value and other != value:
                 inside, outside = (f"{name}={getattr(each, 'name', '') or cited(each)}" for each in (value, other))
                 raise DefinitionError(f"{what}: {inside} stands in it, and acting= says {outside}; drop one of them.")

@@ -70,6 +70,18 @@ class Instants:
         return {name: np.asarray(course(self.time)) for name, course in self.courses.items()}
 
     @cached_property
+    def rate_jump(self) -> tuple[float, str, float] | None:
+        """The first jump of a rate between both ends: its instant [s], the stroke, its size [m/s or rad/s]; None where there is none."""
+        begin, end = self.breaks[[0, -1]]
+        inner = [(at, name) for name, course in self.courses.items() for at in course.jumps(1) if begin < at < end]
+        if not inner:
+            return None
+        time, name = min(inner)
+        beside = 1e-6 * (end - begin)
+        before, after = (float(self.courses[name](time, 1, phase=time + way)) for way in (-beside, beside))
+        return time, name, abs(after - before)
+
+    @cached_property
     def key(self) -> bytes:
         """What tells it from the same strokes passed otherwise."""
         known = [self.time, *self.rates.values(), *self.accelerations.values()]

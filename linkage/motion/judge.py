@@ -653,7 +653,8 @@ class Judge:
     def situation(self, answer: Answer) -> Acting:
         """Return the situation of an answer of one design, as requests and forces take it."""
         case = answer.case if answer.case not in ("", PLAIN_CASE) else None
-        return Acting(self.acting.loads, case or self.acting.case, answer.direction or None, self.acting.rates, answer.drive or None)
+        case = case or self.acting.case
+        return replace(self.acting, case=case, direction=answer.direction or None, drive=answer.drive or None)
 
     def there(self, answer: Answer) -> Motion:
         """Return the pose of an answer of one design, of a path in time at its instant."""

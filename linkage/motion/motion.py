@@ -135,6 +135,15 @@ class Motion(Shown):
         return found
 
     @property
+    def _rate_jump(self) -> tuple[str, str] | None:
+        """The first stroke whose rate jumps over a path in time, with the jump in words; None where none does."""
+        found = None if self._instants is None else self._instants.rate_jump
+        if found is None:
+            return None
+        time, name, size = found
+        return name, f"the rate of {name} jumps by {size:.4g} {stroke_unit(self.plan, name)}/s at {time:.4g} s"
+
+    @property
     def over(self) -> Over:
         """Where it is looked at: what it was swept over, else one stroke's range, the path of several in one axis, the box of a grid.
 
@@ -480,7 +489,7 @@ class Motion(Shown):
         plan = self.plan
         if rates is not None or accelerations is not None:
             return self._at_rates(rates, accelerations).gradient(of, wrt)
-        (of,) = as_they_run([of], bool(self.accelerations)) if self.rates else [of]
+        (of,) = as_they_run([of], bool(self.accelerations), self.time is not None) if self.rates else [of]
         what, dimensions = bound(plan, of), dimensions_of(plan, wrt)
         names, signs = tuple(name for name, _ in dimensions), np.tile([float(sign) for _, sign in dimensions], what.rows)
         kernel, touched = plan.made(("switches", what.key, names), lambda plan: switches_of(plan, what, names))

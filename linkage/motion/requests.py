@@ -250,12 +250,16 @@ def all_bound(plan: Plan, requests: Sequence[RequestLike]) -> tuple[Request, ...
     return tuple(bound(plan, request) for request in requests)
 
 
-def as_they_run(requests: Sequence[RequestLike], accelerated: bool) -> Sequence[RequestLike]:
-    """Return requests at rates that are inputs, and at accelerations where they are `accelerated`. Names stay as they are."""
-    acting = Acting(rates=AS_IT_RUNS, accelerations=AS_IT_RUNS if accelerated else None)
+def as_they_run(requests: Sequence[RequestLike], accelerated: bool, timed: bool = False) -> Sequence[RequestLike]:
+    """Return requests at rates that are inputs, and at accelerations where they are `accelerated`. Names stay as they are.
+
+    Of a motion in time (`timed`) friction acts too, and what a request says itself stays.
+    """
+    direction = AS_IT_RUNS if timed else None
+    acting = Acting(direction=direction, rates=AS_IT_RUNS, accelerations=AS_IT_RUNS if accelerated else None)
     if type(requests) not in (list, tuple):
         return requests
-    return [each.under(acting) if isinstance(each, Request) else each for each in requests]
+    return [each.under(acting, keep=timed) if isinstance(each, Request) else each for each in requests]
 
 
 def is_of_force(quantity: object) -> bool:

@@ -242,21 +242,23 @@ def rates_in(motion: AnyMotion, acting: Acting, drive: str | None = None) -> Rat
     """
     motion = require_motion(motion)
     direction, drive, sense = acting.movement, acting.drive if drive is None else drive, SENSES[acting.movement]
-    given = known_rates(motion, acting)
-    if given and isinstance(motion, Motion) and not isinstance(acting.rates, Mapping):
-        if sense:
+    given, accelerations = known_rates(motion, acting), known_accelerations(motion, acting)
+    if not given and (acting.inertia or direction == AS_IT_RUNS):
+        what = f"inertia={acting.inertia}" if acting.inertia else f"direction={direction!r}"
+        remedy = "give rates= and accelerations=, or a motion in time"
+        raise DefinitionError(f"{motion.plan.title}: {what}, and nothing says how the strokes move; {remedy}.")
+    if isinstance(motion, Motion) and motion.time is not None and not isinstance(acting.rates, Mapping):
+        if direction not in (FRICTIONLESS, AS_IT_RUNS):
             what = f"{motion.plan.title}: direction={direction!r}: over a path in time the machine moves one way, as it runs"
             raise DefinitionError(f"{what}; leave the direction out, or say direction={FRICTIONLESS!r}.")
-        return Rates(given, True, FRICTIONLESS if acting.direction else AS_IT_RUNS)
+        return Rates(given, True, acting.direction or AS_IT_RUNS, accelerations)
     if given:
+        sense = 0 if direction == AS_IT_RUNS else sense
         named = [drive] if drive is not None else [*given] if len(given) == 1 else []
         wrong = next((name for name in named if sense and np.any(sense * np.asarray(given.get(name, 0.0)) < 0.0)), None)
         if wrong is not None:
             raise DefinitionError(f"{motion.plan.title}: direction={direction!r} and the rate of {wrong} contradict each other; drop one.")
-        return Rates(given, True, direction, known_accelerations(motion, acting))
-    if acting.inertia:
-        what = f"{motion.plan.title}: inertia=True, and nothing says how the strokes move"
-        raise DefinitionError(f"{what}; give rates= and accelerations=, or a motion in time.")
+        return Rates(given, True, direction, accelerations)
     if not sense:
         return AT_REST
     tangent: Mapping[str, Rate] = path_tangent(motion) or {stroke_of(motion.plan, drive, "drive"): 1.0}
@@ -286,7 +288,11 @@ def known_accelerations(motion: Motion, acting: Acting) -> Mapping[str, FloatArr
     if given is not None and not isinstance(given, str):
         return rates_of("accelerations", given, motion)
     found = motion.accelerations if own and (given is not None or isinstance(motion, Motion)) else {}
-    return found if found or acting.inertia else None
+    jump = motion._rate_jump if own and isinstance(motion, Motion) else None
+    if jump is not None and acting.inertia:
+        name, words = jump
+        raise DefinitionError(f"{motion.plan.title}: {words}: give the ramp of {name} an acceleration, or leave inertia= out.")
+    return None if jump is not None else found if found or acting.inertia else None
 
 
 def path_tangent(motion: AnyMotion) -> dict[str, FloatArray]:

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..errors import DefinitionError, UntracedError, cited, known_name
 from ..language import said
-from ..loads import FRICTIONLESS, Acting, Case, Loads, TwoPoint, situation_of
+from ..loads import AS_IT_RUNS, FRICTIONLESS, Acting, Case, Loads, TwoPoint, situation_of
 from ..motion import Judge, Motion, most, require_motion, stroke_unit
 from ..motion.requests import stroke_of
 from ..plan import Plan
@@ -20,7 +20,7 @@ from ..program import FloatArray, Node
 from ..units import show
 from ..vectors import Scalar
 from ..verdict import Remark, Verdict
-from .applied import applied_loads, plan_in_case, rates_in
+from .applied import applied_elements, applied_loads, plan_in_case, rates_in
 from .holding import closed_ties, holders_of
 from .joint_forces import JointForce, PinForces, joint_forces, joint_on, joints_of
 from .joints import Contact, Structure
@@ -39,11 +39,14 @@ def force_request(
     return LawRequest(formula=formula, text=text, known=(word, known), acting=acting, measures="force", look_up=look_up)
 
 
-def require_rest(request: LawRequest, plan: Plan) -> None:
-    """Raise UntracedError in a direction of motion, for friction follows from the forces that it changes."""
-    if request.situation.movement != FRICTIONLESS:
-        what = f"{plan.title}: {request}: in a direction it has values, and no program that gives derivatives"
-        raise UntracedError(f"{what}. Ask without one.")
+def require_rest(request: LawRequest, motion: TracedMotion) -> None:
+    """Raise UntracedError where something rubs, for friction follows from the forces that it changes."""
+    acting = request.situation
+    as_it_runs = acting.movement == AS_IT_RUNS
+    rubs = as_it_runs and any(each.element.frictions(motion) for each in applied_elements(motion.plan, acting))
+    if rubs or not (as_it_runs or acting.movement == FRICTIONLESS):
+        what = f"{motion.plan.title}: {request}: friction gives it values in a direction, and no program that gives derivatives"
+        raise UntracedError(f'{what}. Ask with direction="frictionless".')
 
 
 # The force of a drive.
@@ -68,7 +71,7 @@ def drive_force(drive: str | None = None, loads: Loads = None, case: Case = None
         return cast(FloatArray, force)
 
     def look_up(request: LawRequest, motion: TracedMotion) -> LawInPlan:
-        require_rest(request, motion.plan)
+        require_rest(request, motion)
 
         def trace(traced: TracedMotion) -> tuple[TracedMotion, Node]:
             return traced, traced.node(request.law(traced))
@@ -118,7 +121,7 @@ class JointPart:
 
     def in_plan(self, request: LawRequest, motion: TracedMotion) -> LawInPlan:
         """Return what it is in the plan of a traced motion, where its bodies have their full names."""
-        require_rest(request, motion.plan)
+        require_rest(request, motion)
         self.check_component(motion.plan)
         structure, acts = structure_in_plan(motion, request.situation)
         full = replace(self, on=structure.full_name(self.on), by=structure.full_name(self.by))

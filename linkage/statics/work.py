@@ -285,12 +285,10 @@ def poses_held(motion: Motion, applied: AppliedLoads, what: str) -> FlatPoses:
 def member_rates(motion: AnyMotion, member: TwoPoint, acting: Acting, line: PressureLine | None) -> Rates:
     """Return how strokes move while a member grows or shrinks: along the path, else by the stroke it holds or follows most."""
     direction, sense = acting.movement, SENSES[acting.movement]
-    still = replace(acting, direction=None if sense else acting.direction, drive=None)
-    moves = rates_in(motion, still)
-    if not sense:
-        return moves
-    if moves.direction == AS_IT_RUNS:  # over a path in time it goes as that runs, whichever direction is looked at
-        return moves
+    is_own = direction in ("extending", "retracting")
+    moves = rates_in(motion, replace(acting, direction=None if is_own else acting.direction, drive=None))
+    if not is_own or moves.direction == AS_IT_RUNS or isinstance(acting.rates, str):
+        return moves  # over a path in time it goes as that runs, whichever direction is looked at
     if moves:
         if np.any(sense * np.nan_to_num(member.growth(motion, moves)) < 0.0):
             what = f"{member.name or member}: direction={direction!r} is its own, and at these rates it goes the other way at some poses"

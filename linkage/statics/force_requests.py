@@ -40,7 +40,7 @@ def force_request(
 
 
 def require_rest(request: LawRequest, motion: TracedMotion) -> None:
-    """Raise UntracedError where something rubs, for friction follows from the forces that it changes."""
+    """Raise UntracedError where there is friction: it follows from the forces that it changes."""
     acting = request.situation
     as_it_runs = acting.movement == AS_IT_RUNS
     rubs = as_it_runs and any(each.element.frictions(motion) for each in applied_elements(motion.plan, acting))

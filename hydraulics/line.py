@@ -22,7 +22,7 @@ from numpy.typing import ArrayLike
 from linkage.errors import DefinitionError, UntracedError, one_word, unwarned
 from linkage.frozen import refuses_changes
 from linkage.language import said, with_and
-from linkage.loads import AS_IT_RUNS, Acting, ActingKeywords, Case, Loads, situation_of
+from linkage.loads import AS_IT_RUNS, DIRECTIONS, SENSES, Acting, ActingKeywords, Case, Loads, situation_of
 from linkage.loads.element import Declared, ForceElement, Formulas, Parameter, Poses, Share, Tie, require_poses
 from linkage.motion import Answer, Judge, Motion, greatest, lowest
 from linkage.plan import Mask, Plan
@@ -128,18 +128,23 @@ def way_back(
 ) -> tuple[Array, Array, Array]:
     """Return three pressures of a cylinder on its way back against a resistance of the returning oil [Pa].
 
-    `way` is "extending" or "retracting", its own direction. Friction acts against it: the load brings T k_m where it drives and takes
-    T / k_m where it resists. The first pressure is what the load alone makes in the side that empties, the second what the other side
-    must give beyond the third one, that of its tank. It is below zero where the load does it by itself.
+    `way` is "extending" or "retracting", its own direction. Over a path in time nothing is asked of it where it goes another way.
+    Friction acts against it: the load brings T k_m where it drives and takes T / k_m where it resists. The first pressure is what the
+    load alone makes in the side that empties, the second what the other side must give beyond the third one, that of its tank. It is
+    below zero where the load does it by itself.
     """
-    acting, sense = acting.towards(way), -1.0 if way == "retracting" else 1.0
+    goes, sense = ram.goes(motion, replace(acting, direction=None)), -1.0 if way == "retracting" else 1.0
+    acting = acting.towards(way)
     size, drives = ram.sized(motion, way), -sense * line_thrust(ram, line, motion, acting, with_tanks=False) + 0.0
     empties, other = (size.outward_area, size.pull_area) if way == "retracting" else (size.pull_area, size.outward_area)
     other = empties if ram.is_single_acting else other  # nothing pushes it back: what is missing where it empties
     helps = sense * by_other_lines(ram, line, held_in_case(motion, acting), None, True)
     brings = np.where(drives > 0.0, drives * k_m, drives / k_m)
     push = (against * empties - brings - helps) / other
-    return np.asarray(np.maximum(brings + helps, 0.0) / empties)[()], np.asarray(push)[()], np.asarray(helps / other)[()]
+    counts = 1.0 if goes is None else goes == sense
+    pressures = np.maximum(brings + helps, 0.0) / empties, push, helps / other
+    working, push, tank = (np.asarray(counts * each)[()] for each in pressures)
+    return working, push, tank
 
 
 class LiftLine(Circuit):
@@ -247,6 +252,11 @@ class LiftLine(Circuit):
 
     def work_of(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Work:
         size, k_m = cylinder.sized(motion, acting.direction), self.efficiency(motion, "mechanical")
+        goes = cylinder.goes(motion, acting)
+        if goes is not None:  # over a path in time as it runs
+            thrust = line_thrust(cylinder, self, motion, acting, with_tanks=size.works == "both")
+            drained = 0.0 if size.works == "both" else by_other_lines(cylinder, self, held_in_case(motion, acting), None, True)
+            return Work(thrust, np.where(goes == 0.0, np.sign(thrust), goes), size, k_m, drained)
         if size.works == "both" and acting.direction is None:
             ways = [acting.towards(way) for way in ("extending", "retracting")]
             ways = ways if acting.rates is None else [replace(acting, direction=AS_IT_RUNS)] * 2
@@ -284,14 +294,21 @@ class LiftLine(Circuit):
         members = motion.plan.members
         if is_blocked(ram, members):
             return np.asarray(np.maximum(standing_pressure(self, motion, acting), 0.0))[()]
+        goes, lowered = ram.goes(motion, acting), list[tuple[Mask, Array]]()
         for valve in of_kind(members, OnLines).values():
-            lowering = valve.pressure_lowering(self, ram, motion, acting)
-            if lowering is not None:
-                return lowering
+            for way in (acting.direction,) if goes is None else DIRECTIONS[1:]:
+                lowering = valve.pressure_lowering(self, ram, motion, replace(acting, direction=way))
+                if lowering is not None and goes is None:
+                    return lowering
+                if lowering is not None and way is not None:  # over a path in time it counts where it goes that way
+                    lowered.append((np.asarray(goes == SENSES[way]), lowering))
         work = self.work_of(ram, motion, acting)
         back = np.where(work.supplied, self.back(motion) * work.other_area, 0.0)
         share = np.where(work.supplied, self.efficiency(motion, "hydraulic"), 1.0)
-        return np.asarray(np.maximum(work.force + back + work.against, 0.0) / (work.area * share))[()]
+        found = np.asarray(np.maximum(work.force + back + work.against, 0.0) / (work.area * share))[()]
+        for there, pressure in lowered:
+            found = np.where(there, pressure, found)
+        return found
 
     def _pushes_out(self, cylinder: Ram, members: NamedMembers) -> bool:
         """Return whether its pump pushes a cylinder out: it has the piston side, and no line of the cylinder is shut."""

@@ -24,7 +24,7 @@ from numpy.typing import ArrayLike
 from linkage.errors import DefinitionError, cited, ensure, known_name, unknown, unwarned
 from linkage.frozen import refuses_changes
 from linkage.language import noted, said, with_and
-from linkage.loads import AT_REST, FRICTIONLESS, Acting, ActingKeywords, Case, ForceElement, Load, Loads, situation_of, takes_situation
+from linkage.loads import AS_IT_RUNS, AT_REST, FRICTIONLESS, Acting, ActingKeywords, Case, ForceElement, Load, Loads, situation_of, takes_situation
 from linkage.loads.element import DIRECTIONS, UNBOUNDED, Declared, Formulas, Parameter, Poses, Push, Rates, Share, Tie, require_poses
 from linkage.loads.two_point import DrawnAs, TwoPoint
 from linkage.motion import (
@@ -310,6 +310,14 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         circuit = circuit_having(self, motion.plan)
         return UNBOUNDED if circuit is None else circuit.bounds_of(self, motion, lifting, share=share)
 
+    def goes(self, motion: AnyMotion, acting: Acting) -> Array | None:
+        """Return 1 where it extends over a path in time, -1 where it retracts, 0 where it stands; None where a direction says that."""
+        is_said = acting.direction not in (None, AS_IT_RUNS) or isinstance(acting.rates, Mapping)
+        if not isinstance(motion, Motion) or motion.time is None or is_said:
+            return None
+        growth, speeds = self.growth(motion, motion.rates), [np.hypot(*motion.velocity(end)) for end in self.ends]
+        return np.where(np.abs(growth) > TO_ROUNDING * np.maximum(*speeds), np.sign(growth), 0.0)
+
     @property
     def driven(self) -> tuple[str, ...]:
         """The directions in which the side that works drives it."""
@@ -338,8 +346,12 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         along, size = thrust if side == PISTON else -thrust, self.sized(motion, acting.direction)
         balance = along / (size.outward_area if side == PISTON else size.pull_area)
         least = balance if below else 0.0
-        if acting.movement == FRICTIONLESS or (self.side not in (side, "both") and self.side != "regenerative"):
-            return np.asarray(np.maximum(balance, least))[()]
+        goes, at_rest = self.goes(motion, acting), np.asarray(np.maximum(balance, least))[()]
+        if (acting.movement == FRICTIONLESS and goes is None) or (self.side not in (side, "both") and self.side != "regenerative"):
+            return at_rest
+        if goes is not None:
+            found = pressure_of(self, motion, acting) if circuit is None else circuit.pressure_in(self, motion, acting)
+            return np.where((goes != 0.0) & (along > 0.0), found, at_rest)
         found = pressure_of(self, motion, acting) if circuit is None else circuit.pressure_in(self, motion, acting)
         return np.where(along > 0.0, found, least) + 0.0 * thrust
 
@@ -551,7 +563,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         acting = situation_of("buckling_use", loads=loads, **situation)
         if acting.direction is not None:
             return self._use(motion, acting)
-        ways = DIRECTIONS if changes_in_motion(motion, acting.loads) else (None,)
+        ways = DIRECTIONS if changes_in_motion(motion, acting.loads) and self.goes(motion, acting) is None else (None,)
         return reduce(np.maximum, [self._use(motion, replace(acting, direction=way)) for way in ways])
 
     def rod_push(self, motion: AnyMotion, acting: Acting) -> Array:

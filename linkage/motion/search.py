@@ -8,7 +8,7 @@ one axis it is the path through the poses in their order. Of a grid it is the bo
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise, product
 from typing import Any, Protocol, TypeAlias, final, runtime_checkable
@@ -22,6 +22,7 @@ from ..numeric.box import highest_in, values_a_stroke, weights_of
 from ..numeric.line import CLOSE, SAMPLES, Index, bisected, highest, missing_lowest, peaks, samples, stretches, zoomed
 from ..plan import Mask
 from ..program import FloatArray
+from ..units import show, shown_number
 from .answer import OF_VALUE, UNBOUNDED, Answer, PerDesign
 from .grid import JoinedTo, joined_in_order, recalled
 from .instants import Instants
@@ -96,14 +97,22 @@ def strokes_moved(motion: Motion) -> tuple[str, ...]:
 @final
 @dataclass(frozen=True)
 class Span:
-    """A part of a motion's way, from the strokes `start` to the strokes `end` [m or rad, which `units` say], in the order of the way."""
+    """A part of a motion's way, from the strokes `start` to the strokes `end` [m or rad, which `units` say], in the order of the way.
+
+    Over a path in time it is from one of its `times` to the other [s].
+    """
 
     start: Mapping[str, float]
     end: Mapping[str, float]
     units: Mapping[str, str]
+    times: tuple[float, float] | None = None
 
     def __str__(self) -> str:
         """Return it in words: `from S = 0.5500 to 0.5660 m`, `from S1 = 0.1000 m, S2 = 0.2000 m to S1 = 0.1500 m, S2 = 0.2000 m`."""
+        if self.times is not None:
+            low, high = (shown_number(each, "s", 4) for each in self.times)
+            at = said("at {place}", place=show(self.times[0], "s", 4))
+            return at if low == high else said("from {low} to {high} s", low=low, high=high)
         moving = [name for name in self.start if self.start[name] != self.end[name]]
         if len(moving) == 1:
             (name,) = moving
@@ -143,7 +152,10 @@ def below_zero(motion: Motion, f: Function | Request) -> tuple[Span, ...]:
     units = {name: stroke_unit(motion.plan, name) for name in motion.strokes}
     strokes = [between.route.strokes(leg[inside], at) for inside, at in ((firsts, low), (lasts, high))]
     starts, stops = ([{name: float(value[row]) for name, value in at.items()} for row in range(len(firsts))] for at in strokes)
-    return tuple(Span(start, end, units) for start, end in zip(starts, stops, strict=True))
+    spans = tuple(Span(start, end, units) for start, end in zip(starts, stops, strict=True))
+    instants = [between.route.at(leg[inside], at) for inside, at in ((firsts, low), (lasts, high))]
+    times = zip(*(each.time.tolist() for each in instants if each is not None), strict=True)
+    return spans if None in instants else tuple(replace(span, times=each) for span, each in zip(spans, times, strict=True))
 
 
 def reached(motion: Motion) -> tuple[Span, ...]:

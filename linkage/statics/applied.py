@@ -248,9 +248,7 @@ def rates_in(motion: AnyMotion, acting: Acting, drive: str | None = None) -> Rat
         remedy = "give rates= and accelerations=, or a motion in time"
         raise DefinitionError(f"{motion.plan.title}: {what}, and nothing says how the strokes move; {remedy}.")
     if isinstance(motion, Motion) and motion.time is not None and not isinstance(acting.rates, Mapping):
-        if direction not in (FRICTIONLESS, AS_IT_RUNS):
-            what = f"{motion.plan.title}: direction={direction!r}: over a path in time the machine moves one way, as it runs"
-            raise DefinitionError(f"{what}; leave the direction out, or say direction={FRICTIONLESS!r}.")
+        refuse_direction(motion, acting)
         return Rates(given, True, acting.direction or AS_IT_RUNS, accelerations)
     if given:
         sense = 0 if direction == AS_IT_RUNS else sense
@@ -263,6 +261,14 @@ def rates_in(motion: AnyMotion, acting: Acting, drive: str | None = None) -> Rat
         return AT_REST
     tangent: Mapping[str, Rate] = path_tangent(motion) or {stroke_of(motion.plan, drive, "drive"): 1.0}
     return Rates({name: sense * rate for name, rate in tangent.items()}, direction=direction)
+
+
+def refuse_direction(motion: AnyMotion, acting: Acting) -> None:
+    """Raise DefinitionError for a direction over a path in time."""
+    is_timed = isinstance(motion, Motion) and motion.time is not None and not isinstance(acting.rates, Mapping)
+    if is_timed and acting.movement not in (FRICTIONLESS, AS_IT_RUNS):
+        what = f"{motion.plan.title}: direction={acting.direction!r}: over a path in time the machine moves one way, as it runs"
+        raise DefinitionError(f"{what}; leave the direction out, or say direction={FRICTIONLESS!r}.")
 
 
 def known_rates(motion: Motion, acting: Acting) -> Mapping[str, FloatArray]:

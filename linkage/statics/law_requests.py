@@ -22,7 +22,7 @@ from ..program import FloatArray, Node, Notes, SparseSystem, Traced, interpret, 
 from ..quantities import Angle, Distance, Member, Quantity, Reference, name_of
 from ..steps import Arrow, Point
 from ..vectors import Scalar
-from .applied import AppliedElement, AppliedLoads, Parts, element_parts, motion_in_case, plan_in_case
+from .applied import AppliedElement, AppliedLoads, Parts, element_parts, motion_in_case, plan_in_case, refuse_direction
 from .equilibrium import JointFriction, System
 from .holding import Levers
 from .joints import Structure
@@ -383,7 +383,10 @@ class LawRequest(Request):
 
     def law(self, motion: AnyMotion) -> FloatArray:
         """Return the values over a motion's poses [SI], shape (...); one number of a program where the motion is traced."""
-        return self.formula(motion) if self.acting is None else self.formula(held_in_case(motion, self.acting), self.acting)
+        if self.acting is None:
+            return self.formula(motion)
+        refuse_direction(motion, self.acting)
+        return self.formula(held_in_case(motion, self.acting), self.acting)
 
     def of(self, motion: MotionLike) -> FloatArray:
         return self.law(require_motion(motion))

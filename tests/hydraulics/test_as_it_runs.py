@@ -1,0 +1,52 @@
+"""Cylinders over a path in time: each instant is that of the direction in which the cylinder goes there."""
+
+import numpy as np
+import pytest
+
+from hydraulics import Cylinder, LiftCircuit, pressure, reserve, thrust
+from linkage import RIGHT, DefinitionError, Dyad, Ground, Mechanism, OnLink, Over, PinFriction, Stroke, Weight, least, ramp
+from linkage.units import bar, mm
+
+
+class Boom(Mechanism):
+    """A boom with friction in its foot, raised, held and let down again."""
+
+    S = Stroke(0.0, 0.2)
+    O, A = Ground(0, 0), Ground(0.5, -0.5)
+    B = Dyad(A, O, AB=0.6 + S, OB=0.6, side=RIGHT)
+    G = OnLink(O, B, OG=1.2)
+    load = Weight(G, mass=400)
+    foot = PinFriction(O, 40 * mm, 0.2)
+    ram = Cylinder(A, B, bore=63 * mm, rod=40 * mm)
+    line = LiftCircuit(ram, pressure=180 * bar, mechanical_efficiency=0.9)
+    work = Over.path(S=ramp(0.02, 0.18, speed=0.1).hold(0.4).then(ramp(0.18, 0.02, speed=0.2)))
+    back = Over.path(S=[0.02, 0.18, 0.02])
+
+
+class BothWays(Boom):
+    ram = Cylinder("A", "B", bore=63 * mm, rod=40 * mm, works="both")
+
+
+@pytest.mark.parametrize("machine", [Boom(), BothWays()])
+def test_each_instant_is_that_of_the_direction_in_which_it_goes(machine):
+    motion = machine.sweep(41, over="work")
+    strokes = {name: value.tolist() for name, value in motion.strokes.items()}
+    going = np.sign(motion.rates["S"])
+    for request in (thrust, pressure, reserve):
+        found = motion[request("ram")]
+        for way, sense in (("extending", 1.0), ("retracting", -1.0), ("frictionless", 0.0)):
+            plain = np.array([float(machine.at(S=each)[request("ram", direction=way)]) for each in strokes["S"]])
+            there = going == sense
+            assert there.any() and found[there] == pytest.approx(plain[there], rel=1e-9, nan_ok=True), (request, way)
+
+
+def test_the_worst_over_a_path_in_time_is_that_of_its_directions():
+    timed, both = (Boom().answers([least(reserve("ram"))], over=name)[0] for name in ("work", "back"))
+    assert timed.value == pytest.approx(both.value, rel=1e-9) and both.direction == "extending" and timed.direction == ""
+    verdicts = Boom().verdicts(Boom().sweep(11, over="work"))
+    assert any(" s (S = " in each for each in verdicts)
+
+
+def test_a_direction_of_ones_own_is_refused():
+    with pytest.raises(DefinitionError, match="as it runs; leave the direction out"):
+        Boom().sweep(11, over="work")[thrust("ram", direction="retracting")]

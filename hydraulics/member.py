@@ -24,7 +24,19 @@ from numpy.typing import ArrayLike
 from linkage.errors import DefinitionError, cited, ensure, known_name, unknown, unwarned
 from linkage.frozen import refuses_changes
 from linkage.language import noted, said, with_and
-from linkage.loads import AS_IT_RUNS, AT_REST, FRICTIONLESS, Acting, ActingKeywords, Case, ForceElement, Load, Loads, situation_of, takes_situation
+from linkage.loads import (
+    AS_IT_RUNS,
+    AT_REST,
+    FRICTIONLESS,
+    Acting,
+    ActingKeywords,
+    Case,
+    ForceElement,
+    Load,
+    Loads,
+    situation_of,
+    takes_situation,
+)
 from linkage.loads.element import DIRECTIONS, UNBOUNDED, Declared, Formulas, Parameter, Poses, Push, Rates, Share, Tie, require_poses
 from linkage.loads.two_point import DrawnAs, TwoPoint
 from linkage.motion import (

@@ -350,6 +350,8 @@ NEAR = 0.02
 """Of a stroke's travel: a pose that is no farther from a leg, a pose or a held value, in every stroke, is looked at with it."""
 ROUNDING = 1e-9
 """Of a stroke's travel: a pose that is no farther outside a box stands at its border."""
+PLACES = 257
+"""Places of a path in time, which goes near enough straight from one to the next."""
 
 
 def judged_poses(judge: Judge, motion: Motion) -> Mask:
@@ -376,7 +378,8 @@ def judged_poses(judge: Judge, motion: Motion) -> Mask:
 
 def covered(place: Domain, motion: Motion) -> Mask:
     """Return which poses lie in the box, or near a leg or a pose, of an `Over`."""
-    values, spans = (np.broadcast_arrays(*each.strokes.values()) for each in (motion, place.motion))
+    way = place.motion if place.instants is None else place.timed(place.instants.shares(np.linspace(0.0, 1.0, PLACES)), "nan")
+    values, spans = (np.broadcast_arrays(*each.strokes.values()) for each in (motion, way))
     inside, low, high = np.ones((1,), bool), np.zeros(1), np.ones(1)
     for stroke, of_poses, span in zip(motion.plan.strokes.values(), values, spans, strict=True):
         travel, value, ends = abs(stroke.end - stroke.start), of_poses[..., None], np.ravel(span)

@@ -260,16 +260,17 @@ def where_words(plan: Plan, mask: Mask, strokes: Mapping[str, Any]) -> str:
 
 
 def where_said(plan: Plan, mask: Mask, strokes: Mapping[str, Any]) -> str:
-    """Return the same in the language that is spoken, for verdicts and remarks."""
+    """Return the same in the language that is spoken, for verdicts and remarks; the `time` of poses may stand before their strokes [s]."""
     count, total = int(mask.sum()), mask.size
     poses = next(iter(strokes.values())).ndim if strokes else 0
     if mask.ndim > poses:
         designs = mask.reshape(*mask.shape[: mask.ndim - poses], -1)
         some, every = int(designs.any(axis=-1).sum()), designs[..., 0].size
         return said("at {count} of {total} poses, in {some} of {every} designs", count=count, total=total, some=some, every=every)
-    ends = {name: (float(np.min(value[mask])), float(np.max(value[mask])), stroke_unit(plan, name)) for name, value in strokes.items()}
+    ends = {name: (float(np.min(value[mask])), float(np.max(value[mask]))) for name, value in strokes.items()}
     spans = []
-    for name, (low, high, unit) in ends.items():
+    for name, (low, high) in ends.items():
+        unit = "s" if name == "time" else stroke_unit(plan, name)
         text = f"{low:.4f}" if low == high else said("{low} to {high}", low=f"{low:.4f}", high=f"{high:.4f}")
         spans.append(f"{name} = {text} {translated(unit)}")
     place = ", ".join(spans)

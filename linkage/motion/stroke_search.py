@@ -435,13 +435,15 @@ def out_of_reach(motion: MotionLike) -> AssemblyError:
         why = f"the branches of {groups} cross on the way from the sketch"
         remedy = 'Stop before it, start from a sketch on the other side, or ask with unreachable="nan".'
         return SingularError(f"{what}: {why}. {remedy}", point=named[int(numbers[0]) - 1][0], mask=crossed, motion=motion)
-    stop = ""
+    stop, strokes = "", dict[str, FloatArray](motion.strokes)
+    if motion._instants is not None:  # no stroke is called so
+        strokes = {"time": np.broadcast_to(motion._instants.time, motion._grid.stroke_shape), **strokes}
     if len(motion.strokes) == 1 and not motion._design_shape and motion.reached.any() and motion.reached.ndim == 1:
         ((name, values),) = motion.strokes.items()
         order = np.argsort(values, kind="stable")
         found = StrokeLine(motion, name, {}).ranges_among(values[order], motion.reached[order])
         stop = spans_words(name, stroke_unit(plan, name), [(each.low, each.high) for each in found])
-    return assembly_error(plan, motion._grid.read_at(missing), missing, motion.strokes, stop)
+    return assembly_error(plan, motion._grid.read_at(missing), missing, strokes, stop)
 
 
 # The way between poses: where a loop comes to its dead point there, and where it cannot be assembled.

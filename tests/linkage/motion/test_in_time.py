@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from linkage import (
+    AssemblyError,
     Course,
     Curve,
     DefinitionError,
@@ -26,6 +27,7 @@ from linkage import (
     y,
 )
 from linkage.loads import Acting, Damper
+from linkage.motion import judged_poses
 from linkage.units import deg
 from tests.linkage.motion.test_swept import Lever
 
@@ -169,3 +171,19 @@ def test_what_is_no_path_in_time_is_refused_in_words():
     ]:
         with pytest.raises(DefinitionError, match=re.escape(words)):
             make()
+
+
+def test_a_course_out_of_reach_is_refused_with_its_instant():
+    """B is out of reach from S = 0.2 + ... on: the error names the instants, the strokes, the step and what is missing."""
+    far = Over.path(S=ramp(0.05, 1.2, speed=0.5))
+    with pytest.raises(AssemblyError, match=r"(?s)B = Dyad.*cannot be assembled .*from time = 1\.\d+ to 2\.3000 s, S = .* m.*mm"):
+        Lever().sweep(101, over=far)
+    motion = Lever().sweep(101, over=far, unreachable="nan")
+    assert not motion.reached.all() and np.isfinite(motion.time).all()
+
+
+def test_poses_near_a_path_in_time_are_looked_at():
+    course = Course([0.0, 1.0, 2.0], [0.1, 0.9, 0.1])  # it bends: between its rows it is far from straight
+    over = Over.path(a=course, b=Course([0.0, 2.0], [0.0, 1.0]))
+    inside = judged_poses(Blocks().judge(over), Blocks().at(a=[course(0.4), course(0.4)], b=[0.2, 0.5]))
+    assert inside.tolist() == [True, False]

@@ -81,7 +81,8 @@ def plot_curves(first: Motion, curves: Sequence[Curve], limits: Mapping[str, Seq
     given = dict(limits or {})
     for name in given:
         known_name("Column", name, [*dict.fromkeys(column.name for _, column, _ in curves)], where="limits")
-    shown = [each for each in curves if each[1].name not in (*each[0].strokes, StrokeAxis.of(each[0]).name)]
+    abscissas = [(StrokeAxis.of(motion).name, *(motion.strokes if motion.time is None else ())) for motion, _, _ in curves]
+    shown = [each for each, along in zip(curves, abscissas, strict=True) if each[1].name not in along]
     if not shown:
         along = StrokeAxis.of(first).name
         raise DefinitionError(f"{first.plan.title}: there is no column to draw over {along}; name a result, not a stroke.")

@@ -22,6 +22,7 @@ from linkage import (
     least,
     most,
     pin_forces,
+    plot,
     ramp,
     x,
     y,
@@ -144,6 +145,13 @@ def test_a_course_that_ends_before_the_others_holds_its_last_value():
         and motion.rates["a"][30] == 0.0
         and motion.rates["b"][30] == pytest.approx(0.1)
     )
+
+
+def test_strokes_are_curves_over_time():
+    drawn = [ax for ax in plot(Blocks().sweep(401, over="there"), ["a", "A_x"]).axes if ax.get_visible()]
+    assert [ax.get_title(loc="left") for ax in drawn] == ["a, m", "A_x, m"]
+    times, values = drawn[0].lines[0].get_data()
+    assert values == pytest.approx(Blocks.plan.members["there"].strokes["a"](np.asarray(times)))
 
 
 def test_a_motion_in_time_is_pickled_and_moved():

@@ -75,6 +75,7 @@ ARGUMENTS = (
 )
 SIZES = ["OB", "OC", "lift.bore", "load.mass"]
 LAPTOP, PHONE = (1366, 657), (390, 760)
+BLANK = "about:blank"
 
 
 class FourBar(Mechanism):
@@ -125,13 +126,20 @@ class Shown:
     """A page in a browser, with what it complained about and what it asked the network for."""
 
     def __init__(self, browser, file, size=LAPTOP, mark="", **options):
-        viewport = dict(zip(("width", "height"), size, strict=True))
-        self.context = browser.new_context(**{"viewport": viewport, "reduced_motion": "reduce"} | options)
-        self.tab, self.said, self.asked = self.context.new_page(), [], []
+        viewport, idle = dict(zip(("width", "height"), size, strict=True)), []
+        if not options:  # a tab takes as long to make as a page to open
+            idle = [context.pages[0] for context in browser.contexts if context.pages[0].url == BLANK]
+        self.tab = idle[0] if idle else browser.new_context(**{"viewport": viewport, "reduced_motion": "reduce"} | options).new_page()
+        self.tab.set_viewport_size(viewport)
+        self.said, self.asked, self.is_plain = [], [], not options
         self.tab.set_default_timeout(10_000)
-        self.tab.on("console", lambda message: self.said.append(message.text))
-        self.tab.on("pageerror", lambda error: self.said.append(str(error)))
-        self.tab.on("request", lambda request: self.asked.append(request.url))
+        self.heard = {
+            "console": lambda message: self.said.append(message.text),
+            "pageerror": lambda error: self.said.append(str(error)),
+            "request": lambda request: self.asked.append(request.url),
+        }
+        for event, hear in self.heard.items():
+            self.tab.on(event, hear)
         self.tab.goto(f"{Path(file).as_uri()}{mark}")
         for _ in range(1000):  # the policy lets no text be evaluated while the page waits
             if self.tab.evaluate("window.hydrolinkage !== undefined"):
@@ -179,7 +187,12 @@ class Shown:
         return self
 
     def __exit__(self, *error):
-        self.context.close()
+        for event, hear in self.heard.items():
+            self.tab.remove_listener(event, hear)
+        if not self.is_plain:
+            return self.tab.context.close()
+        self.tab.mouse.move(0, 0)
+        self.tab.goto(BLANK)
 
 
 @pytest.fixture(scope="module")
@@ -735,7 +748,7 @@ def test_every_path_that_a_machine_declares_runs_and_what_is_out_of_bounds_is_to
 
 @pytest.mark.parametrize("playing", [False, True])
 def test_the_first_change_by_keyboard_is_undone(chromium, written, playing):
-    with Shown(chromium, written(ThreePointHitch(), vary=["OB"]), reduced_motion="no-preference" if playing else "reduce") as shown:
+    with Shown(chromium, written(ThreePointHitch(), vary=SIZES), reduced_motion="no-preference" if playing else "reduce") as shown:
         assert shown.state["playing"] is playing
         shown.tab.locator("[data-size=OB]").focus()
         shown.tab.keyboard.press("ArrowRight")

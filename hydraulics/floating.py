@@ -93,11 +93,8 @@ class GasLine(Circuit):
         """
         shut = shut_verdicts(self, judge)
 
-        def pressure(motion: Motion) -> Array:
-            return self.pressure(motion)
-
         try:
-            low, high = judge.answers(least_and_most(MotionFunction(pressure, "pressure")))
+            low, high = judge.answers(least_and_most(MotionFunction(self.pressure, "pressure")))
             block = self.accumulators(judge.motion)
         except DefinitionError as error:
             return [Verdict.refused("line", error), *shut]

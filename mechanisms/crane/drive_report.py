@@ -118,8 +118,12 @@ class WorstMovement:
 def worst_movements(motion: Motion) -> list[WorstMovement]:
     """Return the worst of every movement over a motion of one design, looked for between its poses too."""
     ensure(not motion._design_shape, f"A drive is judged for one design at a time; this motion has {motion._design_shape}. Take one.")
-    judged = [(each, answers_over(motion, [least(each.surplus), most(each.surplus), most(each.asked)])) for each in movements_of(motion)]
-    return [WorstMovement(each, low, high, float(asked.value)) for each, (low, high, asked) in judged]
+    found = []
+    for each in movements_of(motion):
+        surplus = MotionFunction(each.surplus)
+        low, high, asked = answers_over(motion, [least(surplus), most(surplus), most(MotionFunction(each.asked))])
+        found.append(WorstMovement(each, low, high, float(asked.value)))
+    return found
 
 
 def drive_verdicts(motion: Motion) -> list[Verdict]:
@@ -130,7 +134,7 @@ def drive_verdicts(motion: Motion) -> list[Verdict]:
 def lever_verdict(motion: Motion) -> Verdict:
     """Return the least lever of the cylinder about the driven joint; not above zero past a dead point."""
     sense = np.sign(np.ravel(motion.ratio("length"))[0])
-    (found,) = answers_over(motion, [least(MotionFunction(lambda each: sense * each.ratio("length"), "length"))])
+    (found,) = answers_over(motion, [least(sense * ratio("length"))])
     beyond = "" if found.value > 0.0 else said("; the cylinder passes its dead point: move its pins")
     text = said("at least {lever}, {where}", lever=show(float(found.value), "mm", ".1f"), where=found.where)
     return Verdict("lever", bool(found.value > 0.0), f"{text}{beyond}.", answer=found)

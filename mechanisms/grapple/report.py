@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from hydraulics import LiftCircuit
-from linkage import Column, DefinitionError, Force, Motion, least, most, pin_force, ref
+from linkage import Column, DefinitionError, Force, Motion, least, most, pin_force, ratio, ref
 from linkage.checks import require_whole
 from linkage.errors import ensure
 from linkage.language import said
@@ -159,7 +159,8 @@ def stem_at(motion: Motion, answer: Answer) -> str:
 
 def moment_verdict(motion: Motion) -> Verdict:
     """Return whether the lever's moment is enough for every stem, and where it is scarcest."""
-    found = answers_over(gripping(motion), [least(moment_ratio), most(moment_ratio)])
+    share = MotionFunction(moment_ratio)
+    found = answers_over(gripping(motion), [least(share), most(share)])
     thin, thick = (stem_at(motion, each) for each in found)
     low, high = (float(each.value) for each in found)
     text = said(
@@ -172,7 +173,7 @@ def moment_verdict(motion: Motion) -> Verdict:
 
 def way_verdicts(motion: Motion) -> list[Verdict]:
     """Return whether the cylinder passes the hinge's bush on its whole way (2.93), and keeps off every stem that is held."""
-    (passing,) = answers_over(travelling(motion), [least(MotionFunction(lambda each: GrappleState(each).H, "length"))])
+    (passing,) = answers_over(travelling(motion), [least(np.abs(ratio("EC")))])
     (beside,) = answers_over(gripping(motion), [least("room")])
     needed = {"passing": float(motion.inputs["bush"] + motion.inputs["rod"] / 2.0), "room": float(motion.inputs["bore"] / 2.0)}
     by = {

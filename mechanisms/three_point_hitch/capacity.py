@@ -117,6 +117,11 @@ def stroke_per_newton(motion: Motion) -> FloatArray:
         return np.asarray(lift.thrust(motion, [Force("G", (0.0, -1.0))]) / np.maximum(spare, 0.0))
 
 
+def stroke_per_newton_either_way(motion: Motion) -> FloatArray:
+    """Return its size, whichever way the cylinder moves."""
+    return np.abs(stroke_per_newton(motion))
+
+
 def from_stroke_per_newton(value: FloatArray) -> FloatArray:
     """Return the capacity [N] that `stroke_per_newton` stands for; NaN where the cylinder does not limit."""
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -165,8 +170,7 @@ class Weakest:
 def weakest(motion: Motion) -> Weakest | None:
     """Return the weakest point over a motion of one design; None where the cylinder limits nothing."""
     judge = Judge(motion.plan, motion.designs, [motion])
-    either_way = MotionFunction(lambda each: np.abs(stroke_per_newton(each)))
-    worst, easiest = judge.answers([most(MotionFunction(stroke_per_newton)), least(either_way)])
+    worst, easiest = judge.answers([most(MotionFunction(stroke_per_newton)), least(MotionFunction(stroke_per_newton_either_way))])
     if not worst.value > 0.0:
         return None
     S = float(worst.strokes["S"])

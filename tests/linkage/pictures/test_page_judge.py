@@ -83,7 +83,7 @@ def asked_in_node(machine, jobs):
     """Return the page's questions of a machine, and what JavaScript says of some designs: (dimensions, values a stroke, refined)."""
     requests = PageRequests(machine, 11, at={})
     live = live_text(machine.plan, requests.by_name, name="engine")
-    data = page_data(requests, live)["judge"]
+    data = requests.questions.data(live)
     asked = [([float({**machine.dimensions, **design}[name]) for name in live.dimensions], n, refines) for design, n, refines in jobs]
     given = json.dumps({"text": f"{live.text}\n{page_part('judge.js')}", "judge": data, "asked": asked})
     run = subprocess.run(["node", "-e", RUNNER], input=given, capture_output=True, text=True)

@@ -203,11 +203,19 @@ def a_variant_follows(case, folder):
     assert not np.allclose(values, others)
 
 
-READINGS = [
-    pytest.param(each, id=each.__name__, marks=[pytest.mark.slow] if each is numba_says_the_same else [])  # it compiles
-    for each in (
-        ratios_are_exact, gradients_are_exact, kernels_agree, numba_says_the_same, c_says_the_same, javascript_says_the_same,
-        equations_say_the_same, forces_balance, pictures_show_it, a_page_is_written, a_report_is_written, a_file_brings_it_back,
-        a_variant_follows,
-    )
-]  # fmt: skip
+ALL = (
+    ratios_are_exact, gradients_are_exact, kernels_agree, numba_says_the_same, c_says_the_same, javascript_says_the_same,
+    equations_say_the_same, forces_balance, pictures_show_it, a_page_is_written, a_report_is_written, a_file_brings_it_back,
+    a_variant_follows,
+)  # fmt: skip
+DOCUMENTS = (pictures_show_it, a_page_is_written, a_report_is_written)
+
+
+def marked(*slow):
+    """Return all readings, some of them under `slow`."""
+    return [pytest.param(each, id=each.__name__, marks=[pytest.mark.slow] if each in slow else []) for each in ALL]
+
+
+READINGS = marked(numba_says_the_same)  # it compiles
+OF_NUMBERS = marked(numba_says_the_same, *DOCUMENTS)
+"""Those of every day for what documents show as they show others."""

@@ -22,7 +22,7 @@ from linkage import (
 from linkage.quantities import Joint, JointSide, label, name_of, quantity, spelled
 from linkage.steps import Bar, Point
 from linkage.vectors import Line, Vec
-from tests.extending.readings import READINGS, Case
+from tests.extending.readings import OF_NUMBERS, Case
 
 
 class GearPair(Point):
@@ -111,7 +111,7 @@ CASE = Case(
 )  # fmt: skip
 
 
-@pytest.mark.parametrize("read", READINGS)
+@pytest.mark.parametrize("read", OF_NUMBERS)
 def test_readings_agree(read, tmp_path):
     read(CASE, tmp_path)
 

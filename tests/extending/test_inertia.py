@@ -25,7 +25,7 @@ from linkage import (
     pin_force,
 )
 from linkage.quantities import Reference, name_of
-from tests.extending.readings import READINGS, Case
+from tests.extending.readings import OF_NUMBERS, Case
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,6 +109,6 @@ TWO = Case(
 
 
 @pytest.mark.parametrize("case", [pytest.param(CASE, marks=pytest.mark.slow), TWO], ids=["one stroke", "two strokes"])
-@pytest.mark.parametrize("read", READINGS)
+@pytest.mark.parametrize("read", OF_NUMBERS)
 def test_readings_agree(read, case, tmp_path):
     read(case, tmp_path)

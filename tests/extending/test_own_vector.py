@@ -8,7 +8,7 @@ from linkage import LEFT, Crank, Dimension, Dyad, Ground, Mechanism, Stroke, Wei
 from linkage.quantities import Joint, JointSide, label, name_of, quantity, spelled
 from linkage.steps import Point
 from linkage.vectors import Vec
-from tests.extending.readings import READINGS, Case
+from tests.extending.readings import OF_NUMBERS, Case
 
 
 class Level(Point):
@@ -87,6 +87,6 @@ CASE = Case(
 )  # fmt: skip
 
 
-@pytest.mark.parametrize("read", READINGS)
+@pytest.mark.parametrize("read", OF_NUMBERS)
 def test_readings_agree(read, tmp_path):
     read(CASE, tmp_path)

@@ -25,7 +25,7 @@ from linkage import (
     pin_force,
 )
 from linkage.quantities import Reference, name_of
-from tests.extending.readings import READINGS, Case
+from tests.extending.readings import OF_NUMBERS, Case
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,7 +131,7 @@ CASE = Case(
 )  # fmt: skip
 
 
-@pytest.mark.parametrize("read", READINGS)
+@pytest.mark.parametrize("read", OF_NUMBERS)
 def test_readings_agree(read, tmp_path):
     read(CASE, tmp_path)
 

@@ -103,7 +103,7 @@ def test_cylinders_are_as_long_as_they_say(machine):
 
 
 @ALL
-@for_all("order", [1, 2])
+@for_all("order", [1], slow=[2])
 def test_exact_ratio_is_the_numerical_one(machine, order):
     motion = whole(machine)
     for name in outputs(machine):

@@ -191,7 +191,7 @@ def test_dragging_keeps_to_the_ground_and_to_the_cylinders():
 # Pictures and the command.
 
 
-@pytest.mark.parametrize("name", ["map", *(pytest.param(name, marks=pytest.mark.slow) for name in FIGURES if name != "map")])
+@pytest.mark.parametrize("name", ["positions", *(pytest.param(name, marks=pytest.mark.slow) for name in FIGURES if name != "positions")])
 def test_figures_are_drawn(name, tmp_path):
     crane_figure(name).savefig(tmp_path / f"{name}.png")
     assert (tmp_path / f"{name}.png").stat().st_size > 20_000
@@ -224,9 +224,12 @@ def run(capsys):
 NAMED = "mechanisms.crane:Crane"
 
 
-def test_command_judges_a_crane_that_is_named(run):
-    code, text = run(NAMED)
+def test_command_judges_a_crane_that_is_named_and_writes_the_map(run, tmp_path):
+    code, text = run(NAMED, "--csv", str(tmp_path / "map.csv"))
     assert code == 0
+    heading, *rows = (tmp_path / "map.csv").read_text().splitlines()
+    assert heading.replace('"', "").startswith("T_x, m")
+    assert len(rows) == 10
     assert "boom         4.455 m long,  382.7 mm high,   682.3 kg" in text
     assert "   99.93    154.81    154.81    180.00       0.00    -106.77      71.91      71.91" in text
     assert "The tip reaches 111.6 m2." in text
@@ -238,13 +241,6 @@ def test_command_draws_and_lists_pins(run, tmp_path):
     assert "Dragging by the arm" in text
     drives = [f"{side}_{name}" for side in ("boom", "arm") for name in DRIVE_FIGURES]
     assert sorted(path.stem for path in tmp_path.iterdir()) == sorted([*FIGURES, *drives])
-
-
-def test_command_writes_the_map(run, tmp_path):
-    run(NAMED, "--set", "Q=5kN", "--csv", str(tmp_path / "map.csv"))
-    heading, *rows = (tmp_path / "map.csv").read_text().splitlines()
-    assert heading.replace('"', "").startswith("T_x, m")
-    assert len(rows) == 10
 
 
 def test_command_refuses_in_words(run):

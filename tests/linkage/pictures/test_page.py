@@ -47,8 +47,9 @@ from linkage.cli.listing import registered
 from linkage.cli.machines import design_of_file, find
 from linkage.cli.settings import design as design_of
 from linkage.files import load
+from linkage.motion import live_text
 from linkage.pictures import page_html
-from linkage.pictures.browser_data import PageRequests, named_in_code
+from linkage.pictures.browser_data import PageRequests, limit_data, named_in_code
 from linkage.pictures.browser_file import page_part, said_in
 from linkage.pictures.chart_page import chart_page
 from linkage.pictures.load_chart import ChartText
@@ -1200,11 +1201,10 @@ def test_a_pin_with_several_joints_and_a_torque_has_the_arrows_that_can_be_told_
 
 @for_all(("machine", "names"), [(Grapple, {"D", "H", "M_g", "M_1", "M_g/M_1"})], slow=[(HeaderBalancer, {"H", "P", "F_R free"})])
 def test_what_a_balancer_and_a_grapple_are_about_is_followed(machine, names):
-    data = data_of(page_html(machine(), at={}))
-    rows = {name: row for name, _, row, *_ in data["columns"]}
-    assert names <= {name for name, row in rows.items() if row >= 0}
-    limits = list(data["limits"].values())
-    assert limits and all(re.search("[\u0430-\u044f]", each[3]) for each in limits)
+    requests = PageRequests(machine(), 101, at={})
+    live = live_text(machine.plan, requests.by_name, name="engine")
+    assert {f"column {name}" for name in names} <= live.rows.keys()
+    assert requests.limits and all(re.search("[\u0430-\u044f]", limit_data(requests, name)[3]) for name in requests.limits)
 
 
 # -- along a path ------------------------------------------------------------------------------------------

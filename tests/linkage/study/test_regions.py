@@ -71,7 +71,7 @@ class Spots(FourBar):
 def test_how_far_a_point_lies_inside_is_told_by_windings_and_borders(corners):
     random = np.random.default_rng(5)
     places = random.uniform([0.03, -0.05], [0.16, 0.07], (60, 2))
-    values = [Spots(Q=tuple(place)).answers([at(inside("Q", corners))])[0].value for place in places]
+    values = Spots(**{"Q.x": places[:, 0], "Q.y": places[:, 1]}).answers([at(inside("Q", corners))])[0].value
     for place, value in zip(places, values, strict=True):
         sign = 1.0 if winding(place, corners) else -1.0
         assert_allclose(value, sign * from_border(place, corners), rtol=0, atol=5e-6 * 2)

@@ -200,18 +200,19 @@ def test_failure_in_a_worker_names_its_designs(small, spawned, client, tmp_path)
         assert 0 < kept < 640 and f"{kept} of 640 designs are done and kept in" in caught.value.__notes__[-1]
 
 
+@FORKING
 def test_pool_whose_worker_was_killed_tells_and_another_goes_on(small, tmp_path):
     hitch, over = hitch_designs(1280)
     log, run = tmp_path / "log", tmp_path / "run"
     measure = functools.partial(deadly, log=log, victim=over["OB"][700])
-    spawn = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(2, spawn) as pool, pytest.raises(StudyError, match=r"of 1280 designs are .* kept in .*goes on") as caught:
+    fork = multiprocessing.get_context("fork")
+    with ProcessPoolExecutor(2, fork) as pool, pytest.raises(StudyError, match=r"of 1280 designs are .* kept in .*goes on") as caught:
         survey(hitch, over, measure, executor=pool, folder=run)
     assert isinstance(caught.value.__cause__, BrokenExecutor)
     kept = {int(path.name.split("-")[1]) for path in run.glob("designs-*.npy")}
     assert 640 not in kept and len(kept) >= 5
     log.unlink()
-    with ProcessPoolExecutor(2, spawn) as pool:
+    with ProcessPoolExecutor(2, fork) as pool:
         found = survey(hitch, over, measure, executor=pool, folder=run)
     again = {int(np.flatnonzero(over["OB"] == first)[0]) for first in read(log)}
     assert again == set(range(0, 1280, 64)) - kept, "neither more nor less than what was missing"

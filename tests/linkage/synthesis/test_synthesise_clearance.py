@@ -66,7 +66,7 @@ def test_a_six_bar_keeps_its_bars_apart_over_the_whole_turn():
     pairs = ["OA CB", "OA DF", "OA EF", "CB DF", "CB EF"]
     assert pairs_apart(six_bar(six, TURN), pairs).min() == 0.0
     vary = {"E": around(80 * mm), "DF": (0.06, 0.3), "EF": (0.08, 0.3), "AD": (0.05, 0.2), "BAD": (-3.0, 3.0)}
-    found = synthesise(FlatSix(), function=FunctionTask(phi, six.at(phi=phi)["psi"], of="psi"), vary=vary, starts=8, subject_to=APART)
+    found = synthesise(FlatSix(), function=FunctionTask(phi, six.at(phi=phi)["psi"], of="psi"), vary=vary, starts=4, subject_to=APART)
     assert found.error < 0.05
     for each in found.solutions:
         at = six_bar(each.machine, TURN)

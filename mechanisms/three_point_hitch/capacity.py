@@ -117,8 +117,8 @@ def stroke_per_newton(motion: Motion) -> FloatArray:
         return np.asarray(lift.thrust(motion, [Force("G", (0.0, -1.0))]) / np.maximum(spare, 0.0))
 
 
-def stroke_per_newton_either_way(motion: Motion) -> FloatArray:
-    """Return its size, whichever way the cylinder moves."""
+def stroke_size_per_newton(motion: Motion) -> FloatArray:
+    """Return one over the size of the capacity at G [1/N], shape (...), while the cylinder goes out or in."""
     return np.abs(stroke_per_newton(motion))
 
 
@@ -170,7 +170,7 @@ class Weakest:
 def weakest(motion: Motion) -> Weakest | None:
     """Return the weakest point over a motion of one design; None where the cylinder limits nothing."""
     judge = Judge(motion.plan, motion.designs, [motion])
-    worst, easiest = judge.answers([most(MotionFunction(stroke_per_newton)), least(MotionFunction(stroke_per_newton_either_way))])
+    worst, easiest = judge.answers([most(MotionFunction(stroke_per_newton)), least(MotionFunction(stroke_size_per_newton))])
     if not worst.value > 0.0:
         return None
     S = float(worst.strokes["S"])

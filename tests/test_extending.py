@@ -4,7 +4,7 @@ import inspect
 import json
 import shutil
 import subprocess
-from base64 import b64decode
+from base64 import b85decode
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 from zlib import decompress
@@ -188,7 +188,7 @@ def test_pictures_and_pages_show_it(tmp_path):
     draw(Valve(), at={"phi": 1.0}).savefig(tmp_path / "valve.png")
     page(Valve(), path=tmp_path / "valve.html")
     _, _, packed = (tmp_path / "valve.html").read_text(encoding="utf-8").partition('<script id="data" type="text/plain">')
-    data = json.loads(decompress(b64decode(packed.partition("<")[0])))
+    data = json.loads(decompress(b85decode(packed.partition("<")[0].replace(",", "<"))))
     assert [data["scene"]["names"][each["on"][0]] for each in data["scene"]["contours"]] == ["O", "R"]
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property, partial
@@ -541,7 +541,7 @@ def scene_data(scene: Scene, lines: Mapping[str, Sequence[int]]) -> PageData:
     names = list(scene.motion.plan.points)
     index = {name: place for place, name in enumerate(names)}
     forms = list(zip(scene.plates, scene.bodies, scene.colours, strict=True))
-    letters = {**scene.letters, **dict.fromkeys(scene.inner, "")}
+    letters = {**names_shown(scene), **dict.fromkeys(scene.inner, "")}
     return {
         "size": scene.size,
         "names": names,
@@ -560,6 +560,13 @@ def scene_data(scene: Scene, lines: Mapping[str, Sequence[int]]) -> PageData:
         "grounds": [{"point": index[name], "way": round(way, 4)} for name, way in props(scene).items()],
         "labels": label_offsets(scene),
     } | ({"letters": [letters.get(name, name) for name in names], "legend": scene.letter_legend} if letters else {})
+
+
+def names_shown(scene: Scene) -> dict[str, str]:
+    """Return what points of parts are called on the sheet: short where nothing else is called so, of many as pictures have them."""
+    ends = Counter(name.rpartition(".")[2] for name in scene.places)
+    short = {name: name.rpartition(".")[2] for name in scene.places if "." in name}
+    return {name: end for name, end in short.items() if ends[end] == 1} | scene.letters
 
 
 def body_data(plate: Plate, points: Sequence[str], index: Mapping[str, int]) -> PageData:
@@ -609,7 +616,7 @@ def label_offsets(scene: Scene) -> list[list[float]]:
     left, right, bottom, top = scene.box()
     scale = min(ACROSS / (right - left), 0.7 * ACROSS / (top - bottom))
     gap = 1.15 * scene.size * scale + 2.0
-    spots = offsets(list(scene.places), poses, label_free(scene, poses), scale, gap, FONT, letters=scene.letters)
+    spots = offsets(list(scene.places), poses, label_free(scene, poses), scale, gap, FONT, letters=names_shown(scene))
     return [[round(float(spots[name][0]), 1), round(-float(spots[name][1]), 1)] for name in scene.places]
 
 

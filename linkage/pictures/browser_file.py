@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from base64 import b64encode
+from base64 import b64encode, b85encode
 from collections.abc import Iterable, Sequence
 from hashlib import sha256
 from html import escape
@@ -21,7 +21,7 @@ PageData: TypeAlias = dict[str, Any]
 """What a page's script reads: numbers, texts, lists and further data by name."""
 COLOURS = ("INK", "MUTED", "RULE", "GRID", "PAPER", "CURVE", "ACCENT", "BARREL", "ROD", "PISTON")
 LANGUAGES = ("en", "ru")
-MACHINE = ("machine.html", "page.css", "mechanism.js", "page.js", "verdicts.js", "hands.js", "leave.js")
+MACHINE = ("machine.html", "page.css", "mechanism.js", "labels.js", "page.js", "verdicts.js", "hands.js", "leave.js")
 """The parts of a page with a machine that moves and changes; what a kind of page adds comes after them, and START last."""
 START = "start.js"
 SAID = re.compile(r'\bsay\("((?:[^"\\]|\\.)*)"|\bdata-(?:say|tip|name)="([^"]+)"')
@@ -88,8 +88,8 @@ def bare(text: str) -> str:
 
 
 def packed(text: str) -> str:
-    """Return a text compressed by zlib and written in base64: half of what it is or less, and nothing in it can end an element."""
-    return b64encode(compress(text.encode(), 9)).decode()
+    """Return a text compressed by zlib and written in 85 letters: half of what it is or less, and none of them begins or ends an element."""
+    return b85encode(compress(text.encode(), 9)).decode().replace("<", ",")
 
 
 def filled(template: str, parts: dict[str, str]) -> str:

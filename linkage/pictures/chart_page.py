@@ -19,7 +19,7 @@ from .load_chart import ChartText
 from .scene import Scene
 
 Kind = TypeVar("Kind", bound=np.generic)
-PARTS = ("chart.html", "page.css", "chart.css", "mechanism.js", "chart.js")
+PARTS = ("chart.html", "page.css", "chart.css", "mechanism.js", "labels.js", "chart.js")
 DIGITS = 10
 """The decimals of the places of points [m], and of the directions of tracks."""
 NO_LIMIT = "\N{INFINITY}"

@@ -109,7 +109,7 @@ on(byId("csv"), "click", () => handed(`${bare()}_${columns[column].name.replace(
 function pictured() {
   const copy = sheet.cloneNode(true), names = ["fill", "fill-opacity", "stroke", "stroke-width", "stroke-dasharray", "stroke-linecap", "stroke-linejoin", "opacity", "visibility", "font-family", "font-size", "font-style", "font-weight", "text-anchor", "dominant-baseline", "paint-order"];
   const from = [sheet, ...sheet.querySelectorAll("*")], to = [copy, ...copy.querySelectorAll("*")];
-  from.forEach((each, i) => { const style = getComputedStyle(each); for (const name of names) to[i].setAttribute(name, style.getPropertyValue(name)); });
+  from.forEach((each, i) => { const style = getComputedStyle(each); for (const name of names) to[i].setAttribute(name, style.getPropertyValue(name)); to[i].removeAttribute("style"); });
   for (const each of [...copy.querySelectorAll(".grip")]) each.remove();
   Object.entries({ xmlns: SVG, width: sheetWide, height: sheetTall, viewBox: `0 0 ${sheetWide} ${sheetTall}` }).forEach(([name, value]) => copy.setAttribute(name, value));
   const ground = document.createElementNS(SVG, "rect");

@@ -63,8 +63,6 @@ function broken(points) {
   for (const p of points) { if (!p) { pen = "M"; continue; } text += `${pen}${p[0].toFixed(1)} ${p[1].toFixed(1)}`; pen = "L"; }
   return text;
 }
-/* What buttons take of the sheet on its right [px]: nothing of the machine lies under them. */
-const TOOLS = document.querySelector(".sheet-tools") ? 40 : 0;
 const sheet = byId("mechanism"), EDGE = 1.3;
 let zoom = 1, left0 = 0, top0 = 0, sheetWide = 0, sheetTall = 0, unit0 = 1;
 const px = (x, y) => [left0 + zoom * x, top0 - zoom * y];
@@ -94,11 +92,12 @@ function body({ points, shares, colour }) {
   const own = css(`body${colour}`), edge = `color-mix(in srgb, ${own} 40%, var(--ink))`;
   const outer = draw(group, "polygon", { w: 2 * r + 2 * EDGE, join: "round", fill: edge, stroke: edge });
   const inner = draw(group, "polygon", { w: 2 * r, join: "round", fill: own, stroke: own });
-  const corner = (at, row) => [0, 1].map((axis) => row.reduce((sum, share, k) => sum + share * at[points[k]][axis], 0));
-  return (at) => {
-    const around = shares ? shares.map((row) => corner(at, row)) : points.map((i) => at[i]), text = pairs(plate && !shares ? hull(around) : around);
-    set(outer, { points: text }); set(inner, { points: text });
-  };
+  return (at) => { const text = pairs(cornersOf({ points, shares }, at)); set(outer, { points: text }); set(inner, { points: text }); };
+}
+/* The corners of a body at a pose: of its form where it has one, else the outermost of its points. */
+function cornersOf({ points, shares }, at) {
+  if (shares) return shares.map((row) => [0, 1].map((axis) => row.reduce((sum, share, k) => sum + share * at[points[k]][axis], 0)));
+  return points.length > 2 ? hull(points.map((i) => at[i])) : points.map((i) => at[i]);
 }
 /* Short lines on the right of a line, those in sight of one that stands fixed. */
 function hatches(line, fixed) {
@@ -221,9 +220,8 @@ function ground({ point, way }) {
   return (at) => set(group, { transform: `translate(${at[point][0]} ${at[point][1]}) rotate(${(-way * 180) / PI})` });
 }
 function name(index) {
-  const text = draw(sheet, "text", { class: "name-of" }), [dx, dy] = scene.labels[index];
-  text.textContent = (scene.letters || scene.names)[index];
-  return (at) => set(text, { x: min(max(at[index][0] + dx, 8), sheetWide - 8), y: min(max(at[index][1] + dy, 10), sheetTall - 10) });
+  const made = label(index, "name-of", NAME_FONT, 14, css("ink")), first = scene.labels[index];
+  return (at) => Object.assign(made, { said: scene.letters && !(phone.matches && scene.letters[index]) ? scene.letters[index] : scene.names[index], anchor: at[index], way: first, first, near: 0.5 * unit0 });
 }
 const scale = { most: 0 };
 /* The colour of a barrel at a pressure: from the barrel's own through amber to red. */
@@ -234,25 +232,26 @@ function heat(value, most) {
 /* Choose the scale so that the delivered and the present design have room over the whole stroke. */
 function fit(grow, under = 0) {
   const box = sheet.getBoundingClientRect();
-  sheetWide = box.width || 600; sheetTall = box.height || 400;
+  sheetWide = box.width || 600; sheetTall = box.height || 400; foot = under;
   let [left, right, bottom, top] = grow && before ? before : scene.box;
   for (const found of [base, now]) for (const i of found.reached) for (let p = 0; p < scene.names.length; p++) {
     const [x, y] = spot(found, p, i);
     left = min(left, x); right = max(right, x); bottom = min(bottom, y); top = max(top, y);
   }
   before = [left, right, bottom, top];
-  const wide = right - left || 1e-3, high = top - bottom || 1e-3, pad = min(46, 0.11 * min(sheetWide, sheetTall));
+  const wide = right - left || 1e-3, high = top - bottom || 1e-3, pad = min(32, 0.07 * min(sheetWide, sheetTall));
   for (let turn = 0, margin = pad; turn < 2; turn++) {
-    zoom = min((sheetWide - TOOLS - 2 * margin) / wide, (sheetTall - under - 2 * margin) / high);
+    zoom = min((sheetWide - 2 * margin) / wide, (sheetTall - under - 2 * margin) / high);
     unit0 = max(scene.size * zoom, 3.4);
     margin = max(pad, 4.4 * unit0);
   }
-  left0 = 0.5 * (sheetWide - TOOLS) - 0.5 * (left + right) * zoom;
+  left0 = 0.5 * sheetWide - 0.5 * (left + right) * zoom;
   top0 = 0.5 * (sheetTall - under) + 0.5 * (bottom + top) * zoom;
 }
 /* Draw everything anew: after a change of the design or of the sheet; with what lies at the bottom, under the bodies, and on top. */
 function drawn({ first = () => [], under = () => [], over = () => [] }) {
   sheet.replaceChildren();
+  texts = []; boxes = [];
   set(sheet, { viewBox: `0 0 ${sheetWide} ${sheetTall}` });
   const isPlate = (each) => (each.shares || each.points).length > 2, plates = scene.bodies.filter(isPlate), bars = scene.bodies.filter((each) => !isPlate(each));
   const loads = (pinned) => scene.loads.filter((each) => scene.pins.includes(each.on[0]) === pinned).map((each) => linework(each, "ink", 0.9));
@@ -261,7 +260,7 @@ function drawn({ first = () => [], under = () => [], over = () => [] }) {
     ...first(), ...scene.around.map((each) => linework(each, "muted", 0.9)), ...scene.grounds.map(ground), ...scene.tracks.filter((each) => each.fixed).map(rail), ...under(),
     ...scene.contours.map((each) => linework(each)), ...plates.map(body), ...blocks(true), ...bars.map(body),
     ...scene.tracks.filter((each) => !each.fixed).map(slot), ...blocks(false), ...scene.stays.map(stay), ...data.cylinders.filter((each) => each.drawn).map(ram), ...scene.straights.map((each) => linework(each)), ...loads(true),
-    ...scene.pins.map((i) => circle(i, 0.5 * unit0, "paper", "ink", 1.3 * EDGE)), ...scene.dots.map((i) => circle(i, 0.48 * unit0, "ink", "paper", 1)), ...loads(false), ...over(),
+    ...scene.pins.map((i) => circle(i, 0.5 * unit0, "paper", "ink", 1.3 * EDGE)), ...scene.dots.map((i) => circle(i, 0.48 * unit0, "ink", "paper", 1)), ...loads(false), ...over(), placed,
   ];
 }
 /* The points' names; where these are letters with primes, what they mean stands in lines at the top of the sheet. */
@@ -271,6 +270,10 @@ function named() {
     if (lines[lines.length - 1].join("  ").length + each.length + 3 > most) lines.push([]);
     lines[lines.length - 1].push(each);
   }
-  lines.forEach((each, i) => { draw(sheet, "text", { x: 12, y: 20 + 16 * i, class: "letters halo" }).textContent = each.join("\u2003"); });
+  lines.forEach((each, i) => {
+    const text = each.join("\u2003");
+    draw(sheet, "text", { x: 12, y: 20 + 16 * i, class: "letters halo" }).textContent = text;
+    if (text) boxes.push([12, 8 + 16 * i, 12 + 7 * text.length, 24 + 16 * i]);
+  });
   return scene.names.map((_, i) => name(i));
 }

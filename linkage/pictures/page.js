@@ -111,6 +111,12 @@ function place(event) {
   const box = sheet.getBoundingClientRect();
   return [event.clientX - box.left, event.clientY - box.top];
 }
+/* What is touched: the pin under the finger, and those that stand on it. */
+sheet.addEventListener("pointerdown", (event) => {
+  const at = scene.names.map((_, p) => px(...spot(pose, p, 0))), finger = place(event), far = at.map((each) => apart(each, finger)), nearest = far.indexOf(min(...far));
+  touched = far[nearest] < 24 ? at.flatMap((each, p) => (apart(each, at[nearest]) < 6 ? [p] : [])) : [];
+  if (phone.matches) soon("fit");
+}, true);
 on(sheet, "pointermove", (event) => {
   if (!gripped || event.pointerId !== gripped.id) return;
   const [x, y] = place(event);
@@ -139,22 +145,15 @@ for (const end of ["pointerup", "pointercancel"]) on(sheet, end, (event) => {
 /* An arrow: a force at a point, in the scale in which the greatest is a sixth of the sheet. */
 function arrow({ point, x, y, load }) {
   const colour = css(load ? "accent" : "other"), line = draw(sheet, "path", { w: 2.2, join: "round", fill: colour, stroke: colour });
-  const number = draw(sheet, "text", { class: "halo force", fill: colour });
+  const number = label(point, "halo force", FORCE_FONT, 12, `color-mix(in srgb, ${colour} 60%, var(--ink))`);
   return (at) => {
     const k = pull.scale, f = [pose.values[x][0] * k, -pose.values[y][0] * k], long = hypot(...f), head = min(9, 0.5 * long);
-    if (!showsForces || !(long > 1)) { set(line, { d: "" }); number.textContent = ""; return; }
+    if (!showsForces || !(long > 1)) { set(line, { d: "" }); number.said = ""; return; }
     const d = [f[0] / long, f[1] / long], tip = [at[point][0] + f[0], at[point][1] + f[1]], neck = [tip[0] - head * d[0], tip[1] - head * d[1]], w = 0.38 * head;
     set(line, { d: broken([at[point], neck, [neck[0] - w * d[1], neck[1] + w * d[0]], tip, [neck[0] + w * d[1], neck[1] - w * d[0]], neck]) });
-    numbered(number, shown(hypot(pose.values[x][0], pose.values[y][0]), data.force, 3), tip, d);
+    Object.assign(number, { said: shown(hypot(pose.values[x][0], pose.values[y][0]), data.force, 3), anchor: tip, way: d });
+    arrows.push([at[point], tip]);
   };
-}
-/* Write a number beyond the tip of an arrow, unless it would cover one that stands there. */
-let takenUp = [];
-function numbered(text, said, tip, d) {
-  const wide = 7 * said.length, x = min(max(tip[0] + 8 * d[0] + (d[0] < -0.3 ? -wide : d[0] > 0.3 ? 0 : -0.5 * wide), 2), sheetWide - wide - 2), y = min(max(tip[1] + 12 * d[1] + 4, 12), sheetTall - 4);
-  const free = takenUp.every(([a, b, w]) => x + wide < a || a + w < x || abs(y - b) > 13);
-  text.textContent = free ? said : "";
-  if (free) { takenUp.push([x, y, wide]); set(text, { x, y }); }
 }
 const pull = { scale: 0, most: 0 };
 function pullScale() {
@@ -170,10 +169,11 @@ function pressureScale() {
 }
 let keys, told0 = "";
 function legend() {
-  const bottom = sheetTall - 12, told = [scale.most, showsForces && pull.most, sheetWide, bottom, language].join(), group = keys;
+  const bottom = sheetTall - 12, hint = phone.matches && !touched.length, told = [scale.most, showsForces && pull.most, sheetWide, bottom, language, hint].join(), group = keys;
   if (told === told0 && group.firstChild) return;
   told0 = told;
   group.replaceChildren();
+  if (hint) draw(group, "text", { x: 12, y: 20, class: "halo" }).textContent = say("Touch a pin for its name and its forces");
   if (scale.most > 0) {
     const bar = min(110, 0.3 * sheetWide);
     for (let i = 0; i < 22; i++) draw(group, "rect", { x: 12 + (i * bar) / 22, y: bottom - 8, width: bar / 22 + 0.5, height: 9, fill: heat((i + 0.5) / 22, 1) });
@@ -196,7 +196,7 @@ function build() {
     return () => { if (seen !== edition) { seen = edition; set(line, { d: broken([...now.along.keys()].map((i) => (now.reason[i] ? null : px(...spot(now, point, i))))) }); } };
   });
   const first = () => [...gridded(), ghostly(draw(sheet, "path", { class: "line", w: 2, dash: "2 5", stroke: css("muted") }))];
-  parts = drawn({ first, under: paths, over: () => [...data.arrows.map(arrow), ...(data.task ? wanted() : []), ...named(), ...[...data.grips, ...data.moving.map((point) => ({ point }))].map(grip), ...measured()] });
+  parts = drawn({ first, under: paths, over: () => [...(data.task ? wanted() : []), ...named(), ...data.arrows.map(arrow), ...[...data.grips, ...data.moving.map((point) => ({ point }))].map(grip), ...measured()] });
   keys = draw(sheet, "g", {});
 }
 /* The delivered design at the same stroke, as a faint outline, where the design has changed. */
@@ -548,7 +548,7 @@ function render(work) {
   if (anew || sized || work.has("curve")) plotted();
   if (kept.length && (anew || work.has("curve"))) { clearTimeout(comparing); comparing = setTimeout(compared, 200); }
   const at = scene.names.map((_, p) => px(...spot(pose, p, 0)));
-  takenUp = [];
+  arrows = [];
   for (const part of parts) part(at);
   mark(chart.one, chart.values, chart.y, chart.marker, "value");
   mark(chart.two, chart.others, chart.y2, chart.second, "other");

@@ -2,7 +2,7 @@
 
 import json
 import re
-from base64 import b64decode
+from base64 import b85decode
 from functools import cache
 from pathlib import Path
 from zlib import decompress
@@ -224,7 +224,7 @@ def chart(tmp_path_factory):
 
 def unpacked(text, name):
     (found,) = re.findall(rf'<script id="{name}" type="text/plain">(.*?)</script>', text, re.DOTALL)
-    return decompress(b64decode(found)).decode()
+    return decompress(b85decode(found.replace(",", "<"))).decode()
 
 
 def data_of(text):
@@ -1315,6 +1315,58 @@ def test_what_is_no_path_has_no_page(tmp_path):
     with pytest.raises(DefinitionError, match="a motion has its own way"):
         page(level_lift(), file, at={"lift": 1.0})
     assert not file.exists()
+
+
+# -- names and values on the sheet ---------------------------------------------------------------------------
+
+TEXTS = (
+    "[...document.querySelectorAll('#mechanism .name-of, #mechanism .force')].filter((each) => each.textContent"
+    " && each.getAttribute('visibility') === 'visible').map((each) => [each.textContent, ...(({ x, y, width, height }) =>"
+    " [x, y, x + width, y + height])(each.getBBox())])"
+)
+PINS = "[...document.querySelectorAll('#mechanism .grip')].map((each) => [Number(each.getAttribute('cx')), Number(each.getAttribute('cy'))])"
+
+
+def test_names_and_values_cover_neither_each_other_nor_pins_nor_the_edge(chromium, written):
+    for machine, size in ((ThreePointHitch(), LAPTOP), (Digger(), LAPTOP), (Digger(), (760, 620))):
+        with Shown(chromium, written(machine), size) as shown:
+            shown.tab.locator("#forces").click()
+            for share in (0, 350, 800):
+                shown.slide("#strokes input", share)
+                texts, pins = shown(TEXTS), shown(PINS)
+                assert sum("N" in text for text, *_ in texts) >= 4 and sum(text in machine.plan.points for text, *_ in texts) >= 4
+                wide, tall = shown("(({ width, height }) => [width, height])(document.getElementById('mechanism').getBoundingClientRect())")
+                for k, (text, *box) in enumerate(texts):
+                    assert box[0] >= 0 and box[2] <= wide and box[1] >= 0 and box[3] <= tall, text
+                    within = [0.25 * box[0] + 0.75 * box[2], 0.75 * box[0] + 0.25 * box[2], 0.7 * box[1] + 0.3 * box[3], 0.3 * box[1] + 0.7 * box[3]]
+                    assert not [pin for pin in pins if within[1] < pin[0] < within[0] and within[2] < pin[1] < within[3]], text
+                    for other, *there in texts[:k]:  # letters are lower than their boxes by a fifth above and below
+                        apart = max(box[0] - there[2], there[0] - box[2], box[1] - there[3] + 0.4 * 14, there[1] - box[3] + 0.4 * 14)
+                        assert apart >= 0, (text, other, share)
+            assert shown.said == []
+
+
+def test_on_a_phone_the_name_and_the_forces_of_what_is_touched_are_told(chromium, written):
+    machine = ThreePointHitch()
+    with Shown(chromium, written(machine), PHONE, has_touch=True) as shown:
+        shown.tab.locator("#forces").click()
+        shown.settle()
+        assert shown(TEXTS) == []
+        shown.tab.locator(".grip[data-pin='B']").tap()
+        shown.settle()
+        told = [text for text, *_ in shown(TEXTS)]
+        assert "B" in told and len(told) > 1 and all(text == "B" or text.endswith("kN") for text in told)
+
+
+def test_a_points_name_is_short_where_nothing_else_is_called_so():
+    class Lone(Mechanism):
+        phi = Stroke(0, 90 * deg)
+        B = Ground(-0.3, 0)
+        a = Part(FourBar, phi="phi", load=None)
+
+    scene = data_of(page_html(Lone()))["scene"]
+    shown = dict(zip(scene["names"], scene["letters"], strict=True))
+    assert shown["a.A"] == "A" and shown["a.B"] == "a.B" and shown["B"] == "B"
 
 
 # -- machines of parts ---------------------------------------------------------------------------------------

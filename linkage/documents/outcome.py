@@ -19,7 +19,7 @@ from ..motion.limits import StrokeLimits
 from ..motion.measures import Least, Most
 from ..motion.requests import may_be_unlimited
 from ..pictures import mechanism
-from ..pictures.curves import limit_of, note, panel
+from ..pictures.curves import as_curve, limit_of, note, panel
 from ..pictures.scene import Scene
 from ..pictures.style import ACCENT, INK, THIN, TITLE
 from ..program import FloatArray
@@ -141,17 +141,17 @@ def curve_blocks(
     drawn = [first, *(name for name in same if name not in (first, *still))]
     beyond = wider_answers(subject, {name: whole[name] for name in drawn}, limits)
     for name in drawn:
-        bound, further = limits.get(name), beyond.get(name, [])
-        called = whole[name].heading
+        column, bound = as_curve(whole[name], limits.get(name))
+        called, further = column.heading, beyond.get(name, []) if column is whole[name] else []
         others = [each for each in same[name] if not any(each.startswith(f"{one} ") for one in (name, *same[name]))]
         caption = said("{column} along {stroke}.", column=called, stroke=along)
         caption = said("{column} along {stroke}; {held} held.", column=called, stroke=along, held=held) if held else caption
         caption = f"{caption.removesuffix('.')}, {words}." if words else caption
         caption += said(" The same curve: {names}.", names=", ".join(map(heading_of, others))) if others else ""
         caption += said(" Shaded: what its limit excludes.") if bound is not None else ""
-        caption += beyond_words(subject, further, whole[name]) if further else ""
-        marks = [(each, amount_text(subject, each, whole[name])) for each in further]
-        paint = partial(draw_column, motion=motion, column=whole[name], bound=bound, beyond=marks)
+        caption += beyond_words(subject, further, column) if further else ""
+        marks = [(each, amount_text(subject, each, column)) for each in further]
+        paint = partial(draw_column, motion=motion, column=column, bound=bound, beyond=marks)
         room = (*CURVE_ROOM[:3], CURVE_ROOM[3] if bound is None else 0.48)
         called = "_".join(NO_LETTER.sub("_", each) for each in (name, run.title if len(subject.curves) > 1 else "") if each)
         is_wide = name == first and len(subject.curves) == 1

@@ -14,9 +14,9 @@ from typing import Any, cast, final
 import numpy as np
 
 from ..checks import require, require_type
-from ..errors import DefinitionError, LinkageError, cited, known_name, unknown, unwarned
+from ..errors import DefinitionError, LinkageError, UntracedError, cited, known_name, unknown, unwarned
 from ..language import heading_of, language, translated
-from ..loads import AT_REST, PLAIN, TwoPoint
+from ..loads import AT_REST, PLAIN, Case, TwoPoint
 from ..mechanism import Mechanism, verdicts_of
 from ..motion import (
     Answer,
@@ -28,21 +28,34 @@ from ..motion import (
     Request,
     RequestLike,
     Tabled,
+    case_named,
     speakers,
     stroke_display_unit,
     transmission,
 )
-from ..motion.requests import NodeRequest
+from ..motion.requests import NodeRequest, bound
 from ..plan import Plan, name_or_pins, opening, plan_measure, require_kind
 from ..plugins import MACHINES, entry_points
 from ..program import FloatArray, Node
 from ..quantities import is_number, joined_names
-from ..reports import NOTHING, At, LiveColumn, column_requests, is_changing, motion_over, reached_motion, run_along, run_of
+from ..reports import (
+    NOTHING,
+    At,
+    LiveColumn,
+    case_shown,
+    column_requests,
+    in_case,
+    is_changing,
+    motion_over,
+    reached_motion,
+    run_along,
+    run_of,
+)
 from ..statics import AnyMotion, JointForce, LawRequest, TracedMotion, applied_loads, ground_loads, pin_force, pin_forces
 from ..units import SYSTEMS, UNITS, deg, display_unit, factor, shown_in, unit_system
 from .browser_file import MACHINE, START, PageData, page_part, page_text
 from .browser_judge import PLACES, LiveQuestions, rule_key
-from .curves import check_poses, limit_of, typeset
+from .curves import WHOLE, Limit, as_curve, check_poses, limit_of, typeset
 from .influence import influences
 from .labels import offsets
 from .layout import label_free, props
@@ -56,6 +69,7 @@ ACROSS = 720.0
 SHOWN = 6
 """How many dimensions a page shows at first."""
 STEPS = ("length", "angle")
+Limits = dict[str, Limit]
 ALONG = "along the path"
 """What the place on a path is called among the strokes; no stroke can be called so."""
 SYSTEM_NAMES = {"si": "SI", "bar-mm": "bar, mm", "kgf": "kgf", "us": "US"}
@@ -114,15 +128,23 @@ class PageRequests:
         self.motion = reached_motion(machine, timed or (run.divided(count) if run.is_path else evenly))
         self.count = self.motion.shape[0]
         self.scene = Scene(self.motion)
+        self.case_of = [case_shown(place) for place in machine.judge(along if over is None else over).places]
+        self.cases: list[Case] = list(dict.fromkeys((self.run.case, *self.case_of)))
         with language("en"):  # what is said otherwise in Russian is asked for apart
             self.featured = machine.featured()
         self.trace = named_points(machine, list(self.featured.path) if trace is None else trace, "trace")
         self.vary = ranges_given(machine, vary)
         with unwarned():
-            self.columns = chosen_columns(machine, self.motion, columns)
+            self.results = chosen_columns(machine, self.motion, columns, self.run.case)
+        self.curves = {name: as_curve(each) for name, (each, _, _) in self.results.items()}
+        self.columns = {}
+        for name, (result, request, why) in self.results.items():
+            curve: Column = self.curves[name][0]
+            is_same, asked = curve is result, cast(Any, request)
+            self.columns[name if is_same else curve.name] = curve, request if is_same or why else WHOLE / asked, why
         self.column = self._column(column)
-        self.limits = self._limits(limit)
-        self.questions = LiveQuestions(machine, self.limits, self.columns, along if over is None else over)
+        self.judged, self.limits = self._limits(limit)
+        self.questions = LiveQuestions(machine, self.judged, self.columns, along if over is None else over)
         self.by_name: dict[str, RequestLike] = {}
         self._ask()
 
@@ -131,20 +153,24 @@ class PageRequests:
         if name is None and self.featured.column in self.columns:
             return self.featured.column
         if name is not None:
-            return known_name("Column", name, self.columns, where=self.plan.title)
+            known_name("Column", name, [*self.results, *self.columns], where=self.plan.title)
+            return name if name in self.columns else self.curves[name][0].name
         strokes = self.machine.strokes
         moving = [each for each, (column, _, why) in self.columns.items() if each not in strokes and is_changing(column.drawn)]
         alive = [each for each in moving if not self.columns[each][2]]
         return (alive or moving or list(self.columns))[-1]
 
-    def _limits(self, limit: Any) -> dict[str, tuple[float, str, str]]:
-        """Return the limits by column: (value [SI], words, the side that fails)."""
+    def _limits(self, limit: Any) -> tuple[Limits, Limits]:
+        """Return the limits by column, (value [SI], words, the side that fails): those that are judged, and all that are drawn."""
         given = dict(limit) if isinstance(limit, Mapping) else {} if limit is None else {self.column: limit}
         for name in given:
-            known_name("Column", name, self.columns, where=f"{self.plan.title}: limit")
-        known = {name: each for name, each in self.featured.limits.items() if name in self.columns}
-        found = {name: limit_of(each, self.columns[name][0].unit) for name, each in (known | given).items()}
-        return {name: (float(each.value), each.text, each.fails) for name, each in found.items()}
+            known_name("Column", name, [*self.results, *self.columns], where=f"{self.plan.title}: limit")
+        known = {name: each for name, each in self.featured.limits.items() if name in self.results}
+        judged, drawn = Limits(), {curve.name: limit_of(bound) for curve, bound in self.curves.values() if bound is not None}
+        for name, each in (known | given).items():
+            column, bound = as_curve(self.results[name][0], each) if name in self.results else (self.columns[name][0], each)
+            judged[column.name if name not in self.columns else name] = limit_of(bound or each, column.unit)
+        return judged, drawn | judged
 
     def _ask(self) -> None:
         """Note all that is asked of the program."""
@@ -153,7 +179,8 @@ class PageRequests:
             self.by_name[f"point {name}"] = name
         for name, (_, request, why) in self.columns.items():
             if not why:
-                self.by_name[f"column {name}"] = request
+                asked = [in_case(request, case) for case in self.cases]
+                self.by_name |= {f"column {name} {k}": each for k, each in enumerate(asked) if not k or each is not asked[0]}
         for track in self.scene.tracks:
             for k, (part, axis) in enumerate((part, axis) for part in ("origin", "direction") for axis in "xy"):
                 self.by_name[f"track {track.name} {k}"] = track_number(track, part, axis)
@@ -179,6 +206,11 @@ class PageRequests:
             return []
         forces = [each for each in joints if each.has_force and each.place is None]  # an arrow of the page begins at a point
         told = [each for each in forces if alone_on(each, forces)]
+        try:
+            for each in told[:1]:
+                bound(self.plan, joint_part(each, forces, "x")).nodes(kept)
+        except UntracedError:  # which parts pull is found pose by pose: the loads alone are drawn
+            told = []
         found = [(each.point, joint_part(each, forces, "x"), joint_part(each, forces, "y"), False) for each in told]
         for kind, acting in (("ground", ground_loads(poses, PLAIN)), ("load", loads)):
             for k, each in enumerate(acting):
@@ -237,13 +269,13 @@ def slider_ends(machine: Mechanism, name: str, ends: Any, sign: int) -> tuple[fl
     return low, high
 
 
-def chosen_columns(machine: Mechanism, motion: Motion, given: Any) -> dict[str, LiveColumn]:
-    """Return the columns of a page by name: each, what asks for it, and why it is not followed in the page, or ""."""
+def chosen_columns(machine: Mechanism, motion: Motion, given: Any, case: Case) -> dict[str, LiveColumn]:
+    """Return the columns of a page in a load case: each, what asks for it, and why it is not followed in the page, or "", by name."""
     if given is None:
-        return column_requests(machine, motion)
+        return column_requests(machine, motion, case=case)
     is_list, expected = isinstance(given, (list, tuple)) and given, 'a list of columns is expected, such as ["tilt"]'
     require(is_list, f"{machine.plan.title}: columns", given, expected)
-    own = column_requests(machine, motion) if any(isinstance(each, (str, Column)) for each in given) else {}
+    own = column_requests(machine, motion, case=case) if any(isinstance(each, (str, Column)) for each in given) else {}
     found: dict[str, LiveColumn] = {}
     for each in given:
         match each:
@@ -253,7 +285,7 @@ def chosen_columns(machine: Mechanism, motion: Motion, given: Any) -> dict[str, 
                 check_poses(each, motion)
                 found[each.name] = own.get(each.name, (each, each.name, "its values were given, and not what asks for them"))
             case _:
-                column = Column.of(motion, each)
+                column = Column.of(motion, in_case(each, case))
                 found[column.name] = column, each, ""
     return found
 
@@ -266,7 +298,7 @@ def page_data(requests: PageRequests, live: LiveText) -> PageData:
     machine, plan = requests.machine, requests.plan
     dims = dimension_data(requests, live)
     names = [each[0] for each in dims]
-    columns = [column_data(name, each, live, requests.motion) for name, each in requests.columns.items()]
+    columns = [column_data(name, each, live, requests.motion, len(requests.cases)) for name, each in requests.columns.items()]
     rows, index = {name: each[0] for name, each in live.rows.items()}, {name: place for place, name in enumerate(plan.points)}
     lines = {track.name: [rows[f"track {track.name} {k}"] for k in range(4)] for track in requests.scene.tracks}
     run = requests.run
@@ -281,6 +313,8 @@ def page_data(requests: PageRequests, live: LiveText) -> PageData:
         "run": len(machine.strokes) if run.is_path else list(machine.strokes).index(run.stroke),
         "columns": columns,
         "column": list(requests.columns).index(requests.column),
+        "cases": [case_named(plan, each) if each is not None else "" for each in requests.cases],
+        "caseOf": [requests.cases.index(each) for each in requests.case_of],
         "limits": {typeset(name): limit_data(requests, name) for name in requests.limits},
         "rows": {"points": [[rows[f"point {name}"] + axis for axis in (0, 1)] for name in plan.points]},
         "scene": scene_data(requests.scene, lines),
@@ -439,28 +473,34 @@ def stroke_data(requests: PageRequests) -> list[PageData]:
     return found
 
 
-def column_data(name: str, found: LiveColumn, live: LiveText, motion: Motion) -> list[Any]:
-    """Return a column: its name, unit and row, -1 for none, its name in Russian; without a row its values, and why it has none."""
+def column_data(name: str, found: LiveColumn, live: LiveText, motion: Motion, count: int) -> list[Any]:
+    """Return a column: its name, unit and row, -1 for none, its name in Russian; without a row its values, and why it has none.
+
+    Where `count` load cases occur in which it differs it has a row in each.
+    """
     column, _, why = found
     with language("ru"):
         russian = typeset(heading_of(name))
-    shown, key = typeset(name), f"column {name}"
-    start = [shown, typeset(shown_in(column.unit))]
-    if key in live.rows:
-        return [*start, live.rows[key][0], *([russian] if russian != shown else [])]
+    shown, start = typeset(name), [typeset(name), typeset(shown_in(column.unit))]
+    keys = [f"column {name} {k}" for k in range(count)]
+    places = [live.rows[key][0] for key in keys if key in live.rows]
+    if keys[0] in live.rows and not any(key in live.left_out for key in keys):
+        return [*start, places if len(places) == count > 1 else places[0], *([russian] if russian != shown else [])]
     values = np.broadcast_to(np.asarray(column.values, float), motion.shape)
     shown_values = [float(f"{value:.7g}") if np.isfinite(value) else None for value in values.tolist()]
-    return [*start, -1, russian, shown_values, why or live.left_out.get(key, "")]
+    return [*start, -1, russian, shown_values, why or next(live.left_out[key] for key in keys if key in live.left_out)]
 
 
 def limit_data(requests: PageRequests, name: str) -> list[Any]:
     """Return a column's limit [SI], its words, the side that fails, and its words in Russian where they are others."""
     value, text, fails = requests.limits[name]
-    plain, russian = requests.featured.limits.get(name), text
+    plain = requests.featured.limits.get(name)
     with language("ru"):
-        known = requests.machine.featured().limits.get(name)
+        known, russian = requests.machine.featured().limits.get(name), translated(text)
     if plain is not None and known is not None and limit_of(plain).text == text:  # the machine has said it; a limit given says what it says
         russian = limit_of(known).text
+    if name not in requests.judged:  # it is drawn, and the verdicts have a rule for it
+        return [value, typeset(text), fails, typeset(russian), 1]
     return [value, typeset(text), fails, *([typeset(russian)] if russian != text else [])]
 
 

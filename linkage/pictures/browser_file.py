@@ -88,7 +88,7 @@ def bare(text: str) -> str:
 
 
 def packed(text: str) -> str:
-    """Return a text compressed by zlib and written in 85 letters: half of what it is or less, and none of them begins or ends an element."""
+    """Return a text compressed by zlib and written in 85 letters: half of what it is or less, and nothing in it begins an element."""
     return b85encode(compress(text.encode(), 9)).decode().replace("<", ",")
 
 

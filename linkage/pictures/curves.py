@@ -14,14 +14,13 @@ from matplotlib.ticker import MaxNLocator
 
 from ..checks import require, require_type
 from ..errors import DefinitionError, cited, known_name
-from ..language import said, translated
-from ..loads import Acting
+from ..language import noted, said, translated
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, Request, RequestLike, columns_of
 from ..motion.measures import Constraint, Given, Leaf, Least, Most
 from ..program import FloatArray
 from ..quantities import Quantity, is_number
-from ..reports import At, column_among, motion_over, results, run_of, run_words, runs_of
+from ..reports import At, column_among, in_case, motion_over, results, run_of, run_words, runs_of
 from ..units import factor, require_measure
 from . import style
 from .sheet import panels, quiet
@@ -63,7 +62,7 @@ def plot_machine(
             shown = [own.get(each, each) if isinstance(each, str) else each for each in shown]
             if len(runs) > 1 and any(isinstance(each, Column) for each in columns):
                 raise DefinitionError(f"{machine.plan.title}: a Column has values of one motion, and it runs {len(runs)} ways; name it.")
-            shown = [each.under(Acting(case=run.case), keep=True) if isinstance(each, Request) else each for each in shown]
+            shown = [in_case(each, run.case) for each in shown]
         held = StrokeAxis.of(motion).held
         curves += [(motion, column, run_words(machine, run) if len(runs) > 1 else "") for column in columns_named(motion, shown)]
     names = {column.name for _, column, _ in curves}
@@ -87,8 +86,9 @@ def plot_curves(first: Motion, curves: Sequence[Curve], limits: Mapping[str, Seq
         along = StrokeAxis.of(first).name
         raise DefinitionError(f"{first.plan.title}: there is no column to draw over {along}; name a result, not a stroke.")
     figure, cells = panel_grid(len(shown), first.plan.heading, held)
-    for ax, (motion, column, where) in zip(cells, shown, strict=True):
-        panel(ax, motion, column, given.get(column.name))
+    for ax, (motion, result, where) in zip(cells, shown, strict=True):
+        column, bound = as_curve(result, given.get(result.name))
+        panel(ax, motion, column, bound)
         if where:  # each of several runs has strokes of its own that are held
             axis = StrokeAxis.of(motion)
             ax.set_title(typeset(f"{column.heading}, {where}"), loc="left", fontsize=style.TITLE, fontweight="bold", color=style.INK, pad=9)
@@ -198,6 +198,23 @@ def limit_crossings(along: FloatArray, values: FloatArray, at: float) -> list[fl
     places = np.flatnonzero(np.signbit(off[1:]) != np.signbit(off[:-1]))
     places = places[np.isfinite(off[places]) & np.isfinite(off[places + 1])]
     return [float(along[i] - off[i] * (along[i + 1] - along[i]) / (off[i + 1] - off[i])) for i in places]
+
+
+# A reserve has no bound where little is carried: its curve is the load in % of what the pump can carry.
+
+RESERVE, PUMP_LOAD, WHOLE = "reserve", noted("pump load in %"), 100.0
+
+
+def as_curve(column: Column, bound: Sequence[object] | None = None) -> tuple[Column, Sequence[object] | None]:
+    """Return a column and its limit as curves show them: instead of a reserve 100 % over it, with no more than 100 % allowed."""
+    if column.unit or not column.name.startswith(RESERVE):
+        return column, bound
+    with np.errstate(divide="ignore"):
+        share = Column(column.name.replace(RESERVE, PUMP_LOAD, 1), WHOLE / np.asarray(column.values, float), "", 1)
+    if bound is None:
+        return share, Limit(WHOLE, said("all that the pump can carry"))
+    value, text, fails = limit_of(bound)
+    return share, Limit(WHOLE / value, text, "below" if fails == "above" else "above")
 
 
 # One curve over a stroke: its line, its limit with the failing side shaded, its axes.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from shutil import copyfileobj
 from tempfile import TemporaryDirectory, gettempdir
@@ -27,7 +28,7 @@ from ..program import FloatArray
 from ..reports import NOTHING, At
 from . import style
 from .browser import COUNT, page
-from .curves import Limit, limit_of, panel, typeset
+from .curves import Limit, as_curve, limit_of, panel, typeset
 from .drawing import Drawing
 from .poses import named_points, trace
 from .scene import Scene
@@ -89,7 +90,8 @@ def animate(
     played = playback(machine, poses, column, at=at)
     if limit is None:
         limit = machine.featured().limits.get(played.column.name)
-    stage = Stage(played, trace, limit, GIF_DPI if kind == ".gif" else MP4_DPI)
+    column, limit = as_curve(played.column, limit)
+    stage = Stage(replace(played, column=column), trace, limit, GIF_DPI if kind == ".gif" else MP4_DPI)
     if kind == ".gif":  # a pose that comes twice is drawn once
         sample = np.concatenate([stage.frame(pose) for pose in (played.order[0], played.order[len(played.order) // 2])])
         write_gif(target, drawn_frames(stage, list(dict.fromkeys(played.order)), report), played.order, sample, played.seconds)

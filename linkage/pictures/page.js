@@ -6,7 +6,9 @@ if (!strokes.some((each) => each.path && each.over === undefined)) for (const [o
   if (shape === "path" && name && ways[0].length > 1 && !strokes.some((each) => each.over === over)) strokes.push({ name, start: time ? time[0] : 1, end: time ? time[1] : ways[0].length, at: time ? time[0] : 1, unit: time ? "s" : "", factor: 1, turn: time ? 1 : 0, path: { ...ways }, over });
 }
 /* A dimension as it comes: its name, value, least and greatest [SI], unit, whether it is a length, and where it stands. */
-const columns = data.columns.map(([name, unit, row, ru, values, why]) => ({ name, unit, factor: units[unit], row: row < 0 ? undefined : row, ru, values, why }));
+/* A column has a row of the program in each load case in which it differs; that of the path that runs is shown. */
+const columns = data.columns.map(([name, unit, row, ru, values, why]) => ({ name, unit, factor: units[unit], ru, values, why, get row() { return row < 0 ? undefined : row[caseNow()] ?? row; } }));
+const caseNow = () => data.caseOf[strokes[runs].over] ?? 0;
 const dims = data.dims.map(([name, value, ends, unit, positive, where]) => ({ name, value, low: ends[0] ?? value - ends, high: ends[1] ?? value + ends, unit, factor: units[unit], positive, where }));
 
 /* ---- the state, and what follows from it ---- */
@@ -266,12 +268,13 @@ function plotted() {
   }
   for (const [v, text] of left) { rule(L, y(v), W - R, y(v), "grid"); write(L - 6, y(v) + 4, text, { anchor: "end" }); }
   for (const [v, text] of right) write(W - R + 6, y2(v) + 4, text, {});
-  for (const [s, text] of ticks(least, most, max(3, floor((W - L - R) / 62)), stroke.unit === "deg" && most - least >= 90)) {
-    rule(x(s), T, x(s), H - B, "grid"); write(x(s), H - B + 15, text, { anchor: x(s) > W - R - 10 ? "end" : "middle" });
+  for (const [s, text] of ticks(least, most, max(3, floor((W - L - R) / 62)), stroke.unit === "deg" && most - least >= 90)) if (!stroke.path || s % 1 === 0) {
+    rule(x(s), T, x(s), H - B, "grid"); write(x(s), H - B + 15, stroke.path ? s : text, { anchor: x(s) > W - R - 10 ? "end" : "middle" });
   }
   rule(L, T, L, H - B, "rule"); rule(L, H - B, W - R, H - B, "rule");
   const compares = was && !isMoved();
-  write(compares ? L : 0.5 * (L + W - R), H - 6, stroke.unit ? `${titled(stroke)}, ${signed(stroke.unit)}` : titled(stroke), { anchor: compares ? "start" : "middle" });
+  const along0 = stroke.unit ? signed(stroke.unit) : stroke.over === undefined ? "" : say("place"), acting = data.cases[caseNow()];
+  write(compares ? L : 0.5 * (L + W - R), H - 6, [titled(stroke), along0, acting && say("in the case {case}", { case: acting })].filter(Boolean).join(", "), { anchor: compares ? "start" : "middle" });
   if (compares) line(was, y, "muted", 2, { dash: "3 4" });
   if (others) line(others, same ? y : y2, "other", 2.2, {});
   chart = { one, two, values, others, along, x, y, y2: same ? y : y2 };

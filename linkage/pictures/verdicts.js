@@ -288,7 +288,7 @@ function atPose() {
   }
   for (const each of columns) {
     const given = data.limits[each.name], value = given && each.row !== undefined && !questions.some(({ rule }) => rule === each.name) ? pose.values[each.row][0] : NaN;
-    if (given && (given[2] === "below" ? value < given[0] - 1e-9 * each.factor : value > given[0] + 1e-9 * each.factor)) faults.push({ rule: called(each), text: size(value, each), limit: size(given[0], each), case: "" });
+    if (given && !given[4] && (given[2] === "below" ? value < given[0] - 1e-9 * each.factor : value > given[0] + 1e-9 * each.factor)) faults.push({ rule: called(each), text: size(value, each), limit: size(given[0], each), case: "" });
   }
   for (const { point, row } of data.joints) {
     const angle = pose.values[row][0];

@@ -10,12 +10,13 @@ from typing import TypeAlias
 import numpy as np
 
 from ..errors import LinkageError, UntracedError
+from ..loads import Case
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, Request, RequestLike, require_motion
 from ..program import FloatArray
 from ..quantities import Dimension, Quantity, Stroke, x, y
 from ..statics import AnyMotion, LawRequest, TracedMotion
-from .results import columns_by, results
+from .results import columns_by, in_case, results
 
 LiveColumn: TypeAlias = tuple[Column, RequestLike, str]
 """A column, what asks for it, and why its program does not give it, or ""."""
@@ -40,27 +41,30 @@ def column_over(machine: Mechanism, place: int, name: str, motion: AnyMotion) ->
 
 
 def column_requests(
-    machine: Mechanism, motion: Motion, columns: Sequence[Column] | None = None, only: Container[str] | None = None
+    machine: Mechanism, motion: Motion, columns: Sequence[Column] | None = None, only: Container[str] | None = None, case: Case = None
 ) -> dict[str, LiveColumn]:
     """Return the columns of a motion of one design by their names: each, what asks for it, and why that does not give it, or "".
 
-    `columns` are its results, where they are known already; `only` are the names of those that are wanted, by default all.
+    `columns` are its results, where they are known already; `only` are the names of those that are wanted, by default all. They are of a
+    load case, what asks for them of any.
     """
     plan, names = machine.plan, Counter[str]()
     points: dict[str, RequestLike] = {f"{name}_{axis}": each(name) for name in plan.moving for axis, each in (("x", x), ("y", y))}
     outputs = {name: name for name, each in plan.of_kind(Quantity).items() if not isinstance(each, (Stroke, Dimension))}
     plain = points | outputs | {name: name for name in plan.strokes}  # what the columns ask for that every machine has
     found: dict[str, LiveColumn] = {}
-    for place, column in enumerate(results(machine, motion) if columns is None else columns):
+    acting = {} if case is None else {column.name: column for column in results(machine, motion, case)}
+    for place, plainly in enumerate(results(machine, motion) if columns is None else columns):
+        column = acting.get(plainly.name, plainly)
         names[column.name] += 1
         name = column.name if names[column.name] == 1 else f"{column.name} ({names[column.name]})"
         if only is not None and name not in only:
             continue
         formula, known = partial(column_over, machine, place, column.name), ("column", machine, place, column.name)
         own = LawRequest(formula=formula, text=f"the column {column.name}", known=known, column=column.name)
-        for request in (plain.get(name), column.request, own):
+        for request in (plain.get(name), plainly.request, own):
             if request is not None:
-                reason = not_followed(motion, request, column)
+                reason = not_followed(motion, in_case(request, case), column)
                 found[name] = column, request, reason
                 if not reason:
                     break

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Container, Iterator, Sequence
 from dataclasses import replace
+from typing import TypeVar, cast
 
 import numpy as np
 
@@ -16,6 +17,8 @@ from ..mechanism import Mechanism, require_mechanism
 from ..motion import Column, Motion, Request, Tabled, columns_of, require_motion, speakers, stroke_unit
 from ..program import FloatArray
 from ..statics import drive_force, driving_force, held_fault
+
+Asked = TypeVar("Asked")
 
 
 def results(machine: Mechanism, motion: Motion, case: Case = None) -> list[Column]:
@@ -43,10 +46,13 @@ def results(machine: Mechanism, motion: Motion, case: Case = None) -> list[Colum
 
 def column_in_case(motion: Motion, column: Column, case: Case) -> Column:
     """Return a column in a load case; as it is where nothing asks for it, or no load counts in it."""
-    if not isinstance(column.request, Request):
-        return column
-    own = column.request.under(Acting(case=case), keep=True)
+    own = in_case(column.request, case)
     return column if own is column.request else replace(column, values=motion[own])
+
+
+def in_case(request: Asked, case: Case) -> Asked:
+    """Return what is asked for in a load case; itself where no load counts in it, or where it names another one."""
+    return cast(Asked, request.under(Acting(case=case), keep=True)) if isinstance(request, Request) and case is not None else request
 
 
 def column_among(machine: Mechanism, found: Sequence[Column], name: str | None) -> Column:

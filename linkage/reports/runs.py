@@ -12,7 +12,7 @@ import numpy as np
 from ..checks import require_type
 from ..errors import DefinitionError, LinkageError, known_name, unwarned
 from ..language import said
-from ..loads import PLAIN, PLAIN_CASE, Acting, LoadCase
+from ..loads import PLAIN, PLAIN_CASE, Acting, Case, LoadCase
 from ..mechanism import Mechanism
 from ..motion import Judge, Motion, Run, case_named, least, most, out_of_reach, require_motion
 from ..motion.judge import Domain
@@ -74,8 +74,7 @@ def run_of(machine: Mechanism, at: At | Motion = NOTHING) -> Run:
 
 def run_over(machine: Mechanism, place: Domain, acting: Acting) -> Run:
     """Return the run over an `Over` of one design."""
-    cases, plan = place.cases(PLAIN), machine.plan
-    case = (None if PLAIN_CASE in cases else cases[0]) if acting.case is None else None if acting.case == PLAIN_CASE else acting.case
+    plan, case = machine.plan, case_shown(place, acting)
     strokes: dict[str, Sequence[float]] = {name: np.ravel(value).tolist() for name, value in place.motion.strokes.items()}
     running, worst = place.running, ""
     if place.over.shape == "box" and running:
@@ -91,6 +90,13 @@ def run_over(machine: Mechanism, place: Domain, acting: Acting) -> Run:
     still = {name: values[0] for name, values in strokes.items() if name not in running}
     declared = place.over if place.instants is not None else None
     return Run(ways, still, place.over.title, case, place.over.shape == "poses", worst, declared, place.instants)
+
+
+def case_shown(place: Domain, acting: Acting = PLAIN) -> Case:
+    """Return the load case in which results over an `Over` are shown: the one asked for, else the machine's own loads, else the first."""
+    cases = place.cases(PLAIN)
+    case = (None if PLAIN_CASE in cases else cases[0]) if acting.case is None else acting.case
+    return None if case == PLAIN_CASE else case
 
 
 def run_words(machine: Mechanism, run: Run) -> str:

@@ -12,7 +12,7 @@ import pytest
 from matplotlib.image import imread
 from numpy.testing import assert_allclose, assert_array_equal
 
-from hydraulics import Cylinder, LiftCircuit
+from hydraulics import Cylinder, LiftCircuit, reserve, thrust
 from linkage import (
     LEFT,
     RIGHT,
@@ -24,8 +24,10 @@ from linkage import (
     Ground,
     Guide,
     Link,
+    LoadCase,
     Mechanism,
     OnLink,
+    Over,
     Part,
     PinFriction,
     SliderDyad,
@@ -38,6 +40,7 @@ from linkage import (
     drive_force,
     driving_force,
     page,
+    plot,
     standing,
     working_field,
     y,
@@ -52,6 +55,7 @@ from linkage.pictures import page_html
 from linkage.pictures.browser_data import PageRequests, limit_data, named_in_code
 from linkage.pictures.browser_file import page_part, said_in
 from linkage.pictures.chart_page import chart_page
+from linkage.pictures.curves import as_curve
 from linkage.pictures.load_chart import ChartText
 from linkage.plan.trace import Trace
 from linkage.quantities import name_of
@@ -1089,9 +1093,44 @@ def test_what_every_machine_is_given_is_followed(chromium, written):
         run = shown("hydrolinkage.sweep()")
         mine = {each.name: np.asarray(each.values) for each in results(Lifting(**design), Lifting(**design).sweep(101))}
         rows = {name: row for name, _, row, *_ in shown("hydrolinkage.data.columns")}
-        assert {"drive force", "thrust", "pressure", "reserve"} < rows.keys() and min(rows.values()) >= 0
+        mine["pump load in %"] = 100.0 / mine["reserve"]
+        assert {"drive force", "thrust", "pressure", "pump load in %"} < rows.keys() and min(rows.values()) >= 0
         for name, row in rows.items():
             assert_allclose(np.array(run["values"][row], float), np.broadcast_to(mine[name], (101,)), rtol=1e-10, atol=1e-12)
+
+
+class Cased(Lifting):
+    """The same, with a path in a load case, one under its own loads, and a hold."""
+
+    half = LoadCase("half", scale={"load": 0.5})
+    up = Over.path(S=[0.0, 0.15], cases=["half"])
+    down = Over.path(S=[0.2, 0.05], cases=["plain"])
+
+
+def test_curves_of_a_path_are_in_its_load_case_and_a_reserve_is_the_pumps_load(chromium, tmp_path):
+    machine, file = Cased(), tmp_path / "cased.html"
+    with Shown(chromium, page(machine, file, column="reserve", limit={"reserve": (1.25, "a quarter", "below")})) as shown:
+        names = shown("[...document.getElementById('column').options].map((each) => each.textContent)")
+        assert "pump load in %" in names and not any(each.startswith("reserve") for each in names)
+        rows = {name: row for name, _, row, *_ in shown("hydrolinkage.data.columns")}
+        assert shown("hydrolinkage.data.limits")["pump load in %"][::2] == [80.0, "above"]
+        for over, case in (("up", "half"), ("down", None)):
+            shown.slide(f'[data-stroke="{over}"]', 0)
+            run, k = shown("hydrolinkage.sweep()"), shown("hydrolinkage.data.cases").index(case or "")
+            motion = machine.sweep(101, over=over)
+            for name, own in (("thrust", thrust("lift", case=case)), ("pump load in %", 100.0 / reserve("lift", case=case))):
+                assert_allclose(run["values"][rows[name][k]], motion[own], rtol=1e-9, err_msg=f"{name} {over}")
+            assert isinstance(rows["B_x"], int)
+            shown.settle()
+            said = shown("document.getElementById('curve').textContent")
+            assert ("in the case half" in said) is (case == "half") and f"{over}, place" in said
+    curve, bound = as_curve(Column("reserve lift", np.array([4.0, 0.5, np.nan]), ""))
+    assert curve.name == "pump load in % lift" and bound[0] == 100.0
+    assert_array_equal(curve.values, [25.0, 200.0, np.nan])
+    figure = plot(machine, ["reserve"])
+    for ax, (over, case) in zip(figure.axes, (("up", "half"), ("down", None)), strict=True):
+        assert_allclose(ax.lines[0].get_ydata(), 100.0 / machine.sweep(101, over=over)[reserve("lift", case=case)], rtol=1e-9)
+        assert ax.get_title(loc="left").startswith("pump load in %")
 
 
 def test_a_delivered_design_that_asks_too_much_is_told_so(chromium, written, tmp_path):
@@ -1324,7 +1363,9 @@ TEXTS = (
     " && each.getAttribute('visibility') === 'visible').map((each) => [each.textContent, ...(({ x, y, width, height }) =>"
     " [x, y, x + width, y + height])(each.getBBox())])"
 )
-PINS = "[...document.querySelectorAll('#mechanism .grip')].map((each) => [Number(each.getAttribute('cx')), Number(each.getAttribute('cy'))])"
+PINS = (
+    "[...document.querySelectorAll('#mechanism .grip')].map((each) => [Number(each.getAttribute('cx')), Number(each.getAttribute('cy'))])"
+)
 
 
 def test_names_and_values_cover_neither_each_other_nor_pins_nor_the_edge(chromium, written):
@@ -1338,8 +1379,9 @@ def test_names_and_values_cover_neither_each_other_nor_pins_nor_the_edge(chromiu
                 wide, tall = shown("(({ width, height }) => [width, height])(document.getElementById('mechanism').getBoundingClientRect())")
                 for k, (text, *box) in enumerate(texts):
                     assert box[0] >= 0 and box[2] <= wide and box[1] >= 0 and box[3] <= tall, text
-                    within = [0.25 * box[0] + 0.75 * box[2], 0.75 * box[0] + 0.25 * box[2], 0.7 * box[1] + 0.3 * box[3], 0.3 * box[1] + 0.7 * box[3]]
-                    assert not [pin for pin in pins if within[1] < pin[0] < within[0] and within[2] < pin[1] < within[3]], text
+                    low, high = np.array(box[:2]), np.array(box[2:])
+                    air = (high - low) * [0.25, 0.3]
+                    assert not [pin for pin in pins if np.all((low + air < pin) & (pin < high - air))], text
                     for other, *there in texts[:k]:  # letters are lower than their boxes by a fifth above and below
                         apart = max(box[0] - there[2], there[0] - box[2], box[1] - there[3] + 0.4 * 14, there[1] - box[3] + 0.4 * 14)
                         assert apart >= 0, (text, other, share)
@@ -1352,10 +1394,12 @@ def test_on_a_phone_the_name_and_the_forces_of_what_is_touched_are_told(chromium
         shown.tab.locator("#forces").click()
         shown.settle()
         assert shown(TEXTS) == []
-        shown.tab.locator(".grip[data-pin='B']").tap()
+        box = shown("(({ x, y }) => [x, y])(document.getElementById('mechanism').getBoundingClientRect())")
+        x, y = shown("['cx', 'cy'].map((each) => Number(document.querySelector('.grip[data-pin=\"B\"]').getAttribute(each)))")
+        shown.tab.touchscreen.tap(box[0] + x, box[1] + y)
         shown.settle()
         told = [text for text, *_ in shown(TEXTS)]
-        assert "B" in told and len(told) > 1 and all(text == "B" or text.endswith("kN") for text in told)
+        assert "B" in told and len(told) > 1 and all(text == "B" or text.endswith("N") for text in told)
 
 
 def test_a_points_name_is_short_where_nothing_else_is_called_so():

@@ -58,8 +58,12 @@ class PumpLine(LiftLine):
         found, cylinders = dict[str, PageWords](), self.lifting_cylinders(judge)
         for each in cylinders:
             name, ways = f" {each.ram.name}" if len(cylinders) > 1 else "", each.ways_back
-            found[f"lifting{name}"] = PageWords(noted("the least reserve is {value}, {place}"))
-            found[f"holding{name}"] = PageWords(noted("with the pump off it holds up to {value}, {place}: not above {limit}"))
+            lacks = noted("the least reserve is {value}, {place}: it needs a higher pressure or a larger size")
+            found[f"lifting{name}"] = PageWords(noted("the least reserve is {value}, {place}"), fails={">=": lacks})
+            holds = noted("with the pump off it holds up to {value}, {place}: above {limit}; take a larger size")
+            found[f"holding{name}"] = PageWords(
+                noted("with the pump off it holds up to {value}, {place}: not above {limit}"), fails={"<=": holds}
+            )
             if len(ways) == 1 and judge.answer(most(each.back(ways[0])) <= 0.0).ok:
                 alone = least(going_back_request(each.ram.name, Acting(), self.name, ways[0], tells="load"))
                 found[f"lowering{name}"] = PageWords(noted("the load makes at least {value} in the working side, {place}"), alone)

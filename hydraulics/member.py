@@ -23,7 +23,7 @@ from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError, cited, ensure, known_name, unknown, unwarned
 from linkage.frozen import refuses_changes
-from linkage.language import noted, said, with_and
+from linkage.language import noted, said, translated, with_and
 from linkage.loads import (
     AS_IT_RUNS,
     AT_REST,
@@ -401,7 +401,10 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
 
     def page_words(self, judge: Judge) -> Mapping[str, PageWords]:
         text = noted("its rod is safe against buckling by {value}, {place}")
-        return {"buckling": PageWords(text, self.safety / most(buckling_request(self.name, Acting())))}
+        safe = self.safety / most(buckling_request(self.name, Acting()))
+        weak = noted("its rod is safe against buckling by {value} only, {place}: take a thicker rod, or shorten the cylinder")
+        lacks = {">=": noted("it is {much} too long closed: take one with a shorter closed length"), "<=": MISSING}
+        return {"buckling": PageWords(text, safe, fails={"<=": weak}), "length": PageWords("", fails=lacks)}
 
     def load_limits(self, judge: Judge) -> Mapping[str, Condition]:
         return {rule: each for rule, each in self.conditions(judge).items() if rule not in ("length", "buckling")}
@@ -477,7 +480,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         missing, way, given = high - low - stroke - TOLERANCE, show(high - low, "mm", ".1f"), show(stroke, "mm", ".1f")
         text = said("{pins} changes by {travel}, the stroke is {stroke}", pins=self._pins, travel=way, stroke=given)
         if missing > 0.0:
-            text += said("; {missing} are missing: take a longer stroke", missing=show_enough(missing, "mm", ".1f"))
+            text += translated(MISSING).format(missing=show_enough(missing, "mm", ".1f"))
         return [Verdict("length", missing <= 0.0, f"{text}.", answer=ends[1])]
 
     def is_placed(self, judge: Judge) -> bool:
@@ -1336,6 +1339,7 @@ def found_in(members: NamedMembers, reference: Reference, where: str) -> Ram:
 
 
 TOLERANCE = 1e-9  # m: a length that is met to rounding is met
+MISSING = noted("; {missing} are missing: take a longer stroke")
 TO_ROUNDING = 1e-9
 """Of the greatest thrust: a load that turns by less than this part drives one way."""
 

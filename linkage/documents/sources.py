@@ -56,6 +56,8 @@ def comments_in(cls: type) -> dict[str, str]:
             and not text.startswith(("fmt:", "type:", "noqa"))
         ):
             for target in line.targets:
-                names = target.elts if isinstance(target, ast.Tuple) else [target]
-                found |= {name.id: text for name in names if isinstance(name, ast.Name)}
+                listed = target.elts if isinstance(target, ast.Tuple) else [target]
+                names = [name.id for name in listed if isinstance(name, ast.Name)]
+                named = [name for name in names if re.match(rf"{name}\b", text)]  # of several the one that it speaks of
+                found |= dict.fromkeys(named or names, text)
     return found

@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar, final
 
 import numpy as np
@@ -43,7 +43,9 @@ JUDGED = 200
 @final
 @dataclass(frozen=True, eq=False)
 class PageWords:
-    """How a page says a rule that is kept: a sentence with {value}, {limit} and {place}, in English as the catalogues have it.
+    """How a page says a rule: a sentence with {value}, {limit} and {place} where it is kept, in English as the catalogues have it.
+
+    `fails` says it where it is not, by the sign of the condition that is missed; {force}, {much} or {missing} is by how much.
 
     `measure` is the value where it is not the condition's own, `share` how much of the limit is used where that is not value over limit.
     """
@@ -51,6 +53,7 @@ class PageWords:
     text: str
     measure: Measure | None = None
     share: Measure | None = None
+    fails: Mapping[str, str] = field(default_factory=dict)
 
 
 class HasVerdicts(Member):

@@ -38,7 +38,7 @@ CLOSE = 1e-13  # of a leg, or of a box: how narrow a bracket gets, and how near 
 BORDERS = 32  # of each function and design, at most
 NOISE, ROUNDED = 1e-10, 1e-12  # of the range of the values, and of their size: a sample that rises less above its neighbours hides nothing
 EPS, LOWEST = float(np.finfo(float).eps), float(np.finfo(float).min)
-HALVINGS = 48
+HALVINGS, LEVEL = 48, 2  # steps towards a border; more samples than these as high as the highest are a level stretch
 SEEN, REFUSED = 1e-9, 1e-5  # of a leg: how near a value must keep growing, to a border and to a refused pose
 PLATEAU = 2.0**-12  # of the distance at which a value stopped growing: where it is level from there on numbers went no nearer
 
@@ -107,8 +107,10 @@ def highest(look: Look, counts: Sequence[int]) -> Highest:
     any_unbounded = np.asarray(unbounded.any(axis=-1))
     score = np.where(any_unbounded[..., None] & ~unbounded, -np.inf, ends.value)
     place = np.argmax(score, axis=-1)[..., None]
-    leg = np.take_along_axis(ends.leg, place, axis=-1)[..., 0]
-    value, t = (np.take_along_axis(each, place, axis=-1)[..., 0] for each in (ends.value, ends.t))
+    value, own_leg, own_t = (np.take_along_axis(each, place, axis=-1)[..., 0] for each in (ends.value, ends.leg, ends.t))
+    level = values >= (value - ROUNDED * np.abs(value))[..., None]  # of a level stretch the first sample is told
+    is_level, first = (level.sum(axis=-1) > LEVEL) & ~any_unbounded, np.argmax(level, axis=-1)
+    leg, t = np.where(is_level, leg[first], own_leg), np.where(is_level, t[first], own_t)
     value = np.where(any_unbounded, np.inf, np.where(value <= LOWEST, -np.inf, value))
     return Highest(np.where(np.isnan(seen).all(axis=-1), np.nan, value), leg, t, any_unbounded)
 

@@ -54,7 +54,7 @@ from ..reports import (
 from ..statics import AnyMotion, JointForce, LawRequest, TracedMotion, applied_loads, ground_loads, pin_force, pin_forces
 from ..units import SYSTEMS, UNITS, deg, display_unit, factor, shown_in, unit_system
 from .browser_file import MACHINE, START, PageData, page_part, page_text
-from .browser_judge import PLACES, LiveQuestions, rule_key
+from .browser_judge import PLACES, LiveQuestions, rule_key, unit_data
 from .curves import WHOLE, Limit, as_curve, check_poses, limit_of, typeset
 from .influence import influences
 from .labels import offsets
@@ -161,7 +161,7 @@ class PageRequests:
         return (alive or moving or list(self.columns))[-1]
 
     def _limits(self, limit: Any) -> tuple[Limits, Limits]:
-        """Return the limits by column, (value [SI], words, the side that fails): those that are judged, and all that are drawn."""
+        """Return the limits by column: those that are judged, and all that are drawn."""
         given = dict(limit) if isinstance(limit, Mapping) else {} if limit is None else {self.column: limit}
         for name in given:
             known_name("Column", name, [*self.results, *self.columns], where=f"{self.plan.title}: limit")
@@ -270,7 +270,7 @@ def slider_ends(machine: Mechanism, name: str, ends: Any, sign: int) -> tuple[fl
 
 
 def chosen_columns(machine: Mechanism, motion: Motion, given: Any, case: Case) -> dict[str, LiveColumn]:
-    """Return the columns of a page in a load case: each, what asks for it, and why it is not followed in the page, or "", by name."""
+    """Return the columns of a page in a load case, by name. An empty reason says that its program follows it."""
     if given is None:
         return column_requests(machine, motion, case=case)
     is_list, expected = isinstance(given, (list, tuple)) and given, 'a list of columns is expected, such as ["tilt"]'
@@ -387,11 +387,6 @@ def unit_tables(used: set[str]) -> PageData:
     }
 
 
-def unit_data(unit: str) -> PageData:
-    """Return the unit that values of a unit are shown in, and its factor."""
-    return {"unit": typeset(shown_in(unit)), "factor": factor(shown_in(unit))}
-
-
 def signs(units: set[str]) -> dict[str, str]:
     """Return how units are written in Russian, those that are written otherwise."""
     plain = {typeset(unit): unit for unit in UNITS}
@@ -438,7 +433,8 @@ def shown_first(requests: PageRequests, dims: Sequence[Sequence[Any]]) -> list[s
     ranges = {name: float(np.ptp(ends)) if isinstance(ends, list) else 2.0 * ends for name, _, ends, *_ in dims}
     found = {} if why else influences(requests.questions.judge, request, ranges)
     entries = requests.plan.table.entries
-    chosen = list(found) or sorted(names, key=lambda name: entries[name].kind not in STEPS)
+    ranked = sorted(found, key=lambda name: not plan_measure(requests.plan, name))  # sizes before efficiencies and other plain numbers
+    chosen = ranked or sorted(names, key=lambda name: entries[name].kind not in STEPS)
     return sorted(chosen[:SHOWN], key=lambda name: name.rpartition(".")[0])
 
 
@@ -456,7 +452,9 @@ def stroke_data(requests: PageRequests) -> list[PageData]:
         runs = name == run.stroke and not run.is_path
         start, end = (way[0], way[-1]) if runs else (stroke.start, stroke.end)
         turn = runs and is_turn(requests.machine, run) and bool(requests.motion.reached.all()) and ends_where_begun(requests.motion)
-        found.append({"name": name, "start": start, "end": end, "at": way[0], "unit": unit, "factor": factor(unit), "turn": int(turn)})
+        data: PageData = {"name": name, "start": start, "end": end, "at": way[0], "unit": unit, "factor": factor(unit), "turn": int(turn)}
+        reach = [min(start, end, stroke.start, stroke.end), max(start, end, stroke.start, stroke.end)]
+        found.append(data | ({"reach": reach} if runs and not turn and reach != sorted((start, end)) else {}))
     if run.is_path:
         first, last = requests.first + 1, requests.first + len(requests.ends)
         turn = all(abs(way[-1] - way[0]) <= ROUND * np.ptp(way) for way in run.ways.values())
@@ -603,7 +601,7 @@ def scene_data(scene: Scene, lines: Mapping[str, Sequence[int]]) -> PageData:
 
 
 def names_shown(scene: Scene) -> dict[str, str]:
-    """Return what points of parts are called on the sheet: short where nothing else is called so, of many as pictures have them."""
+    """Return what points of parts are called on the sheet. Of many it is as in pictures."""
     ends = Counter(name.rpartition(".")[2] for name in scene.places)
     short = {name: name.rpartition(".")[2] for name in scene.places if "." in name}
     return {name: end for name, end in short.items() if ends[end] == 1} | scene.letters

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Hashable, Mapping, Sequence
-from contextlib import suppress
 from functools import reduce
 from typing import Any, TypeAlias, final
 
@@ -12,7 +11,7 @@ import numpy as np
 
 from ..errors import DefinitionError, LawError, LinkageError, UntracedError, unwarned
 from ..language import heading_of, language, translated
-from ..loads import PLAIN_CASE
+from ..loads import FRICTIONLESS, PLAIN_CASE, Acting
 from ..mechanism import Mechanism
 from ..motion import Column, Condition, HasVerdicts, LiveText, PageWords, Request, RequestLike, least, most, speakers
 from ..motion.judge import Domain, Sought, leaf_key, measures_of
@@ -26,7 +25,7 @@ from ..quantities import is_number, quantity
 from ..reports import is_column
 from ..units import display_unit, factor, shown_in
 from .browser_file import PageData
-from .curves import limit_of, typeset
+from .curves import Limit, limit_of, typeset
 
 Piece: TypeAlias = tuple[int, Sought, str]
 """The place of an `Over` among those of the judge, what is sought over it, and the name of its row."""
@@ -65,14 +64,15 @@ class LiveQuestions:
         self.ends = [self.rows_of_ends(place.over.strokes if place.instants is None else {}) for place in self.judge.places]
         self.asked: list[tuple[str, list[Constraint], dict[Leaf, list[Piece]]]] = []
         self.said: dict[str, tuple[str, PageWords]] = {}
+        self.units, self.untraced = dict[str, str](), False
         with unwarned():
             for rule, (member, condition, words) in self.rules().items():
                 self.ask(rule, member, condition, words)
         for name, given in limits.items():
-            _, request, why = columns[name]
-            limit = limit_of(given)
+            column, request, why = columns[name]
+            limit, self.units[name] = limit_of(given), column.unit
             if not why:
-                self.ask(name, "", least(request) >= limit.value if limit.fails == "below" else most(request) <= limit.value)
+                self.ask_limit(name, request, limit)
 
     def rules(self) -> dict[str, tuple[str, Condition, PageWords]]:
         """Return the rules of the machine's members that are plain conditions, with the member and how it is said.
@@ -108,6 +108,16 @@ class LiveQuestions:
         self.asked.append((rule, constraints, pieces))
         self.said[rule] = member, words
 
+    def ask_limit(self, name: str, request: Any, limit: Limit) -> None:
+        """Note whether a column keeps a limit. Where no program gives it while it moves, that is at rest."""
+        at_rest = request.under(Acting(direction=FRICTIONLESS), keep=True) if isinstance(request, Request) else request
+        for each in dict.fromkeys((request, at_rest)):
+            self.untraced, before = False, dict(self.by_name)
+            self.ask(name, "", least(each) >= limit.value if limit.fails == "below" else most(each) <= limit.value)
+            if not self.untraced or each is at_rest:
+                return
+            self.asked, self.by_name = [one for one in self.asked if one[0] != name], before
+
     def new_row(self, request: RequestLike, kind: str = "") -> str:
         """Return the name of a new row, of a kind, that a request asks for."""
         name = f"judge {len(self.by_name)}{kind}"
@@ -126,8 +136,11 @@ class LiveQuestions:
                 continue  # a table's own column is under the machine's own loads, which do not occur here
             for row in self.judge.sought(leaf, place):
                 name = self.new_row(row.request)
-                with suppress(LawError, UntracedError):  # it is left out of the program then, and its question with it
+                try:
                     looked_up = bound(self.machine.plan, row.request)
+                except (LawError, UntracedError):  # it is left out of the program then, and its question with it
+                    self.untraced = True
+                else:
                     self.by_name |= {f"{name} {which}": where_true(looked_up, which) for which in TRUTHS}
                 found.append((number, row, name))
         return found
@@ -165,13 +178,15 @@ class LiveQuestions:
         leaves = list({id(own): (leaf, own) for leaf, own in pieces.items() if followed[leaf]}.values())
         places = {leaf: next(k for k, (_, each) in enumerate(leaves) if each is own) for leaf, own in pieces.items() if followed[leaf]}
         found = [{"at": int(isinstance(leaf, At)), "pieces": [piece_data(live, *each) for each in own]} for leaf, own in leaves]
-        unit, measures = live_unit(self.machine.plan, constraints[0]), measures_of(self.machine.plan, constraints[0])
+        measures = measures_of(self.machine.plan, constraints[0])
+        unit = unit_data(self.units[rule]) if rule in self.units else live_unit(self.machine.plan, constraints[0])
         member, words = self.said[rule]
         if any(not followed[leaf] for each in (words.measure, words.share) if each is not None for leaf in each.leaves):
             words = PLAIN_WORDS
         with language("ru"):
             russian, text = heading_of(rule), translated(words.text)
-        told: PageData = {"words": [typeset(words.text), typeset(text)]} if words.text else {}
+            fails = {symbol: [typeset(each), typeset(translated(each))] for symbol, each in words.fails.items()}
+        told: PageData = ({"words": [typeset(words.text), typeset(text)]} if words.text else {}) | ({"fails": fails} if fails else {})
         if words.measure is not None:
             told |= {"says": tree(words.measure, places), "saysUnit": live_unit(self.machine.plan, words.measure)}
         if words.share is not None:
@@ -197,8 +212,12 @@ def rule_key(rule: str, member: str) -> str:
 
 def live_unit(plan: Plan, asked: Measure | Constraint) -> PageData:
     """Return the unit that the value of a measure or a question is shown in, and its factor."""
-    unit = shown_in(display_unit(measures_of(plan, asked), "mm"))
-    return {"unit": typeset(unit), "factor": factor(unit)}
+    return unit_data(display_unit(measures_of(plan, asked), "mm"))
+
+
+def unit_data(unit: str) -> PageData:
+    """Return the unit that values of a unit are shown in, and its factor."""
+    return {"unit": typeset(shown_in(unit)), "factor": factor(shown_in(unit))}
 
 
 def piece_data(live: LiveText, number: int, row: Sought, name: str) -> PageData:

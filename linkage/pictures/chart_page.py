@@ -12,8 +12,9 @@ from ..language import heading_of, language
 from ..motion import stroke_display_unit
 from ..study import WorkingField
 from ..units import factor, shown_in, unit_sign
-from .browser_data import cylinder_data, scene_data, signs, unit_data
+from .browser_data import cylinder_data, scene_data, signs
 from .browser_file import LANGUAGES, PageData, page_text
+from .browser_judge import unit_data
 from .curves import typeset
 from .load_chart import ChartText
 from .scene import Scene

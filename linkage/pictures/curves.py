@@ -206,7 +206,7 @@ RESERVE, PUMP_LOAD, WHOLE = "reserve", noted("pump load in %"), 100.0
 
 
 def as_curve(column: Column, bound: Sequence[object] | None = None) -> tuple[Column, Sequence[object] | None]:
-    """Return a column and its limit as curves show them: instead of a reserve 100 % over it, with no more than 100 % allowed."""
+    """Return a column and its limit as curves show them. Of a reserve that is 100 % over it."""
     if column.unit or not column.name.startswith(RESERVE):
         return column, bound
     with np.errstate(divide="ignore"):

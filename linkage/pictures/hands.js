@@ -91,7 +91,7 @@ function eliminated(rows, right) {
 }
 /* Lead a joint to a place, or as near as the strokes bring it; what ends it is said. */
 function led(point, to) {
-  const runsAlong = strokes[runs].path ? [runs] : own.map((_, k) => k), ends = runsAlong.map((k) => [strokes[k].start, strokes[k].end].sort((a, b) => a - b));
+  const runsAlong = strokes[runs].path ? [runs] : own.map((_, k) => k), ends = runsAlong.map((k) => [...reachOf(strokes[k])].sort((a, b) => a - b));
   const standing = (values) => { const at = [...stands]; runsAlong.forEach((k, j) => { at[k] = values[j]; }); return at; };
   const off = (values) => { const found = single(present, standing(values)); return found.reason[0] === 0 ? spot(found, point, 0).map((each, axis) => each - to[axis]) : null; };
   const { at, misses } = solved(runsAlong.map((k) => stands[k]), ends, off);

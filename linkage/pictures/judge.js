@@ -44,7 +44,7 @@ const judging = (engine, { overs: given, questions, most, travel, near }, watche
       if (values[piece.assumed][i] < 0) result.unknown++;
       else if (free) result.unlimited++;
       else if (Number.isNaN(v)) result.lawless++;
-      else if (piece.sense * v > result.score) { result.score = piece.sense * v; result.u = list[i]; }
+      else if (result.u === null || piece.sense * v > result.score + TIE * abs(result.score)) { result.score = piece.sense * v; result.u = list[i]; }
     }
     return result;
   };

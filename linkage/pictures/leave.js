@@ -87,7 +87,7 @@ on(byId("take"), "click", () => {
     return;
   }
   for (const [i, value] of set) design[i] = value;
-  for (const [k, value] of at) standing[k] = min(max(value, min(strokes[k].start, strokes[k].end)), max(strokes[k].start, strokes[k].end));
+  for (const [k, value] of at) standing[k] = within(value, strokes[k]);
   for (const i of set.keys()) if (!chosen.includes(i)) chosen.push(i);
   play(false);
   moved(design, standing, say("The text"));

@@ -1,4 +1,7 @@
 const { strokes, units } = data;
+/* How far the slider of a stroke goes: over all that is declared, in the sense in which it runs; and a place held within it. */
+const reachOf = ({ start, end, reach }) => (!reach ? [start, end] : start <= end ? reach : [reach[1], reach[0]]);
+const within = (value, each) => { const [a, b] = reachOf(each); return min(max(value, min(a, b)), max(a, b)); };
 /* The questions of the verdicts, asked of the present design over all that the machine runs when the hand rests: coarsely while it holds something. */
 const asking = judging(engine, data.judge, data.joints.map(({ row }) => row)), DRAGGING = 9, STILL = 17, REST = 130;
 /* The paths that a machine declares run as strokes of their own, unless the page is of a path. */
@@ -268,8 +271,8 @@ function plotted() {
   }
   for (const [v, text] of left) { rule(L, y(v), W - R, y(v), "grid"); write(L - 6, y(v) + 4, text, { anchor: "end" }); }
   for (const [v, text] of right) write(W - R + 6, y2(v) + 4, text, {});
-  for (const [s, text] of ticks(least, most, max(3, floor((W - L - R) / 62)), stroke.unit === "deg" && most - least >= 90)) if (!stroke.path || s % 1 === 0) {
-    rule(x(s), T, x(s), H - B, "grid"); write(x(s), H - B + 15, stroke.path ? s : text, { anchor: x(s) > W - R - 10 ? "end" : "middle" });
+  for (const [s, text] of ticks(least, most, max(3, floor((W - L - R) / 62)), stroke.unit === "deg" && most - least >= 90)) if (!stroke.path || stroke.unit || s % 1 === 0) {
+    rule(x(s), T, x(s), H - B, "grid"); write(x(s), H - B + 15, stroke.path && !stroke.unit ? s : text, { anchor: x(s) > W - R - 10 ? "end" : "middle" });
   }
   rule(L, T, L, H - B, "rule"); rule(L, H - B, W - R, H - B, "rule");
   const compares = was && !isMoved();
@@ -310,7 +313,7 @@ function between(list) {
   return !list ? NaN : t === 0 ? list[i] : list[i] + (list[i + 1] - list[i]) * t;
 }
 function mark(each, list, up, dot, out) {
-  const value = between(list), there = isNumber(value);
+  const value = between(list), { start, end } = strokes[runs], there = isNumber(value) && (stands[runs] - start) * (end - stands[runs]) >= -1e-12;
   set(dot, { visibility: there ? "visible" : "hidden" });
   if (there) set(dot, { cx: chart.x(stands[runs] / strokes[runs].factor), cy: up(value) });
   byId(out).textContent = each ? (there ? fixed(value, places(max(...finite(list).map(abs), 0), 4)) + unitText(each.unit) : "\u2013") : "";
@@ -321,22 +324,30 @@ function mark(each, list, up, dot, out) {
 const sizeRows = new Map();
 function strokeSliders() {
   const rows = strokes.map((each, k) => {
-    const row = make("label"), slider = make("input"), out = make("output"), label = make("span");
+    const row = make("label"), slider = make("input"), out = make("input"), label = make("span"), [low, high] = reachOf(each);
     row.className = "stroke"; label.textContent = each.name;
     if (each.name === "along the path") label.dataset.say = "place";
     Object.assign(slider, { type: "range", min: 0, max: 1000, step: "any" });
     slider.setAttribute("aria-label", each.name);
     slider.dataset.stroke = each.name;
-    on(slider, "input", () => {
+    Object.assign(out, { type: "text", inputMode: "decimal", autocomplete: "off", spellcheck: false, readOnly: each.path && !each.unit });
+    out.setAttribute("aria-label", `${each.name}, ${each.unit}`);
+    on(out, "change", () => {
+      const value = typed(out.value, each);
+      out.blur();
+      if (isNumber(value)) put(within(value, each)); else { warn(say("{name} = {text}: a number in {unit} is expected", { name: each.name, text: out.value, unit: signed(each.unit) })); soon("pose"); }
+    });
+    on(slider, "input", () => put(Number(slider.value) >= 1000 ? high : low + ((high - low) * Number(slider.value)) / 1000));
+    const put = (value) => {
       const turns = k !== runs && (isDriven(k) || each.path);
       if (turns) { runsOn(k); choosers(); }
       if (k === runs) play(false);
       const at = [...stands];
-      at[k] = Number(slider.value) >= 1000 ? each.end : each.start + ((each.end - each.start) * Number(slider.value)) / 1000;
+      at[k] = value;
       moved(present, at, titled(each));
       if (k === runs) clock = phaseNow();
       soon(k === runs && !turns ? "pose" : "sweep"); remember();
-    });
+    };
     row.append(label, slider, out);
     each.slider = slider; each.out = out;
     return row;
@@ -483,7 +494,7 @@ function recall(text = location.hash.slice(1)) {
   const said = new URLSearchParams(text), index = (list, name) => list.findIndex((each) => each.name === name);
   const number = (text, fallback) => (text !== null && text.trim() && isNumber(Number(text)) ? Number(text) : fallback);
   if (![...said.keys()].some((each) => /^[sd]\./.test(each))) return false;
-  const at = strokes.map((each) => min(max(number(said.get(`s.${each.name}`), each.at), min(each.start, each.end)), max(each.start, each.end)));
+  const at = strokes.map((each) => within(number(said.get(`s.${each.name}`), each.at), each));
   const design = dims.map((each) => { const value = number(said.get(`d.${each.name}`), each.value); return each.positive && !(value > 0) ? each.value : value; });
   runs = index(strokes, said.get("run")) < 0 ? data.run : index(strokes, said.get("run"));
   showsForces = said.get("forces") === "1";
@@ -557,9 +568,11 @@ function render(work) {
   mark(chart.two, chart.others, chart.y2, chart.second, "other");
   followed(stands).forEach((value, k) => {
     const each = strokes[k];
-    each.slider.value = String((1000 * (value - each.start)) / (each.end - each.start));
+    const [low, high] = reachOf(each);
+    each.slider.value = String((1000 * (value - low)) / (high - low));
     const text = each.path && !each.unit ? say("place {n} of {count}", { n: short(value, 3), count: each.end }) : fixed(value / each.factor, places(max(abs(each.start), abs(each.end)) / each.factor, 4)) + unitText(each.unit);
-    each.out.textContent = text; each.slider.setAttribute("aria-valuetext", text);
+    if (document.activeElement !== each.out) each.out.value = text;
+    each.slider.setAttribute("aria-valuetext", text);
   });
   if (anew || sized || work.has("size")) showSizes();
   if (anew || sized) { asking.laid(vector(present)); if (!toldBefore) judge(); else { clearTimeout(later); later = setTimeout(rested, REST); } }

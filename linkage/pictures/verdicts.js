@@ -30,14 +30,16 @@ function situationText(each) {
   return words.join(", ");
 }
 const size = (value, unit) => (isNumber(value) ? shown(value, unit, 4) : say("without bounds"));
-function answerText({ rule, unit, words, saysUnit }, each) {
+function answerText({ rule, unit, words, fails, saysUnit }, each) {
   if (each.unknown) return say("as delivered: with these sizes the page does not follow it");
   if (each.ok === null) return say("says nothing: no place is left to judge");
   if (!(abs(each.value) >= 0) || (each.kept === false && each.margin >= 0)) return say("it has no value at places that were looked at");
-  const limit = size(each.limit, unit), text = words && words[language === "ru" ? 1 : 0], told = each.says && isNumber(each.says.value) ? each.says : each;
-  if (text && each.kept && (!each.says || told === each.says)) {
-    const filled = { value: size(told.value, each.says ? saysUnit : unit), place: situationText(told), limit };
-    return text.replace(/\{(\w+)\}/g, (_, name) => filled[name]);
+  const limit = size(each.limit, unit), told = each.says && isNumber(each.says.value) ? each.says : each;
+  const text = ((each.kept ? words : fails?.[each.symbol]) || [])[language === "ru" ? 1 : 0];
+  if (text && (!each.says || told === each.says)) {
+    const value = size(told.value, each.says ? saysUnit : unit), beyond = size(abs(each.value - each.limit), unit);
+    const filled = { value, share: value, place: situationText(told), limit, force: beyond, much: beyond, missing: beyond };
+    return text.replace(/^; /, "").replace(/\{(\w+)\}/g, (_, name) => filled[name]);
   }
   const given = { value: size(each.value, unit), place: situationText(each), limit };
   const plain = each.symbol === "<=" ? say("greatest {value}, {place}; not above {limit}", given) : say("least {value}, {place}; not below {limit}", given);
@@ -167,8 +169,15 @@ function cylinder(each, changed, add) {
   else if (!pressed && now.reached.length && [...before].some(isNumber)) add(false, each.name, say("has no pressure with these sizes; is the rod thinner than the bore?"), more);
 }
 
+
 /* ---- the list: groups that fold, the worst first; each place in it takes the machine there ---- */
 
+const groupName = (member) => (data.groups[member] ?? ["", ""])[language === "ru" ? 1 : 0];
+/* A rule as it stands in its group: without the member's name, and not at all where the group is called so. */
+function ruleIn({ rule, member }) {
+  const plain = member ? rule.replace(` ${member}`, "") : rule;
+  return groupName(member).toLowerCase().startsWith(`${plain.toLowerCase()} `) ? "" : plain;
+}
 const unfolded = new Set();
 let toldBefore = "";
 /* Judge when nothing was changed for a while: coarsely while something is still pressed. */
@@ -194,11 +203,11 @@ function list(found) {
 }
 function group(member, rows) {
   const fold = make("details"), head = make("summary"), title = make("b"), fails = rows.filter((each) => each.ok === false).length, [worst] = rows, items = make("ul");
-  title.textContent = member === " stale" ? say("{n} verdicts do not follow your changes; they are as delivered", { n: rows.length }) : member ? data.groups[member][language === "ru" ? 1 : 0] : say("Machine");
+  title.textContent = member === " stale" ? say("{n} verdicts do not follow your changes; they are as delivered", { n: rows.length }) : groupName(member) || say("Machine");
   head.className = fails ? "bad" : rows.some((each) => each.ok === true) ? "ok" : "";
   head.append(title);
   if (member !== " stale") {
-    const kept = rows.filter((each) => each.ok === true).length, rule = member ? worst.rule.replace(` ${member}`, "") : worst.rule, text = fails ? rule : [isNumber(worst.share) ? rule : "", kept ? say("{n} kept", { n: kept }) : ""].filter(Boolean).join(" \u00b7 ");
+    const kept = rows.filter((each) => each.ok === true).length, rule = ruleIn(worst), text = fails ? rule : [isNumber(worst.share) && rule, kept ? say("{n} kept", { n: kept }) : ""].filter(Boolean).join(" \u00b7 ");
     head.append(make("span", { textContent: text }), bar(worst));
   }
   fold.open = unfolded.has(member) || ((fails > 0 || (data.task && !member)) && !unfolded.has(`!${member}`));
@@ -207,8 +216,8 @@ function group(member, rows) {
   fold.append(head, items);
   return fold;
 }
-function item({ ok, rule, text, share, q }) {
-  const row = make("li");
+function item({ ok, rule: full, member, text, share, q }) {
+  const row = make("li"), rule = ruleIn({ rule: full, member });
   if (ok === true || ok === false) row.className = ok ? "ok" : "bad";
   if (q !== undefined) row.id = `rule-${q}`;
   if (rule) row.append(make("b", { textContent: `${rule}: ` }));
@@ -248,8 +257,8 @@ function withPlaces(text) {
 function strokesIn(text) {
   const found = text.split(/, (?=[^ ]+ = )/).map((part) => {
     const [name, value] = part.split(" = "), k = own.findIndex((each) => each.name === name), each = own[k];
-    const at = each ? sized(value.replace(/\u202f/g, "").replace(",", ".").replace("\u00b0", "deg").replace(/[\u2009\u00a0]/, " "), each) : NaN, low = each && min(each.start, each.end), high = each && max(each.start, each.end);
-    return isNumber(at) && at > low - 1e-3 * (high - low) && at < high + 1e-3 * (high - low) ? [k, min(max(at, low), high)] : null;
+    const at = each ? sized(value.replace(/\u202f/g, "").replace(",", ".").replace("\u00b0", "deg").replace(/[\u2009\u00a0]/, " "), each) : NaN, [low, high] = each ? reachOf(each) : [];
+    return isNumber(at) && abs(at - within(at, each)) < 1e-3 * abs(high - low) ? [k, within(at, each)] : null;
   });
   return found.every(Boolean) ? found : null;
 }

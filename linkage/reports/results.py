@@ -51,7 +51,7 @@ def column_in_case(motion: Motion, column: Column, case: Case) -> Column:
 
 
 def in_case(request: Asked, case: Case) -> Asked:
-    """Return what is asked for in a load case; itself where no load counts in it, or where it names another one."""
+    """Return what is asked for in a load case."""
     return cast(Asked, request.under(Acting(case=case), keep=True)) if isinstance(request, Request) and case is not None else request
 
 

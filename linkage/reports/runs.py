@@ -93,7 +93,7 @@ def run_over(machine: Mechanism, place: Domain, acting: Acting) -> Run:
 
 
 def case_shown(place: Domain, acting: Acting = PLAIN) -> Case:
-    """Return the load case in which results over an `Over` are shown: the one asked for, else the machine's own loads, else the first."""
+    """Return the load case that an `Over` is shown in: the one asked for. Else it is the machine's own loads, or the first case there."""
     cases = place.cases(PLAIN)
     case = (None if PLAIN_CASE in cases else cases[0]) if acting.case is None else acting.case
     return None if case == PLAIN_CASE else case

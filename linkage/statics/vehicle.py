@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 
 from ..checks import require
 from ..errors import DefinitionError, known_name
-from ..language import noted, said
+from ..language import noted, said, translated
 from ..loads import FRICTIONLESS, PLAIN, Acting, ActingKeywords, Case, LoadCase, Loads, situation_of, takes_situation
 from ..loads.element import ForceElement, Load
 from ..loads.point import LinkMass, Support, Weight
@@ -455,8 +455,8 @@ class AxleLoad(Tabled, HasVerdicts):
         kept = least(axle_load(name)) / at(axle_load(name, acting=Acting(loads=weights)), **judge.plan.sketch_strokes)  # type: ignore[arg-type]
         uses = noted("along the ground it uses at most {value} % of its friction, {place}")
         return {
-            "axle load": PageWords(noted("it keeps {value} % of its load, least {place}"), 100.0 * kept, 1.0 - kept),
-            "slipping": PageWords(uses, 100.0 * most(slipping())),
+            "axle load": PageWords(noted("it keeps {value} % of its load, least {place}"), 100.0 * kept, 1.0 - kept, {">=": TIPPING}),
+            "slipping": PageWords(uses, 100.0 * most(slipping()), fails={"<=": SLIPPING}),
         }
 
     def load_limits(self, judge: Judge) -> Mapping[str, Condition]:
@@ -475,14 +475,15 @@ class AxleLoad(Tabled, HasVerdicts):
             return [Verdict.refused("axle load", error)] if self.is_first else []
 
 
+TIPPING = noted("tipping {place}: it would have to be held down with {force}. Add weight on its side, or set the supports wider.")
+SLIPPING = noted("slipping {place}: along the ground it needs {share} % of its friction. Take a gentler slope, or chock it.")
+
+
 def load_sentence(found: Answer, bare: float) -> str:
     """Return what becomes of an axle's load, in words; `bare` is that of the vehicle alone [N]."""
     load, place = float(found.value), found.place
     if load < 0.0:
-        return said(
-            "tipping {place}: it would have to be held down with {force}. Add weight on its side, or set the supports wider.",
-            place=place, force=show(-load, "kN", 4),
-        )  # fmt: skip
+        return translated(TIPPING).format(place=place, force=show(-load, "kN", 4))
     if load == 0.0:
         return said("it lifts off, such as {place}; the others carry.", place=place)
     if not bare > 0.0:
@@ -500,10 +501,7 @@ def slipping_sentence(worst: Answer) -> str:
     share = f"{100.0 * float(worst.value):.3g}"
     if worst.ok:
         return said("along the ground it uses at most {share} % of its friction, {place}.", share=share, place=worst.place)
-    return said(
-        "slipping {place}: along the ground it needs {share} % of its friction. Take a gentler slope, or chock it.",
-        share=share, place=worst.place,
-    )  # fmt: skip
+    return translated(SLIPPING).format(share=share, place=worst.place)
 
 
 # The force of a support when the drive's force is known.

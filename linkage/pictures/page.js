@@ -192,7 +192,7 @@ function legend() {
   }
 }
 
-const beside = () => (showsForces || data.cylinders.some((each) => each.pressure !== undefined) ? 24 : 0);
+const beside = () => (showsForces || data.cylinders.some((each) => each.pressure !== undefined) ? 34 : 0);
 const room = () => beside() + (data.task && data.task.points ? 36 : 0);
 function build() {
   const paths = () => data.paths.map((point) => {

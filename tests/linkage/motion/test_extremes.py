@@ -134,6 +134,18 @@ def test_jumps_count_on_their_larger_side(seed):
     assert found.value == pytest.approx(max(np.max(a + b * ends[:-1]), np.max(a + b * ends[1:])), abs=1e-9)
 
 
+def test_of_a_level_stretch_the_first_place_is_told():
+    rng = np.random.default_rng(3)
+    for low, high in ((0.0, 1.0), (0.31, 0.77), (0.5, 0.502)):
+
+        def f(u, low=low, high=high):
+            return 1.0 - np.maximum(low - u, 0.0) - np.maximum(u - high, 0.0) + 1e-13 * rng.normal(size=np.shape(u))
+
+        found, (share,) = greatest(Lift().sweep(2), of_stroke(f)), Lift().strokes.values()
+        place = (found.strokes["S"] - share.start) / (share.end - share.start)
+        assert low <= place <= low + 1.0 / 4096.0 and found.value == pytest.approx(1.0, abs=1e-12)
+
+
 @for_all("count", [3, 5, 50, 500, 4097, 6000])
 def test_however_many_poses_say_the_same(count):
     first, other = (greatest(Lift().sweep(each), lambda motion: motion.ratio("psi")) for each in (2, count))

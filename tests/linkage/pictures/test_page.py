@@ -1159,6 +1159,39 @@ class Hanging(Mechanism):
     pump = LiftCircuit(lift, pressure=17 * MPa, relief=17 * MPa)
 
 
+def test_what_fails_of_a_changed_design_is_said_with_what_would_help(chromium, written):
+    with Shown(chromium, written(Lifting())) as shown:
+        assert shown("(given) => hydrolinkage.set(given)", {"design": {"lift.bore": 0.04, "lift.rod": 0.02, "lift.stroke": 0.15}})
+        shown.settle()
+        told = " | ".join(shown.told)
+        assert "it needs a higher pressure or a larger size" in told and "take a thicker rod, or shorten the cylinder" in told
+        assert re.search(r"length: [\d.]+\u2009mm are missing: take a longer stroke", told)
+    with Shown(chromium, written(Digger())) as shown:
+        design = {"load.mass": 2500.0}
+        assert shown("(given) => hydrolinkage.set(given)", {"design": design})
+        shown.settle()
+        python = [str(each.sentence) for each in Digger(**design).verdicts() if each.sentence.startswith("tipping")]
+        mine = [text.partition(": ")[2] for text in shown.told if ": tipping" in text]
+        assert python and [each.partition(": it would")[0] for each in mine][:1] == [python[0].partition(": it would")[0]]
+        assert all("it would have to be held down with" in each and "set the supports wider" in each for each in mine)
+
+
+def test_a_strokes_value_is_typed_and_its_slider_goes_over_all_that_is_declared(chromium, tmp_path):
+    with Shown(chromium, page(Lifting(), tmp_path / "part.html", at={"S": (0.05, 0.12)})) as shown:
+        field = shown.tab.locator(".stroke input[type='text']")
+        for text, value in (("110", 0.11), ("18 cm", 0.18), ("900", 0.2), ("x", 0.2)):
+            field.fill(text)
+            field.press("Enter")
+            shown.settle()
+            assert shown.state["at"]["S"] == pytest.approx(value, abs=1e-12)
+        assert "a number in mm is expected" in shown.text("#message")
+        assert shown("document.querySelector('[data-stroke]').value") == "1000"
+        run = shown("hydrolinkage.sweep().along")
+        assert (run[0], run[-1]) == (0.05, 0.12)
+        shown.slide("#strokes input", 0)
+        assert shown.state["at"]["S"] == 0.0
+
+
 def test_holding_is_followed_on_both_sides_and_never_green_above_the_valve(chromium, written):
     """The load pulls: 502 of 170 bar stand in the rod side, where the working side has none."""
     verdicts = {each.rule: each for each in Hanging().verdicts() if each.is_rule}

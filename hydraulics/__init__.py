@@ -30,6 +30,9 @@ from .line import Holding as Holding
 from .line import Lowering as Lowering
 from .member import Chamber as Chamber
 from .member import Cylinder as Cylinder
+from .moving import flow as flow
+from .moving import power as power
+from .moving import rate as rate
 from .oil import OilLine as OilLine
 from .oil import Pump as Pump
 from .oil import Relief as Relief

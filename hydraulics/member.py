@@ -68,7 +68,18 @@ from linkage.quantities import (
     of_kind,
     quantity,
 )
-from linkage.statics import AnyMotion, LawRequest, applied_elements, elements_of, held_in_case, is_among, member_thrust, request_text, same
+from linkage.statics import (
+    AnyMotion,
+    LawRequest,
+    applied_elements,
+    elements_of,
+    held_in_case,
+    is_among,
+    member_thrust,
+    own_rates,
+    request_text,
+    same,
+)
 from linkage.units import show, shown_number, unit_sign
 from linkage.verdict import Remark, Verdict
 
@@ -617,7 +628,8 @@ class Cylinder(BarrelAndRod, Ram):
     It holds what the mechanism needs, in the place of the drive of one stroke; one whose line gives its pressure has that force instead.
 
     With a `barrel_mass` or a `rod_mass` [kg], of one cylinder, and with points OnBarrel or OnRod it is two bodies that slide in each other.
-    These are `lift.barrel` on A and `lift.piston_rod` on B, both as long as it is closed, their masses in the middle.
+    These are `lift.barrel` on A and `lift.piston_rod` on B, both as long as it is closed, their masses in the middle. `max_speed` [m/s] is
+    what its seals allow, for paths in time.
     """
 
     A: Reference
@@ -632,9 +644,12 @@ class Cylinder(BarrelAndRod, Ram):
     safety: float = 3.5
     barrel_mass: Parameter | None = None
     rod_mass: Parameter | None = None
-    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"bore": "mm", "rod": "mm", "stroke": "mm", "closed": "mm", **MASSES})
-    not_negative: ClassVar[frozenset[str]] = frozenset({"bore", "rod", "stroke", "closed", *MASSES})
-    optional: ClassVar[frozenset[str]] = frozenset({"stroke", "closed", *MASSES})
+    max_speed: Parameter | None = None
+    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({
+        "bore": "mm", "rod": "mm", "stroke": "mm", "closed": "mm", **MASSES, "max_speed": "mm/s",
+    })  # fmt: skip
+    not_negative: ClassVar[frozenset[str]] = frozenset(parameters)
+    optional: ClassVar[frozenset[str]] = frozenset(parameters) - {"bore", "rod"}
     inside: ClassVar[Mapping[str, str]] = MappingProxyType({
         "length": "quantity", "piston_side": "chamber", "rod_side": "chamber", **HELD,
     })  # fmt: skip
@@ -783,16 +798,30 @@ class Cylinder(BarrelAndRod, Ram):
 
     def size_verdicts(self, judge: Judge) -> list[Verdict]:
         """Return whether it is of a standard size, and a note where the load is against the side that works, which no line says."""
-        standard = self.standard(judge.motion)
+        own = [self.standard(judge.motion), *self.speed_verdicts(judge)]
         found = judge.answer(self.pressed(self)) if self._is_bare(judge) else None
         if found is None or found.ok or np.isnan(found.value):
-            return [standard]
+            return own
         force = said("a force without bounds") if found.unbounded else said("up to {thrust}", thrust=show(abs(found.value), "kN", 4))
         given = {"name": self.name, "force": force, "where": found.place}
         text = said('the load pushes {name} with {force}, {where}: its rod side holds no push; say works="both" or "piston".', **given)
         if self.side == PISTON:
             text = said('the load pulls {name} with {force}, {where}: its piston side holds no pull; say works="both" or "rod".', **given)
-        return [standard, Verdict("side", None, text, answer=found)]
+        return [*own, Verdict("side", None, text, answer=found)]
+
+    def speed_verdicts(self, judge: Judge) -> list[Verdict]:
+        """Return whether it is nowhere faster than its seals allow, over the paths in time that a judge looks at."""
+        timed = [place.over for place in judge.places if place.instants is not None]
+        if self.max_speed is None or not timed:
+            return []
+        limit = one_design(number_set(self, judge.motion, "max_speed"))
+        answer = Judge(judge.plan, judge.designs, timed, judge.acting).lost_allowed().answer(most(abs(rate_request(self.name))) <= limit)
+        shown = {"name": self.name, "limit": show(limit, "mm/s", 4), "speed": show(answer.value, "mm/s", 4), "where": answer.place}
+        if answer.ok is False:
+            text = said("{name} moves with {speed}, {where}; its seals allow {limit}. Run slower there, or take other seals.", **shown)
+        else:
+            text = said("{name} moves with up to {speed}, {where}; its seals allow {limit}.", **shown)
+        return [Verdict("speed", answer.ok, text, answer=answer)]
 
     def questions(self, judge: Judge) -> list[Question]:
         """Return what any ram asks, and whether the load is on the side that works where no line says it."""
@@ -825,6 +854,16 @@ class AllOf(Condition):
 
 Values = TypeVar("Values")
 Own = TypeVar("Own", bound=ForceElement)
+
+
+def rate_request(cylinder: str) -> LawRequest:
+    """Return the request for how fast a cylinder extends while a machine runs [m/s]."""
+
+    def over(motion: AnyMotion) -> Array:
+        return cylinder_in(cylinder, motion.plan).growth(motion, own_rates(motion, f"rate({cylinder})"))
+
+    examine = partial(cylinder_in, cylinder)
+    return LawRequest(formula=over, text=f"rate({cylinder})", known=("rate", cylinder), measures="speed", examine=examine)
 
 
 def cylinder_request(

@@ -67,14 +67,17 @@ from .quantities import x as x
 from .quantities import y as y
 from .statics import PinForces as PinForces
 from .statics import Rope as Rope
+from .statics import acceleration as acceleration
 from .statics import axle_load as axle_load
 from .statics import drive_force as drive_force
 from .statics import driving_force as driving_force
+from .statics import dynamic_factor as dynamic_factor
 from .statics import max_table as max_table
 from .statics import pin_force as pin_force
 from .statics import pin_forces as pin_forces
 from .statics import reaction as reaction
 from .statics import slipping as slipping
+from .statics import speed as speed
 from .statics import standing as standing
 from .statics import tension as tension
 from .steps import Carried as Carried

@@ -219,9 +219,13 @@ def factor(unit: str) -> float:
     return UNITS[unit][0] if unit else 1.0
 
 
+IN_TIME = {"speed": "mm/s", "acceleration": "m/s2", "power": "kW", "flow": "l/min"}
+"""The units in which what happens in time is shown."""
+
+
 def display_unit(measure: str, length: str = "m") -> str:
     """Return the unit that an "angle", a "length", a "force" or a "pressure" is shown in, a length in that which is said; else ""."""
-    return {"angle": "deg", "length": length, "force": "kN", "pressure": "bar", "time": "s"}.get(measure, "")
+    return {"angle": "deg", "length": length, "force": "kN", "pressure": "bar", "time": "s", **IN_TIME}.get(measure, "")
 
 
 DIGITS = r"(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"

@@ -13,7 +13,7 @@ from .. import plugins
 from ..errors import unknown
 from ..motion import condition, gap, ratio, transmission
 from ..plugins import Plugins
-from ..statics import axle_load, drive_force, pin_force, slipping
+from ..statics import acceleration, axle_load, drive_force, pin_force, slipping, speed
 
 REQUESTS = Plugins[Callable[..., Any]](
     plugins.REQUESTS,
@@ -22,7 +22,7 @@ REQUESTS = Plugins[Callable[..., Any]](
     "no function",
     {
         "ratio": ratio, "drive_force": drive_force, "pin_force": pin_force, "axle_load": axle_load, "slipping": slipping,
-        "transmission": transmission, "gap": gap, "condition": condition,
+        "transmission": transmission, "gap": gap, "condition": condition, "speed": speed, "acceleration": acceleration,
     },
 )  # fmt: skip
 """The requests there are, by name."""

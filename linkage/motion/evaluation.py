@@ -6,7 +6,7 @@ pose, has no value, or rests on another law than the one traced. What is said of
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import accumulate
@@ -69,6 +69,14 @@ class BulkProgram:
         return sum(rows for _, rows in self.parts)
 
 
+def require_rates(plan: Plan, kernel: Kernel, known: Container[str]) -> None:
+    """Raise DefinitionError where a kernel asks how fast strokes move, and nothing says it: inputs that are not `known`."""
+    missing = [node.value for node in kernel.plan.pose_inputs if node.value not in known]
+    if missing:
+        what = f"{plan.title}: what is asked for follows {', '.join(missing)}, and nothing says how fast the strokes move"
+        raise DefinitionError(f"{what}; give rates= and accelerations=, or sweep over a path in time.")
+
+
 def members_behind(plan: Plan, requests: Sequence[Request]) -> set[str]:
     """Return the members that requests are built from."""
     return set().union(*(each.names(plan) for each in requests))
@@ -127,6 +135,7 @@ class Evaluation:
         The arrays are rows of `out` (rows, m, n) where it is given. `among` (m, n) are the poses that are looked at closely.
         """
         grid, program = self.grid, self.program
+        require_rates(grid.plan, program.kernel, grid.flat)
         result = program.kernel(grid.flat, out, self.way, grid.size)
         look = None if program.is_clear(result) else self._settle(result.values, among)
         found = grid.full(result.values)

@@ -16,7 +16,7 @@ from ..program import LANGUAGES, NO_VALUE, QUICKEST, FloatArray, Kernel, RunOpti
 from ..quantities import numbers_in, real
 from ..units import Amount
 from . import conditions
-from .evaluation import BulkProgram, Evaluation, keeps_digits, members_behind, other_law_error
+from .evaluation import BulkProgram, Evaluation, keeps_digits, members_behind, other_law_error, require_rates
 from .grid import Grid, varies
 from .live import live_source, true_nodes
 from .motion import Motion
@@ -179,7 +179,9 @@ def at_few_poses(
     program = plan.made(("few poses", identities), lambda _: BulkProgram.of(plan, all_bound(plan, requests)))
     if program.angles:
         return None
-    result = program.kernel({**designs, **strokes, **moving}, None, way, (1, sizes.pop()))
+    inputs = {**designs, **strokes, **moving}
+    require_rates(plan, program.kernel, inputs)
+    result = program.kernel(inputs, None, way, (1, sizes.pop()))
     return program.split(result.values[:, 0]) if program.is_clear(result) else None
 
 
@@ -209,6 +211,7 @@ class PoseProgram:
 
     def __init__(self, plan: Plan, requests: tuple[Request, ...], names: Sequence[str]) -> None:
         self.bulk, self._plan, self._requests, self._names = BulkProgram.of(plan, requests), plan, requests, names
+        require_rates(plan, self.bulk.kernel, names)
         self._tells_nearness = plan.trace.nearness(members_behind(plan, requests)).op != "constant"
         self._order = [names.index(node.value) for node in self.bulk.kernel.plan.pose_inputs]
         self._latest: tuple[Mapping[str, Any] | None, Pose | None] = None, None
@@ -329,7 +332,7 @@ def source_of(
         ("source", tuple(each.key for each in bound)), lambda twin: [node for each in bound for node in true_nodes(twin, each)]
     )
     read = {node.value for node in Kernel(nodes).plan.pose_inputs}
-    if language == "javascript" and not read.isdisjoint(plan.solved):
+    if language == "javascript" and not read.isdisjoint(plan.solved) and read <= {*plan.strokes, *plan.solved}:
         return live_source(plan, bound, name, design)
     for group in plan.groups.values():  # what hangs on pins that are found by iteration, or on a followed angle, has no closed form
         if not read.isdisjoint(group.inputs):

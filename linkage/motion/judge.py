@@ -499,7 +499,7 @@ def reached_grid(motion: Motion) -> Grid:
         return grid
     first = np.unravel_index(int(np.argmax(motion.reached)), motion.shape)
     strokes = {name: np.where(motion.reached, value, value[first]) for name, value in grid.strokes.items()}
-    return Grid(motion.plan, motion.designs, strokes, per_design=True, joining=grid.joining)
+    return Grid(motion.plan, motion.designs, strokes, per_design=True, joining=grid.joining, rate_inputs=grid.rate_inputs)
 
 
 def gaps_kernel(plan: Plan, bound: Request) -> Kernel:

@@ -29,7 +29,7 @@ from ..program import FloatArray
 from ..quantities import Arithmetic, PoseCondition, Quantity, Ref, is_number, name_of, x, y
 from ..quantities.quantity import Function, Negative, Number, Operation, Sum
 from ..steps import Point
-from ..units import Amount, require_measure
+from ..units import IN_TIME, Amount, require_measure
 from .limits import stroke_unit
 from .motion import Motion
 from .requests import Combined, NodeRequest, Request, Value, bound, stroke_of
@@ -523,28 +523,29 @@ def dimension_value(owner: str, sign: int) -> NodeRequest:
     )  # fmt: skip
 
 
-# What measures are measured in: powers of length and force, and angles, so that what adds is of one kind and sentences have units.
+# What measures are measured in: powers of length, force and time, and angles, so that what adds is of one kind and sentences have units.
 
 KINDS = {
-    "length": (1.0, 0.0, 0.0), "force": (0.0, 1.0, 0.0), "angle": (0.0, 0.0, 1.0), "pressure": (-2.0, 1.0, 0.0),
-    "moment": (1.0, 1.0, 0.0), "stiffness": (-1.0, 1.0, 0.0), "area": (2.0, 0.0, 0.0), "volume": (3.0, 0.0, 0.0),
-    "angle per length": (-1.0, 0.0, 1.0),
+    "length": (1.0, 0.0, 0.0, 0.0), "force": (0.0, 1.0, 0.0, 0.0), "angle": (0.0, 0.0, 1.0, 0.0), "pressure": (-2.0, 1.0, 0.0, 0.0),
+    "moment": (1.0, 1.0, 0.0, 0.0), "stiffness": (-1.0, 1.0, 0.0, 0.0), "area": (2.0, 0.0, 0.0, 0.0), "volume": (3.0, 0.0, 0.0, 0.0),
+    "angle per length": (-1.0, 0.0, 1.0, 0.0), "speed": (1.0, 0.0, 0.0, -1.0), "acceleration": (1.0, 0.0, 0.0, -2.0),
+    "power": (1.0, 1.0, 0.0, -1.0), "flow": (3.0, 0.0, 0.0, -1.0),
 }  # fmt: skip
-"""The powers of length, of force and of angle in what is measured."""
+"""The powers of length, of force, of angle and of time in what is measured."""
 SHOWN = {
     "length": "mm", "force": "kN", "angle": "deg", "pressure": "bar", "moment": "kNm", "stiffness": "N/mm", "area": "cm2", "volume": "l",
-    "angle per length": "rad/m",
+    "angle per length": "rad/m", **IN_TIME,
 }  # fmt: skip
-APART = ("length", "angle", "force", "pressure")
+APART = ("length", "angle", "force", "pressure", "speed", "acceleration", "power", "flow")
 """Kinds of which no two add or compare. Work and moments are written in many ways, an angle in them often left out."""
 
 
 @final
 @dataclass(frozen=True)
 class MeasureKind:
-    """The powers of length, force and angle; `is_sure` where no number without a unit stands in a product, which may have had one."""
+    """The powers of length, force, angle and time; `is_sure` where no number without a unit stands in a product, which may have had one."""
 
-    powers: tuple[float, float, float]
+    powers: tuple[float, float, float, float]
     is_sure: bool = True
 
     def times(self, other: MeasureKind, sign: float = 1.0) -> MeasureKind:
@@ -559,8 +560,8 @@ class MeasureKind:
     @property
     def name(self) -> str:
         """What it is called, "length"; an angle beside others counts as a number, as in a work. "" for what has no name."""
-        length, force, turned = self.powers
-        among = [(length, force, turned)] + ([(length, force, 0.0)] if (length, force) != (0.0, 0.0) else [])
+        length, force, _, time = self.powers
+        among = [self.powers] + ([(length, force, 0.0, time)] if (length, force) != (0.0, 0.0) else [])
         return next((name for each in among for name, powers in KINDS.items() if powers == each), "")
 
 

@@ -470,7 +470,7 @@ LIKE_ITS_PARTS = ("add", "subtract", "negative", "absolute", "minimum", "maximum
 class Combined(Request):
     """What one of NumPy's functions makes of requests, quantities and numbers at every pose. Bound, its parts are requests and numbers.
 
-    `text` is what was written, of one that is bound.
+    `text` is what was written, of one that is bound, or that has a name of its own.
     """
 
     function: str
@@ -504,7 +504,7 @@ class Combined(Request):
 
     def under(self, acting: Acting, *, keep: bool = False) -> Combined:
         parts = tuple(each.under(acting, keep=keep) if isinstance(each, Request) else each for each in self.parts)
-        return self if all(a is b for a, b in zip(parts, self.parts, strict=True)) else Combined(self.function, parts)
+        return self if all(a is b for a, b in zip(parts, self.parts, strict=True)) else Combined(self.function, parts, self.text)
 
     def movements(self, plan: Plan, rubs: bool) -> tuple[str, ...]:
         occurring = {each for part in self.requests for each in part.movements(plan, rubs)}

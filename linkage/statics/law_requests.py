@@ -562,4 +562,5 @@ def request_text(word: str, arguments: Sequence[str], acting: Acting, *, moves: 
     given += [] if case is None else [f"case={case if isinstance(case, str) else case.name or case.label}"]
     given += [f"direction={acting.direction}"] if moves and acting.direction is not None else []
     given += [f"drive={acting.drive}"] if moves and acting.drive else []
+    given += [] if acting.inertia is None else [f"inertia={acting.inertia}"]
     return f"{word}({', '.join(given)})"

@@ -1,0 +1,113 @@
+"""What one asks of a machine that runs: how fast its points move, and how much its inertia adds to a force.
+
+Rates and accelerations of the strokes are those of a motion in time, or stand beside the strokes in `evaluate` and `function`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+
+from ..errors import DefinitionError
+from ..loads import Acting
+from ..motion import Request, require_motion
+from ..motion.requests import Combined
+from ..motion.strokes import checked_name
+from ..plan import Plan
+from ..program import FloatArray
+from ..quantities import Reference, as_mapping, name_of
+from .applied import known_rates
+from .law_requests import LawRequest
+from .poses import AnyMotion
+
+
+def own_rates(motion: AnyMotion, what: str, acting: Acting | None = None) -> Mapping[str, FloatArray]:
+    """Return the rates of the strokes of a motion, or those of a situation. `what` is asked for.
+
+    Raise DefinitionError where nothing says how fast they move.
+    """
+    found = require_motion(motion).rates if acting is None else known_rates(require_motion(motion), acting)
+    if not found:
+        remedy = f"sweep over a path in time, or give rates={as_mapping(dict.fromkeys(motion.strokes, 0.05))} to evaluate"
+        raise DefinitionError(f"{motion.plan.title}: {what}: nothing says how fast the strokes move; {remedy}.")
+    return found
+
+
+def point_request(word: str, point: Reference, measures: str, formula: Callable[[AnyMotion, str], FloatArray]) -> LawRequest:
+    """Return the request for what a formula gives of a point that moves."""
+    name = name_of(point)
+
+    def examine(plan: Plan) -> None:
+        checked_name("Point", name, plan.points, plan.title)
+
+    return LawRequest(
+        formula=lambda motion: formula(motion, name), text=f"{word}({name})", known=(word, name), measures=measures, examine=examine
+    )
+
+
+def speed(point: Reference) -> LawRequest:
+    """Return the request for the speed of a point of a machine that runs.
+
+    Parameters
+    ----------
+    point : Reference
+        A point, or its name.
+
+    Returns
+    -------
+    LawRequest
+        The size of the velocity [m/s], for `answers`, `evaluate(..., rates=)`, tables and curves.
+    """
+
+    def over(motion: AnyMotion, name: str) -> FloatArray:
+        x, y = motion.velocity(name, own_rates(motion, f"speed({name})"))
+        return np.hypot(x, y)
+
+    return point_request("speed", point, "speed", over)
+
+
+def acceleration(point: Reference) -> LawRequest:
+    """Return the request for the acceleration of a point of a machine that runs.
+
+    Parameters
+    ----------
+    point : Reference
+        A point, or its name.
+
+    Returns
+    -------
+    LawRequest
+        The size of the acceleration [m/s2], for `answers`, `evaluate(..., rates=, accelerations=)`, tables and curves.
+    """
+
+    def over(motion: AnyMotion, name: str) -> FloatArray:
+        rates = own_rates(motion, f"acceleration({name})")
+        x, y = motion.acceleration(name, rates, require_motion(motion).accelerations)
+        return np.hypot(x, y)
+
+    return point_request("acceleration", point, "acceleration", over)
+
+
+def dynamic_factor(request: Request) -> Combined:
+    """Return the request for a force with inertia over the same force without: `most(dynamic_factor(thrust("lift")))`.
+
+    Parameters
+    ----------
+    request : Request
+        A force or a pressure, such as `thrust("lift")` or `pin_force("B")`.
+
+    Returns
+    -------
+    Combined
+        A number: 1 where nothing is accelerated, below 0 where inertia turns the force round.
+
+    Raises
+    ------
+    DefinitionError
+        The request is of no force, so that inertia changes nothing in it.
+    """
+    without = request.under(Acting(inertia=False), keep=True) if isinstance(request, Request) else request
+    if without is request or not isinstance(request, Request):
+        raise DefinitionError(f'dynamic_factor({request}): a force is expected, such as dynamic_factor(thrust("lift")).')
+    return Combined("divide", (request, without), f"dynamic_factor({request})")

@@ -243,6 +243,8 @@ class ActingKeywords(TypedDict, total=False):
     case: Case
     direction: str | None
     rates: StrokeRates
+    accelerations: StrokeRates
+    inertia: bool | None
     acting: Acting | None
 
 

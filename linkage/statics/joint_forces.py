@@ -11,7 +11,7 @@ import numpy as np
 
 from ..errors import DefinitionError, SingularError, known_name, unknown
 from ..language import said, translated
-from ..loads import AS_IT_RUNS, PLAIN_CASE, Acting, ActingKeywords, Load, Loads, situation_of, takes_situation
+from ..loads import AS_IT_RUNS, PLAIN_CASE, Acting, ActingKeywords, LinkMass, Load, Loads, situation_of, takes_situation
 from ..motion import Motion, require_motion, stroke_unit
 from ..motion.limits import where_said, where_words
 from ..motion.requests import stroke_of
@@ -20,7 +20,7 @@ from ..program import FloatArray
 from ..quantities import Reference, name_of
 from ..shown import Shown
 from ..units import kN, show
-from .applied import applied_loads, rates_in
+from .applied import AppliedLoads, applied_loads, rates_in
 from .force_program import forces_at
 from .joints import FRAME, FRAME_NAME, Structure, acting_place, force_direction
 from .poses import FlatPoses
@@ -346,7 +346,8 @@ def remarks_on(found: PoseForces) -> Iterator[str]:
             yield said("no load acts, so that all forces are zero; declare one in the class, such as load = Weight(G, mass=1200).")
         else:
             yield said("No load acts in the load case {case}: all forces there are zero.", case=applied.case)
-    elif applied.at_rest:
+    yield from inertia_words(applied, require_motion(poses.motion))
+    if applied.at_rest:
         names = ", ".join(applied.at_rest)
         yield said("{names}: at rest a damper gives nothing; give the speeds, rates=dict(S=0.05).", names=names)
     for name, tension in found.tensions.items():
@@ -359,6 +360,17 @@ def remarks_on(found: PoseForces) -> Iterator[str]:
                 name=name, where=where, push=push,
             )  # fmt: skip
     yield from tipping_words(require_motion(poses.motion), applied.acting)
+
+
+def inertia_words(applied: AppliedLoads, motion: Motion) -> Iterator[str]:
+    """Yield in words where inertia is left out over a path in time, and which masses count as points."""
+    jump = motion._rate_jump
+    if applied.rates.accelerations is not None:
+        points = [each.name for each in applied.elements if isinstance(each, LinkMass) and each.at is not None and each.inertia is None]
+        if points:
+            yield said("{names}: without inertia= a mass counts as a point at its centre.", names=", ".join(points))
+    elif jump is not None and applied.acting.inertia is None and not isinstance(applied.acting.rates, Mapping):
+        yield said("{jump}, so that inertia is left out: give its ramp an acceleration.", jump=jump[1])
 
 
 def lift_off_words(found: PoseForces) -> Iterator[str]:

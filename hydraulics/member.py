@@ -336,9 +336,10 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
     def goes(self, motion: AnyMotion, acting: Acting) -> Array | None:
         """Return 1 where it extends over a path in time, -1 where it retracts, 0 where it stands; None where a direction says that."""
         is_said = acting.direction not in (None, AS_IT_RUNS) or isinstance(acting.rates, Mapping)
-        if not isinstance(motion, Motion) or motion.time is None or is_said:
+        is_timed = motion.time is not None if isinstance(motion, Motion) else acting.direction == AS_IT_RUNS
+        if is_said or not is_timed:
             return None
-        growth, speeds = self.growth(motion, motion.rates), [np.hypot(*motion.velocity(end)) for end in self.ends]
+        growth, speeds = self.growth(motion, motion.rates), [np.hypot(*motion.velocity(end, motion.rates)) for end in self.ends]
         return np.where(np.abs(growth) > TO_ROUNDING * np.maximum(*speeds), np.sign(growth), 0.0)
 
     @property

@@ -191,8 +191,8 @@ class Acting:
     inertia: bool | None = None
 
     def __post_init__(self) -> None:
-        if self.direction is not None:
-            known_name("Direction", self.direction, (*DIRECTIONS, AS_IT_RUNS))
+        if self.direction is not None and self.direction != AS_IT_RUNS:
+            known_name("Direction", self.direction, DIRECTIONS)
         if self.drive is not None:
             object.__setattr__(self, "drive", name_of(self.drive))
         for name, given in (("rates", self.rates), ("accelerations", self.accelerations)):

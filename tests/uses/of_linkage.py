@@ -607,7 +607,8 @@ USES = [
     ),
     ('motion.ratio("G", step=1e-4)', "", ('of the stroke, together with method="central", is expected.',)),
     ('both.ratio("B")', "", ("Two has 2 strokes: say wrt= one of S, T.",)),
-    ('motion.velocity("G", @)', "3; None; 0.1", ("a value for each stroke is expected, such as rates=dict(S=0.05).",)),
+    ('motion.velocity("G", @)', "3; 0.1", ("a value for each stroke is expected, such as rates=dict(S=0.05).",)),
+    ('motion.velocity("G", None)', "", ("nothing says how quickly the strokes move; give rates=dict(S=0.05)",)),
     ('motion.velocity("G", @)', '{"Q": 1}; {3: 1}', ("is unknown in Lift. Known: S.",)),
     (
         'motion.velocity("G", @)',

@@ -465,7 +465,7 @@ def stroke_data(requests: PageRequests) -> list[PageData]:
         place = {"name": name, "start": first, "end": last, "at": first, "unit": "", "factor": 1.0}
         if run.instants is not None:
             first, last = run.instants.breaks[[0, -1]].tolist()
-            place |= {"start": first, "end": last, "at": first, "unit": "s"}
+            place |= {"name": name if own else "time", "start": first, "end": last, "at": first, "unit": "s"}
             turn = True
         found.append(place | {"turn": int(turn), "path": path} | over)
     return found

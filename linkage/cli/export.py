@@ -12,8 +12,9 @@ import numpy as np
 from .. import plugins
 from ..disk import check_place, replacing_text
 from ..errors import DefinitionError, FileError, ensure
+from ..motion import Motion
 from .command import Command, count_option, default_name, machine_options, option, repeatable, whole_number
-from .settings import machine_of, strokes_given, tell_gaps
+from .settings import ALONG, machine_of, strokes_or_motion, tell_gaps
 
 OWN_FORMATS = ("xlsx", "csv", "dxf", "svg")
 
@@ -40,6 +41,7 @@ def declare_format(parser: _ActionsContainer) -> None:
     ),
     option("--poses", metavar="N", type=whole_number, help="a drawing of so many poses over the first stroke"),
     repeatable("--path", "G", "draw this point's path; repeatable"),
+    ALONG,
 )
 def export_command(options: Namespace) -> int:
     """Write a file for another program."""
@@ -49,7 +51,11 @@ def export_command(options: Namespace) -> int:
     exporter = exporter_of(Path(options.output or "x.xlsx"), options.format)
     path = Path(default_name(options, machine) + exporter.suffix if options.output is None else options.output)
     check_place(path)
-    at = strokes_given(machine, options)
+    at = strokes_or_motion(machine, options)
+    if isinstance(at, Motion):
+        ensure(options.poses is None, f"--over {options.over}: a motion has its poses; leave out --poses, or give --count.")
+        print(export(at, path, format=options.format, trace=options.path))
+        return 0
     if options.poses is not None:
         first = next((name for name in machine.strokes if name not in at), None)
         if first is not None:

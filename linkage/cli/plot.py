@@ -8,7 +8,8 @@ from typing import Any
 
 from ..errors import DefinitionError, ensure
 from ..mechanism import Mechanism
-from ..reports import results, stroke_middles
+from ..motion import Motion
+from ..reports import column_among, results, stroke_middles
 from . import settings
 from .command import (
     PATH,
@@ -24,7 +25,7 @@ from .command import (
     repeatable,
     run_options,
 )
-from .settings import FORCES, LIMIT
+from .settings import ALONG, FORCES, LIMIT
 
 
 @Command(
@@ -80,6 +81,7 @@ def draw_command(options: Namespace) -> int:
     option("columns", metavar="COLUMN", nargs="*", default=[], help="these columns of `table`"),
     picture_option("default: NAME.png"),
     *pose_options(101),
+    ALONG,
     *FORCES,
     LIMIT,
 )
@@ -89,14 +91,16 @@ def plot_command(options: Namespace) -> int:
     path = picture(options, machine)
     if not options.columns and (options.limits or options.case or options.direction):
         raise DefinitionError("--limit, --case and --direction go with curves; name their columns, such as plot NAME pressure.")
-    at = settings.strokes_given(machine, options)
+    at = settings.strokes_or_motion(machine, options)
     from ..pictures import plot
 
-    if not options.columns:
+    if not options.columns and isinstance(at, Motion):
+        figure = plot(at, [column_among(machine, results(machine, at), None)])
+    elif not options.columns:
         settings.motion_along(machine, options.count, at)
         figure = plot(machine, at=at, count=options.count)
     else:
-        many = any(len(values) > 1 for values in at.values())
+        many = not isinstance(at, Motion) and any(len(values) > 1 for values in at.values())
         over = settings.motion_at(machine, options) if many else settings.motion_along(machine, options.count, at)
         acting = settings.plain_value(settings.acting_of(machine, options))
         columns = settings.columns_picked(machine, over, options.columns, [], acting)
@@ -126,12 +130,13 @@ FILMS = (".gif", ".mp4", ".html")
     PATH,
     LIMIT,
     *run_options(60, "poses over the stroke"),
+    ALONG,
 )
 def animate_command(options: Namespace) -> int:
     """Write an animation into a file."""
     machine = settings.machine_of(options)
     path = picture(options, machine, FILMS)
-    at, trace = settings.strokes_given(machine, options), traced_points(machine, options.path)
+    at, trace = settings.strokes_or_motion(machine, options), traced_points(machine, options.path)
     columns = results(machine, settings.motion_along(machine, options.count, at))
     column: str | None = options.column
     limit: Sequence[Any] | None = None

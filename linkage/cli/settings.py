@@ -43,6 +43,7 @@ OVER = repeatable(
     "where verdicts and largest values are looked for: a declared Over by its name, or strokes, two ends or one value of each; "
     "others run; repeatable (default: all declared ones, else the box of all strokes)",
 )
+ALONG = option("--over", metavar="NAME", help="along this Over that the machine declares, a path in time by its seconds")
 LIMIT = repeatable(
     "--limit",
     '"pressure<=180bar"',
@@ -276,8 +277,22 @@ def tell_gaps(motion: Motion, error: AssemblyError | None = None) -> None:
         say_remark(f"{error or out_of_reach(motion)} {gaps}")
 
 
-def motion_along(machine: Mechanism, count: int, at: At = NOTHING) -> Motion:
+def strokes_or_motion(machine: Mechanism, options: Namespace) -> At | Motion:
+    """Return the strokes that `--at` gives, or the motion over what `--over` names, with gaps."""
+    given = strokes_given(machine, options)
+    if options.over is None:
+        return given
+    ensure(not given, f"--over {options.over} says where all strokes are; leave out --at.")
+    over = parsed_over(machine, options.over)
+    motion = machine.sweep(None if over.shape == "poses" else options.count, over=over, unreachable="nan")
+    tell_gaps(motion)
+    return motion
+
+
+def motion_along(machine: Mechanism, count: int, at: At | Motion = NOTHING) -> Motion:
     """Return the motion along one stroke or several together, the others held as `at` says, else in their middle; with gaps."""
+    if isinstance(at, Motion):
+        return at
     run = run_of(machine, at)
     return with_gaps(machine, run.over(np.linspace(0.0, 1.0, count))) if run.instants is None else run_with_gaps(machine, run, count)
 

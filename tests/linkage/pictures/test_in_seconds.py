@@ -1,0 +1,75 @@
+"""Readers of a path in time go by seconds: curves, films in real time, pages, reports, tables, commands."""
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from linkage import Over, animate, plot, ramp, report
+from linkage.cli import main
+from linkage.files import save
+from linkage.motion import live_text
+from linkage.pictures.browser_data import PageRequests, page_data
+from linkage.pictures.strokes import playback
+from linkage.reports import results
+from tests.linkage.motion.test_in_time import DampedLever
+
+
+class Timed(DampedLever):
+    cycle = None
+    quick = None
+
+
+class Slow(Timed):
+    up = Over.path(S=ramp(0.02, 0.18, speed=0.005))  # 32 s
+
+
+def test_curves_and_tables_stand_over_time():
+    motion = Timed().sweep(11, over="up")
+    headings = [each.heading for each in results(Timed(), motion)]
+    assert headings[:2] == ["time, s", "S, m"] and "drive force, kN" in headings
+    for figure in (plot(motion, ["G_y"]), plot(Timed())):
+        assert {ax.get_xlabel() for ax in figure.axes if ax.get_xlabel()} == {"time, s"}
+        assert figure.axes[0].lines[0].get_xdata()[[0, -1]] == pytest.approx([0.0, 1.8])
+
+
+def test_a_film_plays_in_real_time(tmp_path):
+    animate(Timed(), tmp_path / "up.gif", count=5)
+    with Image.open(tmp_path / "up.gif") as film:
+        frames = []
+        for number in range(film.n_frames):
+            film.seek(number)
+            frames.append(film.info["duration"])
+    assert sum(frames[:-1]) == pytest.approx(1800, abs=30)
+    slow = playback(Slow(), 60)
+    assert len(slow.order) <= 301 and slow.seconds * (len(slow.order) - 1) == pytest.approx(32.0, abs=slow.seconds)
+
+
+def test_a_page_slides_in_seconds():
+    for along, name in ((None, "up"), (Timed().sweep(7, over="up"), "time")):
+        requests = PageRequests(Timed(), 21, along=along)
+        data = page_data(requests, live_text(Timed.plan, requests.by_name, name="engine"))
+        slider = data["strokes"][-1]
+        assert (slider["name"], slider["unit"], slider["start"], slider["turn"]) == (name, "s", 0.0, 1)
+        assert slider["end"] == pytest.approx(1.8) and data["judge"]["overs"][0]["time"] == pytest.approx([0.0, 1.8])
+        course = Timed.plan.members["up"].strokes["S"]
+        assert slider["path"][0] == pytest.approx(course(np.linspace(0.0, 1.8, len(slider["path"][0]))))
+        assert requests.motion.time[[0, -1]] == pytest.approx([0.0, 1.8])
+
+
+def test_a_report_tells_instants(tmp_path):
+    report(Timed(), tmp_path / "up.md", count=5)
+    text = (tmp_path / "up.md").read_text(encoding="utf-8")
+    assert "time" in text and " s (S = " in text
+
+
+def test_commands_run_along_a_path_in_time(tmp_path, capsys):
+    save(Timed(), tmp_path / "lever.toml")
+    machine = str(tmp_path / "lever.toml")
+    assert main(["table", machine, "--over", "up", "--count", "3"]) == 0
+    assert "time, s" in capsys.readouterr().out
+    for command in (["export", "-o", str(tmp_path / "up.csv")], ["plot", "G_y", "-o", str(tmp_path / "up.png")]):
+        assert main([command[0], machine, *command[1:], "--over", "up", "--count", "9"]) == 0
+    rows = (tmp_path / "up.csv").read_text().splitlines()
+    assert rows[0].startswith('"time, s","S, m"') and len(rows) == 10
+    assert main(["plot", machine, "--over", "down", "-o", str(tmp_path / "no.png")]) != 0
+    assert "Known: up" in capsys.readouterr().err

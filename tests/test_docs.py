@@ -106,7 +106,7 @@ SKIPPED = {"a", "be", "of"}
 """Words that the built search leaves out."""
 STRANGERS = {
     "bulk": ["numpy array", "broadcasting", "numba", "javascript", "gradient"],
-    "conventions": ["slider crank", "sign convention"],
+    "conventions": ["sign convention"],
     "equations": ["sympy", "latex"],
     "excavator": ["excavator", "backhoe", "bucket"],
     "extending": ["plugin", "cam follower"],

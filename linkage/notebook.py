@@ -28,10 +28,12 @@ from .formulas.mathml import mathml
 from .formulas.typeset import boxes, breakable
 from .language import said
 from .mechanism import Mechanism
+from .mobility import ChainTables
 from .motion import Motion, columns_of
 from .pictures import draw, page_html
 from .pictures.dimensioned import dimensioned
 from .pictures.sheet import Picture
+from .plan import Plan, printed
 from .reports import NOTHING, design_rows, stroke_middles, stroke_rows
 from .reports.table import column_texts, flat
 from .shown import Shown, ShownList
@@ -127,6 +129,18 @@ def _(machine: Mechanism) -> str:
     strokes = html_table((said("stroke"), "range"), stroke_rows(machine))
     dimensions = html_table((said("dimension"), said("value")), (row[:2] for row in design_rows(machine)))
     return html_titled(machine.plan.heading, shown, strokes, dimensions)
+
+
+@html_of.register
+def _(plan: Plan) -> str:
+    return html_titled(plan.heading, html_table((said("name"), said("declared as")), printed(plan).items()))
+
+
+@html_of.register
+def _(chain: ChainTables) -> str:
+    bodies = html_table((said("name"), said("kind"), said("points")), chain.bodies)
+    joints = html_table((said("joint"), said("kind"), said("on body"), said("from body"), said("stroke")), chain.joints)
+    return html_titled(chain.title, bodies, joints)
 
 
 @html_of.register

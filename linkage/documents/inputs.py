@@ -17,7 +17,7 @@ from ..mechanism import Mechanism
 from ..motion import Motion, stroke_display_unit
 from ..pictures.dimensioned import dimensioned
 from ..pictures.scene import Scene
-from ..plan import written_out
+from ..plan import spanning_name, written_out
 from ..quantities import Dimension, Member, Stroke, is_number
 from ..reports import dimension_unit
 from ..units import show, shown_number, unit_sign
@@ -152,8 +152,8 @@ def definition_section(machine: Mechanism) -> Section:
     names = tuple(name for name, member in machine.plan.members.items() if not isinstance(member, left_out))
     heads = (said("name"), said("declared as"))
     rows = tuple((name, OF_PART.sub("", text)) for name, text, _ in member_rows(machine, names, {}))
-    cylinders = [said("cylinder {P} {Q}", P=bar.P, Q=bar.Q) for bar in machine.plan.cylinders]
-    bodies = tuple((str(place), text) for place, text in enumerate([*map(str, machine.links), *cylinders]))
+    cylinders = [(spanning_name(machine.plan, bar.P, bar.Q), f"{bar.P} {bar.Q}") for bar in machine.plan.cylinders]
+    bodies = (*((said("frame") if body.fixed else body.name, " ".join(body.points)) for body in machine.links), *cylinders)
     count = said(
         "Mobility {rank} by the rank of the constraints, strokes {strokes}; count of Gruebler {count}, a cylinder being two bodies on a "
         "slide.",
@@ -161,7 +161,7 @@ def definition_section(machine: Mechanism) -> Section:
     )  # fmt: skip
     order = said("In the order in which the positions are worked out; lengths in m, angles in rad where no deg is marked.")
     members = TableBlock(said("Members"), heads, rows, "lm")
-    rigid = TableBlock(said("Rigid bodies"), (said("No."), said("points")), bodies, "lm")
+    rigid = TableBlock(said("Rigid bodies"), (said("name"), said("points")), bodies, "lm")
     return Section(said("Definition of the mechanism"), (order, members, rigid, count))
 
 

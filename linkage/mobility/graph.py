@@ -3,18 +3,30 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from itertools import combinations
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, final
 
 import numpy as np
 
 from ..plan import Plan
 from ..quantities import joined_names, spelled
+from ..shown import Shown
 from ..steps import Link
 from ..vectors import Numbers
 
 if TYPE_CHECKING:
     import networkx as nx
+
+
+@final
+@dataclass(frozen=True)
+class ChainTables(Shown):
+    """A chain as a notebook shows it: bodies by name, their `Link`'s beside it, kind and points; joints by name, kind, bodies, strokes."""
+
+    title: str
+    bodies: tuple[tuple[str, ...], ...]
+    joints: tuple[tuple[str, ...], ...]
 
 
 def chain_graph(plan: Plan, inputs: Mapping[str, Numbers]) -> nx.MultiGraph:
@@ -39,4 +51,8 @@ def chain_graph(plan: Plan, inputs: Mapping[str, Numbers]) -> nx.MultiGraph:
     for pair in chain.pairs:
         driven = {} if pair.length is None else {pair.name: spelled(pair.length)}
         graph.add_edge(pair.a, pair.b, key=pair.name, kind=pair.kind, strokes=pair.strokes, dimensions=driven)
+    nodes = graph.nodes(data=True)
+    bodies = tuple((f"{name} ({data['link']})" if data["link"] else name, data["kind"], " ".join(data["points"])) for name, data in nodes)
+    joints = tuple((pair.name, pair.kind, pair.a, pair.b, ", ".join(pair.strokes)) for pair in chain.pairs)
+    graph.__dict__["_repr_html_"] = ChainTables(plan.heading, bodies, joints)._repr_html_
     return graph

@@ -2,7 +2,19 @@
 
 from ..star import declare_public
 from .chain import ChainBody, KinematicChain, Pair, arm_joint, arm_points, gruebler, holds_an_arm, strokes_alone
-from .members import Body, as_written, carrying_pairs, member_sides, merged, needed_names, printed, strokes_text, with_inner, written_out
+from .members import (
+    Body,
+    as_written,
+    carrying_pairs,
+    member_sides,
+    merged,
+    needed_names,
+    printed,
+    spanning_name,
+    strokes_text,
+    with_inner,
+    written_out,
+)
 from .missing import Mask, failures, missing_words, name_or_pins, negative, opening
 from .part import Part, check_circuits, has_no_axes, with_parts
 from .plan import TRACING, Plan, plan_measure, require_kind, require_kinds

@@ -13,7 +13,7 @@ from typing import final
 
 from ..quantities import Joint, JointSide, Member, Quantity, Stroke, body_name, joined_names, needed_behind, needs, of_kind
 from ..steps import Point
-from .members import FRAME, Body, Members, carrying_pairs, member_sides
+from .members import FRAME, Body, Members, carrying_pairs, member_sides, spanning_name
 
 
 @final
@@ -48,8 +48,7 @@ class KinematicChain:
         self.slides: list[Pair] = []
         self.turns: dict[tuple[str, str], tuple[str, ...]] = {}
         for P, Q in cylinders:
-            barrel, rod = self.add(f"{joined_names(P, Q)} barrel", "barrel", (P,)), self.add(f"{joined_names(P, Q)} rod", "rod", (Q,))
-            self.slides.append(Pair("slide", joined_names(P, Q), barrel, rod))
+            self.add_cylinder(joined_names(P, Q), P, Q)
 
     def add(self, name: str, kind: str, points: tuple[str, ...]) -> str:
         """Enter a body and return its name, with a number where there is one of that name."""
@@ -57,6 +56,10 @@ class KinematicChain:
         found = next(each for each in (name, *(f"{name} {k}" for k in range(2, len(taken) + 3))) if each not in taken)
         self.bodies.append(ChainBody(found, kind, points))
         return found
+
+    def add_cylinder(self, name: str, P: str, Q: str) -> None:
+        """Enter a cylinder between two points by its name: a barrel on P, a rod on Q, and the slide between them."""
+        self.slides.append(Pair("slide", name, self.add(f"{name} barrel", "barrel", (P,)), self.add(f"{name} rod", "rod", (Q,))))
 
     def at(self, point: str) -> list[ChainBody]:
         """Return the bodies of a point, the frame first."""
@@ -104,7 +107,8 @@ def chain_of(plan: Members) -> KinematicChain:
     driven = {frozenset((bar.P, bar.Q)): bar for bar in plan.cylinders}
     others = [[point for point in plan.points if point in pair] for pair in carrying if pair not in driven]
     for P, Q in (*((bar.P, bar.Q) for bar in plan.cylinders), *others):
-        part, ends = KinematicChain((), [(P, Q)]), (P, Q)
+        part, ends = KinematicChain(()), (P, Q)
+        part.add_cylinder(spanning_name(plan, P, Q), P, Q)
         on_it = next((body.points for body in plan.links[1:] if frozenset(ends) in carrying and set(ends) <= set(body.points)), ends)
         near, far = member_sides(plan, ends, on_it)
         chain.bodies += [

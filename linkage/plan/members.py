@@ -14,7 +14,7 @@ from typing import Any, TypeVar, final
 from ..errors import DefinitionError, about, unknown
 from ..frozen import FrozenDict
 from ..language import translated
-from ..quantities import Dimension, Distance, Joint, Jointed, JointSide, Length, Stroke, Variable, body_name
+from ..quantities import Dimension, Distance, Joint, Jointed, JointSide, Length, Stroke, Variable, body_name, joined_names
 from ..quantities.member import Member, name_of, needed_behind, needs, of_kind, unnamed
 from ..quantities.quantity import Function, Negative, Number, Operation, Quantity, Sum, in_degrees, signed_terms
 from ..steps import Arrow, Bar, Drawn, Group, Guide, Link, Point, strokes_drawn, with_bodies
@@ -470,6 +470,13 @@ def carrying_pairs(plan: Members, members: Iterable[Iterable[str]] = ()) -> froz
     while rigid := {pair for pair in found - driven if any(pair <= set(body.points) for body in rigid_bodies(plan, found))}:
         found -= rigid
     return frozenset(found)
+
+
+def spanning_name(plan: Members, P: str, Q: str) -> str:
+    """Return what stands between two points is called: a cylinder or a spring by its own name, else by its points, `AB`."""
+    elements = plan.of_kind(Jointed).items()
+    own = (name for name, each in elements if each.kind == "load" and [joint.point for joint in each.joints()] in ([P, Q], [Q, P]))
+    return next(own, joined_names(P, Q))
 
 
 def member_sides(plan: Members, ends: tuple[str, str], points: Iterable[str]) -> tuple[set[str], set[str]]:

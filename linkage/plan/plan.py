@@ -15,6 +15,7 @@ import numpy as np
 from ..errors import DefinitionError, unknown
 from ..program import Kernel, Level, Node, ancestors
 from ..quantities import Angle, Function, Member, Quantity, unnamed
+from ..shown import Shown
 from ..steps import Arrow, Point
 from ..units import Amount, amounts_in, require_measure
 from ..vectors import Scalar
@@ -99,7 +100,7 @@ MOST_KERNELS = 1024
 
 
 @final
-class Plan(Members):
+class Plan(Members, Shown):
     """The ordered members of a mechanism with their program: printable, traceable, the same for every design."""
 
     _first: Plan | None = None

@@ -1,5 +1,6 @@
 """What a notebook shows of machines, motions and results: well-formed HTML with their names and numbers, nothing that runs by itself."""
 
+import pickle
 import re
 import subprocess
 import sys
@@ -31,6 +32,7 @@ from linkage import (
 )
 from linkage.notebook import live
 from linkage.study import survey
+from mechanisms.at_work.excavator import Excavator
 
 
 class Marked(Mechanism):
@@ -62,6 +64,16 @@ def html(what):
 def cells(text):
     """Return the rows of the tables in HTML, headings first."""
     return [[unescape(cell) for cell in re.findall(r"<t[hd]>(.*?)</t[hd]>", row)] for row in re.findall(r"<tr>(.*?)</tr>", text)]
+
+
+def test_a_plan_and_a_chain_are_shown_as_tables_under_the_names_of_a_fitter():
+    plan = MACHINE.plan
+    assert dict(row for row in cells(html(plan)) if row[0] != "name") == dict(line.split(" = ", 1) for line in str(plan).splitlines())
+    graph = Excavator().graph
+    listed = cells(html(pickle.loads(pickle.dumps(graph))))
+    rows = {row[0]: row[1:] for row in listed}
+    assert rows["tool.ram barrel"] == ["barrel", "arm.G"] and rows["tool.ram"] == ["slide", "tool.ram barrel", "tool.ram rod", "curl"]
+    assert len(listed) == len(graph) + graph.number_of_edges() + 2 and not any("_" in name for name in rows)
 
 
 def test_a_machine_shows_its_drawing_and_its_dimensions():

@@ -169,7 +169,7 @@ def test_the_picture_has_every_body_and_joint_and_none_upon_another(machine):
 def test_the_picture_says_its_count_and_its_strokes():
     figure = draw(ThreePointHitch().graph)
     words = [text.get_text() for text in (*figure.texts, *figure.axes[0].texts)]
-    assert "3 (8 − 1) − 2 · 10 = 1" in words and "AB\nS" in words
+    assert "3 (8 − 1) − 2 · 10 = 1" in words and "lift\nS" in words
 
 
 @pytest.mark.parametrize(("graph", "options"), [(nx.MultiGraph([(1, 2)]), {}), (nx.MultiGraph(), {}), (Lever().graph, {"at": 0.1})])

@@ -101,7 +101,7 @@ def plot_command(options: Namespace) -> int:
         figure = plot(machine, at=at, count=options.count)
     else:
         many = not isinstance(at, Motion) and any(len(values) > 1 for values in at.values())
-        over = settings.motion_at(machine, options) if many else settings.motion_along(machine, options.count, at)
+        over = settings.motions_at(machine, options)[0][1] if many else settings.motion_along(machine, options.count, at)
         acting = settings.plain_value(settings.acting_of(machine, options))
         columns = settings.columns_picked(machine, over, options.columns, [], acting)
         names = [column.name for column in columns]

@@ -183,13 +183,8 @@ def si_value(text: str, kind: str, what: str) -> float:
         raise DefinitionError(f"{what}: {error}") from None
 
 
-def motion_at(machine: Mechanism, options: Namespace) -> Motion:
-    """Return the motion that a command shows: the first of `motions_at`."""
-    return motions_at(machine, options)[0][1]
-
-
 def motions_at(machine: Mechanism, options: Namespace) -> list[tuple[Run | None, Motion]]:
-    """Return the motions that a table shows, each with its run; one without a run at strokes such as `--at S=0.6,650mm`.
+    """Return the motions that a table shows, each with its run, of several one with a title; none at strokes such as `--at S=0.6,650mm`.
 
     The runs are those of `--over`, of the machine's own `Over`s or of its first stroke (`runs_of`), at `--count` poses, or at steps of
     `--every`. At strokes the first that is not given goes from its start to its end, the others are at mid-stroke; several that are given
@@ -200,10 +195,14 @@ def motions_at(machine: Mechanism, options: Namespace) -> list[tuple[Run | None,
         runs = runs_of(machine, over=overs, acting=acting_of(machine, options) if hasattr(options, "drive") else None)
         single = all(len(run.ways) == 1 and run.is_curve and not run.is_path for run in runs)
         if single:
-            steps = [(run, {run.stroke: stroke_steps(machine, run, options.count, every)}) for run in runs]
-            return [(run, with_gaps(machine, {**run.held, **values})) for run, values in steps]
-        ensure(every is None, f"--every {every}: steps are of one stroke, and the rows run along a path; give --count.")
-        return [(run, run_with_gaps(machine, run, options.count)) for run in runs]
+            steps = [{run.stroke: stroke_steps(machine, run, options.count, every)} for run in runs]
+            motions = [with_gaps(machine, {**run.held, **values}) for run, values in zip(runs, steps, strict=True)]
+        else:
+            ensure(every is None, f"--every {every}: steps are of one stroke, and the rows run along a path; give --count.")
+            motions = [run_with_gaps(machine, run, options.count) for run in runs]
+        if len(runs) > 1:
+            runs = tuple(replace(run, title=run.title or each.over.words(each)) for run, each in zip(runs, motions, strict=True))
+        return [*zip(runs, motions, strict=True)]
     free = next((name for name in machine.strokes if name not in given), None)
     if free is None or any(len(values) > 1 for values in given.values()):
         ensure(every is None, f"--every {every}: no stroke runs from end to end here; leave it out, or hold the others, --at S=0.6.")

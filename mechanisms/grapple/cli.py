@@ -10,8 +10,8 @@ import numpy as np
 from linkage import Mechanism
 from linkage.cli.command import Command, figure_path, machine_options, option
 from linkage.cli.machines import find_like
-from linkage.cli.settings import judged_over, machine_of, motion_at, print_verdicts
-from linkage.cli.table import write_table
+from linkage.cli.settings import judged_over, machine_of, motions_at, print_verdicts
+from linkage.cli.table import heading_words, write_tables
 from linkage.errors import ensure
 from linkage.language import said
 from linkage.units import show, shown_number, unit_sign
@@ -49,17 +49,19 @@ def print_grapple(options: Namespace) -> int:
     found = partial(find_like, base=Grapple, what="grapple")
     machine = machine_of(options, found) if options.design is None else designed(options)
     path = figure_path(options, machine, "grapple")
-    motion, over = motion_at(machine, options), judged_over(machine, options)
     assert isinstance(machine, Grapple)
-    columns, first = machine.columns(motion), {name: np.ravel(motion[name])[0] for name in ("OA", "opening_angle", "closing_angle")}
+    by_angle = {tuple(each.strokes["theta"].ravel()): (run, each) for run, each in reversed(motions_at(machine, options))}
+    motions = [*reversed(by_angle.values())]  # its columns hang on the lever's angle alone, whatever the load case
+    motion = motions[0][1]
+    first = {name: np.ravel(motion[name])[0] for name in ("OA", "opening_angle", "closing_angle")}
     places = {name: ", ".join(shown_number(float(part.ravel()[0]), "mm", ".2f") for part in motion[name]) for name in "OE"}
     pins = ", ".join(f"{name} ({place}) {unit_sign('mm')}" for name, place in places.items())
     arms = f"OA {show(float(first['OA']), 'mm', '.2f')}, OC {show(float(motion.inputs['rho']), 'mm', '.2f')}"
     opened, closing = (show(float(first[name]), "deg", ".3f") for name in ("opening_angle", "closing_angle"))
     print(said("{pins}, {arms}; opens by {opened}, closes by {closing}.", pins=pins, arms=arms, opened=opened, closing=closing))
     print(f"{LEGEND}\n")
-    write_table(columns, motion.reached.size, options.csv)
-    code = print_verdicts(machine.verdicts(over=over), options)
+    write_tables([(heading_words(machine, run, each), machine.columns(each), ()) for run, each in motions], options.csv)
+    code = print_verdicts(machine.verdicts(over=judged_over(machine, options)), options)
     if path is not None:
         figure(options.figure or "stems", machine).savefig(path)
         print(path)

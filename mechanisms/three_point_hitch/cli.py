@@ -8,8 +8,8 @@ from functools import partial
 from linkage import DefinitionError, max_table, pin_forces
 from linkage.cli.command import Command, figure_path, machine_options, option
 from linkage.cli.machines import find_like
-from linkage.cli.settings import design, judged_over, machine_of, motion_at, print_verdicts
-from linkage.cli.table import write_table
+from linkage.cli.settings import design, judged_over, machine_of, motions_at, print_verdicts
+from linkage.cli.table import Table, heading_words, write_tables
 from linkage.statics import table_text
 
 from ..paper import figure_options
@@ -41,23 +41,26 @@ def print_hitch(options: Namespace) -> int:
     """Print what a hitch lifts and what limits it."""
     machine = hitch_of(options)
     path = figure_path(options, machine, "hitch")
-    motion, over = motion_at(machine, options), judged_over(machine, options)
+    motions, tables = motions_at(machine, options), list[Table]()
     if options.category:
         print(f"{CATEGORIES[options.category]}.\n")
-    if options.zones:
-        capacity, tilt = capacity_zone(machine, S=motion.strokes["S"]), tilt_zone(machine, S=motion.strokes["S"])
-        print(*(f"{remark}\n\n" for remark in dict.fromkeys((*capacity.remarks, *tilt.remarks))), sep="", end="")
-        columns = zone_columns(capacity, tilt)
-    else:
+    for run, motion in motions:
+        if options.zones:
+            capacity, tilt = capacity_zone(machine, S=motion.strokes["S"]), tilt_zone(machine, S=motion.strokes["S"])
+            print(*(f"{remark}\n\n" for remark in dict.fromkeys((*capacity.remarks, *tilt.remarks))), sep="", end="")
+        columns = zone_columns(capacity, tilt) if options.zones else capacity_columns(motion)
+        tables.append((heading_words(machine, run, motion), columns, ()))
+    if not options.zones:
+        motion = motions[0][1]
         eta = float(motion.inputs["circuit.mechanical_efficiency"])
         print(f"{pressure_words(motion)}, eta {eta:.4g}. Pressures are gauge.\n{LEGEND}\n")
-        columns = capacity_columns(motion)
-    write_table(columns, motion.reached.size, options.csv)
+    write_tables(tables, options.csv)
     if options.pins:
-        print(f"\n{table_text(max_table([pin_forces(motion)]))}")
+        print(f"\n{table_text(max_table([pin_forces(motion) for _, motion in motions]))}")
     if options.vertical:
-        print("", *(f"S = {S:.4f} m: {mast_words(machine, float(S))}" for S in motion.strokes["S"].ravel()), sep="\n")
-    code = print_verdicts(machine.verdicts(over=over), options)
+        strokes = dict.fromkeys(float(S) for _, motion in motions for S in motion.strokes["S"].ravel())
+        print("", *(f"S = {S:.4f} m: {mast_words(machine, S)}" for S in strokes), sep="\n")
+    code = print_verdicts(machine.verdicts(over=judged_over(machine, options)), options)
     if path is not None:
         figure(options.figure or ("zones" if options.zones else "capacity"), machine).savefig(path)
         print(path)

@@ -94,7 +94,7 @@ def translated(text: str) -> str:
 
 DECIMAL_SIGNS = {"ru": ","}
 """The sign before a number's decimals where it is no point, by language."""
-DECIMAL = re.compile(r"(?<![\w.=])(?<!рис\. )([-−+]?\d+)\.(\d+)(?![\w]|\.\d)")
+DECIMAL = re.compile(r"(?<![\w.=])(?<!рис\. )([-−+]?\d+)\.(\d+(?:e[-+]\d+)?)(?![\w]|\.\d)")
 
 
 def with_decimals(text: str) -> str:

@@ -135,8 +135,8 @@ def derivatives(subject: ReportSubject) -> Check:
         except LinkageError:
             continue
         found.append((largest_finite(np.abs(exact - central)), largest_finite(np.abs(exact))))
-    least = 1e-6 * max((size for _, size in found), default=0.0) or 1.0  # what does not move at all is compared with what does
-    worst, targets = max((miss / max(size, least) for miss, size in found), default=0.0), len(found)
+    far = max((size for _, size in found), default=0.0) or 1.0  # what does not move at all is compared with what does
+    worst, targets = max((miss / (size if size > 1e-6 * far else far) for miss, size in found), default=0.0), len(found)
     what = said(
         "exact transfer ratios of points and outputs by {stroke}, against central differences: {n} of them", stroke=stroke, n=targets
     )

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ..errors import LinkageError, unwarned
 from ..language import noted, said, translated
-from ..loads import PLAIN, Acting, Force, TwoPoint
+from ..loads import PLAIN, PLAIN_CASE, Acting, Force, TwoPoint
 from ..motion import Column, Motion, Request, least, most, places_text, stroke_display_unit
 from ..program import FloatArray
 from ..statics import PinForces, PinLoad, drive_force, judged_table, pin_forces, thrust_from_forces
@@ -164,13 +164,14 @@ def case_tables(subject: ReportSubject, cases: Mapping[str, Sequence[PinLoad] | 
 @final
 @dataclass(frozen=True)
 class Blocked:
-    """The largest force of a joint while the machine is blocked: which cylinder presses, how, whose relief valve opens, and the strokes."""
+    """The largest force of a joint while the machine is blocked: which cylinder presses, how, whose relief valve opens, case, strokes."""
 
     cells: tuple[str, ...]
     force: float
     cylinder: str
     pushes: bool
     opens: str
+    case: str
     strokes: Mapping[str, float]
 
 
@@ -212,9 +213,11 @@ def blocked_blocks(subject: ReportSubject) -> Iterator[Block]:
     cells = []
     for row in rows:
         moves = said("{member} pushes", member=row.cylinder) if row.pushes else said("{member} pulls", member=row.cylinder)
-        cells.append((*row.cells, force_cell(row.force), moves, row.opens, places_text(row.strokes, plain_units)))
+        place = places_text(row.strokes, plain_units)
+        place = f"{subject.case_words(row.case)}, {place}" if len(subject.judge.cases) > 1 else place
+        cells.append((*row.cells, force_cell(row.force), moves, row.opens, place))
     force = said("F, {unit}", unit=unit_sign("kN"))
-    heads = (*joint_heads(), force, said("member"), said("at the limit"), said("strokes"))
+    heads = (*joint_heads(), force, said("member"), said("at the limit"), said("situation and place"))
     yield TableBlock(said("Largest pin forces at the relief pressure, against a stop"), heads, tuple(cells), "llllrllm")
 
 
@@ -239,17 +242,20 @@ def worst_blocked(subject: ReportSubject, point: str, held: Iterable[str]) -> li
     cylinder's own, or that of another one that holds. Forces are affine in it, so that the machine's own loads and two unit forces tell it.
     """
     worst: dict[tuple[str, ...], Blocked] = {}
-    for motion in (each.sampled for each in subject.judge.places):
-        stop = Stop.of(subject, motion.moved(motion.strokes), point, held)
-        for cylinder, pushes in product(stop.bounds, (True, False)):
-            force, way, opens = stop.until_open(cylinder, pushes)
-            for key, cells, size in stop.joint_sizes(force, way):
-                if np.isnan(size).all():
-                    continue
-                place = np.unravel_index(int(np.argmax(size >= (1.0 - NEAR) * np.nanmax(size))), size.shape)
-                if key not in worst or size[place] > worst[key].force:
-                    strokes = {name: float(np.broadcast_to(value, size.shape)[place]) for name, value in stop.motion.strokes.items()}
-                    worst[key] = Blocked(cells, float(size[place]), cylinder, pushes, str(opens[place]), strokes)
+    for place in subject.judge.places:
+        poses, stop = place.sampled.moved(place.sampled.strokes), None
+        for case in place.cases(subject.judge.acting):
+            acting = Acting(case=subject.judge.acting.case or (None if case == PLAIN_CASE else case))
+            stop = Stop.of(subject, poses, point, held, acting) if stop is None else replace(stop, own=pin_forces(poses, acting=acting))
+            for cylinder, pushes in product(stop.bounds, (True, False)):
+                force, way, opens = stop.until_open(cylinder, pushes)
+                for key, cells, size in stop.joint_sizes(force, way):
+                    if np.isnan(size).all():
+                        continue
+                    at = np.unravel_index(int(np.argmax(size >= (1.0 - NEAR) * np.nanmax(size))), size.shape)
+                    if key not in worst or size[at] * (1.0 - NEAR) > worst[key].force:
+                        strokes = {name: float(np.broadcast_to(value, size.shape)[at]) for name, value in poses.strokes.items()}
+                        worst[key] = Blocked(cells, float(size[at]), cylinder, pushes, str(opens[at]), case, strokes)
     return list(worst.values())
 
 
@@ -264,9 +270,9 @@ class Stop:
     bounds: Mapping[str, tuple[FloatArray, FloatArray]]
 
     @classmethod
-    def of(cls, subject: ReportSubject, poses: Motion, point: str, held: Iterable[str]) -> Stop:
+    def of(cls, subject: ReportSubject, poses: Motion, point: str, held: Iterable[str], acting: Acting) -> Stop:
         """Return it at poses; raises LinkageError where there are no joint forces."""
-        own = pin_forces(poses, acting=Acting(case=subject.judge.acting.case))
+        own = pin_forces(poses, acting=acting)
         across, up = (pin_forces(poses, acting=Acting(loads=[Force(point, way)])) for way in ((1.0, 0.0), (0.0, 1.0)))
         elements = subject.machine.plan.of_kind(TwoPoint)
         # gas that presses by itself holds no load, and is in no unit's thrusts

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ..errors import LinkageError, known_name, unwarned
-from ..language import heading_of, said, translated
+from ..language import heading_of, said, translated, with_decimals
 from ..loads import PLAIN_CASE, Acting
 from ..mechanism import Mechanism
 from ..motion import Answer, Column, Measure, Motion, Request, Tabled, judged_poses, least, most, places_text, speakers, transmission
@@ -33,7 +33,7 @@ from .run import CLOSE, FIGURES, ReportSubject, same_curve
 
 HALF = 3.25
 """The width of a curve [inch]; two stand beside each other."""
-CURVE_ROOM = (0.72, 0.12, 0.46, 0.32)
+CURVE_ROOM = (0.72, 0.22, 0.46, 0.32)
 """The room beside a curve's axes [inch: left, right, bottom, top]."""
 NO_LETTER = re.compile("[^0-9A-Za-z]")
 """What the name of a picture's file does not have."""
@@ -76,7 +76,7 @@ def reported_columns(subject: ReportSubject, run: Run, found: Sequence[Column], 
     Coordinates stand last, and no drive force beside a thrust that it is.
     """
     if names is None:
-        places = set() if subject.has_own_table else coordinates_of(subject.machine)
+        places = coordinates_of(subject.machine)
         shown = [column for column in found if column.name not in run.held and column.name not in subject.doubles]
         return sorted(shown, key=lambda column: column.name in places)
     known = {column.name: column for column in found}
@@ -135,7 +135,7 @@ def curve_blocks(
     drawn = [name for name in whole if name != first and name not in left]
     same = one_curve([first, *drawn], whole, limits)
     first = next(name for name in same if first in (name, *same[name]))
-    still = [name for name in same if name not in (first, *limits) and is_constant(whole[name])] if held else []
+    still = [name for name in same if name not in (first, *limits) and is_constant(whole[name])]
     if still:
         yield said("The same all along this run, and not drawn: {names}.", names=", ".join(map(heading_of, still)))
     drawn = [first, *(name for name in same if name not in (first, *still))]
@@ -234,14 +234,14 @@ def draw_column(ax: Axes, motion: Motion, column: Column, bound: Sequence[object
     pad = 9.0 if bound is None else 19.0  # a limit's words stand above the curve, under the heading
     heading = ax.set_title(ax.get_title(loc="left"), loc="left", fontsize=TITLE, fontweight="bold", color=INK, pad=pad)
     heading.set_fontsize(TITLE * min(1.0, HEADING_SHARE * ax.bbox.width / heading.get_window_extent().width))
-    for each, text in beyond:
-        value, is_least = float(each.value) / factor(column.shown_unit), isinstance(each.question, Least)
-        if np.isfinite(value):
-            low, high = ax.get_ylim()
-            air = 0.2 * (max(high, value) - min(low, value))  # room for the number
-            ax.set_ylim(min(low, value - air), max(high, value + air))
-            ax.axhline(value, color=INK, linewidth=1.1, linestyle=(0, (1.5, 1.5)), zorder=4.0)
-            note(ax, text, (1.0, value), (-4, -3 if is_least else 3), INK, ("axes fraction", "data"))
+    marks = [(float(each.value) / factor(column.shown_unit), isinstance(each.question, Least), text) for each, text in beyond]
+    marks = [mark for mark in marks if np.isfinite(mark[0])]
+    low, high = (end([*ax.get_ylim(), *(value for value, *_ in marks)]) for end in (min, max))
+    air = 0.2 * (high - low)  # room for a number
+    ax.set_ylim(min([low, *(value - air for value, *_ in marks)]), max([high, *(value + air for value, *_ in marks)]))
+    for value, is_least, text in marks:
+        ax.axhline(value, color=INK, linewidth=1.1, linestyle=(0, (1.5, 1.5)), zorder=4.0)
+        note(ax, with_decimals(text), (1.0, value), (-4, -3 if is_least else 3), INK, ("axes fraction", "data"))
 
 
 HEADING_SHARE = 0.97
@@ -249,8 +249,13 @@ HEADING_SHARE = 0.97
 
 
 def column_grids(subject: ReportSubject, caption: str, columns: Sequence[Column], outside: Sequence[bool]) -> Iterator[TableBlock]:
-    """Yield columns of results as tables as wide as a page, led by the first; rows outside what is judged end with a dagger."""
+    """Yield columns of results as tables as wide as a page, led by the first, or by a number where that stands still between rows.
+
+    Rows outside what is judged end with a dagger.
+    """
     ends = dagger_ends(outside)
+    if len({*columns[0].shown.ravel().tolist()}) < len(ends):
+        columns = [Column(said("No."), np.arange(1.0, len(ends) + 1.0), "", 0), *columns]
     texts = [cell_texts(subject, column, values) for column, values in zip(columns, flat(columns), strict=True)]
     for number, block in enumerate(column_blocks(columns, texts, LETTERS, 2)):
         last = [f"{text}{end}" for text, end in zip(texts[block[-1]], ends, strict=True)]
@@ -268,7 +273,7 @@ def cell_texts(subject: ReportSubject, column: Column, values: FloatArray) -> li
 
 def figures(value: float) -> str:
     """Return a number with FIGURES digits, whole from there on; "0" for one so small that it is rounding."""
-    text = f"{value:z#.{FIGURES}g}"
+    text = f"{value:z#.{FIGURES}g}" if value else "0"
     return f"{value:z.0f}" if "e" in text else text.removesuffix(".")
 
 
@@ -352,33 +357,41 @@ def amount_text(subject: ReportSubject, answer: Answer, column: Column) -> str:
 
 
 def limits_section(subject: ReportSubject) -> Section:
-    """Return the section of how far every stroke reaches, what stops it, and the least transmission angles."""
-    title = said("Limits of motion")
+    """Return the section of how far every stroke reaches, what stops it, and the least transmission angles.
+
+    It looks where the verdicts do: the others are held where the first `Over` begins in which the stroke runs.
+    """
+    title, strokes = said("Limits of motion"), subject.machine.strokes
+    reached = [place for place in subject.judge.places if place.motion.reached.any()] or subject.judge.places[:1]
+    places = {name: next((each for each in reached if name in each.running), reached[0]) for name in strokes}
     try:
         with unwarned():
-            found = subject.machine.at(unreachable="nan", **subject.pose).limits()
+            limits = [place.motion.limits()[name] for name, place in places.items()]
     except LinkageError as error:
         return Section(title, (str(error),))
-    heads = (said("stroke"), said("limit"), said("at stroke"))
-    joints = dict.fromkeys(least.joint for each in found.values() for least in each.transmission)
+    joints = dict.fromkeys(least.joint for each in limits for least in each.transmission)
     with unwarned():
         angles = subject.judge.answers([least(transmission(joint)) for joint in joints])
-    rows = tuple(row for each in found.values() for row in limit_rows(subject, each))
+    rows = tuple(
+        (*row, places_text({held.stroke: held.value for held in each.held}, {held.stroke: held.unit for held in each.held}))
+        for each in limits for row in limit_rows(each)
+    )  # fmt: skip
     for joint, answer in zip(joints, angles, strict=True):
         if np.isfinite(answer.value):
             angle = said("least transmission angle at {joint}: {angle}", joint=joint, angle=show(float(answer.value), "deg", 4))
-            rows += ((", ".join(answer.strokes), angle, places_text(answer.strokes, answer.units)),)
-    table = TableBlock(said("Reach, dead points, transmission"), heads, rows, "lmm")
-    held = said("Each stroke by itself, the others held at {pose}.", pose=subject.words(subject.pose))
-    return Section(title, (held, table) if len(found) > 1 else (table,))
+            rows += ((", ".join(answer.strokes), angle, places_text(answer.strokes, answer.units), ""),)
+    heads = (said("stroke"), said("limit"), said("at stroke"), said("the others held at"))
+    wide = 4 if len(strokes) > 1 else 3
+    table = TableBlock(said("Reach, dead points, transmission"), heads[:wide], tuple(row[:wide] for row in rows), "lmmm"[:wide])
+    return Section(title, (table,))
 
 
-def limit_rows(subject: ReportSubject, limits: StrokeLimits) -> Iterator[tuple[Cell, ...]]:
+def limit_rows(limits: StrokeLimits) -> Iterator[tuple[Cell, ...]]:
     """Yield what limits a stroke."""
     name = limits.stroke
 
     def place(value: float) -> str:
-        return subject.words({name: value})
+        return places_text({name: value}, {name: limits.unit})
 
     for part in limits.intervals:
         yield name, said("reachable"), said("from {start} to {end}", start=place(part.low), end=place(part.high))

@@ -20,8 +20,6 @@ from .content import Block, Cell, Document, Equality, Formula, Illustration, Mar
 from .pictures import picture_svg
 
 JSON = dict[str, object]
-NARROW = 80
-"""Letters that a page surely has room for beside each other: a table of no more is not measured."""
 
 
 def check_typst(path: Path) -> None:
@@ -77,8 +75,7 @@ def block_data(is_pair: bool, row: Sequence[Block], captions: dict[int, str]) ->
             return {"kind": "list", "texts": texts}
         case TableBlock(_, headings, rows, columns) as table:
             cells = [[cell_data(value) for value in each] for each in rows]
-            caption, wide = captions.get(id(table), ""), table.letters > NARROW
-            return {"kind": "table", "caption": caption, "headings": headings, "columns": columns, "rows": cells, "wide": wide}
+            return {"kind": "table", "caption": captions.get(id(table), ""), "headings": headings, "columns": columns, "rows": cells}
         case Equality(number, steps):
             sides = readable(steps)
             longest = max(rough_width(piece) for pieces in sides for piece in pieces)

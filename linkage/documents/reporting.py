@@ -24,6 +24,7 @@ from ..motion import (
     Answer,
     Column,
     Constraint,
+    HasVerdicts,
     Leaf,
     Motion,
     MotionFunction,
@@ -31,6 +32,7 @@ from ..motion import (
     least,
     most,
     places_text,
+    speakers,
     stroke_display_unit,
 )
 from ..motion.measures import measure_of
@@ -323,7 +325,7 @@ def verdict_section(subject: ReportSubject, limits: Mapping[str, Sequence[object
     heads = (said("rule"), said("result"), said("what was found"))
     rows = tuple((each.heading, verdict_mark(each.ok) if each.is_rule else Mark(None, "–"), each.sentence) for each in found)
     table = TableBlock(said("Rules, over all that the machine runs"), heads, rows, "llm")
-    places = [(each.heading, each.ok, each.answer, None) for each in judged if isinstance(each.answer, Answer)]
+    places = [(each.heading, each.ok, each.answer, None, rule_share(subject, each)) for each in judged if isinstance(each.answer, Answer)]
     return Section(title, (domain, table, *worst_places(subject, [*places, *limited]))), rules_mark(judged), found
 
 
@@ -349,8 +351,8 @@ MOST_PLACES = 10
 """Rows of the table of the worst places."""
 
 
-JudgedRow: TypeAlias = tuple[str, "bool | None", Answer, "Column | None"]
-"""A rule by its name, whether it is kept, its answer, and the column that it bounds."""
+JudgedRow: TypeAlias = tuple[str, "bool | None", Answer, "Column | None", float]
+"""A rule by its name, whether it is kept, its answer, the column that it bounds, and how far its limit is used."""
 
 
 def limit_answers(subject: ReportSubject, limits: Mapping[str, Sequence[Any]]) -> list[JudgedRow]:
@@ -367,7 +369,7 @@ def limit_answers(subject: ReportSubject, limits: Mapping[str, Sequence[Any]]) -
     if own and plain and len(plain) < len(subject.judge.places):  # a table's own column is under the machine's own loads
         judge = subject.machine.judge(plain, subject.judge.acting).lost_allowed()
         answers |= zip(own, judge.answers([asked[name] for name in own]), strict=True)
-    return [(heading_of(name), each.ok, each, columns.get(name)) for name, each in answers.items()]
+    return [(heading_of(name), each.ok, each, columns.get(name), used(each)) for name, each in answers.items()]
 
 
 def worst_places(subject: ReportSubject, answers: Sequence[JudgedRow]) -> Iterator[TableBlock]:
@@ -376,11 +378,11 @@ def worst_places(subject: ReportSubject, answers: Sequence[JudgedRow]) -> Iterat
     A rule that is kept and says of no limit how far it is used has no worst place.
     """
     known = [each for each in answers if each[2].strokes and not np.isnan(each[2].value)]
-    near = [each for each in known if each[1] is False or 0.0 < used(each[2]) < np.inf]
-    ranked = sorted(near, key=lambda each: (each[1] is not False, -used(each[2])))
+    near = [each for each in known if each[1] is False or 0.0 < each[4] < np.inf]
+    ranked = sorted(near, key=lambda each: (each[1] is not False, -each[4]))
     rows = []
-    for rule, ok, each, column in ranked[:MOST_PLACES]:
-        share = f"{100.0 * used(each):.0f} %" if 0.0 < used(each) < np.inf else "–"
+    for rule, ok, each, column, of_limit in ranked[:MOST_PLACES]:
+        share = f"{100.0 * of_limit:.0f} %" if 0.0 < of_limit < np.inf else "–"
         places = each.situation or "–", places_text(each.strokes, each.units)
         rows.append((rule, verdict_mark(ok), value_cell(subject, each, column), share, *places))
     heads = (said("rule"), said("result"), said("value"), said("limit used"), said("situation"), said("strokes"))
@@ -399,6 +401,18 @@ def value_cell(subject: ReportSubject, answer: Answer, column: Column | None) ->
     if not kind and not (isinstance(quantity, Request) and not isinstance(quantity, MotionFunction)):
         return "–"
     return show(float(answer.value), display_unit(kind, "mm"), 4)
+
+
+def rule_share(subject: ReportSubject, verdict: Verdict) -> float:
+    """Return how far the limit of a rule is used, as on a page: by its member's own measure, and not at all where a length fits."""
+    member, answer = speakers(subject.machine.plan, HasVerdicts).get(verdict.member), verdict.answer
+    words = {} if member is None else member.page_words(subject.judge)
+    own = next((each.share for rule, each in words.items() if verdict.rule in (rule, f"{rule} {verdict.member}")), None)
+    if own is not None:
+        return float(subject.judge.answer(own).value)
+    question = answer.question.left if isinstance(answer.question, Constraint) else answer.question
+    is_fitting = verdict.ok and (answer.measures or measure_of(subject.machine.plan, question)) == "length"
+    return 0.0 if is_fitting else used(answer)
 
 
 def used(answer: Answer) -> float:

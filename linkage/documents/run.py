@@ -229,11 +229,12 @@ class ReportSubject:
 
     @cached_property
     def forces(self) -> list[PinForces]:
-        """The joint forces at the poses of the tables in every situation that is judged; raises LinkageError."""
+        """The joint forces at the poses of each table in every situation that is judged there; raises LinkageError."""
         if len(self.machine.links) < 2:
             raise DefinitionError(f"{self.machine.plan.title}: its points form no bodies, so that no joint carries anything.")
         with unwarned():
-            return [pin_forces_under(self.table, each) for each in self.judge.actings(drive_force())]
+            situations = [(motion, self.judge.actings(drive_force(), run.title)) for run, motion in self.tables]
+            return [pin_forces_under(motion, each) for motion, there in situations for each in there]
 
     def case_words(self, name: str) -> str:
         """Return what a load case is called, with its name where sentences name it by another one."""

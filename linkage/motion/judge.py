@@ -631,10 +631,10 @@ class Judge:
         """The load cases that are looked at, by name, "plain" the machine's own loads."""
         return [*dict.fromkeys(case for place in self.places for case in place.cases(self.acting))]
 
-    def actings(self, request: Request) -> list[Acting]:
-        """Return the situations in which a request is judged over all its overs, as requests and forces take them."""
-        asked = request.under(self.acting)
-        found = dict.fromkeys(each for place in self.places for each in place.situations(asked, self.acting))
+    def actings(self, request: Request, over: str = "") -> list[Acting]:
+        """Return the situations in which a request is judged, as requests and forces take them: over one `Over` by its title, else all."""
+        asked, places = request.under(self.acting), [place for place in self.places if place.over.title == over] or self.places
+        found = dict.fromkeys(each for place in places for each in place.situations(asked, self.acting))
         return [each.acting.within(self.acting) for each in found]
 
     @property

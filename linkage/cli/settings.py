@@ -184,7 +184,7 @@ def si_value(text: str, kind: str, what: str) -> float:
 
 
 def motions_at(machine: Mechanism, options: Namespace) -> list[tuple[Run | None, Motion]]:
-    """Return the motions that a table shows, each with its run, of several one with a title; none at strokes such as `--at S=0.6,650mm`.
+    """Return the motions that a table shows, each with its run. At strokes such as `--at S=0.6,650mm` there is none.
 
     The runs are those of `--over`, of the machine's own `Over`s or of its first stroke (`runs_of`), at `--count` poses, or at steps of
     `--every`. At strokes the first that is not given goes from its start to its end, the others are at mid-stroke; several that are given

@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
+from ..language import ENGLISH, language
 from ..mechanism import Mechanism
 from ..plan import written_out
 
@@ -19,9 +20,10 @@ ADDRESS = re.compile(r" at 0x[0-9a-fA-F]+")
 def fingerprint(machine: Mechanism, strokes: Mapping[str, Any]) -> str:
     """Return the SHA-256 of a design's inputs in hexadecimal: members, dimensions, loads, load cases, and the strokes looked at.
 
-    It is the same in every process; a function among the members counts by its source.
+    It is the same in every process and language; a function among the members counts by its source.
     """
-    members = written_out(machine.plan, machine.dimensions)
+    with language(ENGLISH):
+        members = written_out(machine.plan, machine.dimensions)
     inputs = {
         "machine": machine.plan.title,
         "members": {name: ADDRESS.sub("", text) for name, text in members.items()},

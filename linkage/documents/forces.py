@@ -164,7 +164,10 @@ def case_tables(subject: ReportSubject, cases: Mapping[str, Sequence[PinLoad] | 
 @final
 @dataclass(frozen=True)
 class Blocked:
-    """The largest force of a joint while the machine is blocked: which cylinder presses, how, whose relief valve opens, case, strokes."""
+    """The largest force of a joint while the machine is blocked.
+
+    One cylinder presses. The relief valve of one opens.
+    """
 
     cells: tuple[str, ...]
     force: float

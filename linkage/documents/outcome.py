@@ -5,10 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
-from typing import Any
+from typing import Any, final
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.ticker import ScalarFormatter
 
 from ..errors import LinkageError, known_name, unwarned
 from ..language import heading_of, said, translated, with_decimals
@@ -231,6 +232,8 @@ def beyond_words(subject: ReportSubject, answers: Sequence[Answer], column: Colu
 def draw_column(ax: Axes, motion: Motion, column: Column, bound: Sequence[object] | None, beyond: Sequence[tuple[Answer, str]]) -> None:
     """Draw a column over the stroke with its limit, and lines with their values for what lies beyond it elsewhere."""
     panel(ax, motion, column, bound)
+    for axis in (ax.xaxis, ax.yaxis):
+        axis.set_major_formatter(SpokenTicks())
     pad = 9.0 if bound is None else 19.0  # a limit's words stand above the curve, under the heading
     heading = ax.set_title(ax.get_title(loc="left"), loc="left", fontsize=TITLE, fontweight="bold", color=INK, pad=pad)
     heading.set_fontsize(TITLE * min(1.0, HEADING_SHARE * ax.bbox.width / heading.get_window_extent().width))
@@ -244,14 +247,22 @@ def draw_column(ax: Axes, motion: Motion, column: Column, bound: Sequence[object
         note(ax, with_decimals(text), (1.0, value), (-4, -3 if is_least else 3), INK, ("axes fraction", "data"))
 
 
+@final
+class SpokenTicks(ScalarFormatter):
+    """Numbers along an axis with the decimal sign of the language that is spoken."""
+
+    def __call__(self, x: float, pos: int | None = None) -> str:
+        return with_decimals(super().__call__(x, pos))
+
+
 HEADING_SHARE = 0.97
 """Of the width of a curve's axes: what its heading takes at the most, as letters on a screen are wider than printed ones."""
 
 
 def column_grids(subject: ReportSubject, caption: str, columns: Sequence[Column], outside: Sequence[bool]) -> Iterator[TableBlock]:
-    """Yield columns of results as tables as wide as a page, led by the first, or by a number where that stands still between rows.
+    """Yield columns of results as tables as wide as a page. Rows outside what is judged end with a dagger.
 
-    Rows outside what is judged end with a dagger.
+    The first column leads. Where it stands still between rows, a number does.
     """
     ends = dagger_ends(outside)
     if len({*columns[0].shown.ravel().tolist()}) < len(ends):
@@ -359,7 +370,7 @@ def amount_text(subject: ReportSubject, answer: Answer, column: Column) -> str:
 def limits_section(subject: ReportSubject) -> Section:
     """Return the section of how far every stroke reaches, what stops it, and the least transmission angles.
 
-    It looks where the verdicts do: the others are held where the first `Over` begins in which the stroke runs.
+    It looks where the verdicts do. The other strokes are held where the first `Over` begins.
     """
     title, strokes = said("Limits of motion"), subject.machine.strokes
     reached = [place for place in subject.judge.places if place.motion.reached.any()] or subject.judge.places[:1]

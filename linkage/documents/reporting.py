@@ -404,7 +404,7 @@ def value_cell(subject: ReportSubject, answer: Answer, column: Column | None) ->
 
 
 def rule_share(subject: ReportSubject, verdict: Verdict) -> float:
-    """Return how far the limit of a rule is used, as on a page: by its member's own measure, and not at all where a length fits."""
+    """Return how far the limit of a rule is used, as on a page. A length that fits uses nothing."""
     member, answer = speakers(subject.machine.plan, HasVerdicts).get(verdict.member), verdict.answer
     words = {} if member is None else member.page_words(subject.judge)
     own = next((each.share for rule, each in words.items() if verdict.rule in (rule, f"{rule} {verdict.member}")), None)

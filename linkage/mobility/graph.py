@@ -22,7 +22,10 @@ if TYPE_CHECKING:
 @final
 @dataclass(frozen=True)
 class ChainTables(Shown):
-    """A chain as a notebook shows it: bodies by name, their `Link`'s beside it, kind and points; joints by name, kind, bodies, strokes."""
+    """A chain as a notebook shows it.
+
+    Bodies have name, kind and points. Joints have name, kind, two bodies and strokes.
+    """
 
     title: str
     bodies: tuple[tuple[str, ...], ...]

@@ -632,7 +632,7 @@ class Judge:
         return [*dict.fromkeys(case for place in self.places for case in place.cases(self.acting))]
 
     def actings(self, request: Request, over: str = "") -> list[Acting]:
-        """Return the situations in which a request is judged, as requests and forces take them: over one `Over` by its title, else all."""
+        """Return the situations in which a request is judged. `over` is the title of one `Over`; without it all count."""
         asked, places = request.under(self.acting), [place for place in self.places if place.over.title == over] or self.places
         found = dict.fromkeys(each for place in places for each in place.situations(asked, self.acting))
         return [each.acting.within(self.acting) for each in found]

@@ -269,10 +269,10 @@ def where_said(plan: Plan, mask: Mask, strokes: Mapping[str, Any]) -> str:
         return said("at {count} of {total} poses, in {some} of {every} designs", count=count, total=total, some=some, every=every)
     ends = {name: (float(np.min(value[mask])), float(np.max(value[mask]))) for name, value in strokes.items()}
     spans = []
-    for name, (low, high) in ends.items():
+    for name, (low, high) in ends.items():  # angles in radians, as calls take them
         unit = "s" if name == "time" else stroke_unit(plan, name)
         text = f"{low:.4f}" if low == high else said("{low} to {high}", low=f"{low:.4f}", high=f"{high:.4f}")
-        spans.append(f"{name} = {text} {translated(unit)}")
+        spans.append(f"{name} = {text} {translated(unit)}" if unit in ("rad", "s") else f"{name} = {place_text((low, high), unit)}")
     place = ", ".join(spans)
     if total == 1:
         return said("at {place}", place=place) if spans else said("anywhere")

@@ -58,7 +58,7 @@ class KinematicChain:
         return found
 
     def add_cylinder(self, name: str, P: str, Q: str) -> None:
-        """Enter a cylinder between two points by its name: a barrel on P, a rod on Q, and the slide between them."""
+        """Enter a cylinder: a barrel on P, a rod on Q, and their slide."""
         self.slides.append(Pair("slide", name, self.add(f"{name} barrel", "barrel", (P,)), self.add(f"{name} rod", "rod", (Q,))))
 
     def at(self, point: str) -> list[ChainBody]:

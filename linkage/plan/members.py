@@ -473,7 +473,7 @@ def carrying_pairs(plan: Members, members: Iterable[Iterable[str]] = ()) -> froz
 
 
 def spanning_name(plan: Members, P: str, Q: str) -> str:
-    """Return what stands between two points is called: a cylinder or a spring by its own name, else by its points, `AB`."""
+    """Return the name of the cylinder or spring between two points. Where there is none it is theirs, `AB`."""
     elements = plan.of_kind(Jointed).items()
     own = (name for name, each in elements if each.kind == "load" and [joint.point for joint in each.joints()] in ([P, Q], [Q, P]))
     return next(own, joined_names(P, Q))

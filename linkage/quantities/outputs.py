@@ -11,6 +11,7 @@ import numpy as np
 
 from ..errors import DefinitionError
 from ..frozen import immutable
+from ..language import said
 from ..vectors import Scalar
 from .axes import FRAME_AXES, Axes
 from .member import Member, Reference, Turning, Where, as_mapping, name_of
@@ -167,7 +168,9 @@ class AtPose(Quantity):
         return where.at_pose(self.of, {**dict.fromkeys(self.unmoved, 0.0), **self.strokes})
 
     def __str__(self) -> str:
-        return f"{self.of} at {as_mapping(self.strokes) if self.strokes else 'the sketch'}"
+        if not self.strokes:
+            return said("{quantity} at the sketch", quantity=self.of)
+        return said("{quantity} at {strokes}", quantity=self.of, strokes=as_mapping(self.strokes))
 
 
 @final

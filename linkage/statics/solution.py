@@ -10,10 +10,11 @@ from typing import final
 import numpy as np
 
 from ..errors import DefinitionError, SingularError, one_word, unwarned
+from ..language import ENGLISH, current_language, language, said, translated
 from ..loads import PLAIN_CASE, Acting, ForceElement, Load, Push, Rates, TwoPoint
 from ..motion import Motion, require_motion
 from ..motion.evaluation import examined
-from ..motion.limits import where_words
+from ..motion.limits import where_said, where_words
 from ..motion.requests import point_ratios
 from ..plan import NEAR, Mask, Plan
 from ..program import FloatArray, elementwise
@@ -151,9 +152,12 @@ def locked_words(found: PoseForces | Solution, direction: str) -> list[str]:
         return []
     motion, mask = found.poses.motion, found.poses.mask(found.locked)
     points = ", ".join(dict.fromkeys(each.contact.point for each in found.frictions))
-    what = f"{motion.plan.title} locks itself while {direction.removeprefix('as ')} {where_words(motion.plan, mask, motion.strokes)}"
-    remedy = "Lower the friction, or make the transmission angles larger"
-    text = f"{what}: with the friction at {points} no bounded drive force moves it. {remedy}."
+    with language(ENGLISH if motion.unreachable == "raise" else current_language()):
+        text = said(
+            "{title} locks itself while {direction} {where}: with the friction at {points} no bounded drive force moves it. Lower the "
+            "friction, or make the transmission angles larger.",
+            title=motion.plan.title, direction=translated(direction.removeprefix("as ")), where=where_said(motion.plan, mask, motion.strokes), points=points,
+        )  # fmt: skip
     if motion.unreachable == "raise":
         raise SingularError(text, mask=mask, motion=motion)
     return [text]

@@ -249,7 +249,7 @@ def worst_blocked(subject: ReportSubject, point: str, held: Iterable[str]) -> li
         poses, stop = place.sampled.moved(place.sampled.strokes), None
         for case in place.cases(subject.judge.acting):
             acting = Acting(case=subject.judge.acting.case or (None if case == PLAIN_CASE else case))
-            stop = Stop.of(subject, poses, point, held, acting) if stop is None else replace(stop, own=pin_forces(poses, acting=acting))
+            stop = Stop.of(poses, point, held, acting) if stop is None else replace(stop, own=pin_forces(poses, acting=acting))
             for cylinder, pushes in product(stop.bounds, (True, False)):
                 force, way, opens = stop.until_open(cylinder, pushes)
                 for key, cells, size in stop.joint_sizes(force, way):
@@ -273,11 +273,11 @@ class Stop:
     bounds: Mapping[str, tuple[FloatArray, FloatArray]]
 
     @classmethod
-    def of(cls, subject: ReportSubject, poses: Motion, point: str, held: Iterable[str], acting: Acting) -> Stop:
+    def of(cls, poses: Motion, point: str, held: Iterable[str], acting: Acting) -> Stop:
         """Return it at poses; raises LinkageError where there are no joint forces."""
         own = pin_forces(poses, acting=acting)
         across, up = (pin_forces(poses, acting=Acting(loads=[Force(point, way)])) for way in ((1.0, 0.0), (0.0, 1.0)))
-        elements = subject.machine.plan.of_kind(TwoPoint)
+        elements = poses.plan.of_kind(TwoPoint)
         # gas that presses by itself holds no load, and is in no unit's thrusts
         known = [name for name in held if all(name in each.thrusts for each in (own, across, up))]
         ends = {name: elements[name].bounds(poses, False) for name in known}

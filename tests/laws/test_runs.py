@@ -9,10 +9,12 @@ import pytest
 from numpy.testing import assert_allclose
 
 from hydraulics import Cylinder, LiftCircuit, reserve
-from linkage import LEFT, Acting, Dyad, Featured, Ground, LoadCase, Mechanism, OnLink, Over, Stroke, Weight, least, most, plot
+from linkage import LEFT, Acting, Dyad, Featured, Ground, LoadCase, Mechanism, OnLink, Over, Stroke, Support, Weight, least, most, plot
 from linkage.cli.entry import main
 from linkage.documents.content import TableBlock
-from linkage.documents.reporting import report_document
+from linkage.documents.outcome import limits_section
+from linkage.documents.reporting import report_document, rule_share
+from linkage.documents.run import ReportSubject
 from linkage.motion import Request
 from linkage.pictures.strokes import playback
 from linkage.reports import results, run_of, runs_of
@@ -150,6 +152,28 @@ def test_a_table_of_the_command_and_a_plot_show_the_same_runs(machine, capsys, m
     for ax in curves:
         name = "reserve boom" if ax.get_title(loc="left").startswith("reserve") else "thrust arm"
         check_within(name, np.asarray(ax.lines[0].get_ydata()) * (1.0 if name == "reserve boom" else 1e3), ends[name])
+
+
+class OnWheels(OfPaths):
+    """The same on a frame with two axles, which tips where its arm reaches far under the heavy load, and is not judged there."""
+
+    M, front_axle, rear_axle = Ground(-0.6, 0.2), Ground(0.9, -0.5), Ground(-1.2, -0.5)
+    front, rear = Support("front_axle", (0, 1)), Support("rear_axle", (0, 1))
+    body = Weight("M", mass=500.0)
+
+
+def test_a_report_looks_at_forces_and_limits_where_the_machine_is_judged():
+    subject = ReportSubject.at(OnWheels(), {}, 5)
+    assert {(one.case, round(float(np.max(one.motion.strokes["T"])), 3)) for one in subject.forces} == {("heavy", 0.12), ("empty", 0.08)}
+    verdicts = {verdict.heading: verdict for verdict in OnWheels().verdicts()}
+    nearest = PLACED.findall(next(verdict.sentence for verdict in verdicts.values() if verdict.rule == "dead points"))
+    assert nearest and {*nearest} <= {row[2] for row in limits_section(subject).blocks[0].rows}
+    kept = float(re.search(r"keeps ([\d.]+) % of its load", verdicts["axle load rear"].sentence)[1])
+    assert_allclose(rule_share(subject, verdicts["axle load rear"]), 1.0 - kept / 100.0, atol=0.006)
+    assert rule_share(subject, verdicts["length"]) == 0.0
+
+
+PLACED = re.compile(r"at (\w+ = -?[\d.]+ m)")
 
 
 def test_a_run_is_asked_for_by_its_strokes_as_before():

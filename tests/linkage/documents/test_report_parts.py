@@ -17,6 +17,7 @@ from scipy.optimize import brentq
 from hydraulics import Cylinder, LiftCircuit
 from linkage import (
     RIGHT,
+    Acting,
     Crank,
     DefinitionError,
     Dimension,
@@ -315,7 +316,7 @@ def test_a_stop_pushes_until_the_first_relief_valve_opens():
     """No cylinder of the crane carries more than its valve lets through, and one of them carries just that."""
     subject = ReportSubject.at(Crane(), {}, 5)
     motion = subject.judge.places[0].sampled
-    stop = Stop.of(subject, motion.moved(motion.strokes), "T", blocked_cylinders(subject))
+    stop = Stop.of(motion.moved(motion.strokes), "T", blocked_cylinders(subject), Acting())
     assert set(stop.bounds) == {"extend", "lift", "fold"}
     for cylinder in stop.bounds:
         for pushes in (True, False):

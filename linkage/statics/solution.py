@@ -156,7 +156,8 @@ def locked_words(found: PoseForces | Solution, direction: str) -> list[str]:
         text = said(
             "{title} locks itself while {direction} {where}: with the friction at {points} no bounded drive force moves it. Lower the "
             "friction, or make the transmission angles larger.",
-            title=motion.plan.title, direction=translated(direction.removeprefix("as ")), where=where_said(motion.plan, mask, motion.strokes), points=points,
+            title=motion.plan.title, direction=translated(direction.removeprefix("as ")),
+            where=where_said(motion.plan, mask, motion.strokes), points=points,
         )  # fmt: skip
     if motion.unreachable == "raise":
         raise SingularError(text, mask=mask, motion=motion)

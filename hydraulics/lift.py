@@ -416,6 +416,8 @@ class LiftingCylinder:
         each_way = [(way, judge.answers([most(self.back(way, resistance)) <= 0.0])[0]) for way in self.ways_back]
         way, push = max(each_way, key=lambda each: (each[1].unbounded, float(np.nan_to_num(each[1].value, nan=-np.inf))))
         alone = judge.answer(least(self.back(way, resistance, "load")))
+        if push.ok is None:
+            return Verdict("lowering", None, said("it goes back nowhere over what it runs."))
         if push.ok:
             by = {"against": against, "where": alone.place, "pressure": self.show(alone.value)}
             text = said("it sinks by itself {against}: the load makes at least {pressure} in the working side, {where}.", **by)

@@ -141,7 +141,7 @@ def way_back(
     helps = sense * by_other_lines(ram, line, held_in_case(motion, acting), None, True)
     brings = np.where(drives > 0.0, drives * k_m, drives / k_m)
     push = (against * empties - brings - helps) / other
-    counts = 1.0 if goes is None else goes == sense
+    counts = 1.0 if goes is None else np.where(goes == sense, 1.0, np.nan)
     pressures = np.maximum(brings + helps, 0.0) / empties, push, helps / other
     working, push, tank = (np.asarray(counts * each)[()] for each in pressures)
     return working, push, tank

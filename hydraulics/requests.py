@@ -15,7 +15,7 @@ from typing import Any, TypeAlias, final
 import numpy as np
 
 from linkage.errors import DefinitionError, ensure, known_name
-from linkage.loads import DIRECTIONS, Acting, Case, situation_of
+from linkage.loads import DIRECTIONS, SENSES, Acting, Case, situation_of
 from linkage.mechanism import Mechanism
 from linkage.motion import Condition, Constraint, SmoothPiece, at, least, most
 from linkage.plan import Mask, Plan
@@ -272,11 +272,18 @@ def going_back_request(
         working, push, tank = way_back(ram, line, motion, acting, way, resistance, line.efficiency(motion, "mechanical"))
         return working if tells == "load" else push + tank if tells == "whole push" else push
 
+    def goes_another_way(motion: AnyMotion, ram: Ram, acting: Acting) -> Mask:
+        goes = ram.goes(motion, replace(acting, direction=None))
+        return np.zeros(motion.shape, bool) if goes is None else np.asarray(goes != SENSES[way])
+
     def pieces(request: LawRequest, plan: Plan) -> tuple[SmoothPiece, ...]:
         return in_stages(cylinder, plan, SmoothPiece(request))
 
     found = circuit_request("going back", cylinder, acting, circuit, over, after=(way, resistance, tells), measures="pressure")
-    return replace(found, directions=(way,), pieces_in=pieces, cases_in=partial(moves_in, cylinder))
+    return replace(
+        found, directions=(way,), pieces_in=pieces, cases_in=partial(moves_in, cylinder),
+        unlimited_in=partial(formula_of_cylinder, goes_another_way, cylinder),
+    )  # fmt: skip
 
 
 # The capacity.

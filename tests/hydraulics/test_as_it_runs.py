@@ -50,3 +50,17 @@ def test_the_worst_over_a_path_in_time_is_that_of_its_directions():
 def test_a_direction_of_ones_own_is_refused():
     with pytest.raises(DefinitionError, match="as it runs; leave the direction out"):
         Boom().sweep(11, over="work")[thrust("ram", direction="retracting")]
+
+
+class Raised(Boom):
+    work = Over.path(S=ramp(0.02, 0.18, speed=0.1))
+    back = None
+
+
+def test_going_back_is_asked_where_it_goes_back():
+    timed, plain = (
+        next(each.answer for each in Boom().verdicts(Boom().sweep(11, over=name)) if each.rule == "lowering") for name in ("work", "back")
+    )
+    assert timed.ok and timed.value == pytest.approx(plain.value, rel=1e-9)
+    (nowhere,) = (each for each in Raised().verdicts() if each.rule == "lowering")
+    assert nowhere.ok is None and str(nowhere) == "--   lowering: it goes back nowhere over what it runs."

@@ -32,7 +32,7 @@ from tests.tools.sources import sources  # noqa: E402
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted(DOCS.glob("*.md")), *sorted(DOCS.glob("howto/*.md"))]
 LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
 SCRIPTS = {name: drawn.script(name) for name in drawn.MAKERS}
-QUICK = ("conventions", "way", "search", "redesigns")
+QUICK = ("conventions", "way")
 DRAWN = {
     picture: pytest.param(make, id=picture, marks=() if name in QUICK else pytest.mark.slow)
     for name, script in SCRIPTS.items()

@@ -9,7 +9,7 @@ from linkage.formulas import equations
 from tests.laws.random_machines import random_machine
 from tests.laws.random_vehicles import random_vehicle
 
-MANY, DAILY = 120, 5
+MANY, DAILY = 120, 3
 EACH = pytest.mark.parametrize("seed", [seed if seed < DAILY else pytest.param(seed, marks=pytest.mark.slow) for seed in range(MANY)])
 
 

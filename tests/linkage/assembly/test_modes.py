@@ -12,6 +12,7 @@ from linkage.cli import main
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests import shipped
+from tests.for_all import for_all
 from tests.machines.test_gear_shift import GearShift
 from tests.machines.test_plough import Plough
 
@@ -80,7 +81,14 @@ def pasted(machine, code):
     return names["Other"]
 
 
-@shipped.over_machines(lambda: [Listed, Sketched, GearShift, Plough, drawn_grab()])
+FEW = ("grapple", "inverted_slider_crank", "scotch_yoke", "three_point_hitch", "toggle_press")
+
+
+@for_all(
+    "machine",
+    lambda: [*map(shipped.MACHINES.get, FEW), Listed, Sketched, GearShift, Plough, drawn_grab()],
+    slow=lambda: [machine for name, machine in shipped.MACHINES.items() if name not in FEW],
+)
 def test_pasted_code_gives_the_mode(machine):
     at = strokes_inside(machine)
     modes = machine().assemblies(**at)

@@ -189,14 +189,14 @@ def test_program_read_by_sympy_has_the_motions_derivatives():
 
     machine, S = One(), sympy.Symbol("S", real=True)
     given = {sympy.Symbol(name, real=True): sympy.Rational(value) for name, value in machine.dimensions.items()}
-    for pose in (0.5, 0.61, 0.7):
-        motion = machine.at(S=pose)
-        for target in ("B", "C", "lean"):
-            closed = [each.subs(given) for each in program_expressions(machine.plan, target)]
-            expected = (motion[target], motion.ratio(target), motion.ratio(target, order=2))
-            for order, value in enumerate(expected):
-                found = [float(each.diff(S, order).evalf(40, subs={S: sympy.Rational(pose)})) for each in closed]
-                assert_allclose(found, np.atleast_1d(value), rtol=1e-12, atol=1e-13, err_msg=f"{target}, order {order}")
+    poses = (0.5, 0.61, 0.7)
+    motion = machine.at(S=poses)
+    for target in ("B", "C", "lean"):
+        closed = [each.subs(given) for each in program_expressions(machine.plan, target)]
+        for order, expected in enumerate((motion[target], motion.ratio(target), motion.ratio(target, order=2))):
+            for each, values in zip([each.diff(S, order) for each in closed], np.atleast_2d(expected), strict=True):
+                found = [float(each.evalf(40, subs={S: sympy.Rational(pose)})) for pose in poses]
+                assert_allclose(found, values, rtol=1e-12, atol=1e-13, err_msg=f"{target}, order {order}")
 
 
 def test_designs_of_a_class_share_one_compiled_function_and_a_line_that_divides_by_zero_stays_alone():

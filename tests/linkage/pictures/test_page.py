@@ -61,7 +61,6 @@ from linkage.plan.trace import Trace
 from linkage.quantities import name_of
 from linkage.reports import results
 from linkage.units import MPa, bar, mm, unit_system
-from mechanisms.at_work.excavator import Excavator
 from mechanisms.at_work.telehandler import Telehandler
 from mechanisms.classics.stephenson_three import StephensonThree, StephensonThreeFar
 from mechanisms.grapple import Grapple
@@ -104,6 +103,13 @@ class Reach(Mechanism):
     P = Crank(O, OP=1.2, angle=alpha)
     T = Crank(P, PT=0.9, angle=alpha + beta)
     arm, boom = Link("O P"), Link("P T")
+
+
+class Digging(Reach):
+    """The same, which is said to run along two paths."""
+
+    loading = Over.path(alpha=[0.2, 1.3], beta=[-1.0, -0.4])
+    grading = Over.path(alpha=[0.4, 0.7, 0.9], beta=[-0.9, -0.8, -0.5])
 
 
 class Plain(FourBar):
@@ -740,11 +746,11 @@ def test_what_is_copied_of_a_files_machine_imports_the_file(tmp_path):
 
 
 def test_every_path_that_a_machine_declares_runs_and_what_is_out_of_bounds_is_told(chromium, tmp_path):
-    with Shown(chromium, page(Excavator(), tmp_path / "excavator.html")) as shown:
+    with Shown(chromium, page(Digging(), tmp_path / "digging.html")) as shown:
         runs = shown("[...document.getElementById('run').options].map((each) => each.textContent)")
-        assert runs == ["lift", "swing", "curl", "loading", "grading"]
+        assert runs == ["alpha", "beta", "loading", "grading"]
         shown.slide('[data-stroke="grading"]', 0)
-        assert shown.state["at"] == pytest.approx({"lift": 0.176, "swing": 0.01, "curl": 0.335, "loading": 1.0, "grading": 1.0})
+        assert shown.state["at"] == pytest.approx({"alpha": 0.4, "beta": -0.9, "loading": 1.0, "grading": 1.0})
     with Shown(chromium, page(HeaderBalancer(), tmp_path / "balancer.html"), PHONE) as shown:
         assert "F_R free \N{MINUS SIGN}196.6" in shown.text("#here") and "all kept" not in shown.text("#here")
         assert "2 no hang-up" in shown.text("#groups summary >> nth=0")

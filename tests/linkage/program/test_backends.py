@@ -192,7 +192,10 @@ def cache_folder(tmp_path, monkeypatch):
     return tmp_path / "kernels"
 
 
-@pytest.mark.parametrize("machine", [pytest.param(ThreePointHitch, marks=pytest.mark.slow), SHIPPED[GROUPED[0]]])
+COMPILED = [SHIPPED["four_bar"], *(pytest.param(each, marks=pytest.mark.slow) for each in (ThreePointHitch, SHIPPED[GROUPED[0]]))]
+
+
+@pytest.mark.parametrize("machine", COMPILED)
 def test_the_compiled_loop_agrees_and_is_cached(machine, cache_folder):
     pytest.importorskip("numba")
     inputs = given(machine, 300)

@@ -18,7 +18,7 @@ from linkage import DefinitionError, Motion, least
 from linkage.checks import require_number
 from linkage.errors import ensure
 from linkage.language import noted, said, translated, with_and
-from linkage.motion import Judge, below_zero, last_holding, require_motion
+from linkage.motion import Judge, MotionFunction, below_zero, last_holding, require_motion
 from linkage.plan import Mask
 from linkage.program import FloatArray
 from linkage.units import deg, kgf_cm2, mm, show, shown_number, unit_sign
@@ -56,6 +56,32 @@ class Way:
     exponent: float | None = None
     atmosphere: float | None = None
 
+    def charge_limits(self, motion: Motion) -> FloatArray:
+        """Return the charge pressure [Pa] at which the shoe just carries nothing at each pose, moving down, shape (n,)."""
+        balance = HeaderState(motion)
+        block, left = balance.circuit.accumulators(motion), balance.circuit.withdrawn(motion)
+        block = replace(block, gas=self.gas, atmosphere=block.atmosphere if self.atmosphere is None else self.atmosphere)
+        allowed = balance.required_while("retracting")
+        lowest = float(np.min(block.lowest_charge))
+        light = (allowed < lowest) & (left <= 0.0)
+        if np.any(light):  # the accumulators hold more than the weights need: the shoe hangs at every charge
+            where = int(np.argmax(light))
+            raise DefinitionError(
+                f"The header is too light for these accumulators: at h = {motion.strokes['h'][where] / mm:.1f} mm the shoe lifts off from "
+                f"{allowed[where] / kgf_cm2:.2f} kgf/cm2 on, and the lowest gas charge is {lowest / kgf_cm2:.2f} kgf/cm2. "
+                "Lower the gas charge."
+            )
+        held = np.maximum(allowed, lowest)
+        slow = np.where(allowed < lowest, block.pressure_holding(np.maximum(left, 0.0)), block.pressure(held, -left))
+        if self.exponent is None:
+            return np.asarray(slow)
+
+        def falls_short(charges: FloatArray) -> Mask:
+            return np.asarray((block.fast_pressure(charges.T, left, self.exponent) <= allowed).T)
+
+        last, beyond = last_holding(falls_short, np.full_like(slow, lowest), 4.0 * slow, close=1e-6)
+        return 0.5 * (last + beyond)
+
 
 SLOW = Way(noted("slow"))
 FAST = Way(noted("fast from the settled charge, n = 1.4"), exponent=1.4)
@@ -89,33 +115,7 @@ def largest_charge(motion: Motion, way: Way = SLOW) -> float:
     """
     require_motion(motion)
     judge = Judge(motion.plan, motion.designs, [over_following(motion, 2)])
-    return float(judge.answer(least(lambda at: charge_limits(at, way))).value)
-
-
-def charge_limits(motion: Motion, way: Way) -> FloatArray:
-    """Return the charge pressure [Pa] at which the shoe just carries nothing at each pose, moving down, shape (n,)."""
-    balance = HeaderState(motion)
-    block, left = balance.circuit.accumulators(motion), balance.circuit.withdrawn(motion)
-    block = replace(block, gas=way.gas, atmosphere=block.atmosphere if way.atmosphere is None else way.atmosphere)
-    allowed = balance.required_while("retracting")
-    lowest = float(np.min(block.lowest_charge))
-    light = (allowed < lowest) & (left <= 0.0)
-    if np.any(light):  # the accumulators hold more than the weights need: the shoe hangs at every charge
-        where = int(np.argmax(light))
-        raise DefinitionError(
-            f"The header is too light for these accumulators: at h = {motion.strokes['h'][where] / mm:.1f} mm the shoe lifts off from "
-            f"{allowed[where] / kgf_cm2:.2f} kgf/cm2 on, and the lowest gas charge is {lowest / kgf_cm2:.2f} kgf/cm2. Lower the gas charge."
-        )
-    held = np.maximum(allowed, lowest)
-    slow = np.where(allowed < lowest, block.pressure_holding(np.maximum(left, 0.0)), block.pressure(held, -left))
-    if way.exponent is None:
-        return np.asarray(slow)
-
-    def falls_short(charges: FloatArray) -> Mask:
-        return np.asarray((block.fast_pressure(charges.T, left, way.exponent) <= allowed).T)
-
-    last, beyond = last_holding(falls_short, np.full_like(slow, lowest), 4.0 * slow, close=1e-6)
-    return 0.5 * (last + beyond)
+    return float(judge.answer(least(MotionFunction(way.charge_limits))).value)
 
 
 # -- the criteria ----------------------------------------------------------------------------------------------

@@ -350,7 +350,8 @@ def test_arguments_that_no_source_has_are_written():
 
     from linkage import draw, standing
 
-    assert api.written_arguments(standing) == "(motion, loads=None, *, case=None, direction=None, rates=None, acting=None)"
+    situation = "case=None, direction=None, rates=None, accelerations=None, inertia=None, acting=None"
+    assert api.written_arguments(standing) == f"(motion, loads=None, *, {situation})"
     assert api.written_arguments(draw) == ""
 
 

@@ -16,7 +16,7 @@ from .measures import Condition, Constraint, Leaf, Measure, at, integral, least,
 from .motion import Motion, OnePose, each_at_its_stroke, require_motion
 from .over import OPTIONS, Over, Run
 from .places import Positions, Target, positions_for
-from .planes import Planes, clearance, pair_at
+from .planes import Planes, clearance, least_gap, pair_at, pairs_without_planes
 from .poles import whole_body
 from .regions import inside, outside
 from .requests import MotionFunction, NodeRequest, Request, RequestLike, SmoothPiece, Value, condition, ratio, transmission

@@ -102,37 +102,43 @@ class Planes(HasVerdicts):
         return f"Planes({', '.join([*map(repr, self.planes), *width])})"
 
 
-def clearance(assumed: bool = False) -> NodeRequest:
+def clearance() -> NodeRequest:
     """Return the request for the least gap of all that lies in one plane [m], as the machine's `Planes` say: `least(clearance()) >= 0.02`.
 
     Below zero where two bodies cross, by the least way that parts them; of concave outlines, and bodies of several, of the two pieces that
-    cross deepest, so that the whole crosses by at least that. DefinitionError for a machine that declares no planes, unless it is
-    `assumed` then that all bodies lie in one.
+    cross deepest, so that the whole crosses by at least that. DefinitionError for a machine that declares no planes.
     """
+    return least_gap(None)
+
+
+def least_gap(chosen: tuple[Pair, ...] | None) -> NodeRequest:
+    """Return the request for the least gap of chosen pairs of bodies [m], of bars without width; None means those of `clearance()`."""
+
+    def pairs(plan: Plan) -> dict[Pair, bool]:
+        return pairs_of(plan) if chosen is None else dict.fromkeys(chosen, False)
 
     def nodes(plan: Plan) -> tuple[Node, ...]:
-        found = pairs_of(plan, assumed)
+        found = pairs(plan)
         if not found:
             raise DefinitionError(f"{plan.title}: clearance(): no two bodies lie in one plane that share no pin; ask gap(a, b) of two.")
-        width = plan.trace.value(width_of(plan, assumed))
+        width = plan.trace.value(width_of(plan)) if chosen is None else 0.0
         return (plan.trace.graph.node(least_number([gap_of(plan, a, b) - (width if thick else 0.0) for (a, b), thick in found.items()])),)
 
     def behind(plan: Plan) -> set[str]:
-        shapes = [shape_named(plan, name) for pair in pairs_of(plan, assumed) for name in pair]
-        return plan.reaches(*(name for shape in shapes for name in shape.parts_behind), width_of(plan, assumed))
+        shapes = [shape_named(plan, name) for pair in pairs(plan) for name in pair]
+        widths = (width_of(plan),) if chosen is None else ()
+        return plan.reaches(*(name for shape in shapes for name in shape.parts_behind), *widths)
 
     return NodeRequest(
-        text="clearance()", sentence="the least gap of what lies in one plane", key=("clearance", assumed), measures="length",
+        text="clearance()", sentence="the least gap of what lies in one plane", key=("clearance", chosen), measures="length",
         traits=Trait.MAY_FAIL, nodes_of=nodes, names_of=behind,
-        refused_by=lambda motion: check_forms(motion, {name for pair in pairs_of(motion.plan, assumed) for name in pair}),
+        refused_by=lambda motion: check_forms(motion, {name for pair in pairs(motion.plan) for name in pair}),
     )  # fmt: skip
 
 
-def planes_of(plan: Plan, assumed: bool = False) -> Planes | None:
-    """Return the planes that a class declares; DefinitionError for several, and for none unless one for all is `assumed`, None."""
+def planes_of(plan: Plan) -> Planes:
+    """Return the planes that a class declares; DefinitionError for none and for several."""
     found = list(plan.of_kind(Planes).values())
-    if assumed and not found:
-        return None
     if len(found) != 1:
         own = [*(body.name.replace(" ", "") for body in plan.links[1:]), "AB", "CD"]
         what = f"it declares {len(found)}" if found else "it does not say which bodies lie in one plane"
@@ -140,22 +146,22 @@ def planes_of(plan: Plan, assumed: bool = False) -> Planes | None:
     return found[0]
 
 
-def width_of(plan: Plan, assumed: bool = False) -> Quantity:
+def width_of(plan: Plan) -> Quantity:
     """Return the sum of the half widths of two bars [m]."""
-    given = planes_of(plan, assumed)
-    if given is None:
-        return quantity(0.0)
+    given = planes_of(plan)
     return Variable(f"{given.name}.width") if given.width.is_constant else given.width
 
 
-def pairs_of(plan: Plan, assumed: bool = False) -> dict[Pair, bool]:
-    """Return what must stay apart, each pair with whether the width of bars counts: bodies of a common plane, and pins that pass it."""
-    declared = planes_of(plan, assumed)
-    listed = ("",) if declared is None else declared.planes
+def bodies_of(plan: Plan) -> list[str]:
+    """Return the names of all that can lie in a plane: the moving bodies, the cylinders, and the elements between two points."""
     bars = {joined_names(bar.P, bar.Q): frozenset((bar.P, bar.Q)) for bar in plan.cylinders}
     elements = {name: frozenset(element.ends) for name, element in plan.of_kind(TwoPoint).items()}
-    alone = [name for name, ends in bars.items() if ends not in elements.values()]
-    bodies = [*(body.name for body in plan.links[1:]), *alone, *elements]
+    return [*(body.name for body in plan.links[1:]), *(name for name, ends in bars.items() if ends not in elements.values()), *elements]
+
+
+def pairs_of(plan: Plan) -> dict[Pair, bool]:
+    """Return what must stay apart, each pair with whether the width of bars counts: bodies of a common plane, and pins that pass it."""
+    listed, bodies = planes_of(plan).planes, bodies_of(plan)
     known = {id_of(plan, name): name for name in bodies}
     planes: dict[str, set[int]] = {name: set() for name in bodies}
     for number, names in enumerate(listed):
@@ -221,10 +227,25 @@ def outlines_on(plan: Plan, points: tuple[str, ...]) -> list[str]:
     return [name for name in carried if body_points_of(plan, shape_named(plan, name)) <= home]
 
 
-def pair_at(motion: Motion, assumed: bool = False) -> tuple[Pair, float]:
+def pair_at(motion: Motion, chosen: tuple[Pair, ...] | None = None) -> tuple[Pair, float]:
     """Return the pair that comes nearest at a motion's first pose, and what of their gap the width of bars takes [m]."""
-    width = float(np.ravel(motion.value(width_of(motion.plan, assumed)))[0])
-    widths = {pair: width if thick else 0.0 for pair, thick in pairs_of(motion.plan, assumed).items()}
+    widths = dict.fromkeys(chosen or (), 0.0)
+    if chosen is None:
+        width = float(np.ravel(motion.value(width_of(motion.plan)))[0])
+        widths = {pair: width if thick else 0.0 for pair, thick in pairs_of(motion.plan).items()}
     gaps = {pair: float(np.ravel(motion[gap(*pair)])[0]) - taken for pair, taken in widths.items()}
     nearest = min(gaps, key=lambda pair: gaps[pair])
     return nearest, widths[nearest]
+
+
+def pairs_without_planes(motion: Motion) -> tuple[tuple[Pair, ...], tuple[Pair, ...]]:
+    """Return the pairs of bodies that stay apart at some pose of a motion, all taken in one plane, and those that cross at each.
+
+    Bodies that share a pin are in neither: they overlap about it.
+    """
+    plan, apart, crossing = motion.plan, list[Pair](), list[Pair]()
+    for a, b in combinations(bodies_of(plan), 2):
+        if not set(shape_named(plan, a).points) & set(shape_named(plan, b).points):
+            for pair, _ in pairs_of_bodies(plan, a, b):
+                (apart if np.any(np.asarray(motion[gap(*pair)]) >= 0.0) else crossing).append(pair)
+    return tuple(apart), tuple(crossing)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import product
 from typing import final
 
 import numpy as np
@@ -11,8 +12,8 @@ from matplotlib.lines import Line2D
 
 from ..checks import require, require_type
 from ..errors import unwarned
-from ..language import said
-from ..motion import Motion, Request, clearance, gap, nearest_places, pair_at
+from ..language import said, with_and
+from ..motion import Motion, Planes, Request, gap, least_gap, nearest_places, pair_at, pairs_without_planes
 from ..motion.planes import depth_words
 from ..plan import Plan
 from ..program import FloatArray
@@ -26,6 +27,8 @@ SHORT = 5.0
 """A gap that is shorter than so many sizes has its arrows outside."""
 REACH, BARB = 2.4, 0.34
 """How far an outer arrow reaches, and half the width of a tick at a gap's end, in sizes."""
+MOST_NAMED = 3
+"""The pairs that a note names at the most."""
 
 
 @final
@@ -78,16 +81,37 @@ def asked_pair(given: object, plan: Plan) -> tuple[str, str] | None:
     return body_pair(f"{plan.title}: clearance", given, expected)
 
 
-def gap_request(given: object, plan: Plan) -> Request:
-    """Return the request whose least value `draw(clearance=...)` is about; without `Planes` all bodies are taken in one plane."""
-    pair = asked_pair(given, plan)
-    return clearance(assumed=True) if pair is None else gap(*pair)
+def gap_request(given: object, motion: Motion) -> Request:
+    """Return the request whose least value `draw(clearance=...)` is about."""
+    pair = asked_pair(given, motion.plan)
+    return least_gap(assumed_pairs(motion)[0]) if pair is None else gap(*pair)
+
+
+def assumed_pairs(motion: Motion) -> tuple[tuple[tuple[str, str], ...] | None, str]:
+    """Return the pairs that are looked at without `Planes`, as if all bodies lay in one, None with them; and a note on what is left out.
+
+    These are bodies that share a pin, and bodies that cross at the ends and in the middle of all strokes: they are built over each other.
+    """
+    plan = motion.plan
+    if plan.of_kind(Planes):
+        return None, ""
+    places = np.array(list(product(*((each.start, 0.5 * (each.start + each.end), each.end) for each in plan.strokes.values()))))
+    strokes = {name: places[:, column] for column, name in enumerate(plan.strokes)}
+    apart, crossing = pairs_without_planes(Motion(plan, motion.designs, strokes, "nan"))
+    one, other = own_bodies(plan)
+    all_share = f'all bodies share a pin or lie over each other; name two that do not, clearance=("{one}", "{other}")'
+    require(apart, f"{plan.title}: clearance", True, all_share)
+    note = said("No Planes are declared: all bodies are taken in one plane, those that share a pin left out.")
+    if crossing:
+        names = [with_and(pair) for pair in crossing[:MOST_NAMED]] + ["..."] * (len(crossing) > MOST_NAMED)
+        note += " " + said("Left out as well, since they cross at all ends of the strokes: {pairs}.", pairs=", ".join(names))
+    return apart, note
 
 
 def worst_pose(motion: Motion, given: object, shown: int) -> int:
     """Return the pose of a motion, a flat index, at which the gap is least: the one shown, where it is no greater there."""
     with unwarned():
-        values = np.ravel(motion[gap_request(given, motion.plan)])
+        values = np.ravel(motion[gap_request(given, motion)])
     values = np.where(np.isfinite(values), values, np.inf)
     worst = int(np.argmin(values))
     return worst if values[worst] < values[shown] else shown
@@ -95,10 +119,10 @@ def worst_pose(motion: Motion, given: object, shown: int) -> int:
 
 def gap_mark(at: Motion, given: object, place: str = "") -> GapMark:
     """Return the mark of the gap at a motion of one pose; faint with the `place` of another pose than the one shown."""
-    gap_request(given, at.plan).bound(at.plan)  # DefinitionError where no planes are declared
+    gap_request(given, at).bound(at.plan)  # DefinitionError for two bodies that have no gap, and where no two are left
     pair, width = asked_pair(given, at.plan), 0.0
     if pair is None:
-        pair, width = pair_at(at, assumed=True)
+        pair, width = pair_at(at, assumed_pairs(at)[0])
     found = nearest_places(at.plan, at._placed, *pair)
     size, names = found.gap - width, dict(one=pair[0], other=pair[1], gap=show(abs(found.gap - width), "mm", 3))
     if size < 0.0:

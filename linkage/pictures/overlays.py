@@ -11,17 +11,19 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ..errors import SingularError, unwarned
-from ..language import said, translated
-from ..motion import Motion, Planes, pose_sentence, rates_of, whole_body
+from ..language import said, said_of, translated
+from ..motion import Motion, pose_sentence, rates_of, whole_body
 from ..program import FloatArray
 from ..statics import loose_movements
+from ..steps import Link
 from ..units import factor, mm, show, shown_in
 from . import arrows, style
 from .arrows import ArrowLayer, VectorArrow, Wording
 from .force_arrows import ForceQuestion, force_layer, forces_at_pose, why_no_forces
-from .gap_marks import GapMark, asked_pair, body_pair, draw_gap, gap_mark, own_bodies, worst_pose
+from .gap_marks import GapMark, asked_pair, assumed_pairs, body_pair, draw_gap, gap_mark, own_bodies, worst_pose
 from .paper import footnote
 from .scene import Bounds
+from .shapes import segment
 from .sheet import figure_of, grown
 from .strokes import pose_words
 
@@ -30,6 +32,11 @@ VELOCITY, POLE = "#9a3a86", "#8a5a00"
 
 NOTE_WIDTH, NOTE_LINE = 130, 0.02
 """About how many letters of a note stand in a line, and a line's height over the sheet's width."""
+
+SAME_POLE = 1e-6
+"""Poles that are nearer to each other than this part of the machine's size are one."""
+POLE_WIDTH = 44
+"""The letters of a pole's name that stand in a line."""
 
 BEYOND = 0.6
 """A pole further outside what is drawn than this part of it is told in words."""
@@ -86,8 +93,8 @@ class Overlays:
         if self.pole not in (None, False):
             rates, words = pole_rates(motion, pose, self.rates)
             marks, notes = pole_marks(motion, pose, self.pole, rates), [*notes, *words]
-        if self.has_gap and asked_pair(self.clearance, motion.plan) is None and not motion.plan.of_kind(Planes):
-            notes.append(said("No Planes are declared: all bodies are taken in one plane."))
+        if self.has_gap and asked_pair(self.clearance, motion.plan) is None:
+            notes += filter(None, [assumed_pairs(motion)[1]])
         gaps = [gap_mark(one_pose(motion, pose), self.clearance)] if self.has_gap else []
         worst = self.worst(motion, pose)
         moving = [name for name, values in motion.strokes.items() if np.ptp(values) > 0.0]
@@ -167,6 +174,7 @@ class Overlay:
         for number, mark in enumerate(self.marks):
             texts += draw_pole(ax, mark, self.sheet, "" if number else said("pole, about which a body turns here"))
             covered.append(np.repeat(mark.at[None], 12 * mark.is_near(self.sheet), axis=0))
+            covered += [segment(mark.at, end, size) for end in mark.ends]
         for gap in self.gaps:
             texts += draw_gap(ax, gap, size)
             covered.append(np.repeat(gap.outer(size), 6, axis=0))
@@ -252,14 +260,31 @@ def pole_marks(motion: Motion, pose: int, asked: object, rates: Mapping[str, Any
     at = one_pose(motion, pose)
     if rates is not None and any(np.ndim(rate) for rate in rates.values()):
         rates = {name: float(np.broadcast_to(rate, motion.shape).ravel()[pose]) for name, rate in rates.items()}
+    pairs = list(asked_poles(motion, asked))
     found = []
-    for body, other in asked_poles(motion, asked):
-        if other == "frame":
-            found.append(mark_of(at, body, other, rates, tuple(at[name] for name in whole_body(at.plan, body))))
-        else:  # the pole of two bodies and each one's own stand in one line
-            own = [mark_of(at, each, "frame", rates, ()) for each in (body, other) if each != "frame"]
+    for bodies, place in poles_of_frame(at, [body for body, other in pairs if other == "frame"], rates):
+        points = dict.fromkeys(name for body in bodies for name in whole_body(at.plan, body))
+        found.append(mark_of(bodies, "frame", place, tuple(at[name] for name in points)))
+    for body, other in pairs:
+        if other != "frame":  # the pole of two bodies and each one's own stand in one line
+            own = [mark_of([each], "frame", at.pole(each, rates=rates)) for each in (body, other) if each != "frame"]
             ends = tuple(mark.at for mark in own if np.isfinite(mark.at).all())
-            found += [mark_of(at, body, other, rates, ends), *own]
+            found += [mark_of([body], other, at.pole(body, other, rates=rates), ends), *own]
+    return found
+
+
+def poles_of_frame(at: Motion, bodies: Sequence[str], rates: Mapping[str, object] | None) -> list[tuple[list[str], FloatArray]]:
+    """Return the poles of bodies against the frame at one pose, (2,) each [m], with the names of all that turn about each."""
+    places = np.array([at[name] for name in at.plan.points])
+    near = SAME_POLE * float(np.max(np.ptp(places, axis=0)))
+    found = list[tuple[list[str], FloatArray]]()
+    for body in bodies:
+        place = at.pole(body, rates=rates)
+        shared = [names for names, other in found if np.allclose(other, place, rtol=0.0, atol=near, equal_nan=True)]
+        if shared:
+            shared[0].append(body)
+        else:
+            found.append(([body], place))
     return found
 
 
@@ -282,11 +307,12 @@ def pole_rates(motion: Motion, pose: int, rates: Mapping[str, Any] | None) -> tu
 
 
 def asked_poles(motion: Motion, asked: object) -> Iterator[tuple[str, str]]:
-    """Yield the pairs of bodies whose poles are asked for: True means every body that no fixed pin holds."""
+    """Yield the pairs of bodies whose poles are asked for: True means every body that no fixed pin holds, by its link's name if it has one."""
     if asked is True:
         fixed, *moving = motion.plan.links
-        free = [body.name for body in moving if not set(body.points) & set(fixed.points)] or [body.name for body in moving]
-        yield from ((name, "frame") for name in free)
+        named = {frozenset(link.point_names): name for name, link in motion.plan.of_kind(Link).items()}
+        free = [body for body in moving if not set(body.points) & set(fixed.points)] or moving
+        yield from ((named.get(frozenset(body.points), body.name), "frame") for body in free)
     elif isinstance(asked, str):
         yield asked, "frame"
     else:
@@ -295,17 +321,26 @@ def asked_poles(motion: Motion, asked: object) -> Iterator[tuple[str, str]]:
         yield body_pair(f"{motion.plan.title}: pole", asked, expected)
 
 
-def mark_of(at: Motion, body: str, other: str, rates: Mapping[str, object] | None, ends: tuple[FloatArray, ...]) -> PoleMark:
-    """Return one pole; where it is at infinity or everywhere, the words for that."""
-    place = at.pole(body, other, rates=rates)
-    alone = other == "frame"
-    name = said("pole of {body}", body=body) if alone else said("pole of {body} against {other}", body=body, other=other)
+def mark_of(bodies: Sequence[str], other: str, place: FloatArray, ends: tuple[FloatArray, ...] = ()) -> PoleMark:
+    """Return the mark of one pole, (2,) [m], by the names of its bodies; where it is at infinity or everywhere, the words for that."""
+    names, count = ", ".join(bodies), len(bodies)
+    name = said("pole of {body}", body=names) if other == "frame" else said("pole of {body} against {other}", body=names, other=other)
+    words = ""
     if np.isinf(place).any():
-        words = said("{name}: at infinity, square to the velocity, since the body only translates here.", name=name)
-        return PoleMark(name, place, (), words)
-    if np.isnan(place).any():
-        return PoleMark(name, place, (), said("{name}: every point, since the body stands still here.", name=name))
-    return PoleMark(name, place, ends)
+        words = said_of(
+            count,
+            "{name}: at infinity, square to the velocity, since the body only translates here.",
+            "{name}: at infinity, square to the velocity, since these bodies only translate here.",
+            name=name,
+        )
+    elif np.isnan(place).any():
+        words = said_of(
+            count,
+            "{name}: every point, since the body stands still here.",
+            "{name}: every point, since these bodies stand still here.",
+            name=name,
+        )
+    return PoleMark(name, place, () if words else ends, words)
 
 
 def draw_pole(ax: Axes, mark: PoleMark, sheet: Bounds, key: str = "") -> list[Wording]:
@@ -320,7 +355,7 @@ def draw_pole(ax: Axes, mark: PoleMark, sheet: Bounds, key: str = "") -> list[Wo
     ring: dict[str, Any] = {"marker": "o", "markersize": 8.5, "markerfacecolor": style.PAPER, "markeredgewidth": 1.6, "gid": mark.name}
     ax.plot(*mark.at[:, None], color=POLE, linestyle="none", markeredgecolor=POLE, zorder=17.0, label=key or None, **ring)
     ax.plot(*mark.at[:, None], marker="+", markersize=12.0, markeredgecolor=POLE, markeredgewidth=1.2, zorder=17.1)
-    return [Wording(mark.name, mark.at, np.array([0.7, 0.7]), POLE, mark.name)]
+    return [Wording(textwrap.fill(mark.name, POLE_WIDTH), mark.at, np.array([0.7, 0.7]), POLE, mark.name)]
 
 
 def far_words(mark: PoleMark, sheet: Bounds) -> list[str]:

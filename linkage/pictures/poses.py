@@ -83,7 +83,7 @@ def draw_strokes(machine: Mechanism, at: object, path: Sequence[str], count: int
     """Return a figure of a mechanism at chosen strokes: the last one bold, the others faint, what is laid over it at that one."""
     path = named_points(machine, path, "path")
     if overlays.has_gap and at is None:
-        (answer,) = machine.answers([least(gap_request(overlays.clearance, machine.plan))])
+        (answer,) = machine.answers([least(gap_request(overlays.clearance, machine.at(unreachable="nan", **stroke_middles(machine))))])
         at = {name: float(value) for name, value in answer.strokes.items()}  # no others: what it runs may be less than its strokes
     require_whole("count", count, "a path is drawn through 2 poses or more; give a whole number such as 101", least=2, most=MANY)
     moving, shown, swept = motions(machine, at, count)

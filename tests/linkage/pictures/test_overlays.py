@@ -1,7 +1,7 @@
 """Forces, velocities and poles over a mechanism: arrows as statics and kinematics say, in one scale, with values that can be read."""
 
 from importlib.metadata import entry_points
-from itertools import combinations
+from itertools import combinations, product
 
 import numpy as np
 import pytest
@@ -21,6 +21,7 @@ from linkage import (
     Mechanism,
     Moment,
     OnLink,
+    Outline,
     Planes,
     SingularError,
     Spring,
@@ -35,7 +36,12 @@ from linkage import (
     pin_forces,
     standing,
 )
+from linkage.motion import whole_body
+from linkage.motion.gaps import shape_named
 from linkage.pictures.arrows import significant
+from linkage.pictures.gap_marks import assumed_pairs
+from linkage.pictures.overlays import asked_poles, pole_marks, pole_rates
+from mechanisms.at_work.excavator import Excavator
 from mechanisms.classics.four_bar import FourBar
 from mechanisms.classics.roberts import Roberts
 from mechanisms.three_point_hitch import ThreePointHitch
@@ -481,8 +487,42 @@ def test_without_planes_all_bodies_are_in_one_and_the_picture_says_so():
     motion = ThreePointHitch().sweep(5)
     figure = draw(motion, pose=4, clearance=True)
     texts = [text.get_text().replace("\n", " ") for text in figure.findobj(Text)]
-    assert any("No Planes are declared: all bodies are taken in one plane." in text for text in texts)
+    assert any("No Planes are declared: all bodies are taken in one plane, those that share a pin left out." in text for text in texts)
     assert any(str(text.get_gid()).startswith("gap ") for text in figure.findobj(Text))
+
+
+class Stacked(ThreePointHitch):
+    """A hitch with a cover on the lift arm that hides the lower link's end, drawn over it, and an edge of the implement."""
+
+    cover = Outline([(-0.2, -1.5), (1.5, -1.5), (1.5, 0.3), (-0.2, 0.3)], on=("O", "B"))
+    edge = Outline([(0.0, 0.0), (0.2, 0.0), (0.2, 0.1), (0.0, 0.1)], on=("E", "D"))
+
+
+@for_all("machine", [Excavator, ThreePointHitch, Stacked], ids=lambda machine: machine.__name__)
+def test_without_planes_what_is_built_together_is_left_out(machine):
+    """No pair that is looked at shares a pin; what crosses in all poses is named and not looked at, and nothing else is."""
+    motion = machine().at(**{name: stroke.start for name, stroke in machine().strokes.items()}, unreachable="nan")
+    pairs, note = assumed_pairs(motion)
+    corners = product(*((each.start, 0.5 * (each.start + each.end), each.end) for each in machine().strokes.values()))
+    grid = machine().at(**dict(zip(machine().strokes, np.array(list(corners)).T, strict=True)), unreachable="nan")
+    for one, other in pairs:
+        assert np.nanmax(grid[gap(one, other)]) >= 0.0
+        assert not {*body_of(motion.plan, one)} & {*body_of(motion.plan, other)}
+    crossing = [each.strip(" .") for each in note.partition("strokes: ")[2].split(",")]
+    told = {Excavator: [""], ThreePointHitch: ["CD and MK", "MK and OBC"], Stacked: ["CD and MK", "MK and cover", "cover and edge", ""]}
+    assert crossing == told[machine]
+    assert all(np.all(grid[gap(*each.split(" and "))] < 0.0) for each in crossing if each)
+
+
+def body_of(plan, name):
+    """Return the points of a body, or of the one that an outline is on."""
+    outline = plan.of_kind(Outline).get(name)
+    return whole_body(plan, " ".join(outline.carriers)) or outline.carriers if outline else shape_named(plan, name).points
+
+
+def test_bodies_that_all_share_a_pin_have_no_gap_in_words():
+    with pytest.raises(DefinitionError, match=r"FourBar: clearance=True: all bodies share a pin or lie over each other; name two"):
+        draw(FourBar().sweep(3), clearance=True)
 
 
 class Folding(Mechanism):
@@ -502,6 +542,23 @@ def test_poles_of_several_strokes_are_those_of_the_stroke_that_runs():
     ring = next(line for line in figure.findobj(Line2D) if line.get_gid() == "pole of AB")
     assert_allclose(np.ravel(ring.get_xydata()), 0.5 * np.array([np.cos(0.3), np.sin(0.3)]), atol=1e-12)
     assert any("about which a body turns" in text.get_text() for text in figure.findobj(Text))
+
+
+@shipped.over_machines()
+def test_one_place_has_one_label_of_all_bodies_that_turn_about_it(machine):
+    motion = pose_of(machine())
+    bodies = [body for body, _ in asked_poles(motion, True)]
+    marks = pole_marks(motion, 0, True, pole_rates(motion, 0, None)[0])
+    there = [mark.at for mark in marks if np.isfinite(mark.at).all()]
+    size = max(np.ptp([motion[name][axis] for name in motion.plan.points]) for axis in (0, 1))
+    assert all(np.hypot(*(one - other)) > 1e-7 * size for one, other in combinations(there, 2))
+    assert sorted(name for mark in marks for name in mark.name.removeprefix("pole of ").split(", ")) == sorted(bodies)
+
+
+def test_the_excavator_has_one_pole_and_one_label():
+    figure = draw(Excavator(), pole=True)
+    (text,) = [text.get_text() for text in figure.findobj(Text) if str(text.get_gid()).startswith("pole of ")]
+    assert text.split(",") == ["pole of arm.J tool.H", " tool.HK", " arm.stick", "\ntool.bucket"]
 
 
 @pytest.mark.parametrize(

@@ -5,22 +5,23 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import product
+from itertools import combinations, product
 from typing import Any, final
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Polygon
-from matplotlib.text import Text
+from matplotlib.text import Annotation, Text
 from matplotlib.transforms import Bbox
 
 from ..language import translated
 from ..program import FloatArray
 from ..units import current_system, factor, shown_in
 from . import style
+from .labels import distance_to_box
 from .scene import Bounds
-from .shapes import left_of, polar
+from .shapes import crossing, left_of, polar
 from .sheet import figure_of, haloed, points_a_metre, renderer_of
 
 SHARE = 0.17
@@ -181,39 +182,48 @@ LED = 4
 """The place in FAR_OUT from which a thin line leads to what a value stands for."""
 LEADING = 10.0
 """What such a line costs, in covered points."""
-CROSSED_TEXT, COVERED_TEXT, OFF_SHEET = 40.0, 400.0, 900.0
-"""What it costs to cross another text with such a line, to cover one, and to hang over the sheet's edge, in covered points."""
+CROSSED_TEXT, CROSSED_LEADER, COVERED_TEXT, OFF_SHEET = 40.0, 250.0, 400.0, 900.0
+"""What it costs to cross another text or another such line, to cover a text, and to hang over the sheet's edge, in covered points."""
+STRAY, LED_STRAY = 300.0, 6.0
+"""What it costs to stand nearer to what another text stands for than to the own, without and with such a line, in covered points."""
 ARROW = 4
 """What a point along an arrow costs, in covered points."""
 ALONG_LEADER = np.linspace(0.0, 1.0, 24)[1:, None]
 """The shares of a leading line at which it is looked at."""
-AGAIN = 3
+ALONG_ARROW = np.linspace(0.0, 1.0, 120)[1:, None]
+"""Those of an arrow."""
+AGAIN = 4
 """How often values that cover others choose again."""
 AROUND = np.radians(np.arange(0.0, 360.0, 22.5))
 FIRST_LED = LED * len(AROUND)
 """The first of the spots of a text that such a line leads to."""
 CLEAR = 1.5  # pixels kept free around a value
+NEARER = 1.0  # pixels by which a text has to be nearer to count as that
 
 
 @final
 @dataclass(frozen=True, eq=False)
 class Wording:
-    """A text that is to stand near a place [m]: preferably on along a way, shape (2,)."""
+    """A text that is to stand near a place [m]: preferably on along a way, shape (2,); `mark` are points of the arrow it is of [m], its tip the last."""
 
     text: str
     at: FloatArray
     way: FloatArray
     colour: str
     name: str = ""
+    mark: FloatArray | None = None
 
 
 def wordings(layer: ArrowLayer, scale: float, size: float) -> list[Wording]:
     """Return what stands at the arrows of a layer: at their tips, those of moments beside their curves."""
     found = []
     for each in layer.arrows:
-        way = each.vector / each.length if each.length > TINY * layer.largest else np.array([0.0, 1.0])
-        colour = style.mixed(each.colour, style.INK, 0.4)
-        found.append(Wording(layer.words(each), each.at + scale * each.vector, way, colour, each.name))
+        tip, colour = each.at + scale * each.vector, style.mixed(each.colour, style.INK, 0.4)
+        if each.length > TINY * layer.largest:
+            mark = np.concatenate([arrow_outline(each.at, tip, size), each.at + ALONG_ARROW * (tip - each.at)])
+            found.append(Wording(layer.words(each), tip, each.vector / each.length, colour, each.name, mark))
+        else:
+            found.append(Wording(layer.words(each), tip, np.array([0.0, 1.0]), colour, each.name))
     for turn in layer.turning:  # in the unit of the forces times m, in a chosen system in its own
         unit = shown_in("kNm") if current_system() else {"N": "Nm", "kN": "kNm"}[layer.unit]
         text = f"{significant(abs(turn.moment) / factor(unit))} {translated(unit)} {turn.text}".strip()
@@ -226,14 +236,26 @@ def wordings(layer: ArrowLayer, scale: float, size: float) -> list[Wording]:
 class PlacedWording:
     """A text that is written, the spots it may stand at, shape (n, 2) [pixels], and which of them it has chosen."""
 
-    def __init__(self, text: Text, anchor: FloatArray, size: FloatArray, way: FloatArray) -> None:
-        """Take the text at a place [pixels], its width and height [pixels], and the way on which it stands if it can, shape (2,)."""
-        self.text, self.anchor, self.half, self.place = text, anchor, 0.5 * size + CLEAR, -1
+    def __init__(self, text: Text, mark: FloatArray, size: FloatArray, way: FloatArray) -> None:
+        """Take the text, points along what it stands for, shape (m, 2), the last one its tip, its size [pixels], and the preferred way."""
+        self.text, self.mark, self.half, self.place = text, mark, 0.5 * size + CLEAR, -1
+        self.anchor = mark[-1]
         start = float(np.arctan2(way[1], way[0]))
         turned = sorted(AROUND, key=lambda angle: abs(np.angle(np.exp(1j * (angle - start)))))
         ways = polar(np.array(turned))
         aside = self.half * np.clip(np.sqrt(2.0) * ways, -1.0, 1.0)
-        self.spots = anchor + np.concatenate([far * 0.5 * size[1] * ways + aside for far in FAR_OUT])
+        self.spots = self.anchor + np.concatenate([far * 0.5 * size[1] * ways + aside for far in FAR_OUT])
+        self.away = self.distances(mark)
+
+    def distances(self, points: FloatArray) -> FloatArray:
+        """Return how far the text would be from the nearest of some points [pixels] at each of its spots, shape (n,)."""
+        return np.asarray(distance_to_box(points - self.spots[:, None], self.half).min(axis=1))
+
+    def keep_from(self, others: Sequence[PlacedWording]) -> None:
+        """Note at which of its spots it would stand nearer to what other texts stand for than to its own."""
+        marks = [each.mark for each in others if each is not self and not np.allclose(each.mark, self.mark, atol=NEARER)]
+        near = self.distances(np.concatenate(marks)) if marks else np.full(len(self.spots), np.inf)
+        self.strays = np.where(np.arange(len(self.spots)) < FIRST_LED, STRAY, LED_STRAY) * (near < self.away - NEARER)
 
     @property
     def box(self) -> FloatArray:
@@ -253,16 +275,21 @@ class PlacedWording:
         nearest = np.clip(self.anchor, far - self.half, far + self.half)
         return np.asarray(nearest[:, None] + ALONG_LEADER * (self.anchor - nearest)[:, None])
 
-    def choose(self, boxes: Sequence[FloatArray], points: FloatArray, inside: Bbox) -> None:
-        """Choose the spot that covers least, other texts above all, and whose line crosses no text; it hangs over no sheet's edge."""
+    def choose(self, boxes: Sequence[FloatArray], points: FloatArray, lines: FloatArray, inside: Bbox) -> None:
+        """Choose the spot that costs least.
+
+        It covers other texts least of all, hangs over no sheet's edge, strays to no other mark, and its line crosses neither texts nor
+        other such `lines`, shape (k, 2, 2) [pixels].
+        """
         texts = np.array(boxes).reshape(-1, 4)
         low, high = (self.spots - self.half)[:, None], (self.spots + self.half)[:, None]
         over = ((low < texts[:, 2:]) & (texts[:, :2] < high)).all(axis=2).sum(axis=1)
         covered = ((points > low) & (points < high)).all(axis=2).sum(axis=1)
         outside = ((low < inside.min) | (high > inside.max)).any(axis=(1, 2))
-        costs = COVERED_TEXT * over + 1.0 * covered + OFF_SHEET * outside + 0.04 * np.arange(len(self.spots))
+        costs = COVERED_TEXT * over + 1.0 * covered + OFF_SHEET * outside + self.strays + 0.04 * np.arange(len(self.spots))
         inner = (self.leaders[:, :, None] > texts[:, :2]) & (self.leaders[:, :, None] < texts[:, 2:])
         costs[FIRST_LED:] += LEADING + CROSSED_TEXT * np.any(np.all(inner, axis=3), axis=1).sum(axis=1)
+        costs[FIRST_LED:] += CROSSED_LEADER * crossing(self.leaders[:, [0, -1]][:, None], lines).sum(axis=1)
         self.place = int(np.argmin(costs))
 
     def write(self, ax: Axes) -> None:
@@ -283,27 +310,55 @@ def place_wordings(ax: Axes, texts: Sequence[Wording], covered: FloatArray) -> N
     ax.apply_aspect()
     inside = ax.get_window_extent(renderer)
     boxes = [np.array(each.extents) for each in text_boxes(ax)]
+    led = written_leaders(ax)
     points = ax.transData.transform(covered) if covered.size else np.empty((0, 2))
+    points = np.concatenate([points, *(start + ALONG_LEADER * (end - start) for start, end in led)])
     chosen: list[PlacedWording] = []
     near = [np.count_nonzero(np.hypot(*(points - ax.transData.transform(each.at)).T) < 40.0) for each in texts]
     for each in (texts[place] for place in np.argsort(-np.array(near, int), kind="stable")):  # the most crowded places first
         look: dict[str, Any] = {"ha": "center", "va": "center", "zorder": 20.0, "clip_on": False, "gid": f"{each.name} value"}
         text = haloed(ax, each.text, np.zeros(2), style.SMALL, each.colour, **look)
         size = np.asarray(text.get_window_extent(renderer).size)
-        chosen.append(PlacedWording(text, np.asarray(ax.transData.transform(each.at)), size, each.way))
-    for _ in range(AGAIN):
-        for one in chosen:
-            others = [other for other in chosen if other is not one and other.place >= 0]
-            lines = [other.leader for other in others]
-            one.choose([*boxes, *(other.box for other in others)], np.concatenate([points, *lines]), inside)
+        mark = each.at[None] if each.mark is None else each.mark
+        chosen.append(PlacedWording(text, np.asarray(ax.transData.transform(mark)), size, each.way))
+    for one in chosen:
+        one.keep_from(chosen)
+
+    def settle(one: PlacedWording) -> None:
+        others = [other for other in chosen if other is not one and other.place >= 0]
+        leaders = [other.leader for other in others if len(other.leader)]
+        lines = np.array([*led, *(each[[0, -1]] for each in leaders)]).reshape(-1, 2, 2)
+        one.choose([*boxes, *(other.box for other in others)], np.concatenate([points, *leaders]), lines, inside)
+
+    for one in chosen * AGAIN:
+        settle(one)
+    for one, other in combinations(chosen, 2):  # where two lines cross the texts choose in the other order
+        if len(one.leader) and len(other.leader) and crossing(one.leader[[0, -1]], other.leader[[0, -1]]):
+            one.place = other.place = -1
+            settle(other)
+            settle(one)
     for one in chosen:
         one.write(ax)
 
 
 def text_boxes(ax: Axes) -> list[Bbox]:
-    """Return what the texts that are written on a sheet cover [pixels]."""
+    """Return what the texts that are written on a sheet cover [pixels], without the lines that lead to them."""
     renderer = renderer_of(figure_of(ax))
-    return [text.get_window_extent(renderer) for text in ax.texts if text.get_visible() and text.get_text()]
+    written = [text for text in ax.texts if text.get_visible() and text.get_text()]
+    for text in written:
+        if isinstance(text, Annotation):
+            text.update_positions(renderer)
+    return [Text.get_window_extent(text, renderer) for text in written]
+
+
+def written_leaders(ax: Axes) -> list[FloatArray]:
+    """Return the lines that lead from names to their points, shape (2, 2) each [pixels]."""
+    found = []
+    for text, box in zip((each for each in ax.texts if each.get_visible() and each.get_text()), text_boxes(ax), strict=True):
+        if isinstance(text, Annotation) and text.arrow_patch is not None:
+            end = np.asarray(ax.transData.transform(text.xy))
+            found.append(np.array([np.clip(end, box.min, box.max), end]))
+    return found
 
 
 # The bar that says the scale, and what colours mean.

@@ -13,7 +13,7 @@ from ..plan import Mask
 from ..program import FloatArray
 from . import style
 from .scene import Bounds, Places
-from .shapes import polar
+from .shapes import crossing, polar
 from .sheet import haloed_beside
 from .style import Look
 from .symbols import MovingPart
@@ -26,8 +26,9 @@ LED = 1.9
 """A label that begins farther from its point than so many times the nearest distance is joined to it by a thin line."""
 TOGETHER = 0.7
 """Points nearer to each other than so many times the nearest distance of a label stand on one pin."""
-OVERLAP, STRAY = 400.0, 150.0
-"""What it costs to cover another label, and to stand nearer to another point than to the own one, in covered points."""
+OVERLAP, STRAY, CROSSED = 400.0, 150.0, 60.0
+"""What it costs to cover another label, to stand nearer to another point than to the own one, and to cross the line that joins another
+label to its point, in covered points."""
 NO_EDGE: Bounds = (-np.inf, np.inf, -np.inf, np.inf)
 """A sheet without edges."""
 ROUNDS = 4
@@ -96,6 +97,10 @@ def offsets(
             for other in others:  # at which share of the poses each place covers another label
                 between = (anchors[name] - anchors[other])[:, None] + tried[name] - spots[other]
                 costs = costs + OVERLAP * is_inside(between, halves[name] + halves[other] + 0.5).mean(axis=0)
+                if distance_to_box(spots[other], halves[other]) > LED * gap:
+                    led = distance_to_box(tried[name], halves[name]) > LED * gap
+                    lines = (leaders(anchors[each], spot, halves[each]) for each, spot in ((name, tried[name]), (other, spots[other])))
+                    costs = costs + CROSSED * (led & crossing(*lines)).mean(axis=0)
             spots[name] = tried[name][int(np.argmin(costs))]
         if before and all(np.array_equal(before[name], spots[name]) for name in names):
             break
@@ -143,6 +148,12 @@ def own_costs(
     with np.errstate(invalid="ignore"):
         out = ((places - half < edges[[0, 2]]) | (places + half > edges[[1, 3]])).any(axis=2)
     return np.asarray(costs + OVERLAP * out.mean(axis=0))
+
+
+def leaders(anchors: FloatArray, spots: FloatArray, half: FloatArray) -> FloatArray:
+    """Return the lines from labels at some spots (..., 2) to their point at each pose (p, 2), shape (p, ..., 2, 2); (p, 1, 2, 2) of one."""
+    nearest = np.clip(0.0, spots - half, spots + half).reshape(-1, 2)
+    return anchors[:, None, None] + np.stack([nearest, np.zeros_like(nearest)], axis=1)
 
 
 def distance_to_box(away: FloatArray, half: FloatArray) -> FloatArray:

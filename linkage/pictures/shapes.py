@@ -9,6 +9,7 @@ from types import MappingProxyType
 from typing import final
 
 import numpy as np
+import numpy.typing as npt
 
 from ..program import FloatArray
 
@@ -124,6 +125,17 @@ def segment(start: FloatArray, end: FloatArray, step: float) -> FloatArray:
     """Return points along a straight line, no further apart than a step, shape (m, 2)."""
     count = 2 + int(np.hypot(*(end - start)) / step)
     return np.asarray(start + np.linspace(0.0, 1.0, count)[:, None] * (end - start))
+
+
+def crossing(one: FloatArray, other: FloatArray) -> npt.NDArray[np.bool_]:
+    """Return which lines cross, each from an end to another, shape (..., 2, 2), broadcast against each other."""
+
+    def side(line: FloatArray, place: FloatArray) -> FloatArray:
+        along, arm = line[..., 1, :] - line[..., 0, :], place - line[..., 0, :]
+        return np.asarray(along[..., 0] * arm[..., 1] - along[..., 1] * arm[..., 0])
+
+    apart = [side(a, b[..., 0, :]) * side(a, b[..., 1, :]) < 0.0 for a, b in ((one, other), (other, one))]
+    return np.asarray(apart[0] & apart[1])
 
 
 # How straight two-point elements look: springs, dampers and plain struts as lines that stretch with their length.

@@ -520,11 +520,6 @@ def body_of(plan, name):
     return whole_body(plan, " ".join(outline.carriers)) or outline.carriers if outline else shape_named(plan, name).points
 
 
-def test_bodies_that_all_share_a_pin_have_no_gap_in_words():
-    with pytest.raises(DefinitionError, match=r"FourBar: clearance=True: all bodies share a pin or lie over each other; name two"):
-        draw(FourBar().sweep(3), clearance=True)
-
-
 class Folding(Mechanism):
     """Two cranks, one on the other: two strokes."""
 
@@ -542,6 +537,11 @@ def test_poles_of_several_strokes_are_those_of_the_stroke_that_runs():
     ring = next(line for line in figure.findobj(Line2D) if line.get_gid() == "pole of AB")
     assert_allclose(np.ravel(ring.get_xydata()), 0.5 * np.array([np.cos(0.3), np.sin(0.3)]), atol=1e-12)
     assert any("about which a body turns" in text.get_text() for text in figure.findobj(Text))
+
+
+def test_bodies_that_all_share_a_pin_have_no_gap_in_words():
+    with pytest.raises(DefinitionError, match=r"Folding: clearance=True: all bodies share a pin or lie over each other; name two"):
+        draw(Folding().at(a=0.3, b=0.5), clearance=True)
 
 
 @shipped.over_machines()

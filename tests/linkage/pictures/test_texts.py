@@ -11,11 +11,16 @@ import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
-from matplotlib.text import Text
+from matplotlib.patches import Patch, Polygon
+from matplotlib.text import Annotation, Text
 
 from linkage import RIGHT, Crank, Dyad, Force, Ground, Mechanism, OnLink, Stroke, deg, draw, plot
-from linkage.pictures.force_arrows import ForceQuestion, forces_at_pose, short_name
+from linkage.pictures.arrows import ArrowLayer, VectorArrow, draw_arrows, place_wordings, wordings
+from linkage.pictures.force_arrows import PIN, ForceQuestion, forces_at_pose, short_name
+from linkage.pictures.labels import LabelPart, offsets
+from linkage.pictures.shapes import crossing
+from linkage.pictures.sheet import empty_figure, points_a_metre, sheet
+from linkage.pictures.style import STRONG
 from tests.for_all import for_all
 from tests.linkage.motion.in_node import elsewhere
 
@@ -23,6 +28,8 @@ SHIPPED = {point.name: point for point in entry_points(group="hydrolinkage.machi
 QUICK = ("arm_drive", "grapple", "three_point_hitch")
 TOUCH = 1.0
 """Pixels by which boxes of letters may touch: they are higher than the letters in them."""
+BESIDE = 2.0
+"""Pixels by which a value may be nearer to another arrow than to its own."""
 INNER = 4.0
 """Pixels from the edge of a value's box to its letters."""
 NAME = 16
@@ -69,9 +76,77 @@ def crossed(figure, kind):
     return [(text, name) for name, outline in named(figure, kind) for text, box in boxes_of if outline.intersects_bbox(box)]
 
 
+def leaders_of(ax):
+    """Return the thin lines that lead from values and from names to what they stand for, shape (2, 2) [pixels] each."""
+    renderer, place = FigureCanvasAgg(ax.figure).get_renderer(), ax.transData.transform
+    found = [place(line.get_xydata()) for line in ax.lines if (line.get_gid() or "").startswith("leader of ")]
+    for text in ax.texts:
+        if isinstance(text, Annotation) and text.arrow_patch is not None and text.get_visible():
+            text.update_positions(renderer)
+            box, end = Text.get_window_extent(text, renderer), place(text.xy)
+            found.append(np.array([np.clip(end, box.min, box.max), end]))
+    return found
+
+
+def away(box, outline):
+    """Return how far a box is from the line around an arrow [pixels]."""
+    corners = outline.vertices[:-1]
+    line = np.concatenate([p + np.linspace(0.0, 1.0, 40)[:, None] * (q - p) for p, q in zip(corners, np.roll(corners, -1, axis=0))])
+    return float(np.hypot(*np.maximum(np.maximum(box.min - line, line - box.max), 0.0).T).min())
+
+
+def strayed(ax):
+    """Return the values without a leading line that stand nearer to another arrow than to their own, with that one."""
+    led = {line.get_gid().removeprefix("leader of ") for line in ax.lines if (line.get_gid() or "").startswith("leader of ")}
+    shown = [each for each in ax.patches if isinstance(each, Polygon) and each.get_gid()]
+    outlines = {each.get_gid(): each.get_path().transformed(each.get_transform()) for each in shown}
+    renderer, found = FigureCanvasAgg(ax.figure).get_renderer(), []
+    for text in ax.texts:
+        name = (text.get_gid() or "").removesuffix(" value")
+        if name in outlines and text.get_gid() not in led:
+            far = {other: away(Text.get_window_extent(text, renderer), outline) for other, outline in outlines.items()}
+            found += [(name, other) for other, each in far.items() if each < far[name] - BESIDE]
+    return found
+
+
+def check_leaders(ax):
+    """Assert that no two leading lines cross, and that a value without one stands nearest to its own arrow."""
+    assert not [pair for pair in combinations(leaders_of(ax), 2) if crossing(*pair)]
+    assert strayed(ax) == []
+
+
+def test_values_of_drawn_arrows_keep_to_their_own_and_their_lines_do_not_cross():
+    """Twelve arrows about three pins, drawn anew for each seed: the pins stand closer and closer."""
+    for seed in range(8):
+        random = np.random.default_rng(seed)
+        pins = random.uniform(0.35, 0.65, (3, 2)) + random.uniform(-0.3, 0.3, (3, 2)) / (1 + seed)
+        forces = random.uniform(200.0, 1000.0, 12) * np.exp(2j * np.pi * random.uniform(size=12))
+        drawn = [VectorArrow(f"force {n}", pins[n % 3], np.array([each.real, each.imag]), PIN, f"on body {n}") for n, each in enumerate(forces)]
+        layer = ArrowLayer(tuple(drawn), "N", ())
+        figure = empty_figure(9.0, 7.0)
+        ax = figure.add_axes((0.1, 0.1, 0.85, 0.85))
+        sheet(ax, (0.0, 1.0, 0.0, 0.8))
+        covered = draw_arrows(ax, layer, 2.5e-4, 0.012)
+        place_wordings(ax, wordings(layer, 2.5e-4, 0.012), covered)
+        check_leaders(ax)
+        check_texts(figure)
+
+
+def test_names_of_crowded_points_have_lines_that_do_not_cross():
+    for seed in range(8):
+        at = {f"part.{n}": place for n, place in enumerate(np.random.default_rng(seed).normal(0.5, 0.05, (14, 2)))}
+        figure = empty_figure(9.0, 7.0)
+        ax = figure.add_axes((0.1, 0.1, 0.85, 0.85))
+        sheet(ax, (0.0, 1.0, 0.1, 0.9))
+        for name, spot in offsets(list(at), [at], [np.array(list(at.values()))], points_a_metre(ax), 8.0).items():
+            LabelPart(ax, name, spot, 8.0, STRONG).update(at)
+        assert not [pair for pair in combinations(leaders_of(ax), 2) if crossing(*pair)]
+
+
 def check_forces(figure):
-    """Assert that values stand beside arrows, that the scale's bar stands free of texts, and that no name of a body is long."""
+    """Assert that values stand beside arrows and near to their own, that the scale's bar stands free, and that no body's name is long."""
     assert crossed(figure, "force ") == []
+    check_leaders(figure.axes[0])
     (_, bar), *_ = named(figure, "scale ") or [("", None)]
     assert bar is None or not [text for text, box in boxes(figure) if bar.intersects_bbox(box)]
     texts = [each.get_text() for each in figure.axes[0].texts]

@@ -21,7 +21,7 @@ from ..units import current_system, factor, shown_in
 from . import style
 from .labels import distance_to_box
 from .scene import Bounds
-from .shapes import crossing, left_of, polar
+from .shapes import left_of, lines_cross, polar, segment
 from .sheet import figure_of, haloed, points_a_metre, renderer_of
 
 SHARE = 0.17
@@ -190,8 +190,6 @@ ARROW = 4
 """What a point along an arrow costs, in covered points."""
 ALONG_LEADER = np.linspace(0.0, 1.0, 24)[1:, None]
 """The shares of a leading line at which it is looked at."""
-ALONG_ARROW = np.linspace(0.0, 1.0, 120)[1:, None]
-"""Those of an arrow."""
 AGAIN = 4
 """How often values that cover others choose again."""
 AROUND = np.radians(np.arange(0.0, 360.0, 22.5))
@@ -204,7 +202,10 @@ NEARER = 1.0  # pixels by which a text has to be nearer to count as that
 @final
 @dataclass(frozen=True, eq=False)
 class Wording:
-    """A text that is to stand near a place [m]: preferably on along a way, shape (2,); `mark` are points of the arrow it is of [m], its tip the last."""
+    """A text that is to stand near a place [m]: preferably on along a way, shape (2,).
+
+    `mark` are points along the outline of the arrow that it is of, shape (n, 2) [m], its tip the last.
+    """
 
     text: str
     at: FloatArray
@@ -220,7 +221,8 @@ def wordings(layer: ArrowLayer, scale: float, size: float) -> list[Wording]:
     for each in layer.arrows:
         tip, colour = each.at + scale * each.vector, style.mixed(each.colour, style.INK, 0.4)
         if each.length > TINY * layer.largest:
-            mark = np.concatenate([arrow_outline(each.at, tip, size), each.at + ALONG_ARROW * (tip - each.at)])
+            corners = arrow_outline(each.at, tip, size)
+            mark = np.concatenate([segment(P, Q, 0.15 * size) for P, Q in zip(corners, [*corners[1:], tip], strict=True)])
             found.append(Wording(layer.words(each), tip, each.vector / each.length, colour, each.name, mark))
         else:
             found.append(Wording(layer.words(each), tip, np.array([0.0, 1.0]), colour, each.name))
@@ -253,7 +255,8 @@ class PlacedWording:
 
     def keep_from(self, others: Sequence[PlacedWording]) -> None:
         """Note at which of its spots it would stand nearer to what other texts stand for than to its own."""
-        marks = [each.mark for each in others if each is not self and not np.allclose(each.mark, self.mark, atol=NEARER)]
+        same = [len(each.mark) == len(self.mark) and np.allclose(each.mark, self.mark, atol=NEARER) for each in others]
+        marks = [each.mark for each, is_same in zip(others, same, strict=True) if not is_same]
         near = self.distances(np.concatenate(marks)) if marks else np.full(len(self.spots), np.inf)
         self.strays = np.where(np.arange(len(self.spots)) < FIRST_LED, STRAY, LED_STRAY) * (near < self.away - NEARER)
 
@@ -276,11 +279,7 @@ class PlacedWording:
         return np.asarray(nearest[:, None] + ALONG_LEADER * (self.anchor - nearest)[:, None])
 
     def choose(self, boxes: Sequence[FloatArray], points: FloatArray, lines: FloatArray, inside: Bbox) -> None:
-        """Choose the spot that costs least.
-
-        It covers other texts least of all, hangs over no sheet's edge, strays to no other mark, and its line crosses neither texts nor
-        other such `lines`, shape (k, 2, 2) [pixels].
-        """
+        """Choose the spot that costs least. `lines` are the other leading lines, shape (k, 2, 2) [pixels]."""
         texts = np.array(boxes).reshape(-1, 4)
         low, high = (self.spots - self.half)[:, None], (self.spots + self.half)[:, None]
         over = ((low < texts[:, 2:]) & (texts[:, :2] < high)).all(axis=2).sum(axis=1)
@@ -289,7 +288,7 @@ class PlacedWording:
         costs = COVERED_TEXT * over + 1.0 * covered + OFF_SHEET * outside + self.strays + 0.04 * np.arange(len(self.spots))
         inner = (self.leaders[:, :, None] > texts[:, :2]) & (self.leaders[:, :, None] < texts[:, 2:])
         costs[FIRST_LED:] += LEADING + CROSSED_TEXT * np.any(np.all(inner, axis=3), axis=1).sum(axis=1)
-        costs[FIRST_LED:] += CROSSED_LEADER * crossing(self.leaders[:, [0, -1]][:, None], lines).sum(axis=1)
+        costs[FIRST_LED:] += CROSSED_LEADER * lines_cross(self.leaders[:, [0, -1]][:, None], lines).sum(axis=1)
         self.place = int(np.argmin(costs))
 
     def write(self, ax: Axes) -> None:
@@ -333,7 +332,7 @@ def place_wordings(ax: Axes, texts: Sequence[Wording], covered: FloatArray) -> N
     for one in chosen * AGAIN:
         settle(one)
     for one, other in combinations(chosen, 2):  # where two lines cross the texts choose in the other order
-        if len(one.leader) and len(other.leader) and crossing(one.leader[[0, -1]], other.leader[[0, -1]]):
+        if len(one.leader) and len(other.leader) and lines_cross(one.leader[[0, -1]], other.leader[[0, -1]]):
             one.place = other.place = -1
             settle(other)
             settle(one)

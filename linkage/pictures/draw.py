@@ -97,7 +97,8 @@ def draw(
     no names. Raises DefinitionError for a batch of designs, an unknown name or a pose that is not there.
 
     More is laid over the pose, the bold one of several. `forces=True` gives the pin forces and loads as arrows to one scale. With the name
-    of a body, `forces="OBC"`, that body stands alone with all forces on it and their polygon. `loads`, `case`, `direction` and `drive` are
+    of a body, `forces="OBC"`, that body stands alone with all forces on it and their polygon. With the name of a pin, `forces="O"`, these
+    are the loads that turn about it and the forces that hold them, each with its lever arm. `loads`, `case`, `direction` and `drive` are
     as `pin_forces` takes them. `velocities=dict(S=0.05)` gives the points' velocities at these stroke rates [1/s], which dampers get too.
     `pole="EDF"` is the body's instant centre, `pole=("EDF", "FKG")` that of two bodies, `pole=True` that of each body no fixed pin holds.
     Where a pose is refused the picture says why; for a motion without `unreachable="nan"` this raises SingularError. With

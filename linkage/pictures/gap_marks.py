@@ -88,14 +88,14 @@ def gap_request(given: object, motion: Motion) -> Request:
 
 
 def assumed_pairs(motion: Motion) -> tuple[tuple[tuple[str, str], ...] | None, str]:
-    """Return the pairs that are looked at without `Planes`, as if all bodies lay in one, None with them; and a note on what is left out.
+    """Return the pairs to look at where no `Planes` are declared, else None, and a note on the pairs left out.
 
-    These are bodies that share a pin, and bodies that cross at the ends and in the middle of all strokes: they are built over each other.
+    Bodies that share a pin are left out. So are bodies that cross at the ends and in the middle of all strokes.
     """
     plan = motion.plan
     if plan.of_kind(Planes):
         return None, ""
-    places = np.array(list(product(*((each.start, 0.5 * (each.start + each.end), each.end) for each in plan.strokes.values()))))
+    places = np.array(list(product(*(np.linspace(each.start, each.end, 3) for each in plan.strokes.values()))))
     strokes = {name: places[:, column] for column, name in enumerate(plan.strokes)}
     apart, crossing = pairs_without_planes(Motion(plan, motion.designs, strokes, "nan"))
     one, other = own_bodies(plan)

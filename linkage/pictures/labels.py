@@ -13,7 +13,7 @@ from ..plan import Mask
 from ..program import FloatArray
 from . import style
 from .scene import Bounds, Places
-from .shapes import crossing, polar
+from .shapes import lines_cross, polar
 from .sheet import haloed_beside
 from .style import Look
 from .symbols import MovingPart
@@ -100,7 +100,7 @@ def offsets(
                 if distance_to_box(spots[other], halves[other]) > LED * gap:
                     led = distance_to_box(tried[name], halves[name]) > LED * gap
                     lines = (leaders(anchors[each], spot, halves[each]) for each, spot in ((name, tried[name]), (other, spots[other])))
-                    costs = costs + CROSSED * (led & crossing(*lines)).mean(axis=0)
+                    costs = costs + CROSSED * (led & lines_cross(*lines)).mean(axis=0)
             spots[name] = tried[name][int(np.argmin(costs))]
         if before and all(np.array_equal(before[name], spots[name]) for name in names):
             break

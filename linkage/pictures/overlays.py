@@ -21,8 +21,8 @@ from . import arrows, style
 from .arrows import ArrowLayer, VectorArrow, Wording
 from .force_arrows import ForceQuestion, force_layer, forces_at_pose, why_no_forces
 from .gap_marks import GapMark, asked_pair, assumed_pairs, body_pair, draw_gap, gap_mark, own_bodies, worst_pose
-from .paper import footnote
-from .scene import Bounds
+from .lever_arms import LeverArm, lever_arms
+from .scene import Bounds, Scene
 from .shapes import segment
 from .sheet import figure_of, grown
 from .strokes import pose_words
@@ -57,6 +57,10 @@ class Overlays:
         shown = any(each not in (None, False) for each in (self.pole, self.clearance, self.freedom))
         return self.forces is not None or self.rates is not None or shown
 
+    def is_free_body(self, scene: Scene) -> bool:
+        """Return whether one body alone is asked for; with the name of a pin it is the loads about that."""
+        return self.forces is not None and bool(self.forces.body) and self.forces.body not in scene.pins
+
     @property
     def has_gap(self) -> bool:
         """Whether what comes nearest is asked for."""
@@ -69,7 +73,7 @@ class Overlays:
 
     def over(self, motion: Motion, pose: int, box: Bounds) -> Overlay:
         """Return what is laid over a motion's pose, a flat index, on a sheet that shows a box [m]."""
-        layers, notes = [], []
+        layers, notes, arms = list[ArrowLayer](), list[str](), list[LeverArm]()
         if self.rates is not None:
             rates_of("velocities", self.rates, motion)
         if not motion.reached.ravel()[pose]:
@@ -78,6 +82,8 @@ class Overlays:
             forces = forces_at_pose(motion, pose, self.forces)
             if forces.refusal:
                 notes.append(said("No forces here: {why}", why=forces.refusal))
+            elif self.forces.body:
+                layers, arms = lever_arms(forces, one_pose(motion, pose), self.forces.body, box, Scene(motion).size)
             else:
                 layers.append(force_layer(forces))
                 notes += [remark.replace("rates=dict(", "velocities=dict(") for remark in forces.found.remarks]
@@ -99,7 +105,7 @@ class Overlays:
         worst = self.worst(motion, pose)
         moving = [name for name, values in motion.strokes.items() if np.ptp(values) > 0.0]
         gaps += [] if worst is None else [gap_mark(one_pose(motion, worst), self.clearance, pose_words(motion, worst, moving))]
-        return Overlay(tuple(layers), tuple(marks), tuple(notes), box, tuple(gaps))
+        return Overlay(tuple(layers), tuple(marks), tuple(notes), box, tuple(gaps), tuple(arms))
 
     def centrodes(self, ax: Axes, swept: Motion) -> None:
         """Draw the paths of the poles that are asked for over a motion."""
@@ -135,13 +141,14 @@ class PoleMark:
 @final
 @dataclass(frozen=True, eq=False)
 class Overlay:
-    """What is laid over one pose on a sheet: arrows to their scales, poles, notes, gaps."""
+    """What is laid over one pose on a sheet: arrows to their scales, poles, notes, gaps, lever arms."""
 
     layers: tuple[ArrowLayer, ...]
     marks: tuple[PoleMark, ...]
     notes: tuple[str, ...]
     sheet: Bounds
     gaps: tuple[GapMark, ...] = ()
+    arms: tuple[LeverArm, ...] = ()
 
     def box(self, size: float) -> Bounds:
         """Return the sheet made larger, so that all arrows and near poles are on it; `size` is that of a pin [m]."""
@@ -149,6 +156,7 @@ class Overlay:
         for layer in self.layers:
             box = grown(box, layer.tips(layer.scale(self.sheet)), 3.0 * size)
         near = [mark.at for mark in self.marks if mark.is_near(self.sheet)]
+        near += [end for arm in self.arms for end in arm.line.ends]
         left, right, bottom, top = grown(box, np.array(near).reshape(-1, 2), 3.0 * size)
         lines = sum(len(textwrap.wrap(sentence, NOTE_WIDTH)) for sentence in self.sentences)
         return left, right, bottom, top + lines * NOTE_LINE * (right - left)
@@ -158,10 +166,15 @@ class Overlay:
         """What the picture says in words: what is not known here, and of poles that it does not show where they are."""
         return [*self.notes, *(words for mark in self.marks for words in ([mark.words] if mark.words else far_words(mark, self.sheet)))]
 
+    @property
+    def sense(self) -> str:
+        """How to read its arrows, in words."""
+        return " ".join(layer.sense for layer in self.layers if layer.sense)
+
     def covered(self, size: float) -> FloatArray:
         """Return points along the arrows, where no name should stand, shape (n, 2) [m]; `size` is that of a pin [m]."""
         lines = [np.empty((0, 2)), *(arrows.arrow_points(layer, layer.scale(self.sheet), size) for layer in self.layers)]
-        lines += [gap.outer(0.0) for gap in self.gaps]
+        lines += [gap.outer(0.0) for gap in self.gaps] + [arm.line.covered for arm in self.arms]
         return np.concatenate([*lines, *(mark.at[None] for mark in self.marks if mark.is_near(self.sheet))])
 
     def draw(self, ax: Axes, size: float, keep_clear: FloatArray) -> None:
@@ -178,11 +191,13 @@ class Overlay:
         for gap in self.gaps:
             texts += draw_gap(ax, gap, size)
             covered.append(np.repeat(gap.outer(size), 6, axis=0))
+        for arm in self.arms:
+            texts += arm.draw(ax)
+            covered.append(np.repeat(arm.line.covered, arrows.ARROW, axis=0))
         sheet_note(ax, self.sentences)
         for layer in self.layers:
             covered.append(np.repeat(arrows.scale_bar(ax, layer, layer.scale(self.sheet), np.concatenate(covered)), arrows.ARROW, axis=0))
         everything = np.concatenate(covered)
-        footnote(figure_of(ax), " ".join(layer.sense for layer in self.layers if layer.sense))
         arrows.place_wordings(ax, texts, everything)
         for layer in self.layers:
             arrows.add_keys(ax, layer)
@@ -307,7 +322,7 @@ def pole_rates(motion: Motion, pose: int, rates: Mapping[str, Any] | None) -> tu
 
 
 def asked_poles(motion: Motion, asked: object) -> Iterator[tuple[str, str]]:
-    """Yield the pairs of bodies whose poles are asked for: True means every body that no fixed pin holds, by its link's name if it has one."""
+    """Yield the pairs of bodies whose poles are asked for: True means every body that no fixed pin holds, by its link's name if any."""
     if asked is True:
         fixed, *moving = motion.plan.links
         named = {frozenset(link.point_names): name for name, link in motion.plan.of_kind(Link).items()}

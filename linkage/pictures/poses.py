@@ -23,11 +23,11 @@ from .drawing import Drawing, draw_scene, mechanism
 from .free_body import draw_free_body
 from .gap_marks import gap_request
 from .layout import cloud, surrounding_points
-from .overlays import Overlays
-from .paper import empty_page, legend_row, look_keys, remark, write_title
+from .overlays import Overlay, Overlays
+from .paper import empty_page, footnote, legend_row, look_keys, remark, write_title
 from .pose_choice import telling_angles
 from .scene import Pose, Scene
-from .sheet import grown
+from .sheet import grown, sheet
 from .strokes import is_turn, pose_words, unreached_words
 from .style import FAINT, STRONG
 from .symbols import arrow_between
@@ -61,22 +61,37 @@ def draw_pose(motion: Motion, pose: Pose, overlays: Overlays, faint: bool) -> Fi
     """Return a figure of a motion at a pose, with what is laid over it."""
     scene = Scene(motion)
     index = scene.index(pose)
-    if overlays.forces is not None and overlays.forces.body:
+    if overlays.forces is not None and overlays.is_free_body(scene):
         return draw_free_body(motion, index, overlays.forces)
     laid = overlays.over(motion, index, scene.box()) if overlays else None
     figure, ax = empty_page(laid.box(scene.size) if laid else scene.box())
     if laid is None:
         draw_scene(ax, scene, index, None if faint else (), FAINT if faint else STRONG)
     else:
-        worst, at = overlays.worst(motion, index), scene.at(index)
-        if worst is not None:
-            Drawing(ax, scene, FAINT).update(worst)
-        draw_scene(ax, scene, index, [laid.covered(scene.size)])
-        overlays.centrodes(ax, motion)
-        laid.draw(ax, scene.size, np.concatenate([cloud(scene, at), surrounding_points(scene, at)]))
+        draw_laid(ax, scene, index, overlays, laid)
+        footnote(figure, laid.sense)
         legend_row(ax, *ax.get_legend_handles_labels())
     write_title(figure, motion.plan.heading, pose_words(motion, index))
     return figure
+
+
+def draw_over(ax: Axes, motion: Motion, pose: Pose, overlays: Overlays) -> str:
+    """Draw a motion at a pose, with what is laid over it, on empty axes; return how to read that."""
+    scene = Scene(motion)
+    laid = overlays.over(motion, scene.index(pose), scene.box())
+    sheet(ax, laid.box(scene.size))
+    draw_laid(ax, scene, scene.index(pose), overlays, laid)
+    return laid.sense
+
+
+def draw_laid(ax: Axes, scene: Scene, index: int, overlays: Overlays, laid: Overlay) -> None:
+    """Draw a pose, a flat index, on a sheet with what is laid over it."""
+    worst, at = overlays.worst(scene.motion, index), scene.at(index)
+    if worst is not None:
+        Drawing(ax, scene, FAINT).update(worst)
+    draw_scene(ax, scene, index, [laid.covered(scene.size)])
+    overlays.centrodes(ax, scene.motion)
+    laid.draw(ax, scene.size, np.concatenate([cloud(scene, at), surrounding_points(scene, at)]))
 
 
 def draw_strokes(machine: Mechanism, at: object, path: Sequence[str], count: int, overlays: Overlays) -> Figure:
@@ -88,15 +103,15 @@ def draw_strokes(machine: Mechanism, at: object, path: Sequence[str], count: int
     require_whole("count", count, "a path is drawn through 2 poses or more; give a whole number such as 101", least=2, most=MANY)
     moving, shown, swept = motions(machine, at, count)
     whole, last = Scene(swept), Scene(shown).reached[-1]
-    if overlays.forces is not None and overlays.forces.body:
+    if overlays.forces is not None and overlays.is_free_body(whole):
         return draw_free_body(shown, last, overlays.forces)
     paths = np.concatenate([np.empty((0, 2)), *(whole.places[name].T for name in path)])
     drawn = grown(Scene(shown, swept).box(), paths[np.isfinite(paths).all(axis=1)], 3.0 * whole.size)
     (left, right, bottom, top), (x0, x1, y0, y1) = drawn, whole.box()
     is_filled = min((right - left) / (x1 - x0), (top - bottom) / (y1 - y0)) >= FILLED
-    sheet = whole.box() if is_filled else drawn
-    laid = overlays.over(shown, last, sheet) if overlays else None
-    figure, ax = empty_page(laid.box(whole.size) if laid else sheet)
+    box = whole.box() if is_filled else drawn
+    laid = overlays.over(shown, last, box) if overlays else None
+    figure, ax = empty_page(laid.box(whole.size) if laid else box)
     words = said_of(len(path), "path of {points}", "paths of {points}", points=", ".join(path))
     for name in path:
         trace(ax, whole.places[name], words if name == path[0] else "")
@@ -108,6 +123,7 @@ def draw_strokes(machine: Mechanism, at: object, path: Sequence[str], count: int
         faint = [cloud(whole, poses.at(pose))[::3] for pose in poses.reached[:-1]]
         at = poses.at(last)
         laid.draw(ax, whole.size, np.concatenate([cloud(whole, at), surrounding_points(whole, at), *faint]))
+        footnote(figure, laid.sense)
     write_heading(figure, ax, shown, moving)
     lost = int(np.count_nonzero(~swept.reached))
     if len(moving) == 1:

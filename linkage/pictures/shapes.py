@@ -127,7 +127,7 @@ def segment(start: FloatArray, end: FloatArray, step: float) -> FloatArray:
     return np.asarray(start + np.linspace(0.0, 1.0, count)[:, None] * (end - start))
 
 
-def crossing(one: FloatArray, other: FloatArray) -> npt.NDArray[np.bool_]:
+def lines_cross(one: FloatArray, other: FloatArray) -> npt.NDArray[np.bool_]:
     """Return which lines cross, each from an end to another, shape (..., 2, 2), broadcast against each other."""
 
     def side(line: FloatArray, place: FloatArray) -> FloatArray:

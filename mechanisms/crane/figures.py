@@ -15,6 +15,9 @@ from matplotlib.patches import Rectangle
 from linkage import Motion, draw, plot
 from linkage.motion import Answer
 from linkage.pictures import style
+from linkage.pictures.force_arrows import ForceQuestion
+from linkage.pictures.overlays import Overlays
+from linkage.pictures.poses import draw_over
 from linkage.pictures.sheet import sheet
 from linkage.units import deg, kN
 
@@ -87,6 +90,35 @@ def crane_moments(crane: Crane) -> Figure:
     return page
 
 
+def movements(crane: Crane) -> Figure:
+    """Return the four movements of the arm at their bounds, figure 2.15 a to d. Loads have their lever arms about J."""
+    limits = {name: (float(np.min(ends)), float(np.max(ends))) for name, ends in crane.limits_of().items()}
+    (boom_up, boom_down), (folded, open_), (t_in, t_out) = (limits[name] for name in ("phi", "psi", "t"))
+    level = 90 * deg
+    asked = {
+        "a: folding, the arm level inwards (2.39)": (folded, min(open_, boom_down - level), None, level, t_in),
+        "b: folding, the boom as low as it goes (2.41)": (max(folded, boom_down - level), min(open_, boom_down), boom_down, 0.0, t_in),
+        "c: opening, the arm level outwards (2.42)": (max(folded, boom_up + level), open_, None, -level, t_out),
+        "d: opening, the boom as high as it goes (2.43)": (max(folded, boom_up), min(open_, boom_up + level), boom_up, 0.0, t_out),
+    }
+    there = {words: each for words, each in asked.items() if each[0] < each[1]}
+    down = -(-len(there) // 2)
+    title = "Arm: loads about the joint of boom and arm, lever arms in m"
+    page, axes = titled(title, (15.0, 5.0 * down + 0.6), 2, down, rect=(0.02, 0.02, 0.97, 0.96))
+    for ax in axes:
+        headed(ax, " \n ", pad=8)
+        axis_words(ax, "x, m", "y, m")
+    page.draw_without_rendering()  # so that texts are placed where the sheets stay
+    page.set_layout_engine("none")
+    for ax, (words, (low, high, phi, aside, t)) in zip(axes, there.items(), strict=False):
+        psi = 0.5 * (low + high)
+        motion = crane.at(phi=psi + aside if phi is None else phi, psi=psi, t=t)
+        sense = draw_over(ax, motion, 0, Overlays(ForceQuestion("J", case="lifting"))).partition(". ")[2]
+        place = f"$\\varphi$ = {float(motion.strokes['phi']) / deg:.0f}°, $\\psi$ = {psi / deg:.0f}°"
+        headed(ax, f"{words}: {place}\n{sense}", pad=8, fontsize=style.SMALL + 0.5)
+    return page
+
+
 # -- the load map ------------------------------------------------------------------------------------------
 
 CELLS = 14, 15
@@ -122,7 +154,7 @@ def reach_figure(crane: Crane) -> Figure:
 
 
 DRAWN: Mapping[str, Callable[[Crane], Figure]] = MappingProxyType(
-    {"positions": positions, "moments": crane_moments, "map": shipped_map, "reach": reach_figure}
+    {"positions": positions, "moments": crane_moments, "movements": movements, "map": shipped_map, "reach": reach_figure}
 )
 
 

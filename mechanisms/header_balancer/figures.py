@@ -2,6 +2,7 @@
 
 | figure | header | shows |
 |---|---|---|
+| 1 | 1 | the scheme: header, tank, pump, relief valve, valve, gauge, accumulators |
 | 2 a, 2 b | 1 | the reaction with the cylinders' seals only; what plain bearings at O add, as a force at the shoe |
 | 3 a, 3 b | 1 | pressure in the accumulators while following; pressure needed to lift, over the whole stroke |
 | 4 a, 4 b | 2 | reaction; given and needed pressure, below the charge of one pair |
@@ -35,6 +36,7 @@ from .criteria import HEADERS
 from .following import BEARING, PLAIN, SHOE, HeaderState, dry_frictions, over_following, own_loads
 from .machine import HeaderBalancer, ImprovedBalancer
 from .measured import ALLOWED, Deviation
+from .scheme import scheme
 from .settings import with_header
 
 SIZE, PAIR = (7.6, 5.0), (14.6, 5.2)
@@ -53,10 +55,12 @@ def figure(number: int | str, machine: HeaderBalancer | None = None, measured: S
     """
     key = str(number).replace(" ", "").lower()
     parts = {name: part for name, part in PARTS.items() if key and name.startswith(key)}
-    if not parts:
-        numbers = dict.fromkeys(each for name in PARTS for each in (name[0], name))
+    if not parts and key != "1":
+        numbers = dict.fromkeys(["1", *(each for name in PARTS for each in (name[0], name))])
         raise DefinitionError(f"Figure {number} is unknown; there are {', '.join(numbers)}.")
     shown = machine if machine is not None else ImprovedBalancer() if key[0] == "6" else with_header({"4": 2, "5": 3}.get(key[0], 1))
+    if key == "1":
+        return scheme(shown, f"1   Scheme of the balanced header: {_name(shown)}")
     motion = over_following(shown.at(h=shown.strokes["h"].start))
     improved = "" if isinstance(shown, ImprovedBalancer) else IMPROVED
     sheet, cells = _sheet({name: title.removesuffix(improved) for name, (title, _) in parts.items()}, _name(shown))

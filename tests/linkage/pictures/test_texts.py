@@ -18,7 +18,7 @@ from linkage import RIGHT, Crank, Dyad, Force, Ground, Mechanism, OnLink, Stroke
 from linkage.pictures.arrows import ArrowLayer, VectorArrow, draw_arrows, place_wordings, wordings
 from linkage.pictures.force_arrows import PIN, ForceQuestion, forces_at_pose, short_name
 from linkage.pictures.labels import LabelPart, offsets
-from linkage.pictures.shapes import crossing
+from linkage.pictures.shapes import lines_cross
 from linkage.pictures.sheet import empty_figure, points_a_metre, sheet
 from linkage.pictures.style import STRONG
 from tests.for_all import for_all
@@ -91,7 +91,8 @@ def leaders_of(ax):
 def away(box, outline):
     """Return how far a box is from the line around an arrow [pixels]."""
     corners = outline.vertices[:-1]
-    line = np.concatenate([p + np.linspace(0.0, 1.0, 40)[:, None] * (q - p) for p, q in zip(corners, np.roll(corners, -1, axis=0))])
+    ways, shares = np.roll(corners, -1, axis=0) - corners, np.linspace(0.0, 1.0, 40)[:, None, None]
+    line = (corners + shares * ways).reshape(-1, 2)
     return float(np.hypot(*np.maximum(np.maximum(box.min - line, line - box.max), 0.0).T).min())
 
 
@@ -111,7 +112,7 @@ def strayed(ax):
 
 def check_leaders(ax):
     """Assert that no two leading lines cross, and that a value without one stands nearest to its own arrow."""
-    assert not [pair for pair in combinations(leaders_of(ax), 2) if crossing(*pair)]
+    assert not [pair for pair in combinations(leaders_of(ax), 2) if lines_cross(*pair)]
     assert strayed(ax) == []
 
 
@@ -121,7 +122,8 @@ def test_values_of_drawn_arrows_keep_to_their_own_and_their_lines_do_not_cross()
         random = np.random.default_rng(seed)
         pins = random.uniform(0.35, 0.65, (3, 2)) + random.uniform(-0.3, 0.3, (3, 2)) / (1 + seed)
         forces = random.uniform(200.0, 1000.0, 12) * np.exp(2j * np.pi * random.uniform(size=12))
-        drawn = [VectorArrow(f"force {n}", pins[n % 3], np.array([each.real, each.imag]), PIN, f"on body {n}") for n, each in enumerate(forces)]
+        vectors = np.column_stack([forces.real, forces.imag])
+        drawn = [VectorArrow(f"force {n}", pins[n % 3], each, PIN, f"on body {n}") for n, each in enumerate(vectors)]
         layer = ArrowLayer(tuple(drawn), "N", ())
         figure = empty_figure(9.0, 7.0)
         ax = figure.add_axes((0.1, 0.1, 0.85, 0.85))
@@ -140,7 +142,7 @@ def test_names_of_crowded_points_have_lines_that_do_not_cross():
         sheet(ax, (0.0, 1.0, 0.1, 0.9))
         for name, spot in offsets(list(at), [at], [np.array(list(at.values()))], points_a_metre(ax), 8.0).items():
             LabelPart(ax, name, spot, 8.0, STRONG).update(at)
-        assert not [pair for pair in combinations(leaders_of(ax), 2) if crossing(*pair)]
+        assert not [pair for pair in combinations(leaders_of(ax), 2) if lines_cross(*pair)]
 
 
 def check_forces(figure):

@@ -433,8 +433,11 @@ class Scene:
 
     @cached_property
     def pulleys(self) -> tuple[DrawnMark, ...]:
-        """The pulleys that ropes run over, as circles."""
+        """The pulleys that ropes run over, as circles; small ones where a rope is declared to run over a pin."""
         given = [(glyph.points[0], self._radii(glyph)[0]) for _, glyph in self.glyphs if glyph.drawn_as == "pulley"]
+        ropes = [glyph for _, glyph in self.glyphs if glyph.drawn_as == "rope"]
+        over = {point: radius for each in ropes for point, radius in zip(each.points[1:-1], self._rope_radii(each)[1:-1], strict=True)}
+        given += [(point, ROLLER * self.size) for point, radius in over.items() if abs(radius) == ROLLER * self.size]
         return tuple(DrawnMark(point, (point,), (shapes.circle(radius),), 0.35) for point, radius in given if radius > 0.0)
 
     @cached_property
@@ -442,12 +445,22 @@ class Scene:
         """The straight parts of ropes, each a thin line that leaves its pulleys along their tangents."""
         found = []
         for _, glyph in self.glyphs:
-            radii = self._radii(glyph) if glyph.drawn_as == "rope" else []
+            radii = self._rope_radii(glyph) if glyph.drawn_as == "rope" else []
             for (P, p), (Q, q) in pairwise(zip(glyph.points, radii, strict=False)):
                 short, long = self._lengths(P, Q)
                 if long:
                     found.append(DrawnMark(joined_names(P, Q), (P, Q), (shapes.tangent(p, q, 0.5 * (short + long)),), 0.45, 1.1))
         return tuple(found)
+
+    def _rope_radii(self, glyph: Glyph) -> list[float]:
+        """Return the signed radii at which a rope is drawn at its points [m]: over a pin that of a small roller on the side it turns to."""
+        radii, shown = self._radii(glyph), self.some(1)
+        for place in range(1, len(radii) - 1 if shown else 0):
+            before, here, after = (shown[0][name] for name in glyph.points[place - 1 : place + 2])
+            if radii[place] == 0.0:
+                turn = float(shapes.left_of(here - before) @ (after - here))
+                radii[place] = ROLLER * self.size * (-1.0 if turn < -1e-9 * self.size**2 else 1.0)
+        return radii
 
     def _radii(self, glyph: Glyph) -> list[float]:
         """Return the signed radii of what a glyph runs over [m], at the first pose."""
@@ -709,6 +722,8 @@ SHARE = 0.3
 """How far each side of the sheet moves outwards for what stands around, as a share of the mechanism's own larger side."""
 BESIDE = 2.6
 """How far beside a bar an element stands that would cover it, in sizes."""
+ROLLER = 1.6
+"""The radius of the roller that is drawn where a rope runs over a pin, in sizes."""
 MOST_SHOWN = 4
 """The accumulators of a line that are drawn."""
 

@@ -31,7 +31,7 @@ def scheme(machine: HeaderBalancer, title: str) -> Figure:
     """Return the header at its horizon with tank, pump, relief valve, valve, gauge and accumulators."""
     page, (ax,) = titled(title, (13.0, 5.7), 1, rect=(0.01, 0.01, 0.98, 0.95))
     sheet(ax, BOX)
-    headed(ax, "The circuit is not to scale. The valve fills the accumulators; while it is shut they share one closed volume with the cylinders.")
+    headed(ax, "The circuit is not to scale. The valve fills the accumulators. Shut, it leaves them and the cylinders one closed volume.")
     motion = machine.at(h=float(machine.at(h=machine.strokes["h"].start)["h_horizon"]))
     A, B = motion["A"], motion["B"]
     port = A + 0.075 * (B - A) / np.hypot(*(B - A))

@@ -39,11 +39,16 @@ from linkage import (
 from linkage.motion import whole_body
 from linkage.motion.gaps import shape_named
 from linkage.pictures.arrows import significant
+from linkage.pictures.force_arrows import ForceQuestion, forces_at_pose
 from linkage.pictures.gap_marks import assumed_pairs
+from linkage.pictures.lever_arms import lever_arms, moment_about
 from linkage.pictures.overlays import asked_poles, pole_marks, pole_rates
 from mechanisms.at_work.excavator import Excavator
 from mechanisms.classics.four_bar import FourBar
 from mechanisms.classics.roberts import Roberts
+from mechanisms.crane import Crane
+from mechanisms.header_balancer import HeaderBalancer
+from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests import shipped
 from tests.for_all import for_all
@@ -306,6 +311,67 @@ def test_wrong_questions_are_refused_in_words(given, words):
     with pytest.raises(DefinitionError) as caught:
         draw(ThreePointHitch().sweep(3), **given)
     assert words in str(caught.value)
+
+
+# -- loads with their lever arms about a pin ---------------------------------------------------------------
+
+
+def about(machine, pin, case=None, **strokes):
+    """Return the moments of the loads about a pin and of what holds them [Nm], with the lever arms by their lengths [m]."""
+    at = machine.at(**strokes)
+    (loads, held), arms = lever_arms(forces_at_pose(at, 0, ForceQuestion(pin, case=case)), at, pin, (0.0, 1.0, 0.0, 1.0), 0.01)
+    moments = [moment_about(at[pin], list(layer.arrows), list(layer.turning)) for layer in (loads, held)]
+    for arm in arms:  # square to the force, from the pin to its line of action
+        (force,) = [each for each in (*loads.arrows, *held.arrows) if each.at is arm.start]
+        line = arm.line.Q - arm.line.P
+        assert_allclose(arm.line.P, at[pin], atol=1e-12)
+        assert abs(line @ force.vector) < 1e-9 * np.hypot(*line) * force.length
+        lever = abs((force.at - at[pin]) @ np.array([force.vector[1], -force.vector[0]])) / force.length
+        assert_allclose(np.hypot(*line), lever, rtol=1e-9)
+    return *moments, [float(np.hypot(*(arm.line.Q - arm.line.P))) for arm in arms]
+
+
+def test_moments_about_the_cranes_pins_are_those_of_its_source():
+    """K_A, K_A1 and K_B of the bounds (2.20), (2.39), (2.42) [Nm], where the arm is level; what holds the loads is in balance with them."""
+    K_A, K_A1, K_B = 71905.1712, 39947.3173, 85260.0123
+    crane = Crane()
+    out = float(crane["l_t"])
+    for pin, at, expected in (
+        ("J", dict(phi=52 * deg, psi=142 * deg, t=out), -K_A),
+        ("J", dict(phi=95 * deg, psi=5 * deg, t=0.0), K_A1),
+        ("O", dict(phi=60 * deg, psi=150 * deg, t=out), -K_B * np.sin(60 * deg) - K_A),
+    ):
+        loads, held, _ = about(crane, pin, "lifting", **at)
+        assert_allclose([loads, held], [expected, -expected], rtol=1e-7)
+
+
+@pytest.mark.parametrize("machine", [MowerLift, HeaderBalancer, Press, Tipper], ids=lambda machine: machine.__name__)
+def test_loads_about_a_pin_balance_what_holds_them(machine):
+    pin = "C" if machine is Press else "O"
+    strokes = {name: float(np.ravel(values)[0]) for name, values in pose_of(machine()).strokes.items()}
+    loads, held, arms = about(machine(), pin, **strokes)
+    assert arms
+    assert_allclose(loads + held, 0.0, atol=1e-9 * (abs(loads) + abs(held)))
+
+
+def test_a_lever_arm_is_drawn_with_its_length_and_the_moments_are_told():
+    motion = MowerLift().at(S=0.6)
+    figure = draw(motion, forces="O")
+    arm = float(motion["G"][0] - motion["O"][0])
+    texts = [text.get_text() for text in figure.findobj(Text)]
+    assert significant(arm) in texts
+    moment = significant(900 * 9.80665 * arm / 1e3)
+    both = f"\N{MINUS SIGN}{moment} kNm of the loads, {moment} kNm of what holds them."
+    assert f"Lever arms in m. Moments about O, counter-clockwise: {both}" in texts
+
+
+@pytest.mark.parametrize(
+    ("pin", "words"),
+    [("A", "no body turns about A while one stroke runs"), ("E", "no load turns about E; name a pin about which a loaded body turns")],
+)
+def test_a_pin_about_which_no_load_turns_is_refused(pin, words):
+    with pytest.raises(DefinitionError, match=words):
+        draw(ThreePointHitch().at(S=0.1), forces=pin)
 
 
 # -- velocities and poles ----------------------------------------------------------------------------------

@@ -9,12 +9,12 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from linkage import ISO_10567, LoadRule, Target, animate, plot, working_field
-from mechanisms import demo, grapple
+from linkage import ISO_10567, LoadRule, Target, animate, deg, draw, plot, working_field
+from mechanisms import demo, grapple, header_balancer
 from mechanisms import three_point_hitch as hitch
 from mechanisms.at_work.excavator import HookExcavator
 from mechanisms.at_work.telehandler import Telehandler
-from mechanisms.crane import ArmDrive, BoomDrive, crane_figure, drive_figure
+from mechanisms.crane import ArmDrive, BoomDrive, Crane, crane_figure, drive_figure
 from mechanisms.grapple import CrossheadGrapple
 from mechanisms.mower_lift import MowerLift
 
@@ -42,8 +42,17 @@ def telehandler_chart() -> Figure:
     return plot(working_field(Telehandler(), "forks.G", x=radii, y=heights, keep=level, rule=rule, without=["forks.load"]))
 
 
+def crane_loads(pin: str) -> Figure:
+    """Return the crane's loads with their lever arms about a pin, the arm level outwards."""
+    crane = Crane()
+    return draw(crane.at(phi=60 * deg, psi=150 * deg, t=crane["l_t"]), forces=pin, case="lifting")
+
+
 PICTURES: dict[str, Callable[[], Figure]] = {
-    **{f"crane_{name}": partial(crane_figure, name) for name in ("positions", "map", "reach")},
+    **{f"crane_{name}": partial(crane_figure, name) for name in ("positions", "map", "reach", "movements")},
+    "crane_boom_loads": partial(crane_loads, "O"),
+    "crane_arm_loads": partial(crane_loads, "J"),
+    "header_balancer_scheme": partial(header_balancer.figure, 1),
     **{f"crane_boom_{name}": partial(drive_figure, name, BoomDrive()) for name in ("moments", "positions")},
     **{f"crane_arm_{name}": partial(drive_figure, name, ArmDrive()) for name in ("moments", "positions")},
     "at_work_excavator_chart": excavator_chart,

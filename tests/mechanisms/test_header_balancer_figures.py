@@ -86,9 +86,17 @@ def test_the_papers_way_is_laid_over_the_reaction():
     assert not [label for label in lines(figure("2a", with_header(1, atmosphere=0.0))) if label.startswith("the paper's")]
 
 
-@pytest.mark.parametrize("number", [1, "2c", "8", "7a"])
+def test_the_scheme_says_the_pressures_of_the_machine_it_is_of():
+    machine = with_header(3, V_II=0.0)
+    texts = [text.get_text() for text in figure(1, machine).axes[0].texts]
+    parts = [("gauge", "charge"), ("pump", "pump"), ("relief valve", "valve")]
+    assert {"tank", "valve", *(f"{part}\n{machine[name] / kgf_cm2:.4g} kgf/cm²" for part, name in parts)} <= set(texts)
+    assert "accumulators\n4 l, gas at 50 kgf/cm²" in texts
+
+
+@pytest.mark.parametrize("number", ["1a", "2c", "8", "7a"])
 def test_unknown_figure(number):
-    with pytest.raises(DefinitionError, match="2, 2a, 2b, 3, 3a, 3b, 4, 4a, 4b, 5, 5a, 5b, 6, 6a, 6b, 7"):
+    with pytest.raises(DefinitionError, match="1, 2, 2a, 2b, 3, 3a, 3b, 4, 4a, 4b, 5, 5a, 5b, 6, 6a, 6b, 7"):
         figure(number)
 
 

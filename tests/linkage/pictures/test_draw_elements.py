@@ -39,6 +39,7 @@ from linkage.pictures.drawing import BodyPart, MarkPart
 from linkage.pictures.scene import Scene
 from linkage.pictures.shapes import HALF
 from linkage.units import bar, litre
+from mechanisms.crane import ChainCrane
 from mechanisms.header_balancer import HeaderBalancer
 from mechanisms.three_point_hitch import ThreePointHitch
 
@@ -302,3 +303,18 @@ def test_a_page_stretches_the_same_lines():
             way, across, share = (*np.array(line["rows"]).T, 0.0)[:3]
             seen = P + np.column_stack([share * np.hypot(*(Q - P)) + way, across]) @ turned
             assert_allclose(seen, artist.get_xy()[: len(seen)], atol=2e-4)
+
+
+def test_a_rope_runs_over_rollers_at_its_pins_on_the_side_it_turns_to():
+    """At a pin the rope's straight parts touch a drawn roller, which stands on the inner side of the turn; at its ends it has none."""
+    crane = ChainCrane()
+    scene = Scene(crane.at(phi=1.0, psi=2.0, t=1.0))
+    at = scene.at(0)
+    assert sorted(mark.on[0] for mark in scene.pulleys) == ["D", "Z"]
+    for mark in scene.pulleys:
+        (radius,) = {round(float(np.hypot(*point)), 9) for point in mark.corners}
+        assert radius > scene.size
+        lines = [rope.drawn(at)[0] for rope in scene.ropes if mark.on[0] in rope.on]
+        ends = [line[int(np.argmin(np.hypot(*(line - at[mark.on[0]]).T)))] for line in lines]
+        assert_allclose([np.hypot(*(end - at[mark.on[0]])) for end in ends], radius, rtol=1e-3)
+        assert np.hypot(*(ends[0] - ends[1])) > 1.5 * radius  # one part above, one below: the chain turns back

@@ -316,5 +316,5 @@ def test_a_rope_runs_over_rollers_at_its_pins_on_the_side_it_turns_to():
         assert radius > scene.size
         lines = [rope.drawn(at)[0] for rope in scene.ropes if mark.on[0] in rope.on]
         ends = [line[int(np.argmin(np.hypot(*(line - at[mark.on[0]]).T)))] for line in lines]
-        assert_allclose([np.hypot(*(end - at[mark.on[0]])) for end in ends], radius, rtol=1e-3)
+        assert_allclose([np.hypot(*(end - at[mark.on[0]])) for end in ends], radius, rtol=1e-2)  # drawn to the first order
         assert np.hypot(*(ends[0] - ends[1])) > 1.5 * radius  # one part above, one below: the chain turns back

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from itertools import zip_longest
+from itertools import groupby, zip_longest
 from typing import TypeAlias, final
 
 SMALL_LETTERS = "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi pi rho sigma tau upsilon varphi chi psi omega"
@@ -106,6 +106,17 @@ def boxes(latex: str) -> Box:
     return _Reader(latex).boxes_until()
 
 
+def with_words(index: Box) -> Box:
+    """Return an index in which letters beside each other are one word."""
+    if not isinstance(index, BoxRow):
+        return index
+    parts: list[Box] = []
+    for is_word, group in groupby(index.parts, lambda each: isinstance(each, Sign) and each.kind == "variable"):
+        letters = [*group]
+        parts += [Sign("word", "".join(each.text for each in letters))] if is_word and len(letters) > 1 else letters
+    return parts[0] if len(parts) == 1 else BoxRow(tuple(parts))
+
+
 def breakable(box: Box) -> list[Box]:
     """Return a row cut in front of its outermost sums, products and comparisons: where a line may break."""
     if not isinstance(box, BoxRow):
@@ -186,7 +197,7 @@ class _Reader:
         low = high = None
         while self.peek() in ("^", "_"):
             if self.token() == "_":
-                low = self.one()
+                low = with_words(self.one())
             else:
                 high = self.one()
         if high == Sign("variable", "°") and low is None:

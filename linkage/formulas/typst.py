@@ -35,7 +35,7 @@ def typst_math(box: Box) -> str:
         case Fraction(over, under):
             return f"frac({typst_math(over)}, {typst_math(under)})"
         case Script(base, low, high):
-            below = "" if low is None else f", b: {typst_math(with_words(low))}"
+            below = "" if low is None else f", b: {typst_math(low)}"
             above = "" if high is None else f", t: {typst_math(high)}"
             return f"attach({typst_math(base)}{below}{above})"
         case Arrowed(base):
@@ -61,20 +61,6 @@ def row_math(parts: Sequence[Box]) -> str:
                 gap = " "
         found += gap + typst_math(part)
     return found or '""'
-
-
-def with_words(index: Box) -> Box:
-    """Return an index whose letters beside each other are one word."""
-    found: list[Box] = []
-    for part in index.parts if isinstance(index, BoxRow) else ():
-        match found[-1:], part:
-            case [Sign("word", before)], Sign("variable", letter):
-                found[-1] = Sign("word", before + letter)
-            case _, Sign("variable", letter):
-                found.append(Sign("word", letter))
-            case _:
-                found.append(part)
-    return BoxRow(tuple(found)) if found else index
 
 
 def escaped(text: str) -> str:

@@ -51,11 +51,12 @@ def export_command(options: Namespace) -> int:
     exporter = exporter_of(Path(options.output or "x.xlsx"), options.format)
     path = Path(default_name(options, machine) + exporter.suffix if options.output is None else options.output)
     check_place(path)
-    at = strokes_or_motion(machine, options)
-    if isinstance(at, Motion):
+    found = strokes_or_motion(machine, options)
+    if isinstance(found, Motion):
         ensure(options.poses is None, f"--over {options.over}: a motion has its poses; leave out --poses, or give --count.")
-        print(export(at, path, format=options.format, trace=options.path))
+        print(export(found, path, format=options.format, trace=options.path))
         return 0
+    at = dict(found)
     if options.poses is not None:
         first = next((name for name in machine.strokes if name not in at), None)
         if first is not None:

@@ -94,12 +94,7 @@ def plot_command(options: Namespace) -> int:
     at = settings.strokes_or_motion(machine, options)
     from ..pictures import plot
 
-    if not options.columns and isinstance(at, Motion):
-        figure = plot(at, [column_among(machine, results(machine, at), None)])
-    elif not options.columns:
-        settings.motion_along(machine, options.count, at)
-        figure = plot(machine, at=at, count=options.count)
-    else:
+    if options.columns:
         many = not isinstance(at, Motion) and any(len(values) > 1 for values in at.values())
         over = settings.motions_at(machine, options)[0][1] if many else settings.motion_along(machine, options.count, at)
         acting = settings.plain_value(settings.acting_of(machine, options))
@@ -108,6 +103,11 @@ def plot_command(options: Namespace) -> int:
         limits: dict[str, Sequence[Any]] = {name: limit for name, limit in machine.featured().limits.items() if name in names}
         limits |= dict(settings.parse_limit(text, columns) for text in options.limits)
         figure = plot(over, columns, limits=limits)
+    elif isinstance(at, Motion):
+        figure = plot(at, [column_among(machine, results(machine, at), None)])
+    else:
+        settings.motion_along(machine, options.count, at)
+        figure = plot(machine, at=at, count=options.count)
     figure.savefig(path)
     print(path)
     return 0

@@ -49,7 +49,7 @@ def over_read(given: object, names: Names) -> Over:
     for key in given:
         if key not in (*known, *OPTIONS, *shapes):
             what = f"{key} is true or false; leave it out for a box." if key in SHAPES else str(unknown("Stroke", key, known))
-            raise DefinitionError(f"{what} Beside strokes there are {', '.join((*SHAPES, *OPTIONS))}.")
+            raise DefinitionError(f"{what} Beside strokes there are {', '.join((*SHAPES, *OPTIONS, 'csv'))}.")
     chosen = [word for word in shapes if given[word]]
     ensure(len(chosen) <= 1, "it is a path and poses at once; a path goes on between its places, poses have nothing between them.")
     is_timed = "time" in given or any(map(is_course, given.values()))

@@ -467,7 +467,7 @@ class Motion(Shown):
         unless the motion has `unreachable="nan"`.
         """
         own = self.rates if wrt is None else {}
-        given = rates if rates is not None else own or dict.fromkeys([stroke_of(self.plan, wrt)], 1.0)
+        given = rates if rates is not None else own or {stroke_of(self.plan, wrt): np.ones(())}
         if rates is not None and wrt is not None:
             raise DefinitionError(f"{self.plan.title}: pole(wrt=..., rates=...): rates say already which strokes move; leave out wrt=.")
         of_body, of_other = body_points(self.plan, body), body_points(self.plan, other)

@@ -366,8 +366,8 @@ def ends_text(value: object) -> str:
     """Return the value of a stroke as it is written."""
     if isinstance(value, tuple):
         return f"({', '.join(map(ends_text, value))})"
-    is_member = isinstance(value, Member) and bool(value.name)
-    return repr(float(value)) if is_number(value) else value.name if is_member else str(value)
+    name = value.name if isinstance(value, Member) else ""
+    return repr(float(value)) if is_number(value) else name or str(value)
 
 
 def is_end(value: object) -> bool:
@@ -431,10 +431,10 @@ def instants_given(time: Any, values: Mapping[str, Any]) -> tuple[float, ...] | 
                 raise DefinitionError(f"{what}; give time=[...], an instant for each value, or a Course(times, values).")
             if len(value) != len(found):
                 raise DefinitionError(f"Over.path: time has {len(found)} instants and {name} {len(value)} values; give as many of each.")
-    for name, each in courses.items():
-        turns = (found[-1] - found[0]) / each.period if isinstance(each, Curve) and each.period is not None else 1.0
+    for name, course in courses.items():
+        turns = (found[-1] - found[0]) / course.period if isinstance(course, Curve) and course.period is not None else 1.0
         if round(turns) < 1 or abs(turns - round(turns)) > 1e-9 * turns:
-            what = f"Over.path: {name} has a period of {each.duration:.6g} s, and the path lasts {found[-1] - found[0]:.6g} s"
+            what = f"Over.path: {name} has a period of {course.duration:.6g} s, and the path lasts {found[-1] - found[0]:.6g} s"
             raise DefinitionError(f"{what}; give time=(begin, end) over whole periods of all its curves.")
     return found
 

@@ -60,6 +60,8 @@ class Course:
     """What it is made of, in order: a table, a ramp, a hold, or phases; as a file writes it."""
     measures: str
     """What its values measure, where amounts were given: "length" or "angle"; else ""."""
+    _phases: FloatArray
+    _last: float
 
     def __init__(self, times: npt.ArrayLike, values: npt.ArrayLike, kind: str = "smooth") -> None:
         one_word("kind", kind, KINDS)
@@ -124,7 +126,7 @@ class Course:
     @property
     def key(self) -> bytes:
         """What tells it from courses that go otherwise."""
-        return self.breaks.tobytes() + self._phases.tobytes()
+        return bytes(self.breaks.tobytes() + self._phases.tobytes())
 
     def __call__(self, x: npt.ArrayLike, order: int = 0, *, phase: npt.ArrayLike | None = None) -> Any:
         """Return the value at instants, or a derivative by time.
@@ -164,8 +166,9 @@ class Course:
         """Return the instants [s] between its ends at which a derivative of that order jumps: 1 for the rate, 2 for the acceleration."""
         inner, middle = self.breaks[1:-1], 0.5 * (self.breaks[1:] + self.breaks[:-1])
         before, after = (np.asarray(self(inner, order, phase=each)) for each in (middle[:-1], middle[1:]))
-        size = np.max(np.abs(self(np.linspace(*self.breaks[[0, -1]], 4 * len(self.breaks)), order)), initial=0.0)
-        size = max(float(size), float(np.max(np.abs(before), initial=0.0)), float(np.max(np.abs(after), initial=0.0)))
+        begin, end = self.breaks[[0, -1]].tolist()
+        known = np.concatenate([before, after, self(np.linspace(begin, end, 4 * len(self.breaks)), order)])
+        size = float(np.max(np.abs(known), initial=0.0))
         return tuple(inner[np.abs(after - before) > JUMP * size].tolist())
 
     # -- courses made of courses -------------------------------------------------------------------------
@@ -254,9 +257,9 @@ def ramp(a: float, b: float, *, speed: float, acceleration: float | None = None,
     DefinitionError
         A limit that is no number above zero, a jerk without an acceleration, two ends that are one.
     """
-    for name, value in (("ramp(a", a), ("ramp(b", b)):
-        require_number(name, value, "a finite number is expected")
-    limits = {"speed": speed, "acceleration": acceleration, "jerk": jerk}
+    for name, end in (("ramp(a", a), ("ramp(b", b)):
+        require_number(name, end, "a finite number is expected")
+    limits: Mapping[str, float | None] = {"speed": speed, "acceleration": acceleration, "jerk": jerk}
     for name, value in limits.items():
         if value is not None or name == "speed":
             require_number(f"ramp({name}", value, "a finite number above zero is expected", above=0.0)

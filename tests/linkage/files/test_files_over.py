@@ -111,7 +111,7 @@ loading = """
     ("entry", "words"),
     [
         ("3", "3 is not a table of strokes, such as"),
-        ("{ T = 1 }", "Stroke 'T' is unknown. Known: S, phi. Beside strokes there are path, poses, only, cases, lost."),
+        ("{ T = 1 }", "Stroke 'T' is unknown. Known: S, phi. Beside strokes there are path, poses, only, cases, lost, time, csv."),
         ("{ path = true, S = [0, 0.1] }", "it does not say where phi stand; give phi=..., one number where it is held."),
         ("{ path = true, poses = true, S = [0, 0.1], phi = 0 }", "it is a path and poses at once"),
         ("{ path = 3 }", "path is true or false; leave it out for a box."),

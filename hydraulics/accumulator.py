@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from copy import copy
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property, partial, reduce
 from math import isfinite
 from types import MappingProxyType
@@ -24,7 +24,7 @@ from numpy.typing import ArrayLike
 
 from linkage.checks import require_type
 from linkage.errors import DefinitionError, cited, ensure
-from linkage.frozen import keep_own, refuses_changes
+from linkage.frozen import immutable, keep_own
 from linkage.language import said
 from linkage.loads import Poses
 from linkage.loads.element import value_text
@@ -57,8 +57,7 @@ CHARGE = "Accumulator charge"
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class Accumulator:
     """A vessel of `volume` [m3] charged with gas to `charge` [Pa gauge], the fluid out, at the gas's temperature.
 
@@ -103,7 +102,7 @@ class Accumulator:
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class GasBank:
     """Gas charges [Pa absolute] in vessels [m3], one of each per gas; a charge or volume may be an array over designs."""
 
@@ -166,8 +165,7 @@ SMALLEST = 1e-9
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class AccumulatorBlock:
     """Accumulators on one line, any number and any charges; pressures are gauge [Pa].
 

@@ -7,12 +7,11 @@ left of that way. Both are taken as long as the cylinder is closed: the barrel e
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any, ClassVar, Self, final
 
 from linkage.errors import DefinitionError, unknown
-from linkage.frozen import refuses_changes
+from linkage.frozen import immutable
 from linkage.language import noted
 from linkage.loads import Glyph, Halves, Load, Parameter, Poses, Rates, TwoPoint
 from linkage.loads.point import DOWN, on_slope, shared_mass
@@ -110,8 +109,7 @@ class BarrelAndRod(TwoPoint):
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class BodyOf(Member):
     """A body of a cylinder, for a LinkMass or a Moment: `lift.barrel`, `lift.piston_rod`, by their names too, "lift.barrel"."""
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Callable, Hashable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial, reduce
 from math import nan
 from types import MappingProxyType
@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike
 
 from linkage.checks import require_type
 from linkage.errors import DefinitionError, cited, ensure
-from linkage.frozen import refuses_changes
+from linkage.frozen import immutable
 from linkage.language import said
 from linkage.loads import AT_REST, Acting, ForceElement, Glyph, Load, Parameter, Poses, Push, Rate, Rates, require_poses
 from linkage.loads.element import Formulas
@@ -231,8 +231,7 @@ class GasLine(Circuit):
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class FloatCircuit(GasLine):
     """A cylinder on a closed accumulator block: `FloatCircuit(lift, block, charge_pressure=94 * kgf_cm2, at=h_horizon)`.
 

@@ -11,14 +11,13 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError
-from linkage.frozen import refuses_changes
+from linkage.frozen import immutable
 from linkage.program import is_traced
 from linkage.quantities.quantity import plain
 from linkage.units import bar
@@ -91,8 +90,7 @@ class Gas(ABC):
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class Polytropic(Gas):
     """Ideal gas with p V^n = const: n = 1 is isothermal (slow), n = 1.4 adiabatic (fast). `n` may be an array over states."""
 
@@ -175,8 +173,7 @@ TERMS = (  # i, j, c
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class RealNitrogen(Gas):
     """Real nitrogen kept at one temperature (a slow change); see above for source, range and error."""
 

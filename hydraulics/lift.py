@@ -8,14 +8,14 @@ looks between the poses, whatever their number.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from types import MappingProxyType
 from typing import ClassVar, final
 
 import numpy as np
 
 from linkage.errors import DefinitionError, ensure, known_name, unknown
-from linkage.frozen import refuses_changes
+from linkage.frozen import immutable
 from linkage.language import noted, said, said_of, with_and
 from linkage.loads import FRICTIONLESS, Acting, Case, ForceElement, Loads, Parameter, situation_of
 from linkage.motion import Answer, Condition, Judge, Motion, PageWords, Question, Span, at, below_zero, least, most, reached, require_motion
@@ -81,8 +81,7 @@ class PumpLine(LiftLine):
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class LiftCircuit(PumpLine):
     """A pump on a cylinder: `circuit = LiftCircuit(lift, pressure=180 * bar, flow=60 * litre / minute, mechanical_efficiency=0.9)`.
 

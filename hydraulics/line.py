@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from typing import Any, Unpack, cast, final
 
@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError, UntracedError, one_word, unwarned
-from linkage.frozen import refuses_changes
+from linkage.frozen import immutable
 from linkage.language import said, with_and
 from linkage.loads import AS_IT_RUNS, DIRECTIONS, SENSES, Acting, ActingKeywords, Case, Loads, situation_of
 from linkage.loads.element import Declared, ForceElement, Formulas, Parameter, Poses, Share, Tie, require_poses
@@ -45,8 +45,7 @@ class Choice(ActingKeywords, total=False):
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class Work:
     """A cylinder's thrust [N] while it grows (`sense` 1) or shrinks (-1), its size, and the mechanical efficiency.
 
@@ -99,8 +98,7 @@ class Work:
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class Holding:
     """Gauge pressures [Pa] that hold a load: on the working side, and on the other one where the load drives on."""
 
@@ -109,8 +107,7 @@ class Holding:
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class Lowering:
     """Going back against a load, gauge pressures [Pa].
 

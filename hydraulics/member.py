@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError, cited, ensure, known_name, unknown, unwarned
-from linkage.frozen import refuses_changes
+from linkage.frozen import immutable, refuses_changes
 from linkage.language import noted, said, translated, with_and
 from linkage.loads import (
     AS_IT_RUNS,
@@ -617,8 +617,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class Cylinder(BarrelAndRod, Ram):
     """`count` equal cylinders side by side between A and B: `lift = Cylinder(A, B, bore=110 * mm, rod=60 * mm, count=2)`.
 
@@ -837,7 +836,7 @@ class Cylinder(BarrelAndRod, Ram):
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class AllOf(Condition):
     """Several conditions as one: the worst counts."""
 

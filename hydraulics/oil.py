@@ -13,7 +13,7 @@ AccumulatorBlock             p of the gas      given, as a function of the oil t
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial, reduce
 from math import pi
 from operator import add
@@ -24,7 +24,7 @@ import numpy as np
 
 from linkage.checks import require_type
 from linkage.errors import DefinitionError, cited, unknown
-from linkage.frozen import FrozenDict, refuses_changes
+from linkage.frozen import FrozenDict, immutable
 from linkage.language import said
 from linkage.loads import Acting, ActingKeywords, Declared, ForceElement, Loads, Parameter, Poses, Tie, situation_of, takes_situation
 from linkage.loads.element import UNBOUNDED, Formulas
@@ -98,8 +98,7 @@ class Supply(OnLines):
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class Pump(Supply):
     """A pump: `supply = Pump(180 * bar, flow=60 * litre / minute)`; a line that it is on is held, and its pressure is what the pose asks.
 
@@ -118,8 +117,7 @@ class Pump(Supply):
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class Relief(Supply):
     """A relief valve, which opens at a gauge pressure [Pa]: `valve = Relief(200 * bar)`; it may lie on any line."""
 
@@ -128,8 +126,7 @@ class Relief(Supply):
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class Tank(Supply):
     """A tank, whose line has a given gauge pressure [Pa]: `back = Tank(5 * bar)`, none where it is open."""
 
@@ -138,8 +135,7 @@ class Tank(Supply):
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class LineLength(Quantity):
     """The length that a closed line gives one of its cylinders [m]."""
 

@@ -7,12 +7,13 @@ open, as of a cylinder with both sides shut, they are the least that balance.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property, reduce
 from typing import final
 
 import numpy as np
 
+from linkage.frozen import immutable
 from linkage.loads import Acting, LoadCase, Tie
 from linkage.plan import Plan
 from linkage.quantities import NamedMembers
@@ -63,7 +64,7 @@ def standing_pressure(line: Circuit, motion: AnyMotion, acting: Acting) -> Array
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class CommonStroke:
     """Cylinders that one stroke moves over a motion's poses; of several each counts by how its length follows that stroke."""
 

@@ -17,7 +17,6 @@ next one moves while it extends, the one before while it retracts. At rest the s
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from functools import reduce
 from itertools import accumulate, pairwise
 from operator import add
@@ -27,7 +26,7 @@ from typing import Any, ClassVar, cast, final
 import numpy as np
 
 from linkage.errors import DefinitionError, cited, ensure
-from linkage.frozen import keep_own, refuses_changes
+from linkage.frozen import immutable, keep_own
 from linkage.language import noted, said
 from linkage.loads import Case, Glyph, Parameter, Poses
 from linkage.loads.element import Formulas, value_text
@@ -47,8 +46,7 @@ STAGES = 12
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class StageSize(RamSize):
     """The bore of the stage that moves [m], one number or an array over the poses; `count` telescopes side by side."""
 
@@ -66,8 +64,7 @@ class StageSize(RamSize):
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class Telescope(Ram):
     """`count` equal telescopes side by side: `hoist = Telescope(A, B, bores=[145 * mm, 125 * mm], strokes=[1.0, 0.9], closed=1.3)`.
 

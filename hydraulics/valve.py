@@ -8,7 +8,7 @@ Source: P. Chapple, Principles of Hydraulic Systems Design, on counterbalance va
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from types import MappingProxyType
 from typing import ClassVar, Unpack, cast, final
@@ -16,7 +16,7 @@ from typing import ClassVar, Unpack, cast, final
 import numpy as np
 
 from linkage.errors import DefinitionError, cited, known_name, unknown
-from linkage.frozen import refuses_changes
+from linkage.frozen import immutable
 from linkage.language import said
 from linkage.loads import Acting, ActingKeywords, Case, Loads, Parameter, Poses, situation_of, takes_situation
 from linkage.motion import Condition, HasVerdicts, Judge, Question, at, most
@@ -38,8 +38,7 @@ ROUNDED = 5e-4
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class HoldingValve(OnLines, HasVerdicts):
     """A counterbalance valve: `valve = HoldingValve(lifting, pilot=other, setting=210 * bar, ratio=4)`.
 

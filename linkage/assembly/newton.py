@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import reduce
 from typing import final
 
@@ -11,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import AssemblyError, SingularError
+from ..frozen import immutable
 from ..plan import Plan, strokes_text
 from ..program import ARRAYS, FloatArray, Kernel, Level, Node, ancestors, compiled, expanded, is_zero, jacobian, replaced, solve_arrays
 from ..program.text import GUARDED, function_text
@@ -179,7 +179,7 @@ def nearness(rows: FloatArray) -> FloatArray:
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class GroupEquations:
     """The residuals of a group, the roots they determine, and the Jacobian by rows; groups before it are held."""
 
@@ -209,7 +209,7 @@ class GroupEquations:
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class Programs:
     """Newton's step and the clearance of a group, from its pins and what is known before: inputs `@k0`, `@k1`, ...
 

@@ -13,6 +13,7 @@ from inspect import Parameter, ismethod, signature
 from typing import Any, final
 
 from ..errors import DefinitionError, ensure, told
+from ..frozen import immutable
 from ..loads import ForceElement
 from ..quantities import Member
 from ..quantities.member import KEPT_AS, annotated_kind, kinds_said
@@ -163,7 +164,7 @@ def written_table(member: object, design: Design, arguments: Iterable[Argument],
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class Within(Kind):
     """The kind of an argument that is a value of a class: the arguments of that class stand among those of the member."""
 

@@ -14,12 +14,12 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Any, final
 
 from ..errors import DefinitionError, ensure
+from ..frozen import immutable
 from ..motion.measures import Condition, Measure
 from ..motion.regions import outside
 from ..quantities import is_number
@@ -52,7 +52,7 @@ _OUTSIDE = re.compile(r"\s*outside\s*\(\s*(?P<outline>[^()]+?)\s*\)\s*\Z")
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class SearchFile:
     """A search that a file asks for: its function, the machine or several, the keywords, the steps of `round`, and the files of results."""
 

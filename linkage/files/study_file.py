@@ -14,13 +14,14 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from inspect import Parameter, signature
 from pathlib import Path
 from typing import Any, TypeAlias, final, get_type_hints
 
 from ..disk import check_place
 from ..errors import DefinitionError, FileError, ensure, known_name, one_word, unknown
+from ..frozen import immutable
 from ..loads import PLAIN_CASE, LoadCase
 from ..mechanism import Mechanism
 from ..motion import Over, stroke_measure
@@ -47,7 +48,7 @@ _AROUND = re.compile(r"\s*(?:within|around|\+-|\+/-|±)\s*(?P<by>.+?)(?:\s+(?:in
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class StudyHead:
     """A study file as it is read: its tables, the mistakes found so far, the machine, and the folder that its paths start from."""
 

@@ -25,6 +25,7 @@ from typing import Annotated, Any, final
 import numpy as np
 
 from ..errors import DefinitionError, LinkageError, ensure, known_name, unknown
+from ..frozen import immutable
 from ..loads import Acting
 from ..mechanism import Mechanism
 from ..motion import Column, Request, stroke_display_unit, stroke_measure
@@ -137,7 +138,7 @@ def named_measures(given: Any) -> dict[str, str]:
 # -- the studies ---------------------------------------------------------------------------------------------
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class TaskResult:
     """What a study came to: sentences, a table, the study's own result, and whether there is a solution."""
 
@@ -434,7 +435,7 @@ TASK_OUTPUTS: Mapping[str, Sequence[str]] = {
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class StudyFile:
     """The studies that a file asks for, each with its keywords, the folder that the survey is kept in, and the files of their results."""
 

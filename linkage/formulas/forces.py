@@ -8,7 +8,6 @@ work are those of `linkage.statics.work`. Source of notation: Dyuzhev, Kotov, Ch
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, TypeAlias, cast, final
 
@@ -16,6 +15,7 @@ import numpy as np
 import sympy
 
 from ..errors import DefinitionError
+from ..frozen import immutable
 from ..loads import AT_REST, Acting, ForceElement, Rate, Rates, Support, TwoPinned, TwoPoint
 from ..mechanism import Mechanism
 from ..motion import Motion, stroke_unit
@@ -41,7 +41,7 @@ WORDS = (
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class Pulled:
     """A load as it is written: its point, its symbol, and its direction: -1 downwards, 1 upwards, 0 a vector's own."""
 

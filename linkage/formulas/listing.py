@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
 from typing import Any, cast, final
 
 import numpy as np
 import sympy
 
+from ..frozen import immutable
 from ..motion import Motion
 from ..plan import Plan
 from ..quantities import (
@@ -80,7 +80,7 @@ def x_axis_of(axes: Axes, reading: Listing) -> sympy.MatrixExpr:
 # A line of the listing: what stands for what.
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class ListingLine:
     """One line: a symbol, what it equals, and what it measures."""
 
@@ -95,7 +95,7 @@ class ListingLine:
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class GivenNumber:
     """A symbol that no line gives, what its value is at the poses of a motion [SI], and what it measures."""
 

@@ -16,6 +16,7 @@ import sympy
 
 from ..checks import require, require_type, require_whole
 from ..errors import DefinitionError, known_name
+from ..frozen import immutable
 from ..language import translated
 from ..mechanism import Mechanism, declared, require_mechanism
 from ..motion.requests import stroke_of
@@ -146,7 +147,7 @@ def members_with_lines(listing: Listing) -> dict[str, sympy.Basic]:
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class Equation:
     """`lhs = rhs`, both SymPy: a scalar symbol, or a matrix symbol of shape (2, 1) for a point or a vector.
 

@@ -13,12 +13,13 @@ M. L. Overton, SIAM J. Optim. 15 (2005) 751-779.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import fields, replace
 from itertools import combinations, product
 from typing import Protocol, Self, final
 
 import numpy as np
 
+from ..frozen import immutable
 from ..vectors import FloatArray, Mask
 from .line import CLOSE, LOWEST, Index, is_pole, last_holding, missing_lowest, shifted
 
@@ -56,7 +57,7 @@ class SeenBox(Protocol):
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class HighestInBox:
     """The highest value of K functions of D designs, arrays (K, D), NaN where there is none; where (K, D, k); whether it is unbounded."""
 
@@ -77,7 +78,7 @@ def values_a_stroke(k: int, designs: int) -> int:
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class Climbs:
     """Searches, arrays (r, ...): whose (function and design), the best place and its value, the next stencil, what it should show."""
 
@@ -209,7 +210,7 @@ def starts_of(box: SeenBox) -> tuple[Climbs, FloatArray]:
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class Quadratic:
     """Quadratics (r,) of places (r, k) in their stencils, from -1 to 1: value, gradient, second derivatives."""
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import TypeAlias, final
 
 import numpy as np
 
+from ..frozen import immutable
 from ..vectors import FloatArray, Mask
 from .line import Index
 
@@ -74,7 +74,7 @@ def descended(
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class DampedSystem:
     """The linear equations of a step of Levenberg and Marquardt from unit coordinates (m, k), and their solution, the `step` (m, k).
 

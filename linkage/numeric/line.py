@@ -15,12 +15,13 @@ A line is made of legs, a place on it is a leg and a share t of it, 0 to 1. Noth
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TypeAlias, final
 
 import numpy as np
 import numpy.typing as npt
 
+from ..frozen import immutable
 from ..vectors import FloatArray, Mask
 
 Index: TypeAlias = npt.NDArray[np.intp]
@@ -44,7 +45,7 @@ PLATEAU = 2.0**-12  # of the distance at which a value stopped growing: where it
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class Highest:
     """The highest value of K functions of D designs, arrays (K, D): value, NaN where there is none; leg and t; whether it is unbounded."""
 
@@ -55,7 +56,7 @@ class Highest:
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class Tops:
     """Places that may be highest, arrays (K, D, c): their values, half the brackets about them, and the most that may hide in these."""
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any, final
 
 import numpy as np
 
+from ..frozen import immutable
 from ..vectors import FloatArray
 
 PANELS, NODES = 24, 5
@@ -19,7 +19,7 @@ ENDLESS = 1e-2
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class Quadrature:
     """An integral (...), infinite where there is none, the `error` that the panels leave (...), and their `edges` (n + 1,)."""
 

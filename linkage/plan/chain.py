@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import final
 
+from ..frozen import immutable
 from ..quantities import Joint, JointSide, Member, Quantity, Stroke, body_name, joined_names, needed_behind, needs, of_kind
 from ..steps import Point
 from .members import FRAME, Body, Members, carrying_pairs, member_sides, spanning_name
@@ -27,7 +28,7 @@ class ChainBody:
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class Pair:
     """A `pin` at a point or a `slide`, between two bodies by their names; `length` is what a slide drives, by these `strokes`."""
 

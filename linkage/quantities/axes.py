@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Hashable
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import final
 
 import numpy as np
 
+from ..frozen import immutable
 from ..vectors import Vec
 from .member import Reference, Where, name_of
 from .quantity import Number, Quantity, spelled
@@ -21,7 +22,7 @@ def is_nothing(given: Quantity) -> bool:
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class Axes:
     """Axes that stand `at` a place, turned by an `angle` [rad], in the frame or in the axes of the body of two points P and Q.
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 import operator
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Hashable, Iterator, Mapping
-from dataclasses import dataclass
 from typing import Any, ClassVar, NoReturn, TypeAlias, cast, final
 
 import numpy as np
@@ -126,7 +125,7 @@ CHOICE = "choose by np.maximum or np.minimum, or make two classes of it"
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class PoseCondition:
     """A comparison of what has a value at every pose: `x("T") <= 4`, kept at some poses and not at others; for `Over(..., only=[...])`.
 

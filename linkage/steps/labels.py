@@ -12,12 +12,12 @@ from functools import cached_property
 from typing import Protocol, final
 
 from ..errors import DefinitionError
-from ..frozen import refuses_changes
+from ..frozen import immutable, refuses_changes
 from ..quantities import Operand, Quantity, joined_names, quantity, spelled
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class Spoken:
     """How the labels of a member of a part are spoken: by the points' names in the part, with the part's name in front."""
 

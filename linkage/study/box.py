@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from itertools import product
 from typing import Any, TypeGuard, final
 
@@ -11,6 +10,7 @@ import numpy as np
 
 from ..checks import require, require_whole, unfit
 from ..errors import DefinitionError, cited, one_word, unknown
+from ..frozen import immutable
 from ..mechanism import Mechanism
 from ..numeric.line import Index
 from ..plan import Plan
@@ -22,7 +22,7 @@ from .designs import check_once
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class Box:
     """Settings: `ranges` from low to high [SI] by name, times the `choices`, each a mapping of names to values."""
 

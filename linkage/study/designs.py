@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 from hashlib import blake2b
 from math import prod
 from time import perf_counter, thread_time
@@ -14,7 +13,7 @@ import numpy.typing as npt
 
 from ..checks import require_type
 from ..errors import DefinitionError, StudyError, cited
-from ..frozen import unmasked
+from ..frozen import immutable, unmasked
 from ..mechanism import Mechanism
 from ..program import fixed_backend
 
@@ -26,7 +25,7 @@ LOOKED_AT = 1 << 17
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class Designs:
     """Dimensions that vary, by name: one array (m,), of a point two, of which one may be a number; `count` is m.
 
@@ -159,7 +158,7 @@ class StudyWork(Protocol):
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class Task:
     """The work of a survey: `measure` is called for `piece` designs at a time."""
 
@@ -185,7 +184,7 @@ class Task:
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class Batch:
     """The results of the designs from start to before stop; what they took by the clock and of a processor [s]; whether from a folder."""
 

@@ -10,6 +10,7 @@ from typing import final
 import numpy as np
 
 from ..errors import LinkageError, StudyError
+from ..frozen import immutable
 from ..mechanism import Mechanism
 from ..motion.measures import Constraint
 from ..program import FloatArray
@@ -109,7 +110,7 @@ def shown(problem: Problem, constraint: Constraint) -> str:
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class GivenWay:
     """A design of which some conditions give way as little as they can: by how much in parts of their sizes, and what they are then."""
 

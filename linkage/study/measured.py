@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property
 from itertools import pairwise
 from math import prod
@@ -13,6 +13,7 @@ from typing import Any, TypeAlias, final
 import numpy as np
 
 from ..errors import AssemblyError, DefinitionError, UntracedError, cited, told, unwarned
+from ..frozen import immutable
 from ..mechanism import Mechanism
 from ..motion import Grid, Motion, Request, at_values, each_at_its_stroke, evaluate_grid, stroke_display_unit
 from ..motion.grid import JoinedTo
@@ -61,7 +62,7 @@ def measured_title(plan: Plan, quantity: object) -> str:
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class StudyPoses:
     """The poses that a study looks at, and quantities of many designs there: `base` is the motion of the machine as it is set.
 

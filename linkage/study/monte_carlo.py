@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
 from typing import TypeVar, final
 
 import numpy as np
 
 from ..checks import require
 from ..errors import DefinitionError, cited, known_name, one_word, unwarned
-from ..frozen import FrozenDict, refuses_changes
+from ..frozen import FrozenDict, immutable
 from ..mechanism import Mechanism
 from ..motion.measures import At, Condition, Constraint, Integral, Leaf, Measure, Worst, conditions_of, measure_of
 from ..motion.requests import may_be_unlimited
@@ -36,8 +35,7 @@ MEMORY = 1 << 28
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class Band:
     """A quantity over the strokes, shapes (...), of machines with tolerances; `unit` is the one it is shown in.
 
@@ -57,8 +55,7 @@ class Band:
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class MonteCarlo:
     """Machines with tolerances: a `Band` of each quantity, and the share of machines that are good.
 

@@ -18,6 +18,7 @@ import numpy as np
 from ..checks import require_number
 from ..disk import Place, replacing_text
 from ..errors import AssemblyError, DefinitionError, LinkageError
+from ..frozen import immutable
 from ..mechanism import Mechanism
 from ..motion.measures import Constraint, Given, Integral, Leaf, Measure, measure_of, measure_unit
 from ..numeric.line import Index
@@ -58,7 +59,7 @@ MOST_STEPS, JUDGED, NEAR_KEPT = 1 << 14, 24, 1e-3
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class Kept:
     """A condition of a design: its two sides [SI], what is to spare (below zero: missing), and whether it is active.
 
@@ -92,7 +93,7 @@ class Kept:
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class AtBound:
     """A variable that stands at an end of its range, and by what part the objective would be better `by` so much farther [SI]."""
 
@@ -113,7 +114,7 @@ class AtBound:
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class Optimum(Shown):
     """The best design found, assembled over the whole stroke.
 
@@ -334,7 +335,7 @@ def worth_of(problem: Problem, machine: Mechanism) -> tuple[float, float]:
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class Prices:
     """What limits a design, in scaled numbers: the price of each constraint and of each variable's bound, zero or above.
 
@@ -549,7 +550,7 @@ class StepSearch:
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class Rounded(Told):
     """A design on drawing dimensions: the machine, its objective [SI], what that costs as a part, and what is missing of the conditions."""
 
@@ -641,7 +642,7 @@ def in_units(constraint: Constraint, units: str) -> str:
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class EvaluatedDesigns:
     """Designs of one combination of choices: unit coordinates (m, n), the objective (m,) [SI], and the part missing of a condition (m,).
 

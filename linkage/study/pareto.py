@@ -8,13 +8,13 @@ NSGA-II, IEEE Trans. Evol. Comp. 6 (2002) 182-197.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from importlib.util import find_spec
 from typing import Any, final
 
 import numpy as np
 
 from ..errors import DefinitionError, LinkageError
+from ..frozen import immutable
 from ..mechanism import Mechanism
 from ..motion.measures import CombinedMeasure, Constraint, Given, Measure
 from ..program import FloatArray
@@ -32,7 +32,7 @@ POINTS = 15
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class FrontPoint:
     """A design of a front: the machine, assembled over the whole stroke, and its objectives [SI]."""
 
@@ -41,7 +41,7 @@ class FrontPoint:
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class Front(Shown):
     """The designs of which none is better in all objectives, in the order of the first: `front.points[0].machine`."""
 

@@ -18,7 +18,7 @@ import numpy as np
 
 from ..checks import require_type
 from ..errors import DefinitionError, StudyError, cited
-from ..frozen import FrozenDict
+from ..frozen import FrozenDict, immutable
 from ..mechanism import Mechanism
 from ..motion import Grid, Motion, Request, greatest
 from ..motion.grid import JoinedTo, joined_in_order, varies
@@ -159,7 +159,7 @@ class PoseSet:
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class Rows:
     """A leaf at its poses: values (m, n), of one design derivatives (p, n), and of which designs (m,) it is lost: without a value."""
 
@@ -169,7 +169,7 @@ class Rows:
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class Evaluated:
     """One design or several looked at: the rows of each leaf, margins (m, r), whether all is reached (m,); of one also derivatives."""
 

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import TypeAlias, final
 
 import numpy as np
 
-from ..frozen import frozen
+from ..frozen import frozen, immutable
 from ..motion.many_places import ManyPlaces, PlacePoses
 from ..numeric.line import Index
 from ..plan import Mask
@@ -26,7 +25,7 @@ ROUNDS, HALVED, AT_END = 4, 20, 1e-5
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class Reach:
     """What a point reaches: heights of level lines, ascending, and the parts of each that are reached, (line, left, right) [m]."""
 

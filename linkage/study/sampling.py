@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, final
 
 import numpy as np
 
 from ..errors import unwarned
+from ..frozen import immutable
 from ..motion import Grid, Motion, NodeRequest, Request
 from ..motion.evaluation import BulkProgram, Evaluation
 from ..motion.functions import evaluate_bound
@@ -26,7 +27,7 @@ DIFFERENCE = 6e-6
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class Samples:
     """Quantities at poses: `values` (k, m, n), the `margins` of the loops (r, m, n), and whether a pose is `reached` (m, n).
 
@@ -43,7 +44,7 @@ class Samples:
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class SampleProgram:
     """Requests and derivatives of some of them as one kernel, so that a look at a design is one call.
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..checks import require, require_whole
 from ..errors import DefinitionError, one_word, unwarned
-from ..frozen import FrozenDict, refuses_changes
+from ..frozen import FrozenDict, immutable
 from ..mechanism import Mechanism
 from ..motion.measures import measure_of
 from ..plan import Plan
@@ -57,8 +57,7 @@ class Effect:
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class Tornado:
     """The effect of every tolerance by itself on a quantity at one pose: bars, the longest first; `sigma` is that of all together."""
 
@@ -145,8 +144,7 @@ def gradient_at(machine: Mechanism, poses: StudyPoses, quantity: Measured, toler
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class SobolIndices:
     """The shares of a quantity's variance by dimension: `first` order, by itself, and `total`, with all it acts together with.
 

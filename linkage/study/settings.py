@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any, final, overload
 
 import numpy as np
 
 from ..checks import require, require_whole
 from ..errors import DefinitionError, cited, known_name, unwarned
-from ..frozen import FrozenDict, refuses_changes
+from ..frozen import FrozenDict, immutable
 from ..language import said
 from ..mechanism import Mechanism
 from ..motion import Motion, Request, Target, last_holding, stroke_display_unit
@@ -37,7 +36,7 @@ many times that of the usual ones [%]."""
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class Settings(Told):
     """All values [SI] of a dimension that give the target, ascending; `sentence` says so, or why there is none."""
 
@@ -198,8 +197,7 @@ def no_setting_words(words: Mapping[str, str], own: str, unit: str, at: FloatArr
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class Solutions(Told):
     """All settings of several dimensions that give the targets, or the nearest one; `sentence` says so.
 
@@ -260,7 +258,7 @@ TOLD = 1e-3
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class Search:
     """A box of settings of a machine, and what is aimed at with them: targets, their requests, the poses they are wanted at.
 

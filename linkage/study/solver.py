@@ -9,12 +9,12 @@ the way, so that the solver turns back.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import NamedTuple, final
 
 import numpy as np
 
 from ..errors import DefinitionError, StudyError
+from ..frozen import immutable
 from ..motion.measures import CombinedMeasure, Constraint, Given, Integral, Leaf, Measure
 from ..program import FloatArray
 from .problem import Evaluated, LeafNumbers, LimitReachedError, Problem, Rows, missed, scale_among
@@ -80,7 +80,7 @@ def graded(measure: Measure, of_leaf: Callable[[Leaf], Graded]) -> Graded:
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class Row:
     """One line of the solver's problem: which constraint it belongs to, None for what every design keeps, and its scaled numbers.
 
@@ -95,7 +95,7 @@ class Row:
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class SearchEnd:
     """What a local search came to: its combination of choices, unit coordinates, the objective, what is missing at most.
 

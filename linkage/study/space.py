@@ -14,6 +14,7 @@ import numpy as np
 
 from ..checks import require, require_type
 from ..errors import DefinitionError, cited, known_name, unknown
+from ..frozen import immutable
 from ..loads import ForceElement
 from ..mechanism import Mechanism
 from ..motion.measures import Constraint, least
@@ -106,7 +107,7 @@ class Varied:
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class PointRegion:
     """The region of a point. Of a fixed point that varies `places` are its variables, x and y, None for one that does not vary.
 
@@ -193,7 +194,7 @@ def places_inside(title: str, each: PointRegion, variables: Sequence[Varied], co
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class Space:
     """The variables, and the choices: for each, the dimensions it sets and their rows; and the regions in which points may stand."""
 

@@ -10,7 +10,7 @@ from collections import deque
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Future
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from inspect import signature
 from math import ceil
 from pickle import PicklingError
@@ -22,7 +22,7 @@ import numpy as np
 
 from ..checks import require, require_whole
 from ..errors import DefinitionError, LinkageError, StudyError, cited, known_name, one_word
-from ..frozen import FrozenDict, read_only, refuses_changes
+from ..frozen import FrozenDict, immutable, read_only
 from ..mechanism import Mechanism
 from ..quantities import is_whole
 from ..shown import Shown
@@ -283,8 +283,7 @@ SMALLEST, LARGEST, PARTS = 64, 2048, 64
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class Survey(Mapping[str, Array], Shown):
     """What was measured: `found["travel"]`, shape (m,), for each name that `measure` gave.
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from itertools import combinations, product
 from typing import Any, final
@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from ..checks import require, require_type
 from ..errors import DefinitionError, cited, known_name, unwarned
-from ..frozen import FrozenDict, frozen, read_only, refuses_changes
+from ..frozen import FrozenDict, frozen, immutable, read_only
 from ..language import heading_of, noted, said
 from ..loads import Case, ForceElement, Weight
 from ..mechanism import Mechanism
@@ -59,8 +59,7 @@ FEW, BEYOND = 6, 0.25
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class WorkingField:
     """What is lifted at a point over a grid of places; arrays of the shape (heights, radii).
 
@@ -199,7 +198,7 @@ GRID, ZOOMS, CLOSER = np.linspace(-1.0, 1.0, 9), 5, 0.3
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class Climb:
     """Poses whose spare strokes go to where most is carried; the first `solved` strokes of each are solved for.
 
@@ -364,7 +363,7 @@ def check_strokes(plan: Plan, hold: object, targets: Sequence[Target], title: st
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class FurtherLimit:
     """A further limit: the load itself may not exceed `most`, or `margin`, which follows the load, may not fall below zero."""
 
@@ -401,7 +400,7 @@ class FurtherLimit:
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class LoadsFound:
     """PlacePoses that were found (n), and the load that each limiter leaves there, factors included (limiters, n)."""
 
@@ -425,7 +424,7 @@ class LoadsFound:
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class FieldSearch:
     """A field to look for: the places, the poses, the loads."""
 

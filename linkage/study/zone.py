@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from itertools import product
 from types import MappingProxyType
 from typing import Any, NamedTuple, TypeAlias, final
@@ -12,7 +11,7 @@ from typing import Any, NamedTuple, TypeAlias, final
 import numpy as np
 
 from ..errors import DefinitionError, SingularWarning
-from ..frozen import refuses_changes
+from ..frozen import immutable
 from ..mechanism import Mechanism
 from ..motion import Motion, at_values, highest, out_of_reach
 from ..motion.measures import words_of
@@ -32,8 +31,7 @@ MOST_RANGES = 8
 
 
 @final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class Zone:
     """The band of a quantity over the strokes: `low` and `high`, shape (...), over all settings that can be assembled.
 

@@ -14,6 +14,7 @@ import numpy as np
 
 from ..assembly import chain_parts
 from ..errors import DefinitionError, cited, unwarned
+from ..frozen import immutable
 from ..mechanism import Mechanism
 from ..mobility import MOST_LINKS, Form, canonical, chain_forms, joined
 from ..motion import Featured
@@ -226,7 +227,7 @@ Places: TypeAlias = dict[str, tuple[float, float]]
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class Joints:
     """The joints of an inversion by name, each the pair of its links: O is the crank's on the frame, A the first of its others."""
 

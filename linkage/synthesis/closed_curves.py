@@ -8,13 +8,13 @@ curves J. R. McGarva, G. Mullineux, Harmonic representation of closed curves, Ap
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Self, TypeAlias, final
 
 import numpy as np
 import numpy.typing as npt
 
 from ..errors import DefinitionError
+from ..frozen import immutable
 from ..plan import Mask
 from ..program import FloatArray
 
@@ -32,7 +32,7 @@ SAME_POINT = 1e-9
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class ClosedCurves:
     """Closed curves by arc length: `middle` (m,) and `descriptors` (m, 2 h) of k = 1 ... h, -1 ... -h, complex numbers [m].
 
@@ -103,7 +103,7 @@ def ways(samples: ComplexArray) -> tuple[FloatArray, FloatArray]:
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class Laying:
     """How curves (m,) lie best on another one: `factor` * z + `by`, complex [m], each begun at the part `start` of its way.
 

@@ -14,6 +14,7 @@ import numpy as np
 
 from ..checks import require_whole
 from ..errors import DefinitionError, StudyError, cited, ensure, unwarned
+from ..frozen import immutable
 from ..language import said
 from ..mechanism import Mechanism
 from ..motion import Grid
@@ -64,7 +65,7 @@ WAY = RunOptions("numpy")
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class CurveClass:
     """A machine whose first two fixed points stand 1 m apart, and what of it varies: lengths, further fixed points, angles.
 
@@ -238,7 +239,7 @@ def amplitude_names() -> list[str]:
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class CurveMatch(Shown):
     """A machine of a catalogue, laid onto a curve, and how far its own curve is off.
 
@@ -254,7 +255,7 @@ class CurveMatch(Shown):
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class CurveCatalogue(Shown):
     """Closed curves of a point, of designs that run their whole turn: `catalogue.nearest(points)`.
 

@@ -18,7 +18,7 @@ import numpy.typing as npt
 
 from ..checks import require
 from ..errors import DefinitionError, StudyError, ensure
-from ..frozen import read_only
+from ..frozen import immutable, read_only
 from ..language import said
 from ..mechanism import Mechanism
 from ..motion.regions import Disc, Region, region_of
@@ -250,7 +250,7 @@ class Burmester(Told, Shown):
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class PosedBody:
     """A body in its poses (n, 3), as complex numbers: z its places, `turned` its directions from those of the first pose."""
 
@@ -424,7 +424,7 @@ def exact_link(state: FloatArray, z: ComplexArray, T: ComplexArray) -> tuple[com
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class CurveLoop:
     """A loop of the curves of four poses: the compatibility linkage driven along its `way`, on one `side` where it turns fully.
 

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, final
 
 import numpy as np
 
 from ..errors import unwarned
+from ..frozen import immutable
 from ..motion import Grid, Request, stroke_display_unit
 from ..motion.requests import slope
 from ..numeric.descent import BEGIN, descended
@@ -66,7 +67,7 @@ def goes_one_way(strokes: FloatArray, wide: float) -> bool:
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class Timing:
     """The strokes of the points: `base` + `moves` @ (low + width * own), own unknowns (w,) from 0 to 1; `turn` that of a crank, else 0.
 

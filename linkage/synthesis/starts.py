@@ -7,12 +7,13 @@ Shift, turn and size of a plane figure on another one in closed form. Source: I.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import combinations
 from typing import Any, final
 
 import numpy as np
 
+from ..frozen import immutable
 from ..numeric.line import Index
 from ..plan import plan_measure
 from ..program import FloatArray
@@ -38,7 +39,7 @@ APART = 0.05
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class Likeness:
     """What moves, turns and scales a whole mechanism by its dimensions: which of it keeps the form of its paths.
 
@@ -160,7 +161,7 @@ def by_owner(fit: Fit, values: FloatArray) -> dict[str, Any]:
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class Starts:
     """Where local searches of a fit start: unit coordinates with the points' own unknowns (m, n + w), and the strokes' base (m, n).
 

@@ -12,6 +12,7 @@ import numpy as np
 
 from ..disk import Place, replacing_text
 from ..errors import DefinitionError, StudyError, cited, ensure
+from ..frozen import immutable
 from ..language import said, said_of
 from ..mechanism import Mechanism
 from ..motion import stroke_display_unit
@@ -55,7 +56,7 @@ CHANGE = 1e-3
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class SynthesisedMachine(Told, Shown):
     """A machine that does a task over its whole stroke.
 
@@ -80,7 +81,7 @@ class SynthesisedMachine(Told, Shown):
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class Miss:
     """A machine that comes near a task but is no answer: its `error` [SI^2], and `why`, where it is not assembled or what it misses."""
 
@@ -93,7 +94,7 @@ class Miss:
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class RoundedMachine(Told):
     """A machine on drawing dimensions, its `error` [SI^2], what it misses at the most [SI], and what that costs in words."""
 

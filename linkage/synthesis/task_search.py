@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import Any, final
 
@@ -12,7 +12,7 @@ import numpy as np
 
 from ..checks import require_type
 from ..errors import DefinitionError, LinkageError, cited, unwarned
-from ..frozen import frozen
+from ..frozen import frozen, immutable
 from ..language import said
 from ..mechanism import Mechanism
 from ..motion import stroke_display_unit
@@ -231,7 +231,7 @@ def check_timed(problem: Problem, timing: Timing, at: FloatArray) -> None:
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class Ends:
     """What local searches of one combination of choices came to: designs (m, n + w), bases (m, n), errors, and which are good."""
 
@@ -243,7 +243,7 @@ class Ends:
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class TaskSearch:
     """A task, and how machines for it are searched."""
 

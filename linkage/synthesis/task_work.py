@@ -5,13 +5,13 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 from itertools import groupby
 from typing import Any, ClassVar, Literal, TypeAlias, final
 
 import numpy as np
 
 from ..errors import LinkageError
+from ..frozen import immutable
 from ..mechanism import Mechanism
 from ..numeric.descent import BEGIN
 from ..plan import Mask
@@ -55,7 +55,7 @@ def joined_rows(parts: Sequence[Part]) -> Designs:
     return Designs({"combination": (chosen,), **own}, len(chosen))
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class FitWork(ABC):
     """Work on designs by the fit of their combination; what it says of each design does not depend on who does it."""
 
@@ -112,7 +112,7 @@ class FitWork(ABC):
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class LookWork(FitWork):
     """Which designs are assembled over the whole stroke, and which somewhere."""
 
@@ -125,7 +125,7 @@ class LookWork(FitWork):
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class LayWork(FitWork):
     """Designs laid onto the task, by the likeness of their combination; of which combinations all of them run."""
 
@@ -141,7 +141,7 @@ class LayWork(FitWork):
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class DescentWork(FitWork):
     """Local searches, all of a piece together, `through` some designs. `most`: designs that each may look at, if any."""
 
@@ -181,7 +181,7 @@ class DescentWork(FitWork):
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class RaceWork(FitWork):
     """The first steps of local searches, for those that run then; with the `error` where each stands."""
 
@@ -202,7 +202,7 @@ class RaceWork(FitWork):
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class PolishWork(FitWork):
     """Local searches with all conditions, from where each stands, `at`, or else from `first`; which of them came to an end."""
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..checks import require, require_number, require_type
 from ..errors import DefinitionError, cited, ensure, is_yes
-from ..frozen import frozen, read_only, refuses_changes
+from ..frozen import frozen, immutable, read_only, refuses_changes
 from ..mechanism import Mechanism
 from ..motion import ratio
 from ..motion.measures import Measure, at, least, measure_of
@@ -32,7 +32,7 @@ SAME_PLACE = 1e-9
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class TaskRows:
     """What a task wants: quantities, their values (r, n) [SI], NaN where none, the weight of each, and which count modulo a turn.
 

@@ -16,6 +16,7 @@ import numpy as np
 from linkage import DefinitionError, Mechanism, StudyError, at, integral, least, most, optimise, ratio, ref, x, y
 from linkage.checks import require_number
 from linkage.errors import cited, ensure, one_word
+from linkage.frozen import immutable
 from linkage.motion.measures import Measure
 from linkage.quantities import is_number
 from linkage.study import InfeasibleError, Optimum
@@ -33,7 +34,7 @@ OPENS = ref("opens") * ratio("length", wrt="psi")
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class JudgedSize:
     """One cylinder of a series: bore and rod [m], the best drive with it, or in words why there is none.
 
@@ -59,7 +60,7 @@ class JudgedSize:
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class DriveDesign:
     """All cylinders of a series judged for one drive, in the order of the series; `best` has the least objective."""
 

@@ -7,11 +7,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any, final
 
 from linkage import DefinitionError, least, optimise, ref
+from linkage.frozen import immutable
 from linkage.study import Optimum
 from linkage.units import deg
 
@@ -70,7 +70,7 @@ def design_skeleton(
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@immutable
 class CraneDesign:
     """A crane designed from its duty: what each stage found, None where the user gave its result, and the whole crane."""
 

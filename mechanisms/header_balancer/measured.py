@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from math import isfinite
 from pathlib import Path
 
@@ -13,6 +12,7 @@ import numpy as np
 from linkage import DefinitionError, FileError, Motion
 from linkage.disk import read
 from linkage.errors import cited
+from linkage.frozen import immutable
 from linkage.language import said, said_of
 from linkage.program import FloatArray
 from linkage.units import UNITS, show, units_of
@@ -30,7 +30,7 @@ CURVES = {"F_R up": "force", "F_R down": "force", "P": "pressure"}
 PLACES = {"R_y": "length", "h": "length"}
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class Deviation:
     """One measured curve: heights of the shoe [m], measured and calculated values [SI], deviation of each [%]."""
 

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from hydraulics import capacity
 from linkage import around, at, deg, draw, least, mm, most, optimise, plot, ref, transmission, y
 from linkage.cli.optimise import finder
-from linkage.files.search_file import read_search
+from linkage.files.synthesis_file import read_search
 from linkage.study import Optimum
 from mechanisms.three_point_hitch import ThreePointHitch
 

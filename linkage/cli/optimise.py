@@ -16,10 +16,9 @@ from ..disk import check_place, in_words
 from ..errors import DefinitionError, StudyError, ensure, unknown
 from ..files import save
 from ..files.read import load
-from ..files.search_file import SearchFile, read_search
 from ..files.study_file import FindMachine, Settings
 from ..files.study_tasks import TaskResult, read_study
-from ..files.synthesis_file import read_synthesis
+from ..files.synthesis_file import SearchFile, read_search, read_synthesis
 from ..mechanism import Mechanism
 from ..motion import Column
 from ..study import Front, Tornado, Zone

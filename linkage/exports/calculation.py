@@ -15,9 +15,9 @@ import sympy
 from ..errors import DefinitionError, LinkageError, SingularWarning
 from ..formulas import Equation, Equations, equations, explicit
 from ..formulas.listing import X_AXIS
+from ..formulas.names import Direction
 from ..formulas.numbered import members_with_lines
 from ..formulas.printing import Text
-from ..formulas.words import Direction
 from ..mechanism import Mechanism
 from ..motion import Column, Motion
 from ..program import FloatArray

@@ -17,18 +17,48 @@ from typing import Any, ClassVar, final
 
 import numpy as np
 
+from .. import plugins
 from ..errors import DefinitionError, ensure, unknown
 from ..mechanism import Mechanism
-from ..motion import Condition, Measure, Request, at, integral, least, most, reachable, worst
+from ..motion import Condition, Measure, Request, at, condition, gap, integral, least, most, ratio, reachable, transmission, worst
 from ..motion.measures import KINDS, Given, MeasureKind, Worst, as_measure, common_kind, kind_of_quantity, strokes_behind, traced, words_of
 from ..motion.requests import Combined
+from ..plugins import Plugins
 from ..quantities import Number, Quantity, angle, distance, is_number, x, y
+from ..statics import acceleration, axle_load, drive_force, pin_force, slipping, speed
 from ..steps import Point
 from ..study.problem import NOWHERE, Problem
 from ..units import UNITS, Amount
-from .callables import request_function
 from .expression import BINARY, Grammar, Token, constant, finite
 from .names import Keywords
+
+# What a study file may ask for: the requests and conditions of this package, and those that others bring.
+#
+# A package adds its own by entry points of the group `hydrolinkage.requests`, each a function that returns a request or a condition:
+# `thrust = "hydraulics:thrust"` is `thrust(lift)` in a file.
+
+REQUESTS = Plugins[Callable[..., Any]](
+    plugins.REQUESTS,
+    "the request",
+    lambda found: found if callable(found) else None,
+    "no function",
+    {
+        "ratio": ratio, "drive_force": drive_force, "pin_force": pin_force, "axle_load": axle_load, "slipping": slipping,
+        "transmission": transmission, "gap": gap, "condition": condition, "speed": speed, "acceleration": acceleration,
+    },
+)  # fmt: skip
+"""The requests there are, by name."""
+
+
+def request_function(name: str, beside: tuple[str, ...] = ()) -> Callable[..., Any]:
+    """Return the function of a request by name; DefinitionError for one that is unknown, or that cannot be loaded.
+
+    `beside` are the names of functions that are known in its place too.
+    """
+    if name not in REQUESTS:
+        raise unknown("Function", name, [*beside, *REQUESTS])
+    return REQUESTS[name]
+
 
 CRITERION_GRAMMAR = (
     "a criterion is made of least(...), most(...), integral(...), at(..., S=...), names, numbers with units, + - * / **, and <= >= =="

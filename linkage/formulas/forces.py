@@ -25,9 +25,9 @@ from ..statics import applied_loads, axle_load, standing_supports
 from ..statics.holding import Holders, PressureLine, holders_of, same
 from ..vectors import FloatArray, Numbers, Scalar
 from .listing import GivenNumber, Listing, ListingLine
+from .names import Cross, Dot
 from .rates import LineDerivatives, lines_needed, symbols_behind
 from .symbolic import NUMBER, Term, Unit, term, unit_named
-from .words import Cross, Dot
 
 Levers: TypeAlias = Mapping[PressureLine, Mapping[str, sympy.Expr]]
 """What a unit of pressure in each line does on a unit of each stroke."""

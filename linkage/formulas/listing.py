@@ -28,10 +28,9 @@ from ..quantities import (
 )
 from ..steps import Arrow, Assignment, Axis, CosineAngle, Group, Guide, Offset, Point, Turn, Vector
 from ..vectors import FloatArray, Line, Numbers, Scalar, Vec
-from .names import SymbolNames
+from .names import Direction, Norm, SymbolNames, Tcos, TurnV, TurnVL, explicit, vector_symbol
 from .printing import Text
 from .symbolic import ANGLE, FUNCTIONS, LENGTH, NUMBER, Place, Term, Unit, curve_function, input_units, term, vector_expr
-from .words import Direction, Norm, Tcos, TurnV, TurnVL, explicit, vector_symbol
 
 # What each primitive is written as; any other step by its own rule, in components.
 

@@ -26,11 +26,10 @@ from ..units import SI, UNITS, factor, shown_in
 from ..vectors import Numbers, Scalar
 from .forces import WORDS, ForceLines
 from .listing import X_AXIS, GivenNumber, Listing, ListingLine
-from .names import escaped_latex
+from .names import Cross, Direction, Dot, Tcos, TurnV, TurnVL, escaped_latex, explicit
 from .printing import Latex, Text, number_latex, plain_number
 from .rates import LineDerivatives, lines_needed, symbols_behind
 from .symbolic import LENGTH, Unit
-from .words import Cross, Direction, Dot, Tcos, TurnV, TurnVL, explicit
 
 
 def equations(
@@ -151,7 +150,7 @@ def members_with_lines(listing: Listing) -> dict[str, sympy.Basic]:
 class Equation:
     """`lhs = rhs`, both SymPy: a scalar symbol, or a matrix symbol of shape (2, 1) for a point or a vector.
 
-    `rhs` uses the words of `linkage.formulas.words` (TurnV, TurnVL, Tcos, ...); `linkage.formulas.explicit(rhs)`
+    `rhs` uses the words of `linkage.formulas.names` (TurnV, TurnVL, Tcos, ...); `linkage.formulas.explicit(rhs)`
     writes it out in elementary functions. `follows` are the strokes that a length is a function of.
     """
 

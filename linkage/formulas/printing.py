@@ -14,7 +14,7 @@ from sympy.printing.precedence import PRECEDENCE
 from sympy.printing.str import StrPrinter
 
 from ..language import said
-from .words import Cross, Deg, Direction, Dot, Norm, PointSymbol, Tcos, TurnV, TurnVL
+from .names import Cross, Deg, Direction, Dot, Norm, PointSymbol, Tcos, TurnV, TurnVL
 
 
 def plain_number(value: float, digits: int = 6) -> str:

@@ -15,9 +15,8 @@ from sympy.matrices.expressions.matexpr import MatrixElement, MatrixSymbol
 from sympy.matrices.expressions.matmul import MatMul
 
 from .listing import ListingLine
-from .names import SymbolNames
+from .names import Cross, Deg, Direction, Dot, Norm, SymbolNames, Tcos, TurnV
 from .symbolic import LENGTH, Unit
-from .words import Cross, Deg, Direction, Dot, Norm, Tcos, TurnV
 
 STILL = sympy.ZeroMatrix(2, 1)
 

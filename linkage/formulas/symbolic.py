@@ -22,7 +22,7 @@ from ..program.traced import elementwise
 from ..quantities import Quantity, Tabulated, unnamed
 from ..units import SI, UNITS, deg, unit_or_none
 from ..vectors import Operators, Scalar, Vec
-from .words import Cross, Deg, Dot, Norm, TurnV
+from .names import Cross, Deg, Dot, Norm, TurnV
 
 # What an expression measures: lengths, angles, and products of them.
 

@@ -17,8 +17,7 @@ from ..motion.measures import Leaf
 from ..program import FloatArray
 from ..study.measured import number_bound
 from ..study.monte_carlo import Band, MonteCarlo, share_words
-from ..study.sensitivity import Tornado
-from ..study.tolerances import tolerance_words
+from ..study.tolerances import Tornado, tolerance_words
 from ..units import factor, show, shown_in, unit_or_none, unit_sign
 from . import style
 from .curves import WIDEST, Limit, limit_on, note, panel_grid, stroke_panel, typeset

@@ -10,7 +10,7 @@ from typing import TypeVar, cast
 import numpy as np
 
 from ..errors import DefinitionError, cited, known_name
-from ..files.callables import REQUESTS, request_function
+from ..files.criterion import REQUESTS, request_function
 from ..language import noted
 from ..loads import Acting, Case, ForceElement
 from ..mechanism import Mechanism, require_mechanism

@@ -8,11 +8,10 @@ from .load_rule import ISO_10567, ISO_14397_1, OECD_2, LoadRule
 from .monte_carlo import Band, MonteCarlo, monte_carlo
 from .optimum import Optimum
 from .pareto import Front
-from .sensitivity import Effect, SobolIndices, Tornado, sobol, tornado
 from .settings import Settings, Solutions, settings_for
 from .space import around
 from .survey import Survey, survey
-from .tolerances import Tolerance, sigma, spread
+from .tolerances import Effect, SobolIndices, Tolerance, Tornado, sigma, sobol, spread, tornado
 from .working_field import WorkingField, working_field
 from .zone import Zone, zone
 

@@ -22,7 +22,7 @@ from linkage import (
     y,
 )
 from linkage.files import from_dict, load, to_dict, to_json, to_toml
-from linkage.files.search_file import read_search
+from linkage.files.synthesis_file import read_search
 from tests.for_all import for_all
 
 

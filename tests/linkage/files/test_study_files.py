@@ -439,7 +439,7 @@ def test_a_killed_search_goes_on_to_the_same_bits(here, said):
     program = """if True:
         import os, signal, sys
         from linkage.cli.optimise import finder
-        from linkage.files.search_file import read_search
+        from linkage.files.synthesis_file import read_search
         search = read_search("study.toml", finder([]))
         search.run(None, lambda done, total: done == 2 and os.kill(os.getpid(), signal.SIGKILL))
     """

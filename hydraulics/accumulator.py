@@ -34,7 +34,7 @@ from linkage.quantities import Dimension, Quantity, spelled
 from linkage.units import cm3, litre, require_measure, show, unit_or_none, units_of
 from linkage.verdict import Verdict
 
-from .files import GasLaw
+from .files import gas_kind
 from .gas import Gas, Polytropic, isothermal
 from .inputs import (
     Array,
@@ -127,14 +127,14 @@ class GasBank:
         """Yield the charge [Pa] and the vessel [m3] of each gas."""
         return zip(self.charges, self.vessels, strict=True)
 
-    def shares(self, pressure: Array) -> list[Array]:
+    def gas_shares(self, pressure: Array) -> list[Array]:
         """Return the share of its vessel that each gas has at a pressure [Pa]; each of its shape."""
         return [self.gas.specific(np.maximum(pressure, charge)) / self.gas.specific(charge) for charge in self.charges]
 
     def volume(self, pressure: Array) -> Array:
         """Return the gas volume of the bank [m3] at a pressure [Pa], same shape."""
         # in the order of `total`: equal to it, not nearly, with no fluid in
-        volume: Array = reduce(np.add, (vessel * share for vessel, share in zip(self.vessels, self.shares(pressure), strict=True)))
+        volume: Array = reduce(np.add, (vessel * share for vessel, share in zip(self.vessels, self.gas_shares(pressure), strict=True)))
         return volume
 
     def pressure(self, volume: Array) -> Array:
@@ -182,7 +182,7 @@ class AccumulatorBlock:
     atmosphere: Any = 101325.0
     unit: str = ""
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"atmosphere": "Pa"})
-    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"accumulators": (Accumulator,), "gas": GasLaw()})
+    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"accumulators": (Accumulator,), "gas": gas_kind})
 
     def __post_init__(self) -> None:
         require_type("", self.accumulators, (list, tuple), "is no list of accumulators; write AccumulatorBlock([Accumulator(...)])")
@@ -276,7 +276,7 @@ class AccumulatorBlock:
         """
         bank, pressure = self._bank, self._charged(p1)
         n = self.gas.fast_exponent(pressure) if exponent is None else all_finite(exponent, "Exponent of the fast change")
-        shares = zip(bank.charges, bank.shares(pressure), strict=True)
+        shares = zip(bank.charges, bank.gas_shares(pressure), strict=True)
         cooled = [np.maximum(pressure, charge) * share**n for charge, share in shares]
         emptied = [one.recharged(charge - self.atmosphere) for one, charge in zip(self.accumulators, cooled, strict=True)]
         return replace(self, accumulators=emptied, gas=Polytropic(n, self.gas.temperature))

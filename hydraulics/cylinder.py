@@ -234,13 +234,6 @@ class RamSize(ABC):
         return speed[()]
 
 
-class SingleSize(NamedTuple):
-    """A bore and a rod [m] of one design."""
-
-    bore: float
-    rod: float
-
-
 @final
 @refuses_changes
 @dataclass(frozen=True)
@@ -301,15 +294,11 @@ class CylinderSize(RamSize):
         return self.count * self.rod_area
 
     @property
-    def single(self) -> SingleSize:
-        """Bore and rod of one design; DefinitionError for a batch."""
+    def single(self) -> tuple[float, float]:
+        """Bore and rod [m] of one design; DefinitionError for a batch."""
         if np.size(self.bore) != 1 or np.size(self.rod) != 1:
             raise DefinitionError("Cylinder sizes are judged for one design at a time; this motion has several.")
-        return SingleSize(one_design(self.bore), one_design(self.rod))
-
-    def next_size(self) -> CylinderSize:
-        """Return the same with the next standard bore; DefinitionError where there is none."""
-        return replace(self, bore=next_bore(float(self.bore)))
+        return one_design(self.bore), one_design(self.rod)
 
     def sized_for(self, thrust: float, pressure: float) -> CylinderSize:
         """Return the same with the smallest standard bore that gives a thrust [N] at a pressure, the rod kept.

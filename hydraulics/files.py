@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import singledispatch
-from typing import Any, final
+from typing import Any
 
 from linkage.checks import require
 from linkage.errors import DefinitionError, cited, ensure, known_name, unknown
@@ -53,15 +53,14 @@ def gas_number(value: object) -> object:
     return plain(value)
 
 
-@final
-class GasLaw:
-    """A gas law in a file: how it is read, and how it is written."""
+# Kinds of arguments: how each is read and written, loaded when a file is.
 
-    write = staticmethod(written_gas)
 
-    @staticmethod
-    def read(given: Any, number: Callable[[object], float]) -> Gas:
-        """Return the gas law that a word or a table says; `number` reads a number of it."""
+def gas_kind() -> Any:
+    """Return how a gas law is read, a word or a table, and written."""
+    from linkage.files.validators import Kind, number_of
+
+    def read(given: Any, names: Any) -> Gas:
         table = {"law": given} if isinstance(given, str) else given
         require(isinstance(table, Mapping) and isinstance(table.get("law"), str), "", given, f"is no gas law; write {EXAMPLE}")
         name = table["law"]
@@ -71,60 +70,51 @@ class GasLaw:
             if key not in ("law", *keys):
                 raise unknown(f"Key of {name}", key, keys)
         ensure(not ("n" in keys and "n" not in table), f"the exponent n of {name} is missing; write {EXAMPLE}.")
-        return make(**{key: number(table[key]) for key in keys if key in table})
+        return make(**{key: number_of(table[key], names) for key in keys if key in table})
+
+    return Kind(read, lambda value, design, name: written_gas(value))
 
 
-@final
-class OnLineKind:
-    """What lies on an oil line in a file: names in a list, such as "lift.rod_side", and accumulators as a table."""
+def on_line_kind(block: type[Any], text: Callable[[Any], str]) -> Any:
+    """Return how what lies on an oil line is read and written: names in a list, such as "lift.rod_side", and accumulators as a table."""
+    from linkage.files.entry import Within, made_of, read_table
+    from linkage.files.source import Mistakes
+    from linkage.files.validators import Kind
 
-    def __init__(self, block: type[Any], text: Callable[[Any], str]) -> None:
-        self.block, self.text = block, text
+    within = Within.of(block)
 
-    def kind(self) -> Any:
-        """Return how it is read and written; loaded when a file is."""
-        from linkage.files.entry import Within, made_of, read_table
-        from linkage.files.source import Mistakes
-        from linkage.files.validators import Kind
+    def read(given: object, names: Any) -> tuple[Any, ...]:
+        each_of = list(given) if isinstance(given, (list, tuple)) else [given]
+        found: list[Any] = []
+        for each in each_of:
+            if isinstance(each, Mapping):
+                mistakes = Mistakes()
+                table = read_table(each, names, within.arguments, mistakes)
+                mistakes.check()
+                found.append(block(**made_of(table, within.arguments)))
+            elif isinstance(each, str):
+                found.append(each)
+            else:
+                raise DefinitionError(f'{cited(each)} is no name; write a list such as ["lift.piston_side", "supply"].')
+        return tuple(found)
 
-        within = Within.of(self.block)
+    def write(value: Any, design: Any, name: str) -> list[Any]:
+        return [within.write(each, design, "") if isinstance(each, block) else text(each) for each in value]
 
-        def read(given: object, names: Any) -> tuple[Any, ...]:
-            each_of = list(given) if isinstance(given, (list, tuple)) else [given]
-            found: list[Any] = []
-            for each in each_of:
-                if isinstance(each, Mapping):
-                    mistakes = Mistakes()
-                    table = read_table(each, names, within.arguments, mistakes)
-                    mistakes.check()
-                    found.append(self.block(**made_of(table, within.arguments)))
-                elif isinstance(each, str):
-                    found.append(each)
-                else:
-                    raise DefinitionError(f'{cited(each)} is no name; write a list such as ["lift.piston_side", "supply"].')
-            return tuple(found)
-
-        def write(value: Any, design: Any, name: str) -> list[Any]:
-            return [within.write(each, design, "") if isinstance(each, self.block) else self.text(each) for each in value]
-
-        return Kind(read, write, refers=True)
+    return Kind(read, write, refers=True)
 
 
-@final
-class FilledKind:
-    """Where an oil line is filled: a word, a number, or numbers by name."""
+def filled_kind() -> Any:
+    """Return how it is read and written where an oil line is filled: a word, a number, or numbers by name."""
+    from linkage.files.validators import Kind, file_value, quantity_of
 
-    def kind(self) -> Any:
-        """Return how it is read and written; loaded when a file is."""
-        from linkage.files.validators import Kind, file_value, quantity_of
+    def one(given: Any, names: Any) -> Any:
+        found = quantity_of(given, names)
+        return found.number if isinstance(found, Number) and not found.name else found
 
-        def one(given: Any, names: Any) -> Any:
-            found = quantity_of(given, names)
-            return found.number if isinstance(found, Number) and not found.name else found
+    def read(given: Any, names: Any) -> Any:
+        if isinstance(given, Mapping):
+            return {name: one(each, names) for name, each in given.items()}
+        return given if given in ("open", "closed") else one(given, names)
 
-        def read(given: Any, names: Any) -> Any:
-            if isinstance(given, Mapping):
-                return {name: one(each, names) for name, each in given.items()}
-            return given if given in ("open", "closed") else one(given, names)
-
-        return Kind(read, file_value)
+    return Kind(read, file_value)

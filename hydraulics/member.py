@@ -755,14 +755,14 @@ class Cylinder(BarrelAndRod, Ram):
         return [size for size in enough if length is None or Buckling(float(size.rod), self.mounting, self.safety).allowed(length) >= push]
 
     def larger(self, motion: Poses) -> list[Sizes]:
-        size, series = self.sized(motion).single, chosen_series()
-        bores = [bore for bore in series.bores if bore > size.bore * (1.0 + 1e-9)]
+        (own, thick), series = self.sized(motion).single, chosen_series()
+        bores = [bore for bore in series.bores if bore > own * (1.0 + 1e-9)]
         if self.side != "regenerative":
             return [{"bore": bore} for bore in bores]
         found: list[Sizes] = []
-        for rod in (each for each in series.rods if each > size.rod * (1.0 + 1e-9)):
-            wide = next((bore for bore in (size.bore, *bores) if series.is_pair(bore, rod)), 0.0)
-            found += [{"rod": rod} if wide == size.bore else {"bore": wide, "rod": rod}] if wide else []
+        for rod in (each for each in series.rods if each > thick * (1.0 + 1e-9)):
+            wide = next((bore for bore in (own, *bores) if series.is_pair(bore, rod)), 0.0)
+            found += [{"rod": rod} if wide == own else {"bore": wide, "rod": rod}] if wide else []
         return found
 
     # -- what it says --------------------------------------------------------------------------------------
@@ -781,11 +781,11 @@ class Cylinder(BarrelAndRod, Ram):
 
     def standard(self, motion: Poses | None = None) -> Verdict:
         """Return whether bore and rod are a pair of ISO 3320 or NFPA T3.6.7; where not, what is next to them."""
-        size = (self.size if motion is None else self.sized(motion)).single
-        series = series_of(size.bore, size.rod)
-        beside, rods = [series.beside(size.bore, "bores"), series.beside(size.rod, "rods")], series.rods_for(size.bore)
-        says = said("bore {bore} and rod {rod}", bore=show(size.bore, "mm", 4), rod=show(size.rod, "mm", 4))
-        if not any(beside) and any(abs(rod - size.rod) < SAME_SIZE for rod in rods):
+        bore, rod = (self.size if motion is None else self.sized(motion)).single
+        series = series_of(bore, rod)
+        beside, rods = [series.beside(bore, "bores"), series.beside(rod, "rods")], series.rods_for(bore)
+        says = said("bore {bore} and rod {rod}", bore=show(bore, "mm", 4), rod=show(rod, "mm", 4))
+        if not any(beside) and any(abs(each - rod) < SAME_SIZE for each in rods):
             return Verdict("standard size", True, said("{says} are a pair of {series}.", says=says, series=series.name))
         faults = []
         if beside[0]:
@@ -832,7 +832,8 @@ class Cylinder(BarrelAndRod, Ram):
         return self.side in SIDES and not lines_of(self, judge.plan.members) and self._is_alone(judge)
 
     def slender_part(self, motion: Poses, direction: str | None = None) -> tuple[str, int, Sequence[float]]:
-        return "rod", 0, standard_rods(self.sized(motion).single.bore)
+        bore, _ = self.sized(motion).single
+        return "rod", 0, standard_rods(bore)
 
 
 @final

@@ -53,7 +53,7 @@ from linkage.vectors import Scalar
 from linkage.verdict import Verdict
 
 from .accumulator import AccumulatorBlock
-from .files import FilledKind, OnLineKind
+from .files import filled_kind, on_line_kind
 from .floating import Block, GasLine
 from .inputs import Array, check_pressures, follows, in_pascals, names_behind, number_set, one_design, one_number
 from .lift import PumpLine
@@ -183,7 +183,7 @@ class OilLine(PumpLine, GasLine):
     not_negative: ClassVar[frozenset[str]] = frozenset({"seal_friction"})
     optional: ClassVar[frozenset[str]] = frozenset({"charge_pressure"})
     argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType(
-        {"on": OnLineKind(AccumulatorBlock, lambda each: on_line_text(each)), "at": FilledKind(), "filled": FilledKind()}
+        {"on": lambda: on_line_kind(AccumulatorBlock, on_line_text), "at": filled_kind, "filled": filled_kind}
     )
 
     def __init__(

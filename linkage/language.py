@@ -39,6 +39,7 @@ def add_catalogue(domain: str, folder: str | Path) -> None:
         raise DefinitionError(f"{where}: no */LC_MESSAGES/{domain}.mo is there; compile the catalogue, or mend the folder.")
     _CATALOGUES[domain] = where
     _catalogue.cache_clear()
+    _languages_in.cache_clear()
 
 
 def add_texts(name: str, texts: Mapping[str, str]) -> None:
@@ -54,7 +55,13 @@ def add_texts(name: str, texts: Mapping[str, str]) -> None:
 
 def languages() -> list[str]:
     """Return the languages that can be spoken: English, and those that linkage has a catalogue of."""
-    return [ENGLISH, *sorted(path.parent.parent.name for path in _CATALOGUES["linkage"].glob("*/LC_MESSAGES/linkage.mo"))]
+    return [ENGLISH, *_languages_in(_CATALOGUES["linkage"])]
+
+
+@lru_cache
+def _languages_in(folder: Path) -> tuple[str, ...]:
+    """Return the languages that a folder has catalogues of linkage in, read once."""
+    return tuple(sorted(path.parent.parent.name for path in folder.glob("*/LC_MESSAGES/linkage.mo")))
 
 
 def current_language() -> str:

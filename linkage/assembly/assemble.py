@@ -28,6 +28,8 @@ class Shape:
         self.points, self.parts, self.pins = link.point_names, parts, parts.pins
         bodied = [link, *(each for each in parts.links.values() if len({*each.point_names} & {*self.points}) > 1)]
         self.labels = {name: quantity(value) for each in reversed(bodied) for name, value in each.labels.items()}
+        self._longest = -1, 0.0
+        """With so many pins placed the longest distance of its points [m]."""
 
     def given(self, *points: str) -> tuple[str, Quantity] | None:
         """Return the label of a distance (two points) or an angle (three points) as it is spelled, if it is given."""
@@ -67,11 +69,21 @@ class Shape:
 
     def coincide(self, P: str, Q: str) -> bool:
         """Return whether two points of the body stand at one place, measured by its longest distance and by where they are."""
-        known = [found.number for found in starmap(self.distance, combinations(self.points, 2)) if isinstance(found, Number)]
-        if self.measured(P, Q) is not None:
-            known += [abs(each) for point in (P, Q) for each in self.drawn(point) or ()]
         between = self.distance(P, Q)
-        return isinstance(between, Number) and between.number <= ONE_PLACE * max(known)
+        if not isinstance(between, Number):
+            return False
+        drawn = (P, Q) if self.measured(P, Q) is not None else ()
+        size = max([self.longest(), *(abs(each) for point in drawn for each in self.drawn(point) or ())])
+        return between.number <= ONE_PLACE * size
+
+    def longest(self) -> float:
+        """Return the longest known distance of two points of the body [m], looked for again when more pins are placed."""
+        placed = len(self.parts.settled)
+        if self._longest[0] != placed:
+            pairs = combinations(self.points, 2)
+            known = (found.number for found in starmap(self.distance, pairs) if isinstance(found, Number))
+            self._longest = placed, max(known, default=0.0)
+        return self._longest[1]
 
     def measured(self, P: str, Q: str, *_: str) -> Number | None:
         """Return the distance of two points in the drawing [m]; None unless one of them is drawn."""

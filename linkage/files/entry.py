@@ -22,7 +22,7 @@ from ..units import SI
 from .design import Design
 from .names import NAME_LENGTH, FileTable, Keywords, Names, entry_as, is_list, require_entry, shortened
 from .source import Mistakes, each_of
-from .validators import KINDS, Kind, amount, fixed_number, number_of, quantity_of
+from .validators import KINDS, Kind, amount, fixed_number, quantity_of
 
 LABELS = 100
 VALUES = 100
@@ -113,11 +113,8 @@ def kind_of(cls: type[Any], parameter: Parameter, said: FileTable) -> Kind:
             return KINDS[kind] if kind in KINDS or kind not in SI else fixed_number(kind)  # what a unit measures is a kind too, "mass"
         case Kind():
             return kind
-    if hasattr(kind, "kind"):
-        kind = kind.kind()
-    return kind if isinstance(kind, Kind) else Kind(
-        lambda given, names: kind.read(given, lambda each: number_of(each, names)), lambda value, design, name: kind.write(value)
-    )  # fmt: skip
+    made: Kind = kind()  # a function that returns it, as what it loads is loaded with a file
+    return made
 
 
 # -- their table -------------------------------------------------------------------------------------------

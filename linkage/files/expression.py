@@ -85,21 +85,6 @@ def one_unit(text: str) -> str:
 # -- what an expression may call, and nothing else ----------------------------------------------------------
 
 
-@final
-@dataclass(frozen=True)
-class Call:
-    """A function of the class form: the kinds of its arguments, and what it makes of them."""
-
-    kinds: tuple[str, ...]
-    make: Callable[..., Member]
-    keywords: tuple[str, ...] = ()
-
-    @property
-    def kind(self) -> str:
-        """What it makes: "vector" or "quantity"."""
-        return "vector" if self.make in (Vector, Turn) else "quantity"
-
-
 def applied(function: str) -> Callable[..., Quantity]:
     """Return NumPy's function of quantities; of numbers alone it is a number, as it is in a class."""
 
@@ -128,15 +113,18 @@ def length_or_size(argument: Arrow | str | Quantity) -> Quantity:
 PAIR = ("point", "point")
 ONE, TWO = ("quantity",), ("quantity", "quantity")
 
-CALLS: Mapping[str, Call] = MappingProxyType(
-    {"angle": Call(PAIR, angle), "distance": Call(PAIR, distance), "x": Call(("point",), x), "y": Call(("point",), y)}
-    | {"CosineAngle": Call(("quantity",) * 3, CosineAngle)}
-    | dict.fromkeys(("abs", "absolute"), Call(("any",), length_or_size))
-    | {"Vector": Call(PAIR, Vector), "Turn": Call(("vector", "quantity"), Turn, ("length",))}
-    | {name: Call(ONE, applied(name)) for name in ("sqrt", "sin", "cos", "tan", "exp", "log")}
-    | {name: Call(TWO, applied(name)) for name in ("arctan2", "minimum", "maximum")}
-    | {"atan2": Call(TWO, applied("arctan2")), "min": Call(TWO, applied("minimum")), "max": Call(TWO, applied("maximum"))}
+CALLS: Mapping[str, tuple[tuple[str, ...], Callable[..., Member]]] = MappingProxyType(
+    {"angle": (PAIR, angle), "distance": (PAIR, distance), "x": (("point",), x), "y": (("point",), y)}
+    | {"CosineAngle": (("quantity",) * 3, CosineAngle)}
+    | dict.fromkeys(("abs", "absolute"), (("any",), length_or_size))
+    | {"Vector": (PAIR, Vector), "Turn": (("vector", "quantity"), Turn)}
+    | {name: (ONE, applied(name)) for name in ("sqrt", "sin", "cos", "tan", "exp", "log")}
+    | {name: (TWO, applied(name)) for name in ("arctan2", "minimum", "maximum")}
+    | {"atan2": (TWO, applied("arctan2")), "min": (TWO, applied("minimum")), "max": (TWO, applied("maximum"))}
 )
+"""The functions by name: the kinds of their arguments, and what each makes of them."""
+VECTORS: Mapping[str, tuple[str, ...]] = MappingProxyType({"Vector": (), "Turn": ("length",)})
+"""Those that make a vector, with the arguments that they take by name; the others make a quantity."""
 
 # -- reading -----------------------------------------------------------------------------------------------
 
@@ -287,26 +275,25 @@ class Parser(Grammar):
         name = self.word(node.func).text
         if name not in CALLS:
             raise DefinitionError(f"{self.text!r}: {unknown('Function', name, CALLS)}")
-        call = CALLS[name]
-        said = f"{self.text!r}: {name}(...)"
-        ensure(call.kind == kind, f"{said} is not a {kind}.")
-        ensure(len(node.args) == len(call.kinds), f"{said} takes {len(call.kinds)} arguments, not {len(node.args)}.")
-        found = [self.argument(each, kind, depth) for each, kind in zip(node.args, call.kinds, strict=True)]
+        (kinds, make), by_name, said = CALLS[name], VECTORS.get(name, ()), f"{self.text!r}: {name}(...)"
+        ensure((kind == "vector") is (name in VECTORS), f"{said} is not a {kind}.")
+        ensure(len(node.args) == len(kinds), f"{said} takes {len(kinds)} arguments, not {len(node.args)}.")
+        found = [self.argument(each, kind, depth) for each, kind in zip(node.args, kinds, strict=True)]
         keywords: Keywords = {}
         for each in node.keywords:
             key = self.word(each).text
-            if key not in call.keywords or key in keywords:
-                raise self.fault(" or ".join(f"{one}=" for one in call.keywords) or "no argument by name", each)
+            if key not in by_name or key in keywords:
+                raise self.fault(" or ".join(f"{one}=" for one in by_name) or "no argument by name", each)
             keywords[key] = self.meaning(each.value, depth)
-        return call.make(*found, **keywords)
+        return make(*found, **keywords)
 
     def argument(self, node: ast.expr, kind: str, depth: int = 0) -> Any:
         """Return one argument: a point's name, a vector or its name, or a quantity."""
         name, is_name = self.word(node).text, self.is_word(node, "name")
         call = node if isinstance(node, ast.Call) and self.is_word(node.func, "name") else None
         if kind == "any":
-            known = CALLS[name].kind if call is not None and name in CALLS else self.names.kinds.get(name)
-            kind = "vector" if known == "vector" and (call is not None or is_name) else "quantity"
+            is_vector = name in VECTORS if call is not None and name in CALLS else self.names.kinds.get(name) == "vector"
+            kind = "vector" if is_vector and (call is not None or is_name) else "quantity"
         if kind == "quantity":
             return self.meaning(node, depth)
         if call is not None and kind == "vector":

@@ -286,19 +286,19 @@ class Registry:
         words = self.sections[section]
         if "" in words:
             return words[""]
-        found = [word for word in words if isinstance(given, Mapping) and word in given]
-        if isinstance(given, Mapping) and PATH in given and (not found or ":" in str(given[PATH])):  # beside a word it may be a label
+        table: Mapping[Any, Any] = given if isinstance(given, Mapping) else {}
+        found = [word for word in words if word in table]
+        if PATH in table and (not found or ":" in str(table[PATH])):  # beside a word it may be a label
             found.append(PATH)
         ensure(len(found) <= 1, f"it is {' and '.join(found)} at once; say one of them.")
         if found == [PATH]:
-            return FileEntry(class_of(given[PATH], section, trust), section, path=given[PATH])
+            return FileEntry(class_of(given[PATH], section, trust), section, path=table[PATH])
         if found:
             return words[found[0]]
         example = EXAMPLES.get(section) or next(iter(words.values())).example
-        key = next((key for key in given if isinstance(key, str)), "") if isinstance(given, Mapping) else ""
+        key = next((key for key in table if isinstance(key, str)), "")
         what = unknown("Kind", shortened(key, quote=False), words) if key else f"{shortened(given)} is no entry of [{section}]."
-        keys = set(given) if isinstance(given, Mapping) else set()
-        others = [(word, other) for other, known in self.sections.items() for word in known if word and word in keys]
+        others = [(word, other) for other, known in self.sections.items() for word in known if word and word in table]
         elsewhere = f" {others[0][0]} stands in [{others[0][1]}]." if others else ""
         raise DefinitionError(f"{what} Write it like {example}.{elsewhere}{self.absent()}")
 

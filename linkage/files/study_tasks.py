@@ -16,7 +16,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -30,7 +30,7 @@ from ..loads import Acting
 from ..mechanism import Mechanism
 from ..motion import Column, Request, stroke_display_unit, stroke_measure
 from ..motion.measures import At, Condition, Constraint, Given, Integral, Leaf, Measure, in_case, measure_of
-from ..plan import Plan
+from ..plan import Mask, Plan
 from ..program import FloatArray
 from ..quantities import is_number
 from ..study import Target, monte_carlo, settings_for, survey, tornado, zone
@@ -71,8 +71,8 @@ class TextMeasures:
 
     def __call__(self, machine: Mechanism) -> dict[str, Any]:
         """Return a number or a truth value for each design of a machine, shape (m,), by name."""
-        said = self.said(machine)
-        problem = self.problem(machine, said)
+        measures, conditions = self.said(machine)
+        problem = self.problem(machine, measures, conditions)
         drawn = {name: entry.default for name, entry in machine.plan.table.entries.items()}
         for leaf in problem.leaves:  # panels are those of the machine as its class has it, whatever the batch
             if isinstance(leaf, Integral):
@@ -80,36 +80,37 @@ class TextMeasures:
                     problem.refined_panels(leaf, drawn)
         look = problem.evaluated(machine.dimensions)
         numbers, count = look.numbers, max(np.size(value) for value in machine.dimensions.values())
-        found: dict[str, Any] = {}
-        for name, each in said.items():
-            leaves = each.leaves if isinstance(each, Measure) else [leaf for one in each for leaf in one.margin.leaves]
-            sound = look.whole & ~np.any([np.zeros(count, bool), *(look.rows[leaf].lost for leaf in leaves)], axis=0)
-            if isinstance(each, Measure):
-                found[name] = np.where(sound, design_values(each, numbers, count), np.nan)
-            else:
-                found[name] = sound & keeps(each, numbers, count)
-        return found
 
-    def said(self, machine: Mechanism) -> dict[str, Measure | list[Constraint]]:
+        def sound(leaves: Iterable[Leaf]) -> Mask:
+            return np.asarray(look.whole & ~np.any([np.zeros(count, bool), *(look.rows[leaf].lost for leaf in leaves)], axis=0))
+
+        found = {name: np.where(sound(each.leaves), design_values(each, numbers, count), np.nan) for name, each in measures.items()}
+        for name, kept in conditions.items():
+            found[name] = sound(leaf for one in kept for leaf in one.margin.leaves) & keeps(kept, numbers, count)
+        return {name: found[name] for name in self.texts}
+
+    def said(self, machine: Mechanism) -> tuple[dict[str, Measure], dict[str, Sequence[Constraint]]]:
         """Return the measures, and the constraints of the conditions, by name; DefinitionError for a text that says none."""
-        found = {name: criterion_of(text, machine) for name, text in self.texts.items()}
-        return {
-            name: [*each.constraints(machine)] if isinstance(each, Condition) else measure_or_constant(each, machine)
-            for name, each in found.items()
-        }
+        measures, conditions = dict[str, Measure](), dict[str, Sequence[Constraint]]()
+        for name, text in self.texts.items():
+            found = criterion_of(text, machine)
+            if isinstance(found, Condition):
+                conditions[name] = found.constraints(machine)
+            else:
+                measures[name] = measure_or_constant(found, machine)
+        return measures, conditions
 
-    def problem(self, machine: Mechanism, said: Mapping[str, Measure | list[Constraint]]) -> Problem:
+    def problem(self, machine: Mechanism, measures: Mapping[str, Measure], conditions: Mapping[str, Sequence[Constraint]]) -> Problem:
         """Return what looks at them; DefinitionError where they ask for what a machine has not."""
-        measures = [each for each in said.values() if isinstance(each, Measure)]
-        kept = [one for each in said.values() if not isinstance(each, Measure) for one in each]
+        kept = [one for each in conditions.values() for one in each]
         counts = {0: 1} | {each: max(3, round(self.poses ** (1.0 / each))) for each in range(1, 6)}
-        return Problem(machine, measures, kept, NOWHERE, over=dict(self.over), counts=counts)
+        return Problem(machine, [*measures.values()], kept, NOWHERE, over=dict(self.over), counts=counts)
 
     def units(self, machine: Mechanism) -> dict[str, str]:
         """Return the units that they are shown in, by name; raises as `problem` does."""
-        said = self.said(machine)
-        self.problem(machine, said)
-        return {name: unit_of_measure(machine.plan, each) if isinstance(each, Measure) else "" for name, each in said.items()}
+        measures, conditions = self.said(machine)
+        self.problem(machine, measures, conditions)
+        return dict.fromkeys(conditions, "") | {name: unit_of_measure(machine.plan, each) for name, each in measures.items()}
 
 
 def design_values(measure: Measure, numbers: Mapping[Leaf, FloatArray], count: int) -> FloatArray:
@@ -118,10 +119,10 @@ def design_values(measure: Measure, numbers: Mapping[Leaf, FloatArray], count: i
         return np.broadcast_to(np.asarray(measure.of(lambda leaf: numbers[leaf]), float), (count,))
 
 
-def keeps(constraints: list[Constraint], numbers: Mapping[Leaf, FloatArray], count: int) -> Any:
+def keeps(constraints: Sequence[Constraint], numbers: Mapping[Leaf, FloatArray], count: int) -> Mask:
     """Return which designs keep all of some constraints, shape (count,)."""
     with np.errstate(all="ignore"):
-        kept = np.ones(count, bool)
+        kept: Mask = np.ones(count, bool)
         for each in constraints:
             size = np.maximum(*(np.abs(design_values(side, numbers, count)) for side in (each.left, each.right)))
             kept &= missed(each, numbers, 1.0) <= MET_TO_ROUNDING * size

@@ -69,8 +69,8 @@ def extremum_reached(motion: Motion, f: Function, sense: float, *, everywhere: b
     """Return the same of poses that are reached only, or `everywhere`."""
     if len(motion._stroke_shape) > 1 and len(strokes_moved(motion)) > 1:
         box = InBox(motion, f, sense, everywhere=everywhere)
-        top, front = highest_in(box), box.front
-        value, unbounded, strokes, time = top.value, top.unbounded, box.strokes(top.unit), None
+        (value, unit, unbounded), front = highest_in(box), box.front
+        strokes, time = box.strokes(unit), None
     else:
         between = OnLegs(motion, f, sense, everywhere=everywhere)
         found, front = highest(between.look, between.route.counts), between.front

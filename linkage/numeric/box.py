@@ -56,16 +56,6 @@ class SeenBox(Protocol):
         """Return which places (u, n, k) of a design each (u,) are asked for and reached, as `kept` says of the grid; it costs least."""
 
 
-@final
-@immutable
-class HighestInBox:
-    """The highest value of K functions of D designs, arrays (K, D), NaN where there is none; where (K, D, k); whether it is unbounded."""
-
-    value: FloatArray
-    unit: FloatArray
-    unbounded: Mask
-
-
 def values_a_stroke(k: int, designs: int) -> int:
     """Return how many values a stroke has on the grid: fewer only where the grids of all designs would be too large."""
     side = SIDES.get(k, MORE)
@@ -631,8 +621,8 @@ def along_borders(box: SeenBox, known: FloatArray, least: FloatArray) -> tuple[C
 
 
 @np.errstate(all="ignore")
-def highest_in(box: SeenBox) -> HighestInBox:
-    """Return the highest values in a box."""
+def highest_in(box: SeenBox) -> tuple[FloatArray, FloatArray, Mask]:
+    """Return the highest values (K, D) of K functions of D designs, NaN where there is none; where (K, D, k); which have no bound."""
     K, D, _ = box.seen.shape
     tops, rough, least = climbed(box)
     best = best_of(Climbs.concatenated([tops, rough]), K, D, 1)
@@ -660,7 +650,7 @@ def highest_in(box: SeenBox) -> HighestInBox:
     unit = np.where(endless.any(axis=-1, keepdims=True), first, unit)
     lost = missing.all(axis=-1)
     value = np.where(lost, np.nan, np.where(unbounded, np.inf, np.where(value <= LOWEST, -np.inf, value)))
-    return HighestInBox(value, unit, unbounded)
+    return value, unit, unbounded
 
 
 def best_of(climbs: Climbs, K: int, D: int, count: int) -> Climbs:

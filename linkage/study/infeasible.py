@@ -138,7 +138,7 @@ def given_way(problem: Problem, start: SearchEnd, elastic: Sequence[Constraint])
     except LinkageError:
         return None
     values = problem.truths(machine.dimensions, quick=True) if is_line else local.numbers(found.unit)
-    prices = multipliers(local, found.unit).constraints if problem.space.variables else np.zeros(len(problem.constraints))
+    prices = multipliers(local, found.unit)[0] if problem.space.variables else np.zeros(len(problem.constraints))
     relaxations, pulling, total = [], [], 0.0
     scales = scales_of(problem, problem.evaluated(machine.dimensions, slopes=True))
     for each, price, scale in zip(problem.constraints, prices, scales, strict=True):

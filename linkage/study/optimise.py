@@ -115,11 +115,11 @@ def optimise(
     *,
     minimise: object = None,
     maximise: object = None,
-    vary: Mapping[Any, object],
+    vary: Mapping[object, object],
     subject_to: object = (),
     regions: Mapping[str, object] | None = None,
     case: object = None,
-    over: Mapping[str, Any] | None = None,
+    over: Mapping[str, object] | None = None,
     robust: Mapping[str, Any] | None = None,
     sigmas: float = 3.0,
     method: str = "auto",
@@ -209,7 +209,7 @@ def optimise(
         return DesignSearch(problem, plan, Journal.of(folder, problem, plan), tell).run()
 
 
-def where_searched(machine: Mechanism, over: Any, travels: Mapping[str, Range]) -> tuple[Any, list[Any]]:
+def where_searched(machine: Mechanism, over: Any, travels: Mapping[str, Range]) -> tuple[Any, list[Case]]:
     """Return the part of each stroke that a search looks at, and the load cases that occur there, None for the plain loads.
 
     `over` is a dictionary, an `Over` or the name of one that the class declares; without it the box, and `travels`, the ways of cylinders
@@ -219,7 +219,7 @@ def where_searched(machine: Mechanism, over: Any, travels: Mapping[str, Range]) 
     declared = plan.of_kind(Over)
     if isinstance(over, str):
         over = declared[known_name("Over", over, declared, where=title)]
-    occurring = [None, *plan.of_kind(LoadCase)]
+    occurring: list[Case] = [None, *plan.of_kind(LoadCase)]
     if not isinstance(over, Over):
         ranges_of(machine, over)  # which refuses what is none
         return {**travels, **(over or {})} or over, occurring
@@ -232,13 +232,14 @@ def where_searched(machine: Mechanism, over: Any, travels: Mapping[str, Range]) 
     return {**travels, **over.strokes}, occurring
 
 
-def cases_searched(machine: Mechanism, case: Any, occurring: Sequence[Any]) -> tuple[list[Any], dict[str, float]]:
+def cases_searched(machine: Mechanism, case: Any, occurring: Sequence[Case]) -> tuple[list[Case], dict[str, float]]:
     """Return the load cases that a search looks at, None for the plain loads, and their shares where they are given with their hours.
 
     DefinitionError for one that is unknown, and for none.
     """
     shares = shares_of(case, f"{machine.plan.title}: case") if isinstance(case, Mapping) else {}
-    given = [*shares] if shares else list(case) if isinstance(case, (list, tuple)) else occurring if case is None else [case]
+    listed = list(case) if isinstance(case, (list, tuple)) else occurring if case is None else [case]
+    given: Sequence[Case] = [*shares] if shares else listed
     cases = [None if isinstance(each, str) and each == PLAIN_CASE else each for each in given]
     require(cases, f"{machine.plan.title}: case", case, "a load case or several are expected; leave it out for the own loads")
     for each in cases:

@@ -278,15 +278,15 @@ def described(problem: Problem, found: SearchEnd, ended: Sequence[SearchEnd], se
     check_bounded(problem, now, found)
     local = Local(problem, found.combination, found.unit)
     local.refine(found.unit)
-    prices = multipliers(local, found.unit)
+    of_constraints, of_bounds, ways = multipliers(local, found.unit)
     part = local.size / (abs(value) or 1.0)
     conditions = tuple(
         as_kept(problem, each, now, part * price / scale, scale)
-        for each, price, scale in zip(problem.constraints, prices.constraints, local.scales, strict=True)
+        for each, price, scale in zip(problem.constraints, of_constraints, local.scales, strict=True)
     )
     values = problem.space.values(found.unit)
     bounds = []
-    for variable, at, price in zip(problem.space.variables, values, prices.bounds, strict=True):
+    for variable, at, price in zip(problem.space.variables, values, of_bounds, strict=True):
         by = SAID_STEPS.get(variable.unit, 0.01 * variable.span)
         if part * price * by / variable.span > SHOWN:
             upper = bool(at - variable.low > 0.5 * variable.span)
@@ -299,7 +299,7 @@ def described(problem: Problem, found: SearchEnd, ended: Sequence[SearchEnd], se
         machine, problem.machine, value, start_value, start_missing, conditions, tuple(bounds), variables, max(agreed, 1), len(ended),
         searched, tuple(cut), problem.count.designs, problem, found.unit, found.combination,
     )  # fmt: skip
-    return replace(best, edges=tuple(edges(problem, found, prices, part)))
+    return replace(best, edges=tuple(edges(problem, found, ways, part)))
 
 
 def as_kept(problem: Problem, constraint: Constraint, now: Mapping[Leaf, float], price: float, scale: float) -> Kept:
@@ -334,26 +334,12 @@ def worth_of(problem: Problem, machine: Mechanism) -> tuple[float, float]:
     return float("nan") if values is None else true_worth(problem, values), missing
 
 
-@final
-@immutable
-class Prices:
-    """What limits a design, in scaled numbers: the price of each constraint and of each variable's bound, zero or above.
+def multipliers(local: Local, unit: FloatArray) -> tuple[FloatArray, FloatArray, tuple[FloatArray, FloatArray]]:
+    """Return what limits a design, in scaled numbers: the prices of constraints and of variables' bounds, zero or above, and two ways on.
 
-    `reach` is the sum of the slopes (n,) of loops that can just be assembled, by their prices; `left` (n,) is what of the objective's
-    derivatives by the unit coordinates nothing of these explains.
-    """
-
-    constraints: FloatArray
-    bounds: FloatArray
-    reach: FloatArray
-    left: FloatArray
-
-
-def multipliers(local: Local, unit: FloatArray) -> Prices:
-    """Return what limits a design.
-
-    They are the Lagrange multipliers that leave least of the objective's derivatives unexplained; zero where a derivative is infinite, at a
-    dead point.
+    The prices are the Lagrange multipliers that leave least of the objective's derivatives unexplained; zero where a derivative is
+    infinite, at a dead point. On the ways, by the unit coordinates (n,), the objective gets better: what of its derivatives nothing of
+    these explains, and the sum of the slopes of loops that can just be assembled, by their prices.
     """
     from scipy.optimize import nnls
 
@@ -383,21 +369,19 @@ def multipliers(local: Local, unit: FloatArray) -> Prices:
             reach += price * line[:n]
     of_bound[at_bounds] = prices[count:]
     left = slope - prices @ lines if known else np.zeros(local.width)
-    return Prices(
-        np.where(of_constraint > 1e-9, of_constraint, 0.0), np.where(of_bound > 1e-9, of_bound, 0.0), reach, np.asarray(left[:n]),
-    )  # fmt: skip
+    return np.where(of_constraint > 1e-9, of_constraint, 0.0), np.where(of_bound > 1e-9, of_bound, 0.0), (np.asarray(-left[:n]), -reach)
 
 
 # What a machine itself allows, beside the conditions and the ranges.
 
 
-def edges(problem: Problem, found: SearchEnd, prices: Prices, part: float) -> list[str]:
+def edges(problem: Problem, found: SearchEnd, ways: Sequence[FloatArray], part: float) -> list[str]:
     """Return what of the machine itself stops a design where it would get better: links that no longer meet, what is refused.
 
-    `part` is what a scaled number of the objective is of it.
+    `ways` are those on which it would, `part` is what a scaled number of the objective is of it.
     """
     unit, variables, values = found.unit, problem.space.variables, problem.space.values(found.unit)
-    sizes = [(way, float(np.abs(way).max(initial=0.0))) for way in (-prices.left, -prices.reach)]
+    sizes = [(way, float(np.abs(way).max(initial=0.0))) for way in ways]
     for way, step in product([way / size for way, size in sizes if part * size * EDGE > SHOWN], STEPS_BEYOND):
         beyond = np.clip(unit + step * way, 0.0, 1.0)
         reason = stopped_by(problem, found.combination, beyond)

@@ -10,9 +10,9 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import combinations, product
-from typing import Any, final
+from typing import Any, TypeAlias, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -362,38 +362,34 @@ def check_strokes(plan: Plan, hold: object, targets: Sequence[Target], title: st
         raise DefinitionError(f"{what}; {remedy}, or ask for the load along a stroke, circuit.capacity(motion, ...).")
 
 
-@final
-@immutable
-class FurtherLimit:
-    """A further limit: the load itself may not exceed `most`, or `margin`, which follows the load, may not fall below zero."""
+FurtherLimit: TypeAlias = Callable[[Motion, LoadAt], FloatArray]
+"""What returns the greatest load that a further limit leaves at the poses of a motion [N], shape (n,)."""
 
-    most: Quantity | None = None
-    margin: Any = None
 
-    @classmethod
-    def of(cls, name: str, given: Any, plan: Plan, title: str) -> FurtherLimit:
-        """Return a limit as it was given; DefinitionError for anything else."""
-        if isinstance(given, PoseCondition):
-            return cls(margin=given.margin)
-        if is_number(given) and float(given) < 0.0:
-            what = f"{title}: limits: {name} = {cited(given)} is below zero"
-            raise DefinitionError(f"{what}; a load that may not be exceeded is expected [N].")
-        if is_number(given) or isinstance(given, (str, Quantity)):
-            return cls(most=quantity(given))
-        example = f'limits={{"{name}": 20 * kN}} or limits={{"{name}": drive_force("phi") >= -120 * kN}}'
-        raise DefinitionError(f"{title}: limits: {name} = {cited(given)}: a load or a comparison of a request is expected, {example}.")
+def further_limit(name: str, given: object, title: str) -> FurtherLimit:
+    """Return a limit as it was given; DefinitionError for anything else."""
+    if isinstance(given, PoseCondition):
+        return partial(load_by_margin, given.margin)
+    if is_number(given) and float(given) < 0.0:
+        what = f"{title}: limits: {name} = {cited(given)} is below zero"
+        raise DefinitionError(f"{what}; a load that may not be exceeded is expected [N].")
+    if is_number(given) or isinstance(given, (str, Quantity)):
+        most = quantity(given)
+        return lambda motion, loads: np.broadcast_to(np.asarray(motion.value(most), float), motion.shape)
+    example = f'limits={{"{name}": 20 * kN}} or limits={{"{name}": drive_force("phi") >= -120 * kN}}'
+    raise DefinitionError(f"{title}: limits: {name} = {cited(given)}: a load or a comparison of a request is expected, {example}.")
 
-    def load(self, motion: Motion, loads: LoadAt) -> FloatArray:
-        """Return the greatest load that it leaves at the poses of a motion [N], shape (n,)."""
-        if self.most is not None:
-            return np.broadcast_to(np.asarray(motion.value(self.most), float), motion.shape)
-        own = self._margin(motion, loads.own)
-        share = (self._margin(motion, loads.with_load(PROBE, motion)) - own) / PROBE
-        return greatest_load(own, share, np.zeros(()), np.asarray(np.inf))
 
-    def _margin(self, motion: Motion, acting: object) -> FloatArray:
-        asked = self.margin if isinstance(self.margin, Quantity) else self.margin.under(acting, keep=True)
-        return np.broadcast_to(np.asarray(motion.value(asked) if isinstance(asked, Quantity) else motion[asked], float), motion.shape)
+def load_by_margin(margin: Any, motion: Motion, loads: LoadAt) -> FloatArray:
+    """Return the greatest load with which a margin does not fall below zero at the poses of a motion [N], shape (n,)."""
+
+    def under(acting: object) -> FloatArray:
+        found = motion.value(margin) if isinstance(margin, Quantity) else motion[margin.under(acting, keep=True)]
+        return np.broadcast_to(np.asarray(found, float), motion.shape)
+
+    own = under(loads.own)
+    share = (under(loads.with_load(PROBE, motion)) - own) / PROBE
+    return greatest_load(own, share, np.zeros(()), np.asarray(np.inf))
 
 
 # The search.
@@ -478,12 +474,12 @@ class FieldSearch:
             raise DefinitionError(f"{title}: lifts: {odd[0]} has no pressure to lift with; {remedy}.")
         if limits is not None:
             require_type(f"{title}: limits", limits, Mapping, 'limits by name are expected, limits={"rated load": 20 * kN}')
-        further = {str(each): FurtherLimit.of(str(each), value, plan, title) for each, value in (limits or {}).items()}
+        further = {str(each): further_limit(str(each), value, title) for each, value in (limits or {}).items()}
         for each in further:
             if each in loads.kinds or each in (TIPPING, SLIPPING, CLEARANCE, OUT_OF_REACH, NOT_LIMITED):
                 raise DefinitionError(f"{title}: limits: {each} is a limiter already; give this one another name.")
         if plan.of_kind(Planes) and pairs_of(plan):
-            further[CLEARANCE] = FurtherLimit(margin=clearance())
+            further[CLEARANCE] = partial(load_by_margin, clearance())
         if not loads.kinds and not further:
             what = f"{title}: nothing says what the machine carries: no cylinder has a circuit, nothing else has bounds"
             raise DefinitionError(f'{what}; declare one, LiftCircuit(lift, pressure=180 * bar), or give limits={{"rated load": 20 * kN}}.')
@@ -569,7 +565,7 @@ class FieldSearch:
             parts.append(np.min(own, axis=0)[None] * factors.get(kind, 1.0))
         if self.limits and count:
             motion = self.loads.motion(rows)
-            parts.append(np.array([each.load(motion, self.loads) for each in self.limits.values()]))
+            parts.append(np.array([each(motion, self.loads) for each in self.limits.values()]))
         return LoadsFound(poses, np.concatenate(parts) if count and parts else np.empty((len(self.names), 0)))
 
     def refined(self, found: LoadsFound, inner: int) -> LoadsFound:

@@ -6,7 +6,7 @@ import warnings
 from collections.abc import Callable, Mapping
 from itertools import product
 from types import MappingProxyType
-from typing import Any, NamedTuple, TypeAlias, final
+from typing import Any, TypeAlias, final
 
 import numpy as np
 
@@ -82,16 +82,16 @@ def zone(machine: Mechanism, quantity: QuantityLike, vary: Any = None, *, over: 
         return quantity_values(looked_at.of_each(machine.replaced(**box.settings(unit, choice)), task), quantity)
 
     tasks = int(np.prod(shape, dtype=int))
-    found = extremes(f, tasks, len(box.ranges), len(box.choices))
-    seen = np.abs(found.seen[np.isfinite(found.seen)])
-    if seen.size and bool(np.any(np.abs(found.value) > FAR * max(float(np.median(seen)), TINY))):  # as large as next to a pole
+    (low, high), unit, choice, seen = extremes(f, tasks, len(box.ranges), len(box.choices))
+    known = np.abs(seen[np.isfinite(seen)])
+    if known.size and bool(np.any(np.abs([low, high]) > FAR * max(float(np.median(known)), TINY))):  # as large as next to a pole
         divisors, named = () if callable(quantity) else divisors_of(machine.plan, quantity), f"{machine.plan.title}: {words_of(quantity)}"
         raise boundless_error(named, divisors[0] if len(divisors) == 1 else None, "look at other strokes")
-    ends = [{name: shaped(value, shape) for name, value in box.settings(found.unit[row], found.choice[row]).items()} for row in (0, 1)]
-    share = np.mean(np.isfinite(found.seen), axis=1)
+    ends = [{name: shaped(value, shape) for name, value in box.settings(unit[row], choice[row]).items()} for row in (0, 1)]
+    share = np.mean(np.isfinite(seen), axis=1)
     return Zone(
-        words_of(quantity), poses, found.value[0].reshape(shape), found.value[1].reshape(shape), ends[0], ends[1],
-        share.reshape(shape), found.seen.shape[1], tuple(remarks(machine, quantity, box, flat, found.seen)),
+        words_of(quantity), poses, low.reshape(shape), high.reshape(shape), ends[0], ends[1],
+        share.reshape(shape), seen.shape[1], tuple(remarks(machine, quantity, box, flat, seen)),
     )  # fmt: skip
 
 
@@ -132,18 +132,6 @@ def settings_counted(mask: Mask, motion: Motion, settings: Mapping[str, object])
 
 Function: TypeAlias = Callable[[Index, FloatArray, Index], FloatArray]
 """`f(task, unit, choice)`: the value of task (m,) at unit coordinates (m, k), choice (m,)."""
-
-
-class Extremes(NamedTuple):
-    """Of every task the least and the greatest value, shape (2, t), where: unit (2, t, k) and choice (2, t); NaN where it has none.
-
-    `seen` are the values on the grid, shape (t, grid points).
-    """
-
-    value: FloatArray
-    unit: FloatArray
-    choice: Index
-    seen: FloatArray
 
 
 SIDE: Mapping[int, int] = MappingProxyType({0: 1, 1: 33, 2: 13, 3: 7, 4: 5, 5: 3, 6: 3, 7: 3, 8: 3})
@@ -193,16 +181,20 @@ class SettingsBox:
             found = highest(self.look, [self.side - 1])
             return found.value, found.t[..., None]
         if self.k:
-            top = highest_in(self)
-            return top.value, top.unit
+            value, unit, _ = highest_in(self)
+            return value, unit
         return self.seen[..., 0], np.zeros((*self.seen.shape[:2], 0))
 
 
-def extremes(f: Function, tasks: int, k: int, choices: int) -> Extremes:
-    """Return the extremes of f over a unit box of k dimensions and some choices, for every task."""
+def extremes(f: Function, tasks: int, k: int, choices: int) -> tuple[FloatArray, FloatArray, Index, FloatArray]:
+    """Return the extremes of f over a unit box of k dimensions and some choices, for every task.
+
+    The least and the greatest value, shape (2, t), where they are, at unit (2, t, k) and choice (2, t), NaN where there is none, and the
+    values on the grid, shape (t, grid points).
+    """
     box = SettingsBox(f, tasks, k, choices)
     value, unit = (each.reshape(2, tasks, choices, *each.shape[2:]) for each in box.highest())
     choice = np.argmax(np.where(np.isnan(value), -np.inf, value), axis=-1)
     best = np.take_along_axis(unit, choice[..., None, None], axis=2)[:, :, 0]
     found = f(np.tile(np.arange(tasks), 2), best.reshape(2 * tasks, k), choice.ravel()).reshape(2, tasks)
-    return Extremes(found, np.where(np.isnan(found)[..., None], np.nan, best), choice, box.seen[1].reshape(tasks, -1))
+    return found, np.where(np.isnan(found)[..., None], np.nan, best), choice, box.seen[1].reshape(tasks, -1)

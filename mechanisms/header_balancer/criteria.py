@@ -229,7 +229,7 @@ def matching(balance: HeaderState) -> Verdict:
 def reserve(balance: HeaderState) -> Verdict:
     """Return criterion 5: the required pressure as high as the pump permits with the least reserve."""
     motion = balance.motion
-    worst, pump = relief(motion).pressure, float(motion.inputs["pump"])
+    worst, pump = float(relief(motion).value), float(motion.inputs["pump"])
     spare, ok = pump / worst - 1.0, pump >= (1.0 + LEAST_RESERVE) * worst
     seals = float(motion.inputs["seals"] / np.mean(balance.required))
     says = said(
@@ -244,26 +244,27 @@ def reserve(balance: HeaderState) -> Verdict:
 def _smaller(balance: HeaderState, worst: float, pump: float) -> str:
     """Return what a smaller standard bore would do for the seals' share, where the pump permits it."""
     size = balance.cylinder.sized(balance.motion)
-    now = size.single
-    smaller = [CylinderSize(bore, now.rod, size.count, size.works) for bore in standard_bores() if now.rod < bore < now.bore]
+    own, rod = size.single
+    smaller = [CylinderSize(bore, rod, size.count, size.works) for bore in standard_bores() if rod < bore < own]
     fits = [float(each.bore) for each in smaller if (1.0 + LEAST_RESERVE) * worst * size.area / each.area <= pump]
     if not fits:
         return said("; no smaller standard bore keeps the reserve, so it is as high as permitted")
     return said(
         "; for this header alone a bore of {bore} would do, with {share:.0f} % of the seals' hysteresis",
-        bore=show(min(fits), "mm", 4), share=100.0 * min(fits) ** 2 / now.bore**2,
+        bore=show(min(fits), "mm", 4), share=100.0 * min(fits) ** 2 / own**2,
     )  # fmt: skip
 
 
 def valve(motion: Motion) -> Verdict:
     """Return whether the relief valve stays shut up to transport height."""
-    found = relief(motion)
+    found, opens = relief(motion), float(motion.inputs["valve"])
     says = said(
         "lifting to transport height takes up to {pressure}, at h = {at}; the valve opens at {valve}",
-        pressure=kgf_cm2_text(found.pressure, 1), at=show(found.at, "mm", ".0f"), valve=kgf_cm2_text(float(motion.inputs["valve"]), 1),
+        pressure=kgf_cm2_text(found.value, 1), at=show(found.strokes["h"], "mm", ".0f"), valve=kgf_cm2_text(opens, 1),
     )  # fmt: skip
-    apart = kgf_cm2_text(abs(found.margin), 1)
-    if found.margin > 0.0:
+    margin = opens - float(found.value)
+    apart = kgf_cm2_text(abs(margin), 1)
+    if margin > 0.0:
         return Verdict("relief valve", True, said("{says}: margin {apart}.", says=says, apart=apart))
     return Verdict("relief valve", False, said("{says}: {apart} too low; set it higher or take a larger bore.", says=says, apart=apart))
 

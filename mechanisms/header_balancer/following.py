@@ -15,7 +15,7 @@ from linkage.errors import ensure
 from linkage.language import noted
 from linkage.loads import SENSES, PinFriction, Support
 from linkage.loads.element import Formulas
-from linkage.motion import Judge, require_motion
+from linkage.motion import Answer, Judge, require_motion
 from linkage.program import FloatArray
 from linkage.quantities import Coordinate, Distance
 from linkage.statics import driving_force, reaction
@@ -253,21 +253,11 @@ def reaction_columns(motion: Motion) -> list[Column]:
     ]
 
 
-@dataclass(frozen=True)
-class ReliefMargin:
-    """Lifting by the pump to transport height: the greatest pressure [Pa gauge], the stroke where [m], the margin [Pa]."""
-
-    pressure: float
-    at: float
-    margin: float
-
-
-def relief(motion: Motion) -> ReliefMargin:
-    """Return how far the pressure stays below the relief valve from the horizon to the end of the stroke, one design."""
+def relief(motion: Motion) -> Answer:
+    """Return the greatest pressure [Pa gauge] of lifting by the pump from the horizon to the end of the stroke, one design."""
     lifted = motion.moved({"h": np.array([stroke_of(motion, 0.0), motion.plan.strokes["h"].end])})
     judge = Judge(motion.plan, motion.designs, [lifted])
-    found = judge.answer(most(lambda at: HeaderState(at).required_while("extending")))
-    return ReliefMargin(float(found.value), float(found.strokes["h"]), float(motion.inputs["valve"]) - float(found.value))
+    return judge.answer(most(lambda at: HeaderState(at).required_while("extending")))
 
 
 def kgf_cm2_text(pressure: float, digits: int = 2) -> str:

@@ -69,8 +69,7 @@ def test_poses_at_once_and_unreached_ones():
     assert PUSH.thrust([10 * bar, 20 * bar], back=[[0.0], [1 * bar], [2 * bar]]).shape == (3, 2)
 
 
-def test_next_size_and_the_size_for_a_thrust():
-    assert PUSH.next_size() == CylinderSize(110 * mm, 60 * mm, 2)
+def test_the_size_for_a_thrust():
     assert PUSH.sized_for(250 * kN, 160 * bar).bore == 100 * mm  # 251.3 kN
     assert PUSH.sized_for(252 * kN, 160 * bar).bore == 110 * mm
     assert PUSH.sized_for(1.0, 160 * bar).bore == 63 * mm  # larger than the rod

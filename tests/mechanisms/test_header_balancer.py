@@ -25,7 +25,7 @@ from mechanisms.header_balancer import (
     setting_table,
     with_header,
 )
-from mechanisms.header_balancer.criteria import FAST, HEADERS, PAPER, SLOW, criteria, hang_up, matching, rises
+from mechanisms.header_balancer.criteria import FAST, HEADERS, PAPER, SLOW, criteria, hang_up, matching, rises, valve
 from mechanisms.header_balancer.following import PLAIN, HeaderState, at_horizon, stroke_of
 from tests.for_all import for_all
 from tests.mechanisms.balancer_reference import REFERENCE
@@ -226,7 +226,7 @@ def test_added_weight_counts_like_a_heavier_header(number):
     for way in (SLOW, FAST):
         assert_allclose(*(largest_charge(motion, way) for motion in motions), rtol=1e-9)
     assert_allclose(*(charge_for(motion, 300 * kgf) for motion in motions), rtol=1e-12)
-    assert_allclose(*(relief(motion).pressure for motion in motions), rtol=1e-12)
+    assert_allclose(*(relief(motion).value for motion in motions), rtol=1e-12)
     said = [[str(each) for each in criteria(motion) if each.rule != "change of header"] for motion in motions]
     assert said[0] == said[1]
     plain = with_header(number)
@@ -377,9 +377,10 @@ def test_a_reaction_that_turns_is_seen():
 def test_the_relief_valve_is_judged_up_to_transport_height():
     machine = with_header(1)
     found, end = relief(machine.at(h=0.0)), HeaderState(machine.at(h=[0.45]))
-    assert_allclose(found.pressure, end.required[0] + 3 * kgf_cm2, rtol=1e-12)
-    assert found.at == 0.45
-    assert_allclose(found.margin, 150 * kgf_cm2 - found.pressure)
+    assert_allclose(found.value, end.required[0] + 3 * kgf_cm2, rtol=1e-12)
+    assert found.strokes["h"] == 0.45
+    margin = 150 * kgf_cm2 - found.value
+    assert f"margin {margin / kgf_cm2:.1f} kgf/cm2" in valve(machine.at(h=0.0)).sentence
 
 
 def test_the_setting_table_has_each_header():

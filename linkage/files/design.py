@@ -18,7 +18,7 @@ from ..quantities.quantity import plain
 from ..steps import Link, Pin, Step
 from ..units import factor, parse
 from .expression import arrow_in, expression
-from .names import Names
+from .names import FileTable, Names
 
 
 @final
@@ -27,7 +27,7 @@ class Design:
 
     def __init__(self, machine: type[Mechanism] | Mechanism, names: Names) -> None:
         self.plan, self.names = machine.plan, names
-        self.set: Mapping[str, Any] = changed(machine) if isinstance(machine, Mechanism) else {}
+        self.set: FileTable = changed(machine) if isinstance(machine, Mechanism) else {}
         self.written: set[str] = set()
 
     def variable(self, name: str, given: Quantity) -> float | str:

@@ -323,7 +323,7 @@ class FileEntry:
         values = member.parents if isinstance(member, Step) else [argument_kept(member, each.name) for each in self.built_from]
         parents = [each.kind.write(value, design, "") for each, value in zip(self.built_from, values, strict=True)]
         if self.word:
-            found: dict[str, Any] = {self.word: parents[0] if len(parents) == 1 else parents}
+            found: Keywords = {self.word: parents[0] if len(parents) == 1 else parents}
         else:
             found = ({PATH: self.path} if self.path else {}) | dict(zip((each.key for each in self.built_from), parents, strict=True))
         labels = member.labels if self.has_labels else {}

@@ -183,7 +183,7 @@ def vector_of(given: object, names: Names) -> steps.Arrow:
     return found
 
 
-def drawn_written(member: steps.Drawn, design: Design) -> dict[str, Any]:
+def drawn_written(member: steps.Drawn, design: Design) -> Keywords:
     """Return the strokes at which a sketch holds, angles in degrees."""
     return {name: stroke_value(plain(value), name, design) for name, value in member.strokes.items()}
 
@@ -212,7 +212,7 @@ def planes_read(given: object, names: Names) -> Planes:
     return Planes(*word_list_of(given["planes"], names), width=quantity_of(given.get("width", 0.0), names))
 
 
-def planes_written(member: Planes, design: Design) -> dict[str, Any]:
+def planes_written(member: Planes, design: Design) -> Keywords:
     """Return the planes of bodies, and the width of two bars where it is not nothing."""
     width = design.amount(member.width, "mm", f"{member.name}.width")
     return {"planes": list(member.planes)} | ({"width": width} if width else {})

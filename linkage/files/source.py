@@ -15,7 +15,7 @@ from typing import Any, NoReturn, final
 
 from ..disk import read
 from ..errors import DefinitionError, FileError
-from .names import NAME_LENGTH, shortened
+from .names import NAME_LENGTH, Keywords, shortened
 
 Key = tuple[str, ...]
 
@@ -106,7 +106,7 @@ def refused(word: str) -> NoReturn:
     raise ValueError(f"{word} is not a number")
 
 
-def unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+def unique(pairs: list[tuple[str, Any]]) -> Keywords:
     """Return a table; ValueError for a key that stands twice."""
     table = dict(pairs)
     if len(table) < len(pairs):

@@ -308,7 +308,7 @@ def over_said(head: StudyHead, given: object) -> Keywords:
     what = 'a table of strokes is expected, such as over = { S = "0 to 200 mm" }, or the name of an Over that the machine declares'
     given = entry_as(given, Mapping, what)
 
-    def part(name: str, value: object) -> tuple[str, Any]:
+    def part(name: str, value: object) -> tuple[str, object]:
         said = part_said(head, known_name("Stroke", name, plan.strokes, where=plan.title), value)
         ranges_of(head.machine, {name: said})
         return name, said

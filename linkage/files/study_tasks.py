@@ -47,7 +47,7 @@ from ..study.survey import Progress
 from ..units import display_unit, parse_span, show
 from . import study_file
 from .criterion import condition_said, criterion_of, measure_or_constant, measure_said, quantity_said
-from .names import Keywords, by_whole_names, entry_as, require_entry, shortened
+from .names import FileTable, Keywords, by_whole_names, entry_as, require_entry, shortened
 from .source import each_of
 from .study_file import FindMachine, Settings, StudyHead, amount_said
 
@@ -67,9 +67,9 @@ class TextMeasures:
 
     texts: Mapping[str, str]
     poses: int
-    over: Mapping[str, Any] = field(default_factory=dict)
+    over: FileTable = field(default_factory=dict)
 
-    def __call__(self, machine: Mechanism) -> dict[str, Any]:
+    def __call__(self, machine: Mechanism) -> Keywords:
         """Return a number or a truth value for each design of a machine, shape (m,), by name."""
         measures, conditions = self.said(machine)
         problem = self.problem(machine, measures, conditions)
@@ -182,7 +182,7 @@ def swept_strokes(head: StudyHead, given: object) -> Keywords:
     """Return the strokes that are looked at [SI], arrays or single values; SeveralError with all mistakes, each under its stroke."""
     given = entry_as(given, Mapping, 'a table of strokes is expected, such as strokes = { S = "100 mm" }')
 
-    def values(name: str, value: object) -> tuple[str, Any]:
+    def values(name: str, value: object) -> tuple[str, object]:
         known_name("Stroke", name, head.plan.strokes, where=head.plan.title)
         measures = stroke_measure(head.plan, name)
         if isinstance(value, list):
@@ -225,7 +225,7 @@ def quantities_said(head: StudyHead, given: object) -> Keywords:
     """Return quantities and measures by name, in the load case that is looked at; SeveralError with all mistakes, each under its name."""
     case = head.found["case"]
 
-    def one(name: str, text: object) -> tuple[str, Any]:
+    def one(name: str, text: object) -> tuple[str, object]:
         if isinstance(criterion_of(text, head.machine), Measure):
             return name, in_case(measure_said(text, head.machine), case)
         quantity = quantity_said(text, head.machine)

@@ -138,7 +138,7 @@ def regions_said(head: StudyHead, given: object) -> Keywords:
     """Return the regions of points as `optimise` takes them; SeveralError with all mistakes, each under its point."""
     given = entry_as(given, Mapping, 'a region for each point is expected, such as regions = { C = "plate" }')
 
-    def region_said(point: str, shapes: object) -> tuple[str, Any]:
+    def region_said(point: str, shapes: object) -> tuple[str, object]:
         region = shape_said(shapes)
         point_regions(head.machine, {point: region}, {}, ())
         return point, region

@@ -24,11 +24,10 @@ from ..plan import Part
 from ..shown import Shown
 from ..units import SI, UNITS, factor, shown_in
 from ..vectors import Numbers, Scalar
-from .forces import WORDS, ForceLines
+from .forces import WORDS, ForceLines, LineDerivatives, lines_needed, symbols_behind
 from .listing import X_AXIS, GivenNumber, Listing, ListingLine
 from .names import Cross, Direction, Dot, Tcos, TurnV, TurnVL, escaped_latex, explicit
 from .printing import Latex, Text, number_latex, plain_number
-from .rates import LineDerivatives, lines_needed, symbols_behind
 from .symbolic import LENGTH, Unit
 
 

@@ -113,15 +113,14 @@ def length_or_size(argument: Arrow | str | Quantity) -> Quantity:
 PAIR = ("point", "point")
 ONE, TWO = ("quantity",), ("quantity", "quantity")
 
-CALLS: Mapping[str, tuple[tuple[str, ...], Callable[..., Member]]] = MappingProxyType(
-    {"angle": (PAIR, angle), "distance": (PAIR, distance), "x": (("point",), x), "y": (("point",), y)}
-    | {"CosineAngle": (("quantity",) * 3, CosineAngle)}
-    | dict.fromkeys(("abs", "absolute"), (("any",), length_or_size))
-    | {"Vector": (PAIR, Vector), "Turn": (("vector", "quantity"), Turn)}
-    | {name: (ONE, applied(name)) for name in ("sqrt", "sin", "cos", "tan", "exp", "log")}
-    | {name: (TWO, applied(name)) for name in ("arctan2", "minimum", "maximum")}
-    | {"atan2": (TWO, applied("arctan2")), "min": (TWO, applied("minimum")), "max": (TWO, applied("maximum"))}
-)
+CALLS: Mapping[str, tuple[tuple[str, ...], Callable[..., Member]]] = MappingProxyType({
+    "angle": (PAIR, angle), "distance": (PAIR, distance), "x": (("point",), x), "y": (("point",), y),
+    "CosineAngle": (("quantity",) * 3, CosineAngle), "abs": (("any",), length_or_size), "absolute": (("any",), length_or_size),
+    "Vector": (PAIR, Vector), "Turn": (("vector", "quantity"), Turn),
+    **{name: (ONE, applied(name)) for name in ("sqrt", "sin", "cos", "tan", "exp", "log")},
+    **{name: (TWO, applied(name)) for name in ("arctan2", "minimum", "maximum")},
+    **{short: (TWO, applied(name)) for short, name in (("atan2", "arctan2"), ("min", "minimum"), ("max", "maximum"))},
+})  # fmt: skip
 """The functions by name: the kinds of their arguments, and what each makes of them."""
 VECTORS: Mapping[str, tuple[str, ...]] = MappingProxyType({"Vector": (), "Turn": ("length",)})
 """Those that make a vector, with the arguments that they take by name; the others make a quantity."""

@@ -138,7 +138,7 @@ class Newton:
         """Return how near each pose is to a singular one, and the group's size [m].
 
         The sign is that of the determinant, which changes where branches cross. The nearness is 2 over the condition of the Jacobian
-        with rows of length one, at most 1; the condition is bounded by the Frobenius norms of the Jacobian and its inverse.
+        with rows of length one, at most 1. The condition is bounded by the Frobenius norms of the Jacobian and its inverse.
         """
         sense, size, pivot = self._run(self.programs.clearance, held, u)
         weak = np.flatnonzero(~(pivot > 0.0))

@@ -6,7 +6,7 @@
 A range is `"270 mm to 330 mm"`, `"270 to 330 mm in steps of 5 mm"`, `"within 60 mm"` of the present value; a list is the choices.
 
 A table holds the keywords of one function. What reads a key stands at the keyword, `count: Annotated[int, count_from(1)] = 1024`, or in
-a mapping by names beside the function; it takes the head of the file and what stands under the key.
+a mapping by names beside the function. It takes the head of the file and what stands under the key.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Numerical differentiation, as in the papers: differences of positions at shifted strokes.
 
-Two-sided differences where both neighbours can be reached, one-sided ones where not; the step is chosen at every pose by comparing
+Two-sided differences where both neighbours can be reached, one-sided ones where not. The step is chosen at every pose by comparing
 extrapolated estimates (Richardson), and what is lost is reported.
 """
 
@@ -33,7 +33,7 @@ def derivative(
 
     `values(offsets)` returns the function at strokes shifted by each offset, along a new last axis; NaN where
     unreachable. `span` is the length of the stroke [m or rad], `least` the size that its values have at least. With
-    `step` a plain difference of that step is taken; its error, of rounding and of the step's length, is what it differs by from
+    `step` a plain difference of that step is taken. Its error, of rounding and of the step's length, is what it differs by from
     the one whose steps are chosen, and the error of that.
     """
     steps = FIRST * span * RATIO ** -np.arange(float(STEPS))

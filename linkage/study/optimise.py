@@ -141,11 +141,11 @@ def optimise(
     `vary` says what may change: `"OB": (low, high)` [SI], with a third number in steps; `"M": around(60 * mm)`, of a point both
     coordinates; a list of choices; and for several names at once rows of a catalogue, `("lift.bore", "lift.rod"): [(0.1, 0.056), ...]`.
     A cylinder by its name takes rows of `hydraulics.catalogue(...)`: its sizes, and as its whole way the range of the stroke that drives
-    it; the machine that comes back has that stroke.
+    it. The machine that comes back has that stroke.
     `regions={"M": [(0.1, 0.9), (0.4, 0.9), (0.4, 1.2)]}` keeps a point in a polygon [m], `around(radius=60 * mm)` in a circle; a list of
     shapes allows any of them, `outside(...)` none, and an outline of the frame goes by its name, `["plate", outside("wheel")]`.
     `over={"S": (0.0, 0.2)}` looks at a part of the stroke; an end may be a quantity that follows the design. `case` names a load case or
-    several, all of which are kept and the worst of which counts; with their hours, `case={"empty": 700, "full": 300}`, the mean of the
+    several, all of which are kept and the worst of which counts. With their hours, `case={"empty": 700, "full": 300}`, the mean of the
     objective counts, by hours or shares alike, as they are divided by their sum.
 
     Of several objectives, given as lists, the front comes back: designs of which none is better in all (extra `pareto`). With
@@ -153,7 +153,7 @@ def optimise(
 
     From the best of some hundred designs spread over the box, `starts` of them for each combination of choices, SciPy's SLSQP goes on
     with exact derivatives. `method="local"` begins with the machine as it is. The same seed gives the same result. `limit` is how many
-    designs are looked at before the best so far comes back, with a word that it is that; by default as many as take about a minute. With
+    designs are looked at before the best so far comes back, with a word that it is that. By default as many as take about a minute. With
     `folder` finished searches are kept there, and the same call goes on where another one stopped; `progress=True` shows a bar.
 
     A design that has no value of a condition at some pose does not keep it, and a quotient whose divisor passes zero within the stroke has

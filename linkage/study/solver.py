@@ -1,7 +1,7 @@
 """One local search: a problem's rows handed to SciPy's SLSQP, from one start, with one combination of choices.
 
 A least or greatest value over the stroke becomes a variable of its own, held below or above every row, where the condition or the objective
-gains from its being so; elsewhere the row that stands worst counts by itself. A step onto designs that cannot be assembled sees how much
+gains from its being so. Elsewhere the row that stands worst counts by itself. A step onto designs that cannot be assembled sees how much
 the links are short there, and for all else the last good design's straight lines. If that does not say why, it sees a loss that grows with
 the way, so that the solver turns back.
 """
@@ -132,7 +132,7 @@ class Local:
     """A problem with one combination of choices, as a solver sees it.
 
     Its variables are the unit coordinates, then those of the leaves, then the worst of several objectives, and by how much each of the
-    `elastic` constraints gives way; where there are such, the sum of that is to be least. With `squares`, these are to be least instead,
+    `elastic` constraints gives way. Where there are such, the sum of that is to be least. With `squares`, these are to be least instead,
     and `own` is where their own unknowns come to.
     """
 

@@ -347,7 +347,7 @@ def survey(
     `vary` are dimensions by name [SI], each an array (m,); `over`, which elsewhere says where strokes run, is refused.
 
     `measure(machine)` is called with some designs at a time, in arrays, and
-    returns numbers or truth values for each of them, arrays (designs,) by name; what it returns for a design must not depend on
+    returns numbers or truth values for each of them, arrays (designs,) by name. What it returns for a design must not depend on
     the others.
 
     `executor` is anything with `submit`: a pool of `concurrent.futures`, `distributed.Client(...).get_executor()`; without one this process

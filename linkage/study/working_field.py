@@ -170,8 +170,8 @@ def working_field(
     """Return what a machine lifts at a point over places x by y [m]: `working_field(digger, "L", x=np.linspace(1, 6, 14), y=[0, 1, 2])`.
 
     The load pulls against the direction `along`, beside the machine's own loads of a `case`; `without` names loads that are left out.
-    Strokes on `hold` stand still; the others run as far as they are declared, or as `over` says, Over(S=(0.0, 0.2)) or a dictionary
-    short for it; up to two may be spare, and stand where most is carried. `keep` are `Target`s that hold at every place, such as the
+    Strokes on `hold` stand still. The others run as far as they are declared, or as `over` says, Over(S=(0.0, 0.2)) or a dictionary
+    short for it. Up to two may be spare, and stand where most is carried. `keep` are `Target`s that hold at every place, such as the
     angle of a fork. `lifts` are the cylinders at pump pressure (all unless said), the others hold at their relief
     valves.
     `rule` is a LoadRule, its title too: ISO_10567, ISO_14397_1, OECD_2. `limits` are further ones by name: a number or a quantity that the
@@ -286,7 +286,7 @@ def ends_of(unit: FloatArray) -> FloatArray:
 def best_of_parabolas(values: FloatArray, loads: int, spare: int) -> tuple[FloatArray, FloatArray]:
     """Return where the least of the first `loads` parabolas is greatest, (n, s) from -1 to 1, and what it is there (n,).
 
-    `values` (r, n, 3**s) are theirs at -1, 0 and 1 of each spare stroke; the others count where they are below zero. -inf where some
+    `values` (r, n, 3**s) are theirs at -1, 0 and 1 of each spare stroke. The others count where they are below zero. -inf where some
     value is missing. Of two strokes the best of the second is looked for at each value of the first, as limits meet at a slant.
     """
     known: Mask = np.asarray(np.isfinite(values).all(axis=(0, 2)))

@@ -1,7 +1,7 @@
 """Closed curves by arc length: their Fourier descriptors, and how one lies best on another whatever its place, turn, size, start and sense.
 
 With s from 0 to 1 along a closed curve z = x + i y, c_k is the mean of z exp(-2 pi i k s). A shift changes c_0 alone, a turn and another
-size all of them by one factor, another start c_k by a factor exp(2 pi i k t); the other sense swaps c_k and c_-k. What stays are the |c_k|.
+size all of them by one factor, another start c_k by a factor exp(2 pi i k t). The other sense swaps c_k and c_-k. What stays are the |c_k|.
 Sources: C. T. Zahn, R. Z. Roskies, Fourier descriptors for plane closed curves, IEEE Trans. Computers C-21 (1972) 269-281; for coupler
 curves J. R. McGarva, G. Mullineux, Harmonic representation of closed curves, Appl. Math. Modelling 17 (1993) 213-218.
 """

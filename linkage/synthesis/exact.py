@@ -543,7 +543,7 @@ RIGID = 1e-9
 def cognates(machine: Mechanism, of: str = "P", *, count: int = 73) -> ShownList[ExactMachine]:
     """Return the two other four-bars whose coupler point goes along the path of a point: `cognates(FourBar(), of="P")`.
 
-    The machine has one stroke and a four-bar on the frame, of any class, whose coupler carries the point; the path is looked at in `count`
+    The machine has one stroke and a four-bar on the frame, of any class, whose coupler carries the point. The path is looked at in `count`
     poses of the stroke. The third four-bar's crank turns with the machine's; the second's coupler does, and it is driven at the pivot
     that takes it farthest. `strokes` (count,) are those at which they stand where the machine does, NaN past a dead point, as `why` says.
 

@@ -33,5 +33,5 @@ def pytest_collection(session):
         sys.dont_write_bytecode = unwritten
         gc.collect()
         gc.freeze()
-        gc.set_threshold(20_000, 20, 20)
+        gc.set_threshold(50_000, 20, 20)
         gc.enable()

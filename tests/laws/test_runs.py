@@ -116,7 +116,7 @@ def test_every_column_of_every_run_lies_within_what_is_judged(machine):
 PRINTED = re.compile(r"[−-]?\d+(?:\.\d+)?")
 
 
-@for_all("machine", [OfPaths, OfABox, OfPoses], slow=[LoadedFrontLoader])
+@for_all("machine", [OfABox], slow=[OfPaths, OfPoses, LoadedFrontLoader])
 def test_no_printed_value_of_a_report_lies_outside_what_is_judged(machine):
     """The tables of a report, cell by cell, in the units that stand in their headings."""
     ends, seen = judged_ends(machine()), 0

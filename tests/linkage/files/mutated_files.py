@@ -12,6 +12,7 @@ import warnings
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -25,13 +26,19 @@ from tests.linkage.files.file_machines import Drawn, EveryStep, Hitch, Loaded, P
 LONGEST = 120.0
 """s; a file that takes longer hangs: the slowest sound one takes about a second."""
 
-MACHINES = [*shipped.MACHINES.values(), Hitch, EveryStep, Parts, Drawn, Loaded]
 SLOW = {"StephensonThreeFar", "StephensonTwo", "StephensonTwoFar", "Parts", "Drawn"}
 """Machines whose groups take so long to assemble that they are drawn a fifth as often."""
-SAMPLES = [
-    sample for machine in MACHINES for write, kind in ((to_toml, "toml"), (to_json, "json"))
-    for sample in [(write(machine).encode(), kind)] * (1 if machine.__name__ in SLOW else 5)
-]  # fmt: skip
+
+
+@cache
+def samples():
+    """Return the files that are put wrong, each with its kind."""
+    return [
+        sample for machine in [*shipped.MACHINES.values(), Hitch, EveryStep, Parts, Drawn, Loaded]
+        for write, kind in ((to_toml, "toml"), (to_json, "json"))
+        for sample in [(write(machine).encode(), kind)] * (1 if machine.__name__ in SLOW else 5)
+    ]  # fmt: skip
+
 
 PYTHON = [
     '__import__("os").system("touch run")', "().__class__.__base__.__subclasses__()", "exec('raise SystemExit')", "open('run', 'w')",
@@ -67,7 +74,7 @@ Change = Callable[[random.Random, str, str], str]
 def mutated(number: int) -> tuple[bytes, str]:
     """Return the bytes of a file with one to three things put wrong, always the same for a number, and its ending."""
     draw = random.Random(number)
-    raw, kind = draw.choice(SAMPLES)
+    raw, kind = draw.choice(samples())
     text = raw.decode()
     for _ in range(draw.choice((1, 1, 2, 3))):
         text = draw.choice(CHANGES)(draw, text, kind)

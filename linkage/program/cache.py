@@ -12,9 +12,10 @@ import warnings
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
+from functools import lru_cache
 from hashlib import sha256
 from pathlib import Path
-from types import ModuleType
+from types import CodeType, ModuleType
 from typing import Any, final
 
 from ..disk import in_words, read, replacing
@@ -141,8 +142,14 @@ Make = Callable[[Callable[..., None], CompiledFile | None], Callable[..., None]]
 def compiled(text: str, names: Mapping[str, object], where: str = "<linkage program>") -> dict[str, Any]:
     """Return the functions of a program's text."""
     space: dict[str, Any] = dict(names) | {"nan": math.nan, "inf": math.inf}
-    exec(compile(text, where, "exec"), space)
+    exec(code_from(text, where), space)
     return space
+
+
+@lru_cache(maxsize=512)
+def code_from(text: str, where: str) -> CodeType:
+    """Return a text as code: machines of one build, and variants of one class, have programs of one text."""
+    return compile(text, where, "exec")
 
 
 def compiled_in_file(text: str, name: str, make: Make) -> Callable[..., None]:

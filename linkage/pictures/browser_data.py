@@ -485,7 +485,7 @@ def column_data(name: str, found: LiveColumn, live: LiveText, motion: Motion, co
     if keys[0] in live.rows and not any(key in live.left_out for key in keys):
         return [*start, places if len(places) == count > 1 else places[0], *([russian] if russian != shown else [])]
     values = np.broadcast_to(np.asarray(column.values, float), motion.shape)
-    shown_values = [float(f"{value:.7g}") if np.isfinite(value) else None for value in values.tolist()]
+    shown_values = [float(f"{value:.6g}") if np.isfinite(value) else None for value in values.tolist()]
     return [*start, -1, russian, shown_values, why or next(live.left_out[key] for key in keys if key in live.left_out)]
 
 

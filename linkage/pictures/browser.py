@@ -40,8 +40,8 @@ def page(
     """Return the path of the live page it wrote, .html: one file without network access, in which the mechanism moves and changes.
 
     Every stroke has a slider, and so have the dimensions of `vary`: `["OB", "CD"]`, or with their ranges [SI], `{"OB": (0.28, 0.34)}`. Of a
-    point "M" both coordinates have one. Without `vary` these are the sizes that move the first curve most. All others can be added in
-    the page, and pins can be dragged. Everything is worked out anew in the browser by the machine's own program. A value goes only as far as
+    point "M" both coordinates have one. Without `vary` these are the sizes that move the first curve most. All others can be added,
+    and pins can be dragged. Everything is worked out anew in the browser by the machine's own program. A value goes only as far as
     the mechanism can be assembled, and the page says which step is how much short.
 
     `columns` are what its chooser offers, names of columns or requests such as `capacity("lift", "G")`, by default the table of

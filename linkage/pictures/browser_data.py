@@ -207,8 +207,8 @@ class PageRequests:
         forces = [each for each in joints if each.has_force and each.place is None]  # an arrow of the page begins at a point
         told = [each for each in forces if alone_on(each, forces)]
         try:
-            for each in told[:1]:
-                bound(self.plan, joint_part(each, forces, "x")).nodes(kept)
+            for joint in told[:1]:
+                bound(self.plan, joint_part(joint, forces, "x")).nodes(kept)
         except UntracedError:  # which parts pull is found pose by pose: the loads alone are drawn
             told = []
         found = [(each.point, joint_part(each, forces, "x"), joint_part(each, forces, "y"), False) for each in told]

@@ -90,8 +90,8 @@ def animate(
     played = playback(machine, poses, column, at=at)
     if limit is None:
         limit = machine.featured().limits.get(played.column.name)
-    column, limit = as_curve(played.column, limit)
-    stage = Stage(replace(played, column=column), trace, limit, GIF_DPI if kind == ".gif" else MP4_DPI)
+    curve, limit = as_curve(played.column, limit)
+    stage = Stage(replace(played, column=curve), trace, limit, GIF_DPI if kind == ".gif" else MP4_DPI)
     if kind == ".gif":  # a pose that comes twice is drawn once
         sample = np.concatenate([stage.frame(pose) for pose in (played.order[0], played.order[len(played.order) // 2])])
         write_gif(target, drawn_frames(stage, list(dict.fromkeys(played.order)), report), played.order, sample, played.seconds)

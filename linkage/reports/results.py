@@ -47,7 +47,7 @@ def results(machine: Mechanism, motion: Motion, case: Case = None) -> list[Colum
 def column_in_case(motion: Motion, column: Column, case: Case) -> Column:
     """Return a column in a load case; as it is where nothing asks for it, or no load counts in it."""
     own = in_case(column.request, case)
-    return column if own is column.request else replace(column, values=motion[own])
+    return column if own is None or own is column.request else replace(column, values=motion[own])
 
 
 def in_case(request: Asked, case: Case) -> Asked:

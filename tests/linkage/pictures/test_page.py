@@ -964,7 +964,7 @@ LAYOUT = """() => {
     out: told(all.filter((each) => !each.closest("svg") && (box(each).left < -0.5 || box(each).right > innerWidth + 0.5))),
     small: told(all.filter((each) => says(each) && size(each) < 12)),
     low: ["#mechanism", "[data-stroke]", "#play", "[data-size]"].map((each) => box(document.querySelector(each)).bottom),
-    texts: told([...document.querySelectorAll("svg text")].filter((each) => beyond(box(each), box(each.ownerSVGElement)))),
+    texts: told([...document.querySelectorAll("svg text")].filter((each) => seen(each) && beyond(box(each), box(each.ownerSVGElement)))),
     touch: told(touched.filter((each) => box(each).height > 0 && box(each).height < 30)),
   };
 }"""

@@ -48,12 +48,12 @@ FRAMES = [np.full((32, 32, 4), shade, np.uint8) for shade in (0, 90, 180)]
 
 
 def moving(path):
-    write_gif(path, FRAMES, [0, 1, 2, 1], np.concatenate(FRAMES))
+    write_gif(path, FRAMES, [0, 1, 2, 1], np.concatenate(FRAMES), 0.04)
 
 
 def filmed(path):
     pytest.importorskip("imageio_ffmpeg")
-    write_mp4(path, FRAMES, (32, 32))
+    write_mp4(path, FRAMES, (32, 32), 25.0)
 
 
 @cache

@@ -213,7 +213,7 @@ class Acting:
     def towards(self, direction: str | None) -> Self:
         """Return it in a direction, without rates that are given: these say another one."""
         given = isinstance(self.rates, Mapping)
-        return replace(self, direction=direction, **dict.fromkeys(("rates", "accelerations") if given else ()))  # type: ignore[arg-type]
+        return replace(self, direction=direction, **dict.fromkeys(("rates", "accelerations") if given else ()))
 
     def within(self, outer: Acting, what: str = "") -> Self:
         """Return this with what is not said here taken from `outer`; where `what` is said to be asked, DefinitionError for what differs."""

@@ -190,6 +190,8 @@ class MotionLike(Poses, Protocol):
     _grid: Grid
     _design_shape: tuple[int, ...]
     _instants: Instants | None
+    unreachable: str
+    _kept: dict[Hashable, Any]
 
     @property
     def designs(self) -> Mapping[str, Numbers]: ...

@@ -17,11 +17,26 @@ from ..loads import AT_REST
 from ..numeric import differences
 from ..plan import ArrayReading, Mask, Part, Plan, failures, negative, rate_name, require_kinds
 from ..program import FloatArray, Kernel
-from ..quantities import FRAME_AXES, Angle, Axes, Coordinate, Distance, Member, Number, Quantity, Reference, as_mapping, needs, quantity
+from ..quantities import (
+    FRAME_AXES,
+    Angle,
+    Axes,
+    Coordinate,
+    Distance,
+    Member,
+    Number,
+    Quantity,
+    Reference,
+    as_mapping,
+    name_of,
+    needs,
+    quantity,
+)
 from ..shown import Shown
 from ..steps import Arrow, Point
 from ..vectors import Numbers, Vec
 from . import conditions, stroke_search
+from .by_time import point_by_time
 from .conditions import Conditioning
 from .evaluation import BulkProgram, Evaluation, examined, near_singular, other_law_error
 from .grid import Grid, JoinedTo, Joining, MotionLike, joined_in_order, not_joined, to_rounding
@@ -364,7 +379,15 @@ class Motion(Shown):
 
         A motion in time has rates of its own; others are given.
         """
+        own = self.rates if rates is None else rates
+        if self._is_in_pass(target, own, {}):
+            return point_by_time(self, name_of(target), 1, own, {})
         return self._along(target, self._rates_or_own("velocity", rates))
+
+    def _is_in_pass(self, target: object, *rates: object) -> bool:
+        """Return whether a target is a point that moves at such rates, at poses that are all far from singular ones."""
+        is_point = isinstance(target, str | Member) and name_of(target) in self.plan.moving
+        return is_point and not self._is_near_singular and all(isinstance(each, Mapping) for each in rates) and bool(rates[0])
 
     def _rates_or_own(self, what: str, rates: Mapping[str, object] | None) -> dict[str, FloatArray]:
         """Return the rates that are given, else the motion's own; DefinitionError where there are neither."""
@@ -387,8 +410,11 @@ class Motion(Shown):
 
         A motion in time has its own. Where rates are given, accelerations that are not are 0.
         """
-        given = self._rates_or_own("acceleration", rates)
         asked = accelerations if accelerations is not None else self.accelerations if rates is None else {}
+        own = self.rates if rates is None else rates
+        if self._is_in_pass(target, own, asked):
+            return point_by_time(self, name_of(target), 2, own, asked)
+        given = self._rates_or_own("acceleration", rates)
         driven = rates_of("accelerations", asked, self, gaps=self.unreachable == "nan")
         member = self._member(target)
         along = [tuple(sorted((first, second))) for first in given for second in given]

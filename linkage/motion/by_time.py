@@ -1,0 +1,54 @@
+"""Velocities and accelerations of points at rates of strokes: of all points in one pass, by one derivative by time, taken twice."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from ..plan import Plan, rate_name
+from ..program import FloatArray, Kernel, Node
+from .grid import MotionLike
+from .strokes import rates_of
+
+
+def point_by_time(
+    motion: MotionLike, point: str, order: int, rates: Mapping[str, Any], accelerations: Mapping[str, Any]
+) -> FloatArray:
+    """Return the velocity of a point that moves, of `order` 2 its acceleration, shape (2, ...).
+
+    Those of all points are kept for the latest rates: several loads ask at the same ones.
+    """
+    plan, what = motion.plan, "acceleration" if order > 1 else "velocity"
+    given = (*rates, *rates.values(), None, *accelerations, *accelerations.values())
+    known = motion._kept.get(what)
+    if known is None or len(known[0]) != len(given) or any(a is not b for a, b in zip(known[0], given, strict=True)):
+        kernel = plan.made(("by time", order), lambda twin: Kernel(points_by_time(twin, order)))
+        inputs = {**motion._grid.flat, **flat_rates(motion, rates, accelerations)}
+        known = motion._kept[what] = given, motion._grid.full(kernel(inputs, size=motion._grid.size).values)
+    index = 2 * plan.moving.index(point)
+    found = known[1][index : index + 2]
+    found = found if motion.reached.all() else np.where(motion.reached, found, np.nan)
+    return motion._finite(found, np.zeros(motion.shape, bool), f"The {what} of {point}")
+
+
+def flat_rates(motion: MotionLike, rates: Mapping[str, Any], accelerations: Mapping[str, Any]) -> dict[str, FloatArray]:
+    """Return rates and accelerations of all strokes as a kernel takes them, zero where none are given."""
+    gaps, found = motion.unreachable == "nan", {}
+    for order, (what, given) in enumerate((("rates", rates), ("accelerations", accelerations)), 1):
+        checked = rates_of(what, given, motion, gaps=gaps)
+        for name in motion.plan.strokes:
+            full = np.broadcast_to(checked.get(name, np.zeros(())), motion.shape)
+            found[rate_name(name, order)] = full.reshape(motion._grid.size) if motion._design_shape else full.reshape(-1)
+    return found
+
+
+def points_by_time(plan: Plan, order: int) -> list[Node]:
+    """Return the nodes of the velocities of all points that move, of `order` 2 of their accelerations."""
+    trace, nodes = plan.trace, [node for name in plan.moving for node in plan.nodes(name)]
+    rates, accelerations = ({name: trace.rate_input(name, place) for name in plan.strokes} for place in (1, 2))
+    tangent = trace.by_time(rates, accelerations if order > 1 else {})
+    for _ in range(order):
+        nodes = list(map(tangent.of, nodes))
+    return nodes

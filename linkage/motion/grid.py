@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from hashlib import blake2b
 from math import prod
+from types import MappingProxyType
 from typing import Any, Protocol, Self, TypeAlias, TypeVar, cast, final
 
 import numpy as np
@@ -14,7 +15,7 @@ import numpy as np
 from ..assembly import NONE_SOLVED, GroupSolution, solve_groups, with_angles
 from ..errors import DefinitionError
 from ..frozen import FrozenDict, read_only
-from ..loads import AT_REST, Poses
+from ..loads import Poses
 from ..plan import ArrayReading, Mask, Plan
 from ..program import QUICKEST, FloatArray, Kernel, Level, Node, RunOptions, ancestors, interpret
 from ..vectors import Numbers
@@ -41,7 +42,7 @@ class Grid:
         *,
         per_design: bool = False,
         joining: Joining | None = None,
-        rate_inputs: Mapping[str, FloatArray] = AT_REST,
+        rate_inputs: Mapping[str, FloatArray] = MappingProxyType({}),
     ) -> None:
         self.plan, self.per_design = plan, per_design
         self.designs: FrozenDict[str, Any] = designs if type(designs) is FrozenDict else FrozenDict(designs)

@@ -6,6 +6,7 @@ from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from copy import copy
 from dataclasses import replace
 from functools import cached_property
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Self, TypeVar, cast
 
 import numpy as np
@@ -13,7 +14,6 @@ import numpy as np
 from ..assembly import ambiguous_angle
 from ..errors import DefinitionError, SingularError, SingularWarning, cited, one_word, unknown, unwarned, warn
 from ..frozen import read_only
-from ..loads import AT_REST
 from ..numeric import differences
 from ..plan import ArrayReading, Mask, Part, Plan, failures, negative, rate_name, require_kinds
 from ..program import FloatArray, Kernel
@@ -76,7 +76,7 @@ class Motion(Shown):
         joining: Joining | None = None,
         tangent: Mapping[str, FloatArray] | None = None,
         over: Over | None = None,
-        rate_inputs: Mapping[str, FloatArray] = AT_REST,
+        rate_inputs: Mapping[str, FloatArray] = MappingProxyType({}),
         instants: Instants | None = None,
     ) -> None:
         is_made = isinstance(plan, Plan) and isinstance(designs, Mapping) and isinstance(strokes, Mapping)

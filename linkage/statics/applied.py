@@ -271,19 +271,19 @@ def refuse_direction(motion: AnyMotion, acting: Acting) -> None:
         raise DefinitionError(f"{what}; leave the direction out, or say direction={FRICTIONLESS!r}.")
 
 
-def known_rates(motion: Motion, acting: Acting) -> Mapping[str, FloatArray]:
+def known_rates(motion: AnyMotion, acting: Acting) -> Mapping[str, FloatArray]:
     """Return the rates of strokes that a situation gives, or a motion in time has. Empty where they are not known."""
     if acting.rates is None and not isinstance(motion, Motion):
         return {}
     if acting.rates is not None and not isinstance(acting.rates, str):
-        return rates_of("rates", acting.rates, motion)
+        return rates_of("rates", acting.rates, require_motion(motion))
     if acting.rates is not None and not motion.rates:
         what = f"rates={acting.rates!r}: this motion has no rates of its own"
         raise DefinitionError(f'{motion.plan.title}: {what}; give some, rates=dict({next(iter(motion.strokes), "S")}=0.05).')
     return motion.rates
 
 
-def known_accelerations(motion: Motion, acting: Acting) -> Mapping[str, FloatArray] | None:
+def known_accelerations(motion: AnyMotion, acting: Acting) -> Mapping[str, FloatArray] | None:
     """Return the accelerations of strokes beside rates that are known. None where inertia is left out.
 
     Rates that are given alone leave it out, unless it is asked for: then they do not change.
@@ -292,7 +292,7 @@ def known_accelerations(motion: Motion, acting: Acting) -> Mapping[str, FloatArr
     if acting.inertia is False:
         return None
     if given is not None and not isinstance(given, str):
-        return rates_of("accelerations", given, motion)
+        return rates_of("accelerations", given, require_motion(motion))
     found = motion.accelerations if own and (given is not None or isinstance(motion, Motion)) else {}
     jump = motion._rate_jump if own and isinstance(motion, Motion) else None
     if jump is not None and acting.inertia:

@@ -526,7 +526,7 @@ def situation_identity(acting: Acting) -> Hashable:
     loads = acting.loads
     listed = () if loads is None else loads if isinstance(loads, (list, tuple)) else (loads,)
     given = (acting.case, *listed)
-    parts = [each if each is None or isinstance(each, str) else ref(each) if is_unchanging(each) else ... for each in given]
+    parts: list[Hashable] = [each if each is None or isinstance(each, str) else ref(each) if is_unchanging(each) else ... for each in given]
     parts += [rates_identity(acting.rates), rates_identity(acting.accelerations), acting.inertia]
     return None if ... in parts else (loads is None, *parts)
 
@@ -536,7 +536,7 @@ def rates_identity(rates: StrokeRates) -> Hashable:
     if rates is None or isinstance(rates, str):
         return rates
     plain = all(isinstance(each, float | int) for each in rates.values())
-    return tuple((name_of(name), float(each)) for name, each in rates.items()) if plain else ...
+    return tuple((name_of(name), float(cast(float, each))) for name, each in rates.items()) if plain else ...
 
 
 def once_in(motion: AnyMotion, acting: Acting, what: Hashable, make: Callable[[], Made]) -> Made:

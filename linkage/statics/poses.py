@@ -123,6 +123,10 @@ class AnyMotion(Poses, Protocol):
         """The rates of the strokes over a path in time, by name; empty of any other motion."""
 
     @property
+    def accelerations(self) -> Mapping[str, FloatArray]:
+        """The accelerations of the strokes over a path in time, by name; empty of any other motion."""
+
+    @property
     def reached(self) -> Mask:
         """The mask of the poses that are reached."""
 

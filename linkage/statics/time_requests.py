@@ -62,7 +62,7 @@ def speed(point: Reference) -> LawRequest:
 
     def over(motion: AnyMotion, name: str) -> FloatArray:
         x, y = motion.velocity(name, own_rates(motion, f"speed({name})"))
-        return np.hypot(x, y)
+        return np.asarray(np.hypot(x, y))
 
     return point_request("speed", point, "speed", over)
 
@@ -84,7 +84,7 @@ def acceleration(point: Reference) -> LawRequest:
     def over(motion: AnyMotion, name: str) -> FloatArray:
         rates = own_rates(motion, f"acceleration({name})")
         x, y = motion.acceleration(name, rates, require_motion(motion).accelerations)
-        return np.hypot(x, y)
+        return np.asarray(np.hypot(x, y))
 
     return point_request("acceleration", point, "acceleration", over)
 

@@ -147,12 +147,12 @@ class DrivenArm(Mechanism):
         return self.at(psi=np.linspace(self["psi_0"], self["psi_k"], count))
 
     def columns(self, motion: Motion) -> list[Column]:
-        """Return angle, length, lever, and the moments asked for and given, folding and opening."""
-        return drive_columns(motion)
+        """Return angle, length, lever, and the moments asked for and given, folding and opening; of a drive by its cylinder all it has."""
+        return drive_columns(motion) if "psi" in motion.strokes else super().columns(motion)
 
     def featured(self) -> Featured:
-        """Return what the drive has over the moment asked for, which may not fall below zero, folding, and opening."""
-        return featured_drive("folding", "opening")
+        """Return what the drive has over the moment asked for, which may not fall below zero, folding, and opening; else its angle."""
+        return featured_drive("folding", "opening") if "psi" in self.strokes else Featured("psi", ["T"])
 
     def rules(self, motion: Motion) -> list[Verdict]:
         """Return whether the drive carries the arm over a motion that its angle drives."""

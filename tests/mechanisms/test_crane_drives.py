@@ -6,7 +6,7 @@ from numpy.testing import assert_allclose
 from scipy.integrate import simpson
 from scipy.optimize import minimize
 
-from linkage import RIGHT, DefinitionError, Dyad, OnLink, Weight, deg, ratio
+from linkage import RIGHT, DefinitionError, Dyad, OnLink, Weight, deg, plot, ratio
 from linkage.motion import lowest
 from linkage.study import Target, settings_for
 from mechanisms.crane import drive_figure
@@ -15,6 +15,7 @@ from mechanisms.crane.drive_report import OPENING, movements_of
 from mechanisms.crane.drives import (
     AngledBellCrankArmDrive,
     ArmDrive,
+    ArmDriveByCylinder,
     BellCrankArmDrive,
     BellCrankArmDriveByCylinder,
     BoomDrive,
@@ -118,6 +119,15 @@ def test_analysis_3b():
     assert_allclose(motion.ratio("length") / motion.ratio("gamma"), h, rtol=1e-10)
     assert_allclose(OPENING.given(motion), moment, rtol=1e-10)
     assert_allclose(by_cylinder.ratio("psi") * motion.ratio("length"), 0.9, rtol=1e-10)
+
+
+@for_all("machine", [ArmDriveByCylinder, BellCrankArmDriveByCylinder])
+def test_a_drive_by_its_cylinder_is_shown_as_any_machine(machine):
+    """Its moments are asked over its angle, which is no stroke: it shows the angle, and what every machine has."""
+    motion = machine().sweep(5)
+    table = {column.name: column for column in machine().columns(motion)}
+    assert_allclose(table[machine().featured().column].values, motion["psi"], rtol=0, atol=0)
+    plot(machine())
 
 
 @for_all(

@@ -6,6 +6,7 @@ Rates and accelerations of the strokes are those of a motion in time, or stand b
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from typing import cast
 
 import numpy as np
 
@@ -62,7 +63,7 @@ def speed(point: Reference) -> LawRequest:
 
     def over(motion: AnyMotion, name: str) -> FloatArray:
         x, y = motion.velocity(name, own_rates(motion, f"speed({name})"))
-        return np.asarray(np.hypot(x, y))
+        return cast(FloatArray, np.hypot(x, y))
 
     return point_request("speed", point, "speed", over)
 
@@ -84,7 +85,7 @@ def acceleration(point: Reference) -> LawRequest:
     def over(motion: AnyMotion, name: str) -> FloatArray:
         rates = own_rates(motion, f"acceleration({name})")
         x, y = motion.acceleration(name, rates, require_motion(motion).accelerations)
-        return np.asarray(np.hypot(x, y))
+        return cast(FloatArray, np.hypot(x, y))
 
     return point_request("acceleration", point, "acceleration", over)
 

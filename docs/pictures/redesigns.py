@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from hydraulics import reserve
 from linkage import Mechanism, draw, kgf, kN, mm
 from linkage.pictures import style
+from linkage.pictures.sheet import quiet
 from mechanisms.header_balancer import HeaderBalancer, over_following, with_header
 from mechanisms.header_balancer.following import HeaderState
 from mechanisms.mower_lift import MowerLift
@@ -23,7 +24,7 @@ IMAGES = Path(__file__).parents[1] / "images"
 BEFORE, AFTER = style.ACCENT, style.CURVE
 
 
-def sheet(*, wide: float = 10.4, high: float = 4.0, panels: int = 3) -> tuple[Figure, Sequence[Axes]]:
+def sheet(*, wide: float = 12.0, high: float = 3.6, panels: int = 3) -> tuple[Figure, Sequence[Axes]]:
     """Return a sheet with panels side by side."""
     figure = Figure(figsize=(wide, high), dpi=style.DPI, facecolor=style.PAPER, layout="constrained")
     FigureCanvasAgg(figure)
@@ -47,9 +48,9 @@ def machines(axes: Sequence[Axes], pair: Sequence[Mechanism], stroke: str) -> No
 
 def curves(ax: Axes, across: str, up: str) -> None:
     """Dress a panel of curves."""
+    quiet(ax)
     ax.set_xlabel(across, fontsize=style.LABEL, color=style.INK)
     ax.set_title(up, fontsize=style.LABEL, color=style.INK)
-    ax.grid(color=style.GRID, linewidth=0.6)
     ax.legend(fontsize=style.SMALL, frameon=False)
 
 

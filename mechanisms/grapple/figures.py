@@ -162,7 +162,7 @@ def _names(ax: Axes, motion: Motion) -> None:
     aside = {"T": (0.0, 8.0), "O": (-x_out, -y_out - 3.0), "A": (0.0, -14.0), "C": (x_out, y_out), "E": (0.0, 15.0)}
     ax.plot(*T, "v", color=style.INK, markersize=6, zorder=9.0)
     if rod_end(motion) != "C":
-        aside[rod_end(motion)] = (14.0, 6.0)
+        aside |= {rod_end(motion): (14.0, 6.0), "E": (20.0, 0.0)}  # the cylinder stands upright over E
     for name, offset in aside.items():
         look = {"fontsize": style.LABEL, "fontstyle": "italic", "color": style.INK}
         beside(ax, name, (float(motion.x(name)), float(motion.y(name))), offset, ha="center", va="center", zorder=10.0, **look)

@@ -82,10 +82,11 @@ class Overlays:
             forces = forces_at_pose(motion, pose, self.forces)
             if forces.refusal:
                 notes.append(said("No forces here: {why}", why=forces.refusal))
-            elif self.forces.body:
-                layers, arms = lever_arms(forces, one_pose(motion, pose), self.forces.body, box, Scene(motion).size)
             else:
-                layers.append(force_layer(forces))
+                if self.forces.body:
+                    layers, arms = lever_arms(forces, one_pose(motion, pose), self.forces.body, box, Scene(motion).size)
+                else:
+                    layers.append(force_layer(forces))
                 notes += [remark.replace("rates=dict(", "velocities=dict(") for remark in forces.found.remarks]
             if vars(self.forces) == vars(ForceQuestion()):  # all forces, of the machine's own loads
                 notes += filter(None, [pose_sentence(one_pose(motion, pose))])

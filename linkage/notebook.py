@@ -29,7 +29,7 @@ from .formulas.typeset import boxes, breakable
 from .language import said
 from .mechanism import Mechanism
 from .mobility import ChainTables
-from .motion import Motion, columns_of
+from .motion import Motion, columns_of, pose_sentence
 from .pictures import draw, page_html
 from .pictures.dimensioned import dimensioned
 from .pictures.sheet import Picture
@@ -152,7 +152,9 @@ def _(motion: Motion) -> str:
     texts = [column_texts(column, values) for column, values in zip(columns, flat(columns), strict=True)]
     poses = np.unique(np.linspace(0, len(texts[0]) - 1, MOST_ROWS).round().astype(int)).tolist() if texts[0] else []
     rows = ([text[pose] for text in texts] for pose in poses)
-    return html_text_block(repr(motion)) + html_table([column.heading for column in columns], rows, caption)
+    pose = pose_sentence(motion) if motion.reached.size == 1 and motion.reached.all() else ""
+    told = html_text_block("\n".join(filter(None, [repr(motion), pose])))
+    return told + html_table([column.heading for column in columns], rows, caption)
 
 
 @html_of.register

@@ -52,6 +52,13 @@ class TableBlock:
     columns: str
 
     @property
+    def filled(self) -> TableBlock:
+        """It without the columns that are empty in every row."""
+        said_in = [k for k in range(len(self.headings)) if not self.rows or any(row[k] != "" for row in self.rows)]
+        heads, rows = tuple(self.headings[k] for k in said_in), tuple(tuple(row[k] for k in said_in) for row in self.rows)
+        return TableBlock(self.caption, heads, rows, "".join(self.columns[k] for k in said_in))
+
+    @property
     def letters(self) -> int:
         """About how wide it is, in letters."""
         cells = zip(self.headings, *self.rows, strict=True)

@@ -213,7 +213,10 @@ OWN_UNITS = {
 
 
 def spoken_numbers(section: Section) -> Section:
-    """Return a section whose texts have the decimal sign of the language that is spoken; declarations stay as they are written."""
+    """Return a section whose texts have the decimal sign of the language that is spoken; declarations stay as they are written.
+
+    Columns that are empty in every row go.
+    """
 
     def cell_of(heading: str, cell: Cell) -> Cell:
         return with_decimals(cell) if isinstance(cell, str) and heading != said("declared as") else cell
@@ -224,8 +227,8 @@ def spoken_numbers(section: Section) -> Section:
                 return with_decimals(block)
             case tuple():
                 return tuple(map(with_decimals, block))
-            case TableBlock(headings=headings):
-                return replace(block, rows=tuple(tuple(map(cell_of, headings, row)) for row in block.rows))
+            case TableBlock(filled=table):
+                return replace(table, rows=tuple(tuple(map(cell_of, table.headings, row)) for row in table.rows))
             case Illustration():
                 return replace(block, caption=with_decimals(block.caption))
         return block

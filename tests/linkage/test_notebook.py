@@ -33,6 +33,7 @@ from linkage import (
 from linkage.notebook import live
 from linkage.study import survey
 from mechanisms.at_work.excavator import Excavator
+from mechanisms.three_point_hitch import ThreePointHitch
 
 
 class Marked(Mechanism):
@@ -74,6 +75,12 @@ def test_a_plan_and_a_chain_are_shown_as_tables_under_the_names_of_a_fitter():
     rows = {row[0]: row[1:] for row in listed}
     assert rows["tool.ram barrel"] == ["barrel", "arm.G"] and rows["tool.ram"] == ["slide", "tool.ram barrel", "tool.ram rod", "curl"]
     assert len(listed) == len(graph) + graph.number_of_edges() + 2 and not any("_" in name for name in rows)
+
+
+def test_one_pose_says_what_is_out_of_bounds_there():
+    kept, short = (html(ThreePointHitch(**given).at(S=0.1)) for given in ({}, {"circuit.pressure": 20e5}))
+    assert "At this pose: all kept" in kept and "At this pose: lifting 0.5121" in short
+    assert "At this pose" not in html(ThreePointHitch().sweep(3))
 
 
 def test_a_machine_shows_its_drawing_and_its_dimensions():

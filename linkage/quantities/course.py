@@ -10,13 +10,13 @@ from typing import Any, Self, TypeAlias, final
 import numpy as np
 import numpy.typing as npt
 
-from ..checks import require, require_number
+from ..checks import require, require_number, require_whole
 from ..errors import DefinitionError, cited, one_word
 from ..frozen import FrozenDict, own, read_only, refuses_changes
 from ..units import Amount, amounts_in, display_unit, require_measure, show
 from ..vectors import FloatArray
 from .curve import Curve, column
-from .quantity import is_number
+from .quantity import is_number, numbers_in
 
 KINDS = ("smooth", "straight", "monotone")
 """How a course goes through the rows of a table: a cubic spline; straight legs; cubic, and between two rows never beyond both."""
@@ -145,7 +145,8 @@ class Course:
         array of float
             Shaped as x; a float for one instant.
         """
-        time = np.asarray(x, float)
+        time, order = numbers_in(x), require_whole("order", order, "a whole number is expected, 0 for the value", least=0)
+        require(time.size > 0 or np.size(x) == 0, "course(x", x, "instants in seconds are expected")  # type: ignore[arg-type]
         within = time if phase is None else np.asarray(phase, float)
         begin, end = self.breaks[[0, -1]]
         number = np.clip(np.searchsorted(self.breaks, within, side="right") - 1, 0, len(self.breaks) - 2)
@@ -202,8 +203,7 @@ class Course:
         return Course.of_phases(self.breaks, -self._phases, -self._last, self.measures)
 
     def __add__(self, number: float) -> Course:
-        if not is_number(number):
-            return NotImplemented
+        require(is_number(number), "Course: number", number, "a number is expected, which is added to all values")
         rows = np.array(self._phases)
         rows[0] += number
         return Course.of_phases(self.breaks, rows, self._last + number, self.measures)
@@ -211,7 +211,8 @@ class Course:
     __radd__ = __add__
 
     def __sub__(self, number: float) -> Course:
-        return self + -number if is_number(number) else NotImplemented
+        require(is_number(number), "Course: number", number, "a number is expected, which is taken from all values")
+        return self + -number
 
     def __str__(self) -> str:
         text = ""

@@ -136,6 +136,10 @@ def test_what_is_no_course_is_refused_in_words():
         (lambda: good.hold(2 * mm), "given as a length"),
         (lambda: good.part(1.0, 4.0), "from 0 to 3 s"),
         (lambda: good.then(0.3), "a course is expected"),
+        (lambda: good + "x", "a number is expected"),
+        (lambda: good - good, "a number is expected"),
+        (lambda: good("soon"), "instants in seconds are expected"),
+        (lambda: good(0.5, -1), "a whole number is expected"),
     ]:
         with pytest.raises(DefinitionError, match=re.escape(words)):
             make()

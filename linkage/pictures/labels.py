@@ -153,7 +153,7 @@ def own_costs(
 def leaders(anchors: FloatArray, spots: FloatArray, half: FloatArray) -> FloatArray:
     """Return the lines from labels at some spots (..., 2) to their point at each pose (p, 2), shape (p, ..., 2, 2); (p, 1, 2, 2) of one."""
     nearest = np.clip(0.0, spots - half, spots + half).reshape(-1, 2)
-    return anchors[:, None, None] + np.stack([nearest, np.zeros_like(nearest)], axis=1)
+    return np.asarray(anchors[:, None, None] + np.stack([nearest, np.zeros_like(nearest)], axis=1))
 
 
 def distance_to_box(away: FloatArray, half: FloatArray) -> FloatArray:

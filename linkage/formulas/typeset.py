@@ -112,8 +112,9 @@ def with_words(index: Box) -> Box:
         return index
     parts: list[Box] = []
     for is_word, group in groupby(index.parts, lambda each: isinstance(each, Sign) and each.kind == "variable"):
-        letters = [*group]
-        parts += [Sign("word", "".join(each.text for each in letters))] if is_word and len(letters) > 1 else letters
+        signs = [*group]
+        word = "".join(each.text for each in signs if is_word and isinstance(each, Sign))
+        parts += [Sign("word", word)] if len(word) > 1 else signs
     return parts[0] if len(parts) == 1 else BoxRow(tuple(parts))
 
 

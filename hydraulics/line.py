@@ -22,7 +22,7 @@ from numpy.typing import ArrayLike
 from linkage.errors import DefinitionError, UntracedError, one_word, unwarned
 from linkage.frozen import immutable
 from linkage.language import said, with_and
-from linkage.loads import AS_IT_RUNS, DIRECTIONS, SENSES, Acting, ActingKeywords, Case, Loads, situation_of
+from linkage.loads import AS_IT_RUNS, SENSES, Acting, ActingKeywords, Case, Loads, situation_of
 from linkage.loads.element import Declared, ForceElement, Formulas, Parameter, Poses, Share, Tie, require_poses
 from linkage.motion import Answer, Judge, Motion, greatest, lowest
 from linkage.plan import Mask, Plan
@@ -293,7 +293,7 @@ class LiftLine(Circuit):
             return np.asarray(np.maximum(standing_pressure(self, motion, acting), 0.0))[()]
         goes, lowered = ram.goes(motion, acting), list[tuple[Mask, Array]]()
         for valve in of_kind(members, OnLines).values():
-            for way in (acting.direction,) if goes is None else DIRECTIONS[1:]:
+            for way in (acting.direction,) if goes is None else ("extending", "retracting"):
                 lowering = valve.pressure_lowering(self, ram, motion, replace(acting, direction=way))
                 if lowering is not None and goes is None:
                     return lowering

@@ -146,7 +146,7 @@ class Course:
             Shaped as x; a float for one instant.
         """
         time, order = numbers_in(x), require_whole("order", order, "a whole number is expected, 0 for the value", least=0)
-        require(time.size > 0 or np.size(x) == 0, "course(x", x, "instants in seconds are expected")  # type: ignore[arg-type]
+        require(time.size > 0 or np.size(x) == 0, "course(x", x, "instants in seconds are expected")
         within = time if phase is None else np.asarray(phase, float)
         begin, end = self.breaks[[0, -1]]
         number = np.clip(np.searchsorted(self.breaks, within, side="right") - 1, 0, len(self.breaks) - 2)

@@ -49,12 +49,12 @@ def evaluate(
                 return found
     at = at_values(strokes, plan, float_array)
     if moving:
-        together = dict(zip((*at, *moving), fitted(plan, [*at.values(), *map(real, moving.values())]), strict=True))
+        together = dict(zip((*at, *moving), broadcast_together(plan, [*at.values(), *map(real, moving.values())]), strict=True))
         at, moving = {name: together[name] for name in at}, {name: together[name] for name in moving}
     return evaluate_grid(Grid(plan, designs, at, per_design=per_design, rate_inputs=moving), requests, out, way, unreachable)
 
 
-def fitted(plan: Plan, arrays: Sequence[FloatArray]) -> list[FloatArray]:
+def broadcast_together(plan: Plan, arrays: Sequence[FloatArray]) -> list[FloatArray]:
     """Return strokes and their rates broadcast against each other. Raise DefinitionError where they do not fit."""
     try:
         return [*np.broadcast_arrays(*arrays)]

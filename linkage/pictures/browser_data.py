@@ -44,10 +44,10 @@ from ..reports import (
     LiveColumn,
     case_shown,
     column_requests,
-    in_case,
     is_changing,
     motion_over,
     reached_motion,
+    request_in_case,
     run_along,
     run_of,
 )
@@ -179,7 +179,7 @@ class PageRequests:
             self.by_name[f"point {name}"] = name
         for name, (_, request, why) in self.columns.items():
             if not why:
-                asked = [in_case(request, case) for case in self.cases]
+                asked = [request_in_case(request, case) for case in self.cases]
                 self.by_name |= {f"column {name} {k}": each for k, each in enumerate(asked) if not k or each is not asked[0]}
         for track in self.scene.tracks:
             for k, (part, axis) in enumerate((part, axis) for part in ("origin", "direction") for axis in "xy"):
@@ -285,7 +285,7 @@ def chosen_columns(machine: Mechanism, motion: Motion, given: Any, case: Case) -
                 check_poses(each, motion)
                 found[each.name] = own.get(each.name, (each, each.name, "its values were given, and not what asks for them"))
             case _:
-                column = Column.of(motion, in_case(each, case))
+                column = Column.of(motion, request_in_case(each, case))
                 found[column.name] = column, each, ""
     return found
 

@@ -20,7 +20,7 @@ from ..motion import Column, Motion, Request, RequestLike, columns_of
 from ..motion.measures import Constraint, Given, Leaf, Least, Most
 from ..program import FloatArray
 from ..quantities import Quantity, is_number
-from ..reports import At, column_among, in_case, motion_over, results, run_of, run_words, runs_of
+from ..reports import At, column_among, motion_over, request_in_case, results, run_of, run_words, runs_of
 from ..units import factor, require_measure
 from . import style
 from .sheet import panels, quiet
@@ -62,7 +62,7 @@ def plot_machine(
             shown = [own.get(each, each) if isinstance(each, str) else each for each in shown]
             if len(runs) > 1 and any(isinstance(each, Column) for each in columns):
                 raise DefinitionError(f"{machine.plan.title}: a Column has values of one motion, and it runs {len(runs)} ways; name it.")
-            shown = [in_case(each, run.case) for each in shown]
+            shown = [request_in_case(each, run.case) for each in shown]
         held = StrokeAxis.of(motion).held
         curves += [(motion, column, run_words(machine, run) if len(runs) > 1 else "") for column in columns_named(motion, shown)]
     names = {column.name for _, column, _ in curves}

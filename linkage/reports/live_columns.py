@@ -16,7 +16,7 @@ from ..motion import Column, Motion, Request, RequestLike, require_motion
 from ..program import FloatArray
 from ..quantities import Dimension, Quantity, Stroke, x, y
 from ..statics import AnyMotion, LawRequest, TracedMotion
-from .results import columns_by, in_case, results
+from .results import columns_by, request_in_case, results
 
 LiveColumn: TypeAlias = tuple[Column, RequestLike, str]
 """A column, what asks for it, and why its program does not give it, or ""."""
@@ -64,7 +64,7 @@ def column_requests(
         own = LawRequest(formula=formula, text=f"the column {column.name}", known=known, column=column.name)
         for request in (plain.get(name), plainly.request, own):
             if request is not None:
-                reason = not_followed(motion, in_case(request, case), column)
+                reason = not_followed(motion, request_in_case(request, case), column)
                 found[name] = column, request, reason
                 if not reason:
                     break

@@ -46,11 +46,11 @@ def results(machine: Mechanism, motion: Motion, case: Case = None) -> list[Colum
 
 def column_in_case(motion: Motion, column: Column, case: Case) -> Column:
     """Return a column in a load case; as it is where nothing asks for it, or no load counts in it."""
-    own = in_case(column.request, case)
+    own = request_in_case(column.request, case)
     return column if own is None or own is column.request else replace(column, values=motion[own])
 
 
-def in_case(request: Asked, case: Case) -> Asked:
+def request_in_case(request: Asked, case: Case) -> Asked:
     """Return what is asked for in a load case."""
     return cast(Asked, request.under(Acting(case=case), keep=True)) if isinstance(request, Request) and case is not None else request
 

@@ -423,7 +423,7 @@ class LiftingCylinder:
             if alone.value <= 1e-9 * float(self.circuit.supply(judge.motion)):
                 text = said("it goes back by itself {against}; {where} the load presses on neither side and nothing drives it.", **by)
             return Verdict("lowering", True, text, answer=push)
-        where, enough = self.stuck(replace(self.back(way, resistance), acting=judge.situation(push))), False
+        where, enough = self.stuck(replace(self.back(way, resistance), acting=replace(judge.situation(push), direction=None))), False
         by = {"where": where, "against": against, "place": push.place, "pose": push.place, "push": self.show(push.value)}
         if push.unbounded:
             text = said("it does not sink by itself {where} {against}, and no push moves it {pose}: keep away from that pose.", **by)

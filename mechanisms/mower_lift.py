@@ -13,7 +13,7 @@ import numpy as np
 
 from hydraulics import Cylinder, CylinderSize, LiftCircuit, pressure, reserve, thrust
 from hydraulics.inputs import in_pascals, positive
-from linkage import RIGHT, Column, CosineAngle, Dyad, Featured, Ground, Mechanism, Motion, OnLink, Outline, ratio
+from linkage import RIGHT, Column, CosineAngle, Dyad, Featured, Ground, Mechanism, Motion, OnLink, Outline, Over, ramp, ratio
 from linkage.errors import DefinitionError
 from linkage.loads import ForceElement, Weight
 from linkage.loads.element import Formulas
@@ -116,3 +116,9 @@ class MowerLift(Mechanism):
         most = float(self["p_max"])
         limits = {"kz": (1.0, "kz = 1", "below"), "pd": (most, f"p_max = {show(most, 'kgf/cm2', 4)}", "above")}
         return Featured("kz", ["G"], limits)
+
+
+class LoweredMowerLift(MowerLift):
+    """The mower's section let down in five seconds: where it is braked, its mass presses on the cylinder."""
+
+    lowering = Over.path(S=ramp(0.80, 0.55, speed=0.08, acceleration=0.04))

@@ -13,8 +13,8 @@ GROUPS = {
         "levelled_telehandler", "axle", "crossed_axle",
     ),
     "Hitches, lifts and headers": (
-        "three_point_hitch", "hitch_category_1", "hitch_category_2", "mower_lift", "marked_mower_lift", "header_balancer",
-        "improved_balancer", "three_headers", "front_loader", "scissor_lift",
+        "three_point_hitch", "hitch_category_1", "hitch_category_2", "mower_lift", "marked_mower_lift", "lowered_mower_lift",
+        "header_balancer", "improved_balancer", "three_headers", "front_loader", "scissor_lift",
     ),
     "Cranes": (
         "crane", "bell_crank_crane", "direct_crane", "direct_crane_above", "chain_crane", "crane_skeleton", "back_broken_skeleton",

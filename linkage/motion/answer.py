@@ -101,7 +101,7 @@ class Answer:
         if self.strokes and not np.ndim(self.time) and not np.isnan(self.time):
             forms = {name: ("deg", "z.2f") if unit == "rad" else ("mm", "z.1f") for name, unit in self.units.items()}
             strokes = ", ".join(f"{name} = {show(float(value), *forms[name])}" for name, value in self.strokes.items())
-            return said("at {time} ({place})", time=show(float(self.time), "s", 4), place=strokes)
+            return said("at {time} ({place})", time=show(round(float(self.time), 6), "s", 4), place=strokes)
         return said("at {place}", place=places_text(self.strokes, self.units)) if self.strokes else ""
 
     @property

@@ -110,8 +110,8 @@ class Span:
     def __str__(self) -> str:
         """Return it in words: `from S = 0.5500 to 0.5660 m`, `from S1 = 0.1000 m, S2 = 0.2000 m to S1 = 0.1500 m, S2 = 0.2000 m`."""
         if self.times is not None:
-            low, high = (shown_number(each, "s", 4) for each in self.times)
-            at = said("at {place}", place=show(self.times[0], "s", 4))
+            low, high = (shown_number(round(each, 6), "s", 4) for each in self.times)
+            at = said("at {place}", place=show(round(self.times[0], 6), "s", 4))
             return at if low == high else said("from {low} to {high} s", low=low, high=high)
         moving = [name for name in self.start if self.start[name] != self.end[name]]
         if len(moving) == 1:

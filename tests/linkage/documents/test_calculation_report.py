@@ -484,7 +484,8 @@ def test_dimension_lines_have_the_lengths_of_the_links():
     ("latex", "expected"),
     [
         (r"\frac{a}{b}", "<mfrac><mi>a</mi><mi>b</mi></mfrac>"),
-        (r"L_{OB}", "<msub><mi>L</mi><mrow><mi>O</mi><mi>B</mi></mrow></msub>"),
+        (r"L_{OB}", '<msub><mi>L</mi><mi class="w">OB</mi></msub>'),
+        (r"\mathit{ram}_{bore}", '<msub><mi class="w">ram</mi><mi class="w">bore</mi></msub>'),
         (r"28.7^{\circ}", "<mrow><mn>28.7</mn><mtext>°</mtext></mrow>"),
         (r"\mathit{tilt}", '<mi class="w">tilt</mi>'),
         (r"\left|x\right|^{2}", '<msup><mrow><mo stretchy="true">|</mo><mi>x</mi><mo stretchy="true">|</mo></mrow><mn>2</mn></msup>'),

@@ -19,7 +19,7 @@ from weakref import ref
 import numpy as np
 
 from ..errors import DefinitionError, UntracedError, cited
-from ..loads import AS_IT_RUNS, DIRECTIONS, PLAIN_CASE, Acting
+from ..loads import AS_IT_RUNS, DIRECTIONS, Acting
 from ..pickling import object_of, picklable
 from ..plan import NEAR, REGULAR, ArrayReading, Mask, Plan
 from ..program import FloatArray, Kernel, Node, Notes, ancestors, gradient
@@ -37,6 +37,8 @@ class Trait(Flag):
 
     OF_STROKES = auto()
     """The directions of motion it is judged in are those of a stroke, which has to be named; else its own, as a cylinder's."""
+    OF_FORCES = auto()
+    """It hangs on a situation: what acts, in which load case, which way, and over a path in time how fast."""
     OF_LAWS = auto()
     """It is made of laws over a motion, which take long to trace: their looks share one program."""
     MAY_BE_UNLIMITED = auto()
@@ -264,7 +266,7 @@ def as_they_run(requests: Sequence[RequestLike], accelerated: bool, timed: bool 
 
 def is_of_force(quantity: object) -> bool:
     """Return whether something asked for follows the loads, so that it differs from load case to load case."""
-    return isinstance(quantity, Request) and quantity.under(Acting(case=PLAIN_CASE), keep=True) is not quantity
+    return isinstance(quantity, Request) and Trait.OF_FORCES in quantity.traits
 
 
 def may_be_unlimited(quantity: object) -> bool:

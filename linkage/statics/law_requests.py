@@ -416,6 +416,7 @@ class LawRequest(Request):
     @property
     def traits(self) -> Trait:
         found = Trait.OF_LAWS | Trait.MAY_FAIL | Trait.FOLLOWS_ANGLES
+        found |= Trait.OF_FORCES if self.acting is not None else NO_TRAIT
         found |= Trait.OF_STROKES if self.acting is not None and self.mover is None else NO_TRAIT
         return found if self.unlimited_in is None else found | Trait.MAY_BE_UNLIMITED
 

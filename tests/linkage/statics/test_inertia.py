@@ -28,6 +28,9 @@ from linkage import (
     angle,
     drive_force,
     driving_force,
+    dynamic_factor,
+    least,
+    most,
     pin_force,
     pin_forces,
     ramp,
@@ -181,6 +184,24 @@ def test_inertia_counts_where_accelerations_are_known():
 
 class Rubbing(Swing):
     rub = PinFriction("O", radius=0.02, coefficient=0.1)
+
+
+def test_in_every_load_case_the_judge_counts_inertia_as_the_motion_does():
+    asked = {"force": drive_force(), "pin": pin_force("O"), "factor": dynamic_factor(drive_force())}
+    swing, motion = Swing(), Swing().sweep(801, over="go")
+    for case in ("plain", "twice", "moon"):
+        runs = Over.path(S=ramp(0.0, 1.0, speed=0.8, acceleration=2.0), cases=[case])
+        for name, request in asked.items():
+            here = request.under(Acting(case=case))
+            values = motion[here]
+            for judged in (
+                swing.answers([most(request), least(request)], acting=Acting(case=case), over="go"),
+                swing.answers([most(request), least(request)], over=runs),
+                swing.answers([most(here), least(here)], over="go"),
+            ):
+                found = [each.value for each in judged]
+                assert_allclose(found, [values.max(), values.min()], rtol=5e-3, err_msg=f"{name} {case}")
+        assert found[0] > 1.05 and found[1] < 0.95
 
 
 def test_friction_takes_the_joint_forces_with_inertia():

@@ -29,7 +29,7 @@ def assumed(subject: ReportSubject) -> Iterator[str]:
     elements = subject.machine.plan.of_kind(ForceElement)
     yield said("The bodies are rigid. Pins, guides and slots have no play.")
     yield said("The machine is planar: all parts move and all forces act in one plane. Both sides of the machine count together in it.")
-    yield said("The motion is quasi-static: there are no inertia forces, each pose is in equilibrium.")
+    yield from pace_words(subject)
     if not elements:
         return
     counted = [f"{number} × {name}" for name, each in elements.items() if (number := getattr(each, "count", 1)) != 1]
@@ -43,6 +43,21 @@ def assumed(subject: ReportSubject) -> Iterator[str]:
         )  # fmt: skip
     if any(isinstance(each, TwoPoint) and "bore" in each.numbers for each in elements.values()):
         yield said("Pressures are gauge pressures. Oil does not yield, and pressure is the same everywhere on a line.")
+
+
+def pace_words(subject: ReportSubject) -> Iterator[str]:
+    """Yield whether masses have inertia: over a path in time, unless a rate jumps there."""
+    timed = [place.motion for place in subject.judge.places if place.instants is not None]
+    jumps = [motion._rate_jump for motion in timed]
+    if timed and not all(jumps):
+        yield said(
+            "Over a path in time masses have their inertia, in tables, curves, verdicts and largest pin forces. The equations are those of "
+            "slow motion: each pose is in equilibrium."
+        )
+    else:
+        yield said("The motion is quasi-static: there are no inertia forces, each pose is in equilibrium.")
+    for jump in filter(None, jumps):
+        yield said("{jump}, so that inertia is left out: give its ramp an acceleration.", jump=jump[1])
 
 
 def with_weight(subject: ReportSubject) -> list[str]:
@@ -75,7 +90,10 @@ def left_open(subject: ReportSubject) -> Iterator[str]:
     """Yield what a report does not say."""
     plan = subject.machine.plan
     yield said("strength and stiffness of members, pins, bushes and welds; fatigue; wear")
-    yield said("accelerations, shocks and vibrations, unless a load case stands for them")
+    if all(place.instants is None for place in subject.judge.places):
+        yield said("accelerations, shocks and vibrations, unless a load case stands for them")
+    else:
+        yield said("shocks and vibrations, unless a load case stands for them")
     yield said("loads across the plane of the machine, and how both sides share a load")
     yield said("play and tolerances of dimensions")
     if not has_loads(subject.machine):

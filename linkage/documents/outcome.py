@@ -130,7 +130,8 @@ def curve_blocks(
     subject: ReportSubject, run: Run, motion: Motion, names: Sequence[str] | None, first: str, limits: Mapping[str, Sequence[object]]
 ) -> Iterator[Block]:
     """Yield the curves along a run, the one the machine is about first."""
-    along, held, words = ", ".join(run.ways), subject.words(dict(run.held)), run_words(subject.machine, run)
+    along = ", ".join(run.ways) if motion.time is None else said("time")
+    held, words = subject.words(dict(run.held)), run_words(subject.machine, run)
     whole = subject.columns_along(run, motion)
     left = coordinates_of(subject.machine) | {*subject.doubles} if names is None else {*whole} - {*names}
     drawn = [name for name in whole if name != first and name not in left]

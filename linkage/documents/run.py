@@ -171,7 +171,8 @@ class ReportSubject:
         named = {column.name: column for column in found}
         for name, column in own:
             named.setdefault(f"{column.name} {name}", replace(column, name=f"{column.name} {name}"))
-        return {name: column for name, column in named.items() if name not in self.machine.strokes}
+        along = {*self.machine.strokes, *(["time"] if motion.time is not None else [])}
+        return {name: column for name, column in named.items() if name not in along}
 
     @property
     def has_own_table(self) -> bool:

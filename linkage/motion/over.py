@@ -33,7 +33,7 @@ from ..quantities import (
     real,
 )
 from ..quantities.course import check_rising
-from ..units import Amount, amount_or_float, amounts_in, require_measure
+from ..units import Amount, amount_or_float, amounts_in, require_measure, show
 from .grid import MotionLike
 from .instants import Instants
 from .limits import places_text, span_text, stroke_unit
@@ -269,6 +269,8 @@ class Over(Member):
             text = said("{count} poses, {spans}", count=motion.reached.size, spans=", ".join(ends))
         else:
             text = ", ".join(ends)
+        if self.time is not None:
+            text = said("{spans} in {time}", spans=text, time=show(self.time[-1] - self.time[0], "s", 4))
         return said("{spans}, where {conditions}", spans=text, conditions=", ".join(map(str, self.only))) if self.only else text
 
     def __str__(self) -> str:

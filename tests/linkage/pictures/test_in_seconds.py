@@ -23,6 +23,10 @@ class Slow(Timed):
     up = Over.path(S=ramp(0.02, 0.18, speed=0.005))  # 32 s
 
 
+class Jerky(Timed):
+    up = Over.path(S=ramp(0.02, 0.18, speed=0.1).hold(1.0))
+
+
 def test_curves_and_tables_stand_over_time():
     motion = Timed().sweep(11, over="up")
     headings = [each.heading for each in results(Timed(), motion)]
@@ -59,7 +63,12 @@ def test_a_page_slides_in_seconds():
 def test_a_report_tells_instants(tmp_path):
     report(Timed(), tmp_path / "up.md", count=5)
     text = (tmp_path / "up.md").read_text(encoding="utf-8")
-    assert "time" in text and " s (S = " in text
+    assert " s (S = " in text and "S = 20 to 180 mm in 1.8 s" in text and "drive force, kN along time" in text
+    assert "masses have their inertia" in text and "quasi-static" not in text and "accelerations, shocks" not in text
+    assert "time, s along" not in text  # no curve of the time over itself
+    report(Jerky(), tmp_path / "jerky.md", count=5)
+    text = (tmp_path / "jerky.md").read_text(encoding="utf-8")
+    assert "quasi-static" in text and "the rate of S jumps by 0.1 m/s at 1.6 s, so that inertia is left out" in text
 
 
 def test_commands_run_along_a_path_in_time(tmp_path, capsys):

@@ -25,7 +25,7 @@ from ..motion.measures import KINDS, Given, MeasureKind, Worst, as_measure, comm
 from ..motion.requests import Combined
 from ..plugins import Plugins
 from ..quantities import Number, Quantity, angle, distance, is_number, x, y
-from ..statics import acceleration, axle_load, drive_force, pin_force, slipping, speed
+from ..statics import acceleration, axle_load, drive_force, dynamic_factor, pin_force, slipping, speed
 from ..steps import Point
 from ..study.problem import NOWHERE, Problem
 from ..units import UNITS, Amount
@@ -45,6 +45,7 @@ REQUESTS = Plugins[Callable[..., Any]](
     {
         "ratio": ratio, "drive_force": drive_force, "pin_force": pin_force, "axle_load": axle_load, "slipping": slipping,
         "transmission": transmission, "gap": gap, "condition": condition, "speed": speed, "acceleration": acceleration,
+        "dynamic_factor": dynamic_factor,
     },
 )  # fmt: skip
 """The requests there are, by name."""

@@ -347,7 +347,7 @@ def columns_picked(
     if is_plain and not known.keys() >= {*names}:
         every = [*columns_of(motion), *force_columns(motion, case)]
         known = {column.name: column for column in every} | known
-    led = [known[name] for name in strokes if name in known]
+    led = [known[name] for name in (*([] if motion.time is None else [said("time")]), *strokes) if name in known]
     found = [column for name in names for column in ([known[name]] if name in known else requested(machine, motion, name, acting, known))]
     return list({column.name: column for column in [*led, *found]}.values())
 
@@ -364,7 +364,7 @@ def requested(machine: Mechanism, motion: Motion, text: str, acting: Acting, kno
     is_of_forces = isinstance(found, Request) and bool(found.movements(plan, True))
     if isinstance(found, Request):
         found = found.under(acting, keep=True)
-    over = motion.moved(motion.strokes) if is_of_forces else motion
+    over = motion._with_gaps() if is_of_forces else motion
     if over[found].shape == over.shape:
         return [Column.of(over, found, name=text)]
     return [Column(f"{text}_{axis}", part) for axis, part in zip("xy", over[found], strict=True)]

@@ -605,6 +605,13 @@ class Motion(Shown):
         with unwarned():
             return Motion(self.plan, self.designs, self.strokes, "nan", over=self._over, instants=self._instants)
 
+    def _there(self, strokes: Mapping[str, float], time: float | None) -> Motion:
+        """Return one pose of some strokes, over a path in time at its instant."""
+        if time is None or self._instants is None:
+            return self.moved(strokes)
+        there = self._instants.at(np.asarray(time))
+        return Motion(self.plan, self.designs, there.strokes, "nan", instants=there)
+
     # -- reach -------------------------------------------------------------------------------------------
 
     def _settle_unreached(self) -> None:

@@ -154,7 +154,7 @@ def judged_row(judge: Judge, key: tuple[str, str, str, str], answer: Answer, kno
         return None
     number = int(np.argmax(np.where(np.isnan(value), -np.inf, value)))
     of_design, one = (judge.of_design(number), answer.of_design(number)) if value.ndim else (judge, answer)
-    acting, where = of_design.situation(one), (number, *one.strokes.items(), one.case, one.direction, one.drive)
+    acting, where = of_design.situation(one), (number, *one.strokes.items(), str(one.time), one.case, one.direction, one.drive)
     if where not in known:
         known[where] = joint_forces(of_design.there(one), replace(acting, drive=acting.drive if acting.movement != FRICTIONLESS else None))
     there = known[where]
@@ -185,13 +185,13 @@ def largest_loads(result: PinForces) -> list[PinLoad]:
                 strokes = {name: float(value[where[designs:]]) for name, value in result.motion.strokes.items()}
                 rows.append(pin_load(result, joint, float(joint.size[where]), where, where[:designs], strokes))
         return rows
-    rows = []
+    rows, timed = [], result.motion.time is not None
     for place, joint in enumerate(joints):
         value = np.asarray(found.value)[place]
         if not np.isnan(value).all():
             design = np.unravel_index(int(np.nanargmax(value)), value.shape)
             strokes = {name: float(np.asarray(each)[place][design]) for name, each in found.strokes.items()}
-            there = result.again(result.motion.moved(strokes))
+            there = result.again(result.motion._there(strokes, float(np.asarray(found.time)[place][design]) if timed else None))
             same = next(each for each in there.joints if joint_key(each) == joint_key(joint))
             rows.append(pin_load(there, same, float(value[design]), design, design, strokes))
     return rows

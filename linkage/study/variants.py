@@ -116,13 +116,20 @@ class Range(NamedTuple):
 
     low: Any
     high: Any
-    is_travel: bool = False
-    """Whether it is the whole way of a cylinder that is chosen by its row of a catalogue, and so the stroke of the machine."""
+
+    @property
+    def is_travel(self) -> bool:
+        """Whether it is the whole way of a cylinder that is chosen by its row of a catalogue, and so the stroke of the machine."""
+        return isinstance(self, Travel)
 
     @property
     def follows(self) -> tuple[object, ...]:
         """The ends that follow the design."""
         return tuple(end for end in (self.low, self.high) if not is_number(end))
+
+
+class Travel(Range):
+    """The range of a stroke over which a cylinder goes its whole way: two ends, as any range."""
 
 
 def fitted_rows(machine: Mechanism, vary: Any) -> tuple[Mechanism, Any, dict[str, Range]]:
@@ -187,13 +194,13 @@ def rows_fitted(machine: Mechanism, cylinder: str, rows: Sequence[Any]) -> tuple
     along = Variable(plan.table.spellings[reach][0])
     if not dimension:
         begin = Variable(plan.table.spellings[closed][0]) - rest
-        return tuple(names), table, {stroke: Range(begin, begin + along, True)}
+        return tuple(names), table, {stroke: Travel(begin, begin + along)}
     if dimension != closed:
         now = dict(others)[dimension]
         table = [(*row, row[fields.index("closed")] - (rest - now) - start) for row in table]
-        return (*names, dimension), table, {stroke: Range(start, along + start, True)}
+        return (*names, dimension), table, {stroke: Travel(start, along + start)}
     low = dict(others)[dimension] - rest  # the cylinder's closed length is the dimension itself
-    return tuple(names), table, {stroke: Range(low, along + low, True)}
+    return tuple(names), table, {stroke: Travel(low, along + low)}
 
 
 def length_of(machine: Mechanism, name: str) -> tuple[str, list[tuple[str, float]]]:

@@ -177,7 +177,7 @@ def test_mjcf_holds_the_places_the_lengths_and_the_joints(package, tmp_path):
     assert_allclose(lengths["CD CD"], hitch["CD"], rtol=1e-10)
     joints = [(each.get("body1"), each.get("body2")) for each in root.iter("connect")]
     assert len(joints) == sum(each["kind"] == "pin" for *_, each in graph.edges(data=True))
-    assert {one for one, other in joints if other is None} == {"AB barrel", "OBC", "EDF", "MK"}
+    assert {one for one, other in joints if other is None} == {"lift barrel", "OBC", "EDF", "MK"}
     for each in root.iter("connect"):
         (body,) = [found for found in root.iter("body") if found.get("name") == each.get("body1")]
         assert numbers(each, "anchor").shape == (3,) and body is not None

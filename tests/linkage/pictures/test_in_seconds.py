@@ -4,13 +4,16 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from linkage import Over, animate, plot, ramp, report
+from hydraulics import thrust
+from linkage import Over, animate, dynamic_factor, pin_forces, plot, ramp, report
 from linkage.cli import main
 from linkage.files import save
 from linkage.motion import live_text
 from linkage.pictures.browser_data import PageRequests, page_data
 from linkage.pictures.strokes import playback
 from linkage.reports import results
+from linkage.statics.table import largest_loads
+from mechanisms.mower_lift import LoweredMowerLift
 from tests.linkage.motion.test_in_time import DampedLever
 
 
@@ -82,3 +85,16 @@ def test_commands_run_along_a_path_in_time(tmp_path, capsys):
     assert rows[0].startswith('"time, s","S, m"') and len(rows) == 10
     assert main(["plot", machine, "--over", "down", "-o", str(tmp_path / "no.png")]) != 0
     assert "Known: up" in capsys.readouterr().err
+
+
+def test_a_table_of_what_is_asked_keeps_the_instants(capsys):
+    assert main(["table", "lowered_mower_lift", "--count", "3", "dynamic_factor(thrust(lift))"]) == 0
+    rows = [line.split() for line in capsys.readouterr().out.splitlines()[-3:]]
+    machine = LoweredMowerLift()
+    motion = machine.sweep(3, over="lowering")
+    assert [float(row[0]) for row in rows] == pytest.approx(motion.time, abs=1e-4)
+    factor = motion[dynamic_factor(thrust("lift"))]
+    assert [float(row[-1]) for row in rows] == pytest.approx(factor, abs=1e-4) and factor[0] < 0.8
+    found = largest_loads(pin_forces(motion))
+    ends = {joint.point: joint for joint in pin_forces(motion).joints}  # braked at the end, the cylinder's pins carry the most there
+    assert max(each.force for each in found) == pytest.approx(max(joint.size[-1] for joint in ends.values()), rel=1e-6)

@@ -48,16 +48,13 @@ def assumed(subject: ReportSubject) -> Iterator[str]:
 def pace_words(subject: ReportSubject) -> Iterator[str]:
     """Yield whether masses have inertia: over a path in time, unless a rate jumps there."""
     timed = [place.motion for place in subject.judge.places if place.instants is not None]
-    jumps = [motion._rate_jump for motion in timed]
-    if timed and not all(jumps):
+    if timed and not all(motion._rate_jump for motion in timed):
         yield said(
             "Over a path in time masses have their inertia, in tables, curves, verdicts and largest pin forces. The equations are those of "
             "slow motion: each pose is in equilibrium."
         )
     else:
         yield said("The motion is quasi-static: there are no inertia forces, each pose is in equilibrium.")
-    for jump in filter(None, jumps):
-        yield said("{jump}, so that inertia is left out: give its ramp an acceleration.", jump=jump[1])
 
 
 def with_weight(subject: ReportSubject) -> list[str]:

@@ -90,8 +90,8 @@ class HasVerdicts(Member):
         """
 
 
-HELD, DRIVES = "linkage.statics:held_verdict", "linkage.statics:drive_remarks"
-"""What says of any machine whether it is held, and what its drives give: in the room of forces, which stands above."""
+HELD, DRIVES, PACE = "linkage.statics:held_verdict", "linkage.statics:drive_remarks", "linkage.statics:pace_remarks"
+"""What says of any machine whether it is held, what its drives give, where inertia is left out: in the room of forces, above."""
 
 
 def judge_verdicts(judge: Judge, fault: str = "") -> list[Verdict]:
@@ -110,7 +110,7 @@ def judge_verdicts(judge: Judge, fault: str = "") -> list[Verdict]:
             judge.answers([reachable, *transmissions(judge).values(), *(each for member in members for each in member.questions(judge))])
         found, said_of = geometry_verdicts(judge), member_verdicts(judge.lost_allowed(), fault)
         found += said_of if fault or not all(found) else map(valued_everywhere, said_of)
-    return [*found, *map(Remark, filter(None, told)), *([] if fault else from_above(DRIVES)(judge))]
+    return [*found, *map(Remark, filter(None, told)), *([] if fault else [*from_above(PACE)(judge), *from_above(DRIVES)(judge)])]
 
 
 def valued_everywhere(verdict: Verdict) -> Verdict:

@@ -11,13 +11,15 @@ from typing import cast
 import numpy as np
 
 from ..errors import DefinitionError
-from ..loads import Acting
-from ..motion import Request, require_motion
+from ..language import said
+from ..loads import Acting, LinkMass, Weight
+from ..motion import Judge, Request, require_motion
 from ..motion.requests import Combined
 from ..motion.strokes import checked_name
 from ..plan import Plan
 from ..program import FloatArray
-from ..quantities import Reference, as_mapping, name_of
+from ..quantities import Course, Reference, as_mapping, name_of
+from ..verdict import Remark
 from .applied import known_rates
 from .law_requests import LawRequest
 from .poses import AnyMotion
@@ -112,3 +114,22 @@ def dynamic_factor(request: Request) -> Combined:
     if without is request or not isinstance(request, Request):
         raise DefinitionError(f'dynamic_factor({request}): a force is expected, such as dynamic_factor(thrust("lift")).')
     return Combined("divide", (request, without), f"dynamic_factor({request})")
+
+
+def pace_remarks(judge: Judge) -> list[Remark]:
+    """Return over which paths in time the inertia of a machine's masses is left out, or a start or a stop that takes no time."""
+    found = list[str]()
+    for place in judge.places if judge.plan.of_kind(Weight) or judge.plan.of_kind(LinkMass) else []:
+        name, jump = f"{place.over.title}: " if len(judge.places) > 1 else "", place.motion._rate_jump
+        courses = {stroke: given for stroke, given in place.over.strokes.items() if isinstance(given, Course)}
+        sudden = [
+            stroke for stroke, course in courses.items()
+            if any("ramp" in step and "acceleration" not in step for step in (course.steps[0], course.steps[-1]))
+        ]  # fmt: skip
+        if jump is not None:
+            found.append(name + said("{jump}, so that inertia is left out: give its ramp an acceleration.", jump=jump[1]))
+        elif sudden:
+            listed = ", ".join(sudden)
+            name += said("{strokes} starts or stops at once, which is in no force: give its ramp an acceleration.", strokes=listed)
+            found.append(name)
+    return [*map(Remark, found)]

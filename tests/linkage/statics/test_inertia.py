@@ -204,6 +204,25 @@ def test_in_every_load_case_the_judge_counts_inertia_as_the_motion_does():
         assert found[0] > 1.05 and found[1] < 0.95
 
 
+def test_verdicts_tell_where_inertia_or_a_start_is_left_out():
+    def told(over, machine=Swing):
+        return [str(each) for each in machine().verdicts(over=over) if "give its ramp an acceleration" in str(each)]
+
+    swing, sudden = Swing.plan.members, ramp(0.0, 1.0, speed=0.8)
+    assert told(swing["go"]) == []
+    (jump,) = told(swing["hard"])
+    assert jump == "the rate of S jumps by 0.5 rad/s at 0.625 s, so that inertia is left out: give its ramp an acceleration."
+    for course in (sudden, ramp(0.0, 0.5, speed=0.8, acceleration=2.0).then(ramp(0.5, 1.0, speed=0.3))):
+        assert len(told(Over.path(S=course))) == 1
+    both = told([Over.path(S=sudden), swing["hard"]])
+    assert "S starts or stops at once" in both[0] and both[1].startswith("hard: the rate")
+
+    class Bare(Swing):
+        own = w = twice = None
+
+    assert told(swing["hard"], Bare) == []
+
+
 def test_friction_takes_the_joint_forces_with_inertia():
     go, frictionless = Rubbing().sweep(5, over="go"), Acting(direction="frictionless")
     assert np.all((driving_force(go) - driving_force(go, acting=frictionless))[1:-1] > 0.0)

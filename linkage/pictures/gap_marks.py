@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from itertools import product
-from typing import final
+from typing import TypeAlias, final
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -29,6 +29,8 @@ REACH, BARB = 2.4, 0.34
 """How far an outer arrow reaches, and half the width of a tick at a gap's end, in sizes."""
 MOST_NAMED = 3
 """The pairs that a note names at the most."""
+Pairs: TypeAlias = tuple[tuple[str, str], ...] | None
+"""The bodies that are compared where no `Planes` are declared, pair by pair; None where these or two names say which."""
 
 
 @final
@@ -81,13 +83,13 @@ def asked_pair(given: object, plan: Plan) -> tuple[str, str] | None:
     return body_pair(f"{plan.title}: clearance", given, expected)
 
 
-def gap_request(given: object, motion: Motion) -> Request:
+def gap_request(given: object, plan: Plan, pairs: Pairs) -> Request:
     """Return the request whose least value `draw(clearance=...)` is about."""
-    pair = asked_pair(given, motion.plan)
-    return least_gap(assumed_pairs(motion)[0]) if pair is None else gap(*pair)
+    pair = asked_pair(given, plan)
+    return least_gap(pairs) if pair is None else gap(*pair)
 
 
-def assumed_pairs(motion: Motion) -> tuple[tuple[tuple[str, str], ...] | None, str]:
+def assumed_pairs(motion: Motion) -> tuple[Pairs, str]:
     """Return the pairs to look at where no `Planes` are declared, else None, and a note on the pairs left out.
 
     Bodies that share a pin are left out. So are bodies that cross at the ends and in the middle of all strokes.
@@ -108,21 +110,21 @@ def assumed_pairs(motion: Motion) -> tuple[tuple[tuple[str, str], ...] | None, s
     return apart, note
 
 
-def worst_pose(motion: Motion, given: object, shown: int) -> int:
+def worst_pose(motion: Motion, given: object, pairs: Pairs, shown: int) -> int:
     """Return the pose of a motion, a flat index, at which the gap is least: the one shown, where it is no greater there."""
     with unwarned():
-        values = np.ravel(motion[gap_request(given, motion)])
+        values = np.ravel(motion[gap_request(given, motion.plan, pairs)])
     values = np.where(np.isfinite(values), values, np.inf)
     worst = int(np.argmin(values))
     return worst if values[worst] < values[shown] else shown
 
 
-def gap_mark(at: Motion, given: object, place: str = "") -> GapMark:
+def gap_mark(at: Motion, given: object, pairs: Pairs, place: str = "") -> GapMark:
     """Return the mark of the gap at a motion of one pose; faint with the `place` of another pose than the one shown."""
-    gap_request(given, at).bound(at.plan)  # DefinitionError for two bodies that have no gap, and where no two are left
+    gap_request(given, at.plan, pairs).bound(at.plan)  # DefinitionError for two bodies that have no gap, and where no two are left
     pair, width = asked_pair(given, at.plan), 0.0
     if pair is None:
-        pair, width = pair_at(at, assumed_pairs(at)[0])
+        pair, width = pair_at(at, pairs)
     found = nearest_places(at.plan, at._placed, *pair)
     size, names = found.gap - width, dict(one=pair[0], other=pair[1], gap=show(abs(found.gap - width), "mm", 3))
     if size < 0.0:

@@ -20,7 +20,7 @@ from ..units import factor, mm, show, shown_in
 from . import arrows, style
 from .arrows import ArrowLayer, VectorArrow, Wording
 from .force_arrows import ForceQuestion, force_layer, forces_at_pose, why_no_forces
-from .gap_marks import GapMark, asked_pair, assumed_pairs, body_pair, draw_gap, gap_mark, own_bodies, worst_pose
+from .gap_marks import GapMark, Pairs, asked_pair, assumed_pairs, body_pair, draw_gap, gap_mark, own_bodies, worst_pose
 from .lever_arms import LeverArm, lever_arms
 from .scene import Bounds, Scene
 from .shapes import segment
@@ -66,9 +66,13 @@ class Overlays:
         """Whether what comes nearest is asked for."""
         return self.clearance not in (None, False)
 
-    def worst(self, motion: Motion, pose: int) -> int | None:
+    def pairs(self, motion: Motion) -> tuple[Pairs, str]:
+        """Return the pairs of bodies that are compared where nothing says which, else None, and a note on them."""
+        return assumed_pairs(motion) if self.has_gap and asked_pair(self.clearance, motion.plan) is None else (None, "")
+
+    def worst(self, motion: Motion, pairs: Pairs, pose: int) -> int | None:
         """Return the pose of a motion, a flat index, where the gap is least; None where it is the one shown, or not asked for."""
-        found = worst_pose(motion, self.clearance, pose) if self.has_gap and motion.reached.size > 1 else pose
+        found = worst_pose(motion, self.clearance, pairs, pose) if self.has_gap and motion.reached.size > 1 else pose
         return None if found == pose else found
 
     def over(self, motion: Motion, pose: int, box: Bounds) -> Overlay:
@@ -76,8 +80,10 @@ class Overlays:
         layers, notes, arms = list[ArrowLayer](), list[str](), list[LeverArm]()
         if self.rates is not None:
             rates_of("velocities", self.rates, motion)
+        pairs, note = self.pairs(motion)
+        worst = self.worst(motion, pairs, pose)
         if not motion.reached.ravel()[pose]:
-            return Overlay((), (), (why_no_forces(motion, pose, ForceQuestion()),), box)
+            return Overlay((), (), (why_no_forces(motion, pose, ForceQuestion()),), box, worst=worst)
         if self.forces is not None:
             forces = forces_at_pose(motion, pose, self.forces)
             if forces.refusal:
@@ -100,13 +106,11 @@ class Overlays:
         if self.pole not in (None, False):
             rates, words = pole_rates(motion, pose, self.rates)
             marks, notes = pole_marks(motion, pose, self.pole, rates), [*notes, *words]
-        if self.has_gap and asked_pair(self.clearance, motion.plan) is None:
-            notes += filter(None, [assumed_pairs(motion)[1]])
-        gaps = [gap_mark(one_pose(motion, pose), self.clearance)] if self.has_gap else []
-        worst = self.worst(motion, pose)
+        notes += filter(None, [note])
+        gaps = [gap_mark(one_pose(motion, pose), self.clearance, pairs)] if self.has_gap else []
         moving = [name for name, values in motion.strokes.items() if np.ptp(values) > 0.0]
-        gaps += [] if worst is None else [gap_mark(one_pose(motion, worst), self.clearance, pose_words(motion, worst, moving))]
-        return Overlay(tuple(layers), tuple(marks), tuple(notes), box, tuple(gaps), tuple(arms))
+        gaps += [] if worst is None else [gap_mark(one_pose(motion, worst), self.clearance, pairs, pose_words(motion, worst, moving))]
+        return Overlay(tuple(layers), tuple(marks), tuple(notes), box, tuple(gaps), tuple(arms), worst)
 
     def centrodes(self, ax: Axes, swept: Motion) -> None:
         """Draw the paths of the poles that are asked for over a motion."""
@@ -142,7 +146,10 @@ class PoleMark:
 @final
 @dataclass(frozen=True, eq=False)
 class Overlay:
-    """What is laid over one pose on a sheet: arrows to their scales, poles, notes, gaps, lever arms."""
+    """What is laid over one pose on a sheet: arrows to their scales, poles, notes, gaps, lever arms.
+
+    `worst` is another pose of the motion, a flat index, that is drawn behind it.
+    """
 
     layers: tuple[ArrowLayer, ...]
     marks: tuple[PoleMark, ...]
@@ -150,6 +157,7 @@ class Overlay:
     sheet: Bounds
     gaps: tuple[GapMark, ...] = ()
     arms: tuple[LeverArm, ...] = ()
+    worst: int | None = None
 
     def box(self, size: float) -> Bounds:
         """Return the sheet made larger, so that all arrows and near poles are on it; `size` is that of a pin [m]."""

@@ -86,11 +86,11 @@ def draw_over(ax: Axes, motion: Motion, pose: Pose, overlays: Overlays) -> str:
 
 def draw_laid(ax: Axes, scene: Scene, index: int, overlays: Overlays, laid: Overlay) -> None:
     """Draw a pose, a flat index, on a sheet with what is laid over it."""
-    worst, at = overlays.worst(scene.motion, index), scene.at(index)
-    if worst is not None:
-        Drawing(ax, scene, FAINT).update(worst)
+    if laid.worst is not None:
+        Drawing(ax, scene, FAINT).update(laid.worst)
     draw_scene(ax, scene, index, [laid.covered(scene.size)])
     overlays.centrodes(ax, scene.motion)
+    at = scene.at(index)
     laid.draw(ax, scene.size, np.concatenate([cloud(scene, at), surrounding_points(scene, at)]))
 
 
@@ -98,7 +98,8 @@ def draw_strokes(machine: Mechanism, at: object, path: Sequence[str], count: int
     """Return a figure of a mechanism at chosen strokes: the last one bold, the others faint, what is laid over it at that one."""
     path = named_points(machine, path, "path")
     if overlays.has_gap and at is None:
-        (answer,) = machine.answers([least(gap_request(overlays.clearance, machine.at(unreachable="nan", **stroke_middles(machine))))])
+        pairs, _ = overlays.pairs(machine.at(unreachable="nan", **stroke_middles(machine)))
+        (answer,) = machine.answers([least(gap_request(overlays.clearance, machine.plan, pairs))])
         at = {name: float(value) for name, value in answer.strokes.items()}  # no others: what it runs may be less than its strokes
     require_whole("count", count, "a path is drawn through 2 poses or more; give a whole number such as 101", least=2, most=MANY)
     moving, shown, swept = motions(machine, at, count)

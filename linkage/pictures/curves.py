@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping, Sequence
 from math import ceil, sqrt
 from textwrap import wrap
@@ -18,9 +19,11 @@ from ..language import noted, said, translated
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, Request, RequestLike, columns_of
 from ..motion.measures import Constraint, Given, Leaf, Least, Most
+from ..motion.requests import may_be_unlimited
 from ..program import FloatArray
 from ..quantities import Quantity, is_number
 from ..reports import At, column_among, motion_over, request_in_case, results, run_of, run_words, runs_of
+from ..statics import LawRequest
 from ..units import factor, require_measure
 from . import style
 from .sheet import panels, quiet
@@ -205,9 +208,15 @@ def limit_crossings(along: FloatArray, values: FloatArray, at: float) -> list[fl
 RESERVE, PUMP_LOAD, WHOLE = "reserve", noted("pump load in %"), 100.0
 
 
+def is_reserve(column: Column) -> bool:
+    """Return whether a column is a cylinder's reserve, and no output of the machine's own or a calculation with it."""
+    is_law = column.request is None or (isinstance(column.request, LawRequest) and may_be_unlimited(column.request))
+    return not column.unit and is_law and re.match(rf"{RESERVE}\b", column.name) is not None
+
+
 def as_curve(column: Column, bound: Sequence[object] | None = None) -> tuple[Column, Sequence[object] | None]:
     """Return a column and its limit as curves show them. Of a reserve that is 100 % over it."""
-    if column.unit or not column.name.startswith(RESERVE):
+    if not is_reserve(column):
         return column, bound
     with np.errstate(divide="ignore"):
         share = Column(column.name.replace(RESERVE, PUMP_LOAD, 1), WHOLE / np.asarray(column.values, float), "", 1)

@@ -1134,6 +1134,10 @@ def test_curves_of_a_path_are_in_its_load_case_and_a_reserve_is_the_pumps_load(c
     curve, bound = as_curve(Column("reserve lift", np.array([4.0, 0.5, np.nan]), ""))
     assert curve.name == "pump load in % lift" and bound[0] == 100.0
     assert_array_equal(curve.values, [25.0, 200.0, np.nan])
+    for own in ("reserved", "reserve"):  # what a machine calls so is its own
+        assert as_curve(Column(own, np.array([4.0, 0.5]), "", request=own))[0].name == own
+    spare = reserve("lift") - 1.0
+    assert as_curve(Column(str(spare), np.array([4.0, 0.5]), "", request=spare))[1] is None
     figure = plot(machine, ["reserve"])
     for ax, (over, case) in zip(figure.axes, (("up", "half"), ("down", None)), strict=True):
         assert_allclose(ax.lines[0].get_ydata(), 100.0 / machine.sweep(101, over=over)[reserve("lift", case=case)], rtol=1e-9)

@@ -398,7 +398,7 @@ def load_by_margin(margin: Any, motion: Motion, loads: LoadAt) -> FloatArray:
 @final
 @immutable
 class LoadsFound:
-    """PlacePoses that were found (n), and the load that each limiter leaves there, factors included (limiters, n)."""
+    """Poses that were found (n), and the load that each limiter leaves there, factors included (limiters, n)."""
 
     poses: PlacePoses
     of: FloatArray
@@ -514,7 +514,7 @@ class FieldSearch:
     def turns(self) -> list[tuple[ManyPlaces, Index, list[FloatArray] | None]]:
         """What is looked at: the spare strokes at values over their ranges, and others at their ends in the place of them.
 
-        PlacePoses on which the strokes to spare run form curves, which end where another stroke does: with these no short one is missed.
+        Poses on which the strokes to spare run form curves, which end where another stroke does: with these no short one is missed.
         """
         many, count = self.many, len(self.many.places.free)
         found: list[tuple[ManyPlaces, Index, list[FloatArray] | None]] = [(many, np.arange(count), None)]

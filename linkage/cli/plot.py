@@ -9,7 +9,7 @@ from typing import Any
 from ..errors import DefinitionError, ensure
 from ..mechanism import Mechanism
 from ..motion import Motion
-from ..reports import column_among, results, stroke_middles
+from ..reports import columns_about, results, stroke_middles
 from . import settings
 from .command import (
     PATH,
@@ -94,17 +94,16 @@ def plot_command(options: Namespace) -> int:
     at = settings.strokes_or_motion(machine, options)
     from ..pictures import plot
 
-    if options.columns:
+    if options.columns or isinstance(at, Motion):
         many = not isinstance(at, Motion) and any(len(values) > 1 for values in at.values())
-        over = settings.motions_at(machine, options)[0][1] if many else settings.motion_along(machine, options.count, at)
+        over, case = (settings.motions_at(machine, options)[0][1], None) if many else settings.motion_along(machine, options.count, at)
         acting = settings.plain_value(settings.acting_of(machine, options))
-        columns = settings.columns_picked(machine, over, options.columns, [], acting)
+        names = options.columns or columns_about(machine, results(machine, over, case))
+        columns = settings.columns_picked(machine, over, names, [], acting, None if options.case else case)
         names = [column.name for column in columns]
         limits: dict[str, Sequence[Any]] = {name: limit for name, limit in machine.featured().limits.items() if name in names}
         limits |= dict(settings.parse_limit(text, columns) for text in options.limits)
         figure = plot(over, columns, limits=limits)
-    elif isinstance(at, Motion):
-        figure = plot(at, [column_among(machine, results(machine, at), None)])
     else:
         settings.motion_along(machine, options.count, at)
         figure = plot(machine, at=at, count=options.count)
@@ -137,7 +136,7 @@ def animate_command(options: Namespace) -> int:
     machine = settings.machine_of(options)
     path = picture(options, machine, FILMS)
     at, trace = settings.strokes_or_motion(machine, options), traced_points(machine, options.path)
-    columns = results(machine, settings.motion_along(machine, options.count, at))
+    columns = results(machine, *settings.motion_along(machine, options.count, at))
     column: str | None = options.column
     limit: Sequence[Any] | None = None
     ensure(len(options.limits) <= 1, "one curve runs along an animation, with one limit; give one --limit.")

@@ -13,13 +13,13 @@ import numpy as np
 
 from ..errors import AssemblyError, DefinitionError, SingularError, ensure, known_name, unknown
 from ..language import said, said_of
-from ..loads import DIRECTIONS, PLAIN, PLAIN_CASE, Acting, LoadCase
+from ..loads import DIRECTIONS, PLAIN, PLAIN_CASE, Acting, Case, LoadCase
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, Over, Request, columns_of, out_of_reach, stroke_measure, stroke_unit
 from ..plan import Plan, plan_measure
 from ..program import FloatArray
 from ..quantities import Dimension, Quantity, Stroke
-from ..reports import NOTHING, At, Run, force_columns, motion_over, reached_motion, results, run_of, runs_of, stroke_middles
+from ..reports import NOTHING, At, Run, case_along, force_columns, motion_over, reached_motion, results, run_of, runs_of, stroke_middles
 from ..steps import Point
 from ..units import UNITS, parse, parse_span
 from ..verdict import Verdict
@@ -190,8 +190,9 @@ def motions_at(machine: Mechanism, options: Namespace) -> list[tuple[Run | None,
     `--every`. At strokes the first that is not given goes from its start to its end, the others are at mid-stroke; several that are given
     more than one value make a grid. Places that cannot be assembled are gaps, and one remark says so.
     """
-    given, every, overs = strokes_given(machine, options), getattr(options, "every", None), overs_of(machine, getattr(options, "over", ()))
+    given, every = strokes_given(machine, options), getattr(options, "every", None)
     if machine.strokes and not given:
+        overs = overs_of(machine, getattr(options, "over", ()))
         runs = runs_of(machine, over=overs, acting=acting_of(machine, options) if hasattr(options, "drive") else None)
         single = all(len(run.ways) == 1 and run.is_curve and not run.is_path for run in runs)
         if single:
@@ -288,12 +289,17 @@ def strokes_or_motion(machine: Mechanism, options: Namespace) -> At | Motion:
     return motion
 
 
-def motion_along(machine: Mechanism, count: int, at: At | Motion = NOTHING) -> Motion:
-    """Return the motion along one stroke or several together, the others held as `at` says, else in their middle; with gaps."""
+def motion_along(machine: Mechanism, count: int, at: At | Motion = NOTHING) -> tuple[Motion, Case]:
+    """Return the motion along one stroke or several together, the others held as `at` says, else in their middle, and its load case.
+
+    It has gaps.
+    """
     if isinstance(at, Motion):
-        return at
+        return at, case_along(at)
     run = run_of(machine, at)
-    return with_gaps(machine, run.over(np.linspace(0.0, 1.0, count))) if run.instants is None else run_with_gaps(machine, run, count)
+    if run.instants is not None:
+        return run_with_gaps(machine, run, count), run.case
+    return with_gaps(machine, run.over(np.linspace(0.0, 1.0, count))), run.case
 
 
 def strokes_given(machine: Mechanism, options: Namespace) -> dict[str, Any]:
@@ -329,27 +335,30 @@ def plain_value(acting: Acting) -> Acting:
 
 
 def columns_picked(
-    machine: Mechanism, motion: Motion, names: Sequence[str], strokes: Sequence[str], acting: Acting = PLAIN, run: Run | None = None
+    machine: Mechanism, motion: Motion, names: Sequence[str], strokes: Sequence[str], acting: Acting = PLAIN, run_case: Case = None
 ) -> list[Column]:
     """Return the columns of some names, in their order, after the strokes'; all where none is named.
 
     A name is one of the machine's table, one that every machine with loads has, or a request in text: `pressure(lift)`, `ratio(G.y)`.
-    In a load case or a direction they are those that every machine has; along a run in its load case all.
+    In a load case or a direction that is asked for they are those that every machine has; else, in the case of the run, all.
     """
     plan, is_plain = machine.plan, acting == PLAIN
-    case = run.case if is_plain and run is not None else None
-    acting = replace(acting, case=case) if is_plain else acting
-    columns = results(machine, motion, case) if is_plain else [*columns_of(motion), *force_columns(motion, acting.case, acting.direction)]
+    acting = replace(acting, case=run_case) if acting.case is None else acting
+    columns = results(machine, motion, acting.case) if is_plain else columns_of_all(motion, acting)
     known = {column.name: column for column in columns}
     ensure(known, f"{plan.title} has no results: it declares no stroke, no point that moves and no output.")
     if not names:
         return columns
     if is_plain and not known.keys() >= {*names}:
-        every = [*columns_of(motion), *force_columns(motion, case)]
-        known = {column.name: column for column in every} | known
+        known = {column.name: column for column in columns_of_all(motion, acting)} | known
     led = [known[name] for name in (*([] if motion.time is None else [said("time")]), *strokes) if name in known]
     found = [column for name in names for column in ([known[name]] if name in known else requested(machine, motion, name, acting, known))]
     return list({column.name: column for column in [*led, *found]}.values())
+
+
+def columns_of_all(motion: Motion, acting: Acting) -> list[Column]:
+    """Return the columns that every machine has, in a load case and a direction."""
+    return [*columns_of(motion), *force_columns(motion, acting.case, acting.direction)]
 
 
 def requested(machine: Mechanism, motion: Motion, text: str, acting: Acting, known: Mapping[str, Column]) -> list[Column]:

@@ -64,7 +64,7 @@ def table_command(options: Namespace) -> int:
         names = strokes  # ratios alone stand beside their strokes
     tables, judge = list[Table](), machine.judge(settings.overs_of(machine, options.over))
     for run, poses in motions:
-        columns = settings.columns_picked(machine, poses, names, strokes, settings.plain_value(acting), run)
+        columns = settings.columns_picked(machine, poses, names, strokes, settings.plain_value(acting), None if run is None else run.case)
         columns += settings.ratio_columns(machine, poses, options.ratio, options.wrt)
         outside = np.ravel(poses.reached & ~judged_poses(judge, poses)).tolist()
         tables.append((heading_words(machine, run, poses), columns, outside))

@@ -22,7 +22,7 @@ from ..motion.measures import Constraint, Given, Leaf, Least, Most
 from ..motion.requests import may_be_unlimited
 from ..program import FloatArray
 from ..quantities import Quantity, is_number
-from ..reports import At, column_among, motion_over, request_in_case, results, run_of, run_words, runs_of
+from ..reports import At, columns_about, motion_over, request_in_case, results, run_of, run_words, runs_of
 from ..statics import LawRequest
 from ..units import factor, require_measure
 from . import style
@@ -58,9 +58,7 @@ def plot_machine(
     for run in runs:
         motion = motion_over(machine, run, np.linspace(0.0, 1.0, poses))
         own = {column.name: column for column in results(machine, motion, run.case)}
-        shown = columns or [
-            name for name in dict.fromkeys([column_among(machine, [*own.values()], None).name, *featured.limits]) if name in own
-        ]
+        shown = columns or columns_about(machine, [*own.values()])
         if isinstance(shown, (list, tuple)):
             shown = [own.get(each, each) if isinstance(each, str) else each for each in shown]
             if len(runs) > 1 and any(isinstance(each, Column) for each in columns):

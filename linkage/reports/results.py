@@ -55,6 +55,12 @@ def request_in_case(request: Asked, case: Case) -> Asked:
     return cast(Asked, request.under(Acting(case=case), keep=True)) if isinstance(request, Request) and case is not None else request
 
 
+def columns_about(machine: Mechanism, found: Sequence[Column]) -> list[str]:
+    """Return the names of those columns of results that a machine is about: its own one, and those with limits."""
+    names = {column.name for column in found}
+    return [name for name in dict.fromkeys([column_among(machine, found, None).name, *machine.featured().limits]) if name in names]
+
+
 def column_among(machine: Mechanism, found: Sequence[Column], name: str | None) -> Column:
     """Return a column of results by name; without one, what the machine is about if it changes, else the last that does."""
     columns = {column.name: column for column in found if column.name not in machine.strokes}

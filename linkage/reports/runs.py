@@ -99,6 +99,12 @@ def case_shown(place: Domain, acting: Acting = PLAIN) -> Case:
     return None if case == PLAIN_CASE else case
 
 
+def case_along(motion: Motion) -> Case:
+    """Return the load case that a motion is shown in: that of the `Over` that it was swept over; of any other the machine's own loads."""
+    is_one_sweep = motion.is_swept and not motion._design_shape
+    return case_shown(Judge(motion.plan, motion.designs, [motion]).places[0]) if is_one_sweep else None
+
+
 def run_words(machine: Mechanism, run: Run) -> str:
     """Return which run it is and in which load case, in words: `over reaching, in the case far`; "" where there is nothing to say."""
     case = machine.plan.of_kind(LoadCase).get(run.case, run.case) if isinstance(run.case, str) else run.case
@@ -133,10 +139,11 @@ def worst_place(machine: Mechanism, middle: Run, place: Domain, acting: Acting) 
 def run_along(motion: Motion) -> tuple[Run, int]:
     """Return what moves along a motion of one axis, through all its places, and the number from 0 of the first of them.
 
-    Of a sweep along an `Over.path` these are the places of the path. Of one that is not reached everywhere it is the longest part that is.
+    Of a sweep along an `Over.path` these are the places of the path, in a load case that occurs there. Of one that is not reached
+    everywhere it is the longest part that is.
     DefinitionError for a grid, a batch, fewer than two places.
     """
-    title, shape, place = require_motion(motion).plan.title, motion.shape, None
+    title, shape, place, case = require_motion(motion).plan.title, motion.shape, None, case_along(motion)
     if motion.is_swept and motion.over.shape == "path":
         place = Judge(motion.plan, motion.designs, [motion]).places[0]
         motion = place.motion  # the places that its `Over` names
@@ -148,7 +155,7 @@ def run_along(motion: Motion) -> tuple[Run, int]:
     moving = {name: way for name, way in ways.items() if len(set(way)) > 1}
     if not moving:
         raise DefinitionError(f"{title}: nothing moves along this motion; it has {last - first + 1} places in reach.")
-    run = Run(moving, {name: way[0] for name, way in ways.items() if name not in moving})
+    run = Run(moving, {name: way[0] for name, way in ways.items() if name not in moving}, case=case)
     if place is not None and place.instants is not None:
         run = replace(run, declared=place.over, instants=place.instants)
     return run, first

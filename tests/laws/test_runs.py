@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from hydraulics import Cylinder, LiftCircuit, reserve
+from hydraulics import Cylinder, LiftCircuit, reserve, thrust
 from linkage import LEFT, Acting, Dyad, Featured, Ground, LoadCase, Mechanism, OnLink, Over, Stroke, Support, Weight, least, most, plot
 from linkage.cli.entry import main
 from linkage.documents.content import TableBlock
@@ -150,8 +150,33 @@ def test_a_table_of_the_command_and_a_plot_show_the_same_runs(machine, capsys, m
     curves = [ax for ax in figure.axes if ax.lines]
     assert len(curves) == 2 * sum(run.is_curve for run in runs)
     for ax in curves:
-        name = "reserve boom" if ax.get_title(loc="left").startswith("reserve") else "thrust arm"
-        check_within(name, np.asarray(ax.lines[0].get_ydata()) * (1.0 if name == "reserve boom" else 1e3), ends[name])
+        name, values = "thrust arm", 1e3 * np.asarray(ax.lines[0].get_ydata())
+        if ax.get_title(loc="left").startswith("pump load in % boom"):
+            name, values = "reserve boom", 1e5 / values
+        check_within(name, values, ends[name])
+
+
+def test_every_command_shows_a_path_in_the_load_case_that_occurs_there(capsys, monkeypatch, tmp_path):
+    """A direction that is asked for, and a motion over the path in place of its machine, leave the case as it is."""
+    monkeypatch.setattr("linkage.cli.settings.find", lambda name: OfPaths)
+    motion, figures = OfPaths().sweep(5, over="back"), []
+    wanted = motion[thrust("boom", case="empty")]
+    monkeypatch.setattr("linkage.pictures.plot", lambda *given, **more: figures.append(plot(*given, **more)) or figures[-1])
+    picture = ["-o", str(tmp_path / "back.png")]
+    for more in ([], ["--direction", "frictionless"]):
+        assert main(["table", "ours", "thrust boom", "--over", "back", "--count", "5", "--csv", "-", *more]) == 0
+        found = [float(row["thrust boom, kN"]) for row in csv.DictReader(io.StringIO(capsys.readouterr().out))]
+        assert main(["plot", "ours", "thrust boom", "--over", "back", "--count", "5", *picture, *more]) == 0
+        capsys.readouterr()
+        for each in (found, figures.pop().axes[0].lines[0].get_ydata()):
+            assert_allclose(each, wanted / 1e3, rtol=1e-4)
+    assert main(["plot", "ours", "thrust boom", "--over", "back", "--count", "5", "--case", "plain", *picture]) == 0
+    assert_allclose(figures.pop().axes[0].lines[0].get_ydata(), motion[thrust("boom")] / 1e3, rtol=1e-9)
+    played = playback(OfPaths(), 5, "thrust boom", at=motion, eased=False)
+    assert_allclose(played.column.values, wanted, rtol=1e-9)
+    assert main(["plot", "ours", "--over", "back", "--count", "5", *picture]) == 0
+    assert figures.pop().axes[0].get_title(loc="left").startswith("pump load in % boom")
+    assert main(["plot", "ours", "thrust boom", "--at", "S=0.05,0.1", *picture]) == 0
 
 
 class OnWheels(OfPaths):

@@ -8,12 +8,12 @@ from itertools import zip_longest
 from pathlib import Path
 from typing import Any
 
-from ..errors import DefinitionError, FileError, unknown
+from ..errors import DefinitionError, FileError, ensure, known_name, unknown
 from ..quantities import Course, Curve, is_number, ramp
 from ..units import UNITS
 from .design import degrees_text
 from .expression import one_unit
-from .names import FileTable, Keywords, Names, shortened
+from .names import FileTable, Keywords, Names, require_entry, shortened
 from .validators import amount_of
 
 STEPS: Mapping[str, Collection[str]] = {
@@ -65,10 +65,10 @@ def step_read(table: Any, names: Names) -> Course | Curve | float:
     if kind is None:
         raise unknown("Step", next(iter(table), ""), STEPS)
     for key in table:
-        if key not in (kind, *STEPS[kind]):
-            raise unknown("Key", key, (kind, *STEPS[kind]))
+        known_name("Key", key, (kind, *STEPS[kind]))
     numbers = {key: value if key == "kind" else numbers_read(key, value, names) for key, value in table.items()}
     if kind == "hold":
+        require_entry(is_number(numbers["hold"]), table["hold"], "is not a number of seconds")
         return float(numbers["hold"])
     if kind == "ramp":
         ends = numbers.pop("ramp")
@@ -136,8 +136,9 @@ def rows_read(name: object, folder: Path | None, strokes: Collection[str]) -> Fi
         column, _, unit = heading.rpartition(", ")
         if column not in ("time", *strokes):
             continue
-        if unit not in UNITS:
-            raise unknown("Unit", unit, UNITS, where=f"csv = {name}: {heading}")
+        known_name("Unit", unit, UNITS, where=f"csv = {name}: {heading}")
+        measures = MEASURES["times" if column == "time" else "values"]
+        ensure(UNITS[unit][1] in measures, f"csv = {name}: {heading}: a unit of {' or '.join(measures)} is expected.")
         for row, text in enumerate(values, 2):
             try:
                 found.setdefault(column, []).append(float(text) * float(UNITS[unit][0]))

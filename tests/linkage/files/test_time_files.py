@@ -85,6 +85,7 @@ def test_a_table_of_rows_is_what_export_writes(tmp_path):
 def test_what_a_file_gets_wrong_is_refused_in_words(tmp_path):
     for go, words in [
         ("a = { hold = 0.5 }\nb = 0.1", "begin with a ramp"),
+        ("a = [{ ramp = [0.1, 0.2], speed = 0.1 }, { hold = [1, 2] }]\nb = 0.1", "[1, 2] is not a number of seconds"),
         ("a = { ramp = [0.1, 0.2] }\nb = 0.1", "a ramp has two ends and a speed"),
         ('a = { ramp = [0.1, 0.2], speed = "3 kg" }\nb = 0.1', "use one of m/s"),
         ("a = { ramp = [0.1, 0.2], sped = 0.1 }\nb = 0.1", "sped"),
@@ -95,7 +96,13 @@ def test_what_a_file_gets_wrong_is_refused_in_words(tmp_path):
     ]:
         with pytest.raises(FileError, match=re.escape(words)):
             load(HEAD + go)
-    (tmp_path / "rows.csv").write_text('"time, s","a, m"\n0,0.1\n1,oops\n')
     (tmp_path / "machine.toml").write_text(HEAD + 'csv = "rows.csv"\nb = 0.1')
-    with pytest.raises(FileError, match="in line 3 'oops' is no number"):
-        load(tmp_path / "machine.toml")
+    for headings, last, words in [
+        ('"time, s","a, m"', "oops", "in line 3 'oops' is no number"),
+        ('"time, mm","a, m"', "0.2", "time, mm: a unit of time is expected"),
+        ('"time, s","a, bar"', "0.2", "a, bar: a unit of length or angle is expected"),
+        ('"time, s","a, mn"', "0.2", "Unit 'mn' is unknown in csv = rows.csv: a, mn"),
+    ]:
+        (tmp_path / "rows.csv").write_text(f"{headings}\n0,0.1\n1,{last}\n")
+        with pytest.raises(FileError, match=re.escape(words)):
+            load(tmp_path / "machine.toml")

@@ -99,11 +99,12 @@ Table: TypeAlias = tuple[str, Sequence[Column], Sequence[bool]]
 
 def heading_words(machine: Mechanism, run: Run | None, motion: Motion) -> str:
     """Return which run of several or of a load case a table is along, in words: `over reaching, in the case far: extend = 0 to 3 m`."""
-    words, where = run_words(machine, run) if run is not None else "", motion.over.words(motion)
-    if run is None or not words or where in words:
+    words = run_words(machine, run) if run is not None else ""
+    if run is None or not words:
         return words
+    where = motion.over.words(motion)
     others = "" if not run.worst else said("; {names} where {column} is worst", names=", ".join(run.held), column=heading_of(run.worst))
-    return f"{words}: {where}{others}"
+    return f"{words}{others}" if where in words else f"{words}: {where}{others}"
 
 
 def write_tables(tables: Sequence[Table], file: str | None) -> None:

@@ -179,6 +179,14 @@ def test_every_command_shows_a_path_in_the_load_case_that_occurs_there(capsys, m
     assert main(["plot", "ours", "thrust boom", "--at", "S=0.05,0.1", *picture]) == 0
 
 
+def test_a_table_of_several_boxes_says_where_other_strokes_are_held(capsys, monkeypatch):
+    monkeypatch.setattr("linkage.cli.settings.find", lambda name: OfABox)
+    overs = ["--over", "S=0.05:0.20,T=0.04:0.15", "--over", "S=0.05:0.10,T=0.04:0.15"]
+    for case in ([], ["--case", "heavy"]):
+        assert main(["table", "ours", "S", "--count", "3", *overs, *case]) == 0
+        assert capsys.readouterr().out.count("; T where reserve arm is worst") == 2
+
+
 class OnWheels(OfPaths):
     """The same on a frame with two axles, which tips where its arm reaches far under the heavy load, and is not judged there."""
 

@@ -18,7 +18,22 @@ from linkage.errors import DefinitionError, ensure, known_name, unknown
 from linkage.frozen import immutable
 from linkage.language import noted, said, said_of, with_and
 from linkage.loads import FRICTIONLESS, Acting, Case, ForceElement, Loads, Parameter, situation_of
-from linkage.motion import Answer, Condition, Judge, Motion, PageWords, Question, Span, at, below_zero, least, most, reached, require_motion
+from linkage.motion import (
+    Answer,
+    Condition,
+    Judge,
+    Motion,
+    PageWords,
+    Question,
+    Span,
+    at,
+    below_zero,
+    least,
+    most,
+    over_time,
+    reached,
+    require_motion,
+)
 from linkage.quantities import NamedMembers, distance, of_kind
 from linkage.statics import LawRequest, elements_of, is_among
 from linkage.units import UNITS, show
@@ -27,6 +42,7 @@ from linkage.verdict import Verdict
 from .inputs import Array, check_pressures, not_negative, one_design, one_number
 from .line import LiftLine
 from .member import PISTON, SIDES, AllOf, Feeds, OnLines, Ram, as_in, carries_loads, judge_of, least_and_most, thrust_request
+from .moving import flow
 from .remedy import Sizes, can_be_set, show_enough, size_words, smallest
 from .requests import going_back_request, pressure_request, reserve_request
 from .shut import shut_verdicts
@@ -473,5 +489,12 @@ def oil_verdict(circuit: LiftLine, judge: Judge) -> Verdict:
     rate = one_design(circuit.number(judge.motion, "flow"))
     if not rate > 0.0:
         return Verdict("oil", True, said("{says}; time follows from the pump's flow, which is not given.", says=says))
-    time, flow = show(oil / rate, "s", ".1f"), show(rate, "l/min", 4)
-    return Verdict("oil", True, said("{says}, {time} at {flow}.", says=says, time=time, flow=flow))
+    time, given = show(oil / rate, "s", ".1f"), show(rate, "l/min", 4)
+    asked = over_time(judge, most(flow(circuit.name)) <= rate) if judge.plan.members.get(circuit.name) is circuit else None
+    if asked is None or asked.ok is not False:
+        return Verdict("oil", True, said("{says}, {time} at {flow}.", says=says, time=time, flow=given))
+    text = said(
+        "the cylinders take {asked}, {where}; the pump gives {flow}. Run slower there, or take a larger pump.",
+        asked=show(asked.value, "l/min", 4), where=asked.place, flow=given,
+    )  # fmt: skip
+    return Verdict("oil", False, text, answer=asked)

@@ -51,6 +51,7 @@ from linkage.motion import (
     Tabled,
     greatest,
     lowest,
+    over_time,
     require_motion,
 )
 from linkage.motion.measures import Condition, Constraint, MeasuredQuantity, at, least, most
@@ -811,11 +812,10 @@ class Cylinder(BarrelAndRod, Ram):
 
     def speed_verdicts(self, judge: Judge) -> list[Verdict]:
         """Return whether it is nowhere faster than its seals allow, over the paths in time that a judge looks at."""
-        timed = [place.over for place in judge.places if place.instants is not None]
-        if self.max_speed is None or not timed:
+        limit = np.inf if self.max_speed is None else one_design(number_set(self, judge.motion, "max_speed"))
+        answer = over_time(judge, most(abs(rate_request(self.name))) <= limit) if limit < np.inf else None
+        if answer is None:
             return []
-        limit = one_design(number_set(self, judge.motion, "max_speed"))
-        answer = Judge(judge.plan, judge.designs, timed, judge.acting).lost_allowed().answer(most(abs(rate_request(self.name))) <= limit)
         shown = {"name": self.name, "limit": show(limit, "mm/s", 4), "speed": show(answer.value, "mm/s", 4), "where": answer.place}
         if answer.ok is False:
             text = said("{name} moves with {speed}, {where}; its seals allow {limit}. Run slower there, or take other seals.", **shown)

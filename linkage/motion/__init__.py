@@ -9,7 +9,7 @@ from .gaps import gap, nearest_places
 from .grid import Grid
 from .instants import Instants
 from .judge import Judge, Question, case_named
-from .judging import HasVerdicts, PageWords, geometry_verdicts, judge_verdicts, judged_poses, limits_over, pose_sentence
+from .judging import HasVerdicts, PageWords, geometry_verdicts, judge_verdicts, judged_poses, limits_over, over_time, pose_sentence
 from .limits import places_text, stroke_display_unit, stroke_measure, stroke_unit
 from .live import LiveText, live_text
 from .measures import Condition, Constraint, Leaf, Measure, at, integral, least, most, reachable, worst

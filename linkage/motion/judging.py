@@ -113,6 +113,12 @@ def judge_verdicts(judge: Judge, fault: str = "") -> list[Verdict]:
     return [*found, *map(Remark, filter(None, told)), *([] if fault else [*from_above(PACE)(judge), *from_above(DRIVES)(judge)])]
 
 
+def over_time(judge: Judge, asked: Condition) -> Answer | None:
+    """Return the answer to a condition over the paths in time that a judge looks at; None where it looks at none."""
+    timed = [place.over for place in judge.places if place.instants is not None]
+    return Judge(judge.plan, judge.designs, timed, judge.acting).lost_allowed().answer(asked) if timed else None
+
+
 def valued_everywhere(verdict: Verdict) -> Verdict:
     """Return a verdict; one that is kept as a fault where what it rests on has no value at some places that are assembled."""
     lost = verdict.answer.lost if verdict.ok and verdict.answer is not None else NONE_LOST

@@ -95,6 +95,24 @@ def test_seals_that_are_too_slow_are_told_over_paths_in_time_alone():
     assert told(Lined())[0] and told(Arm(), over=Over()) is None
 
 
+def test_a_pump_that_is_too_small_is_told_over_paths_in_time_alone():
+    class Both(Arm):
+        line = LiftCircuit("lift", pressure=200 * bar, flow=46 * litre / minute)
+
+    class Quick(Both):
+        go = Over.path(S=ramp(0.28, 0.02, speed=0.25, acceleration=0.5))
+
+    def told(machine, **over):
+        return {verdict.rule: (verdict.ok, str(verdict)) for verdict in machine.verdicts(**over)}["oil"]
+
+    ok, text = told(Arm())
+    assert ok is False and "the cylinders take 45.24 l/min, at 0.3 s" in text and "the pump gives 40 l/min." in text
+    assert told(Both())[0] and told(Arm(), over=Over())[0] and "s at 40 l/min" in told(Arm(), over=Over())[1]
+    taken = ANNULUS * 0.25 / (litre / minute)  # it pulls back: the annulus takes less
+    ok, text = told(Quick())
+    assert ok is False and f"{taken:.4g} l/min" in text
+
+
 def test_what_does_not_move_is_refused_in_words():
     arm = Arm()
     for ask, words in [

@@ -172,6 +172,9 @@ def test_every_command_shows_a_path_in_the_load_case_that_occurs_there(capsys, m
             assert_allclose(each, wanted / 1e3, rtol=1e-4)
     assert main(["plot", "ours", "thrust boom", "--over", "back", "--count", "5", "--case", "plain", *picture]) == 0
     assert_allclose(figures.pop().axes[0].lines[0].get_ydata(), motion[thrust("boom")] / 1e3, rtol=1e-9)
+    assert main(["export", "ours", "-o", str(tmp_path / "back.csv"), "--over", "back", "--count", "5"]) == 0
+    with (tmp_path / "back.csv").open() as stream:
+        assert_allclose([float(row["thrust boom, kN"]) for row in csv.DictReader(stream)], wanted / 1e3, rtol=1e-9)
     played = playback(OfPaths(), 5, "thrust boom", at=motion, eased=False)
     assert_allclose(played.column.values, wanted, rtol=1e-9)
     assert main(["plot", "ours", "--over", "back", "--count", "5", *picture]) == 0

@@ -59,8 +59,8 @@ def animate(
     `count` poses; beside it the live
     curve of a column of its results. `at=dict(tilt=0.1)` holds another stroke, `at=dict(S=(0.1, 0.2))` says where one runs [m or rad],
     and `at=dict(lift=(0.0, 0.6, 0.6), tilt=(0.1, 0.1, 0.0))` how several run together, from value to value; strokes not named are at
-    mid-stroke. A motion along one path, `machine.sweep(101, over="digging")`, is played along that path. `trace` names points whose paths
-    are drawn; `limit` is the column's limit, `(value [SI], text, "above" or "below")`.
+    mid-stroke. A motion along one path, `machine.sweep(101, over="digging")`, is played along that path, in a load case that occurs there.
+    `trace` names points whose paths are drawn; `limit` is the column's limit, `(value [SI], text, "above" or "below")`.
     What is not given is what the machine is about (`Mechanism.featured`), else the last column that changes, no path and no limit.
     A path in time plays in real time. `progress(done, total)` is called as it goes. An existing
     file is replaced whole, or left as it was. Raises DefinitionError for another kind of file, a batch of designs or an unknown

@@ -169,7 +169,6 @@ function cylinder(each, changed, add) {
   else if (!pressed && now.reached.length && [...before].some(isNumber)) add(false, each.name, say("has no pressure with these sizes; is the rod thinner than the bore?"), more);
 }
 
-
 /* ---- the list: groups that fold, the worst first; each place in it takes the machine there ---- */
 
 const groupName = (member) => (data.groups[member] ?? ["", ""])[language === "ru" ? 1 : 0];

@@ -11,6 +11,7 @@ GROUPS = {
         "excavator", "hook_excavator", "telehandler", "wheel_loader", "loaded_front_loader", "forwarder", "tipper", "hoist_tipper",
         "tail_lift", "spreader_tractor", "plough_tractor",
         "levelled_telehandler", "axle", "crossed_axle",
+        "digging_excavator", "braking_telehandler", "loading_forwarder",
     ),
     "Hitches, lifts and headers": (
         "three_point_hitch", "hitch_category_1", "hitch_category_2", "mower_lift", "marked_mower_lift", "lowered_mower_lift",

@@ -109,7 +109,7 @@ class Excavator(HookExcavator):
     """The hook excavator with a bucket in place of the hook: one part is exchanged, which brings its cylinder tool.ram and its stroke.
 
     It runs from place to place of two ways, straight in its strokes. `grading` draws the teeth in along the ground, against the soil;
-    `loading` curls the full bucket and lifts it over a truck's side. `cycle` is both in seconds, with a full bucket: its masses are felt.
+    `loading` curls the full bucket and lifts it over a truck's side.
     """
 
     curl = Stroke(0.0, 0.420)  # of the bucket's cylinder, m
@@ -121,6 +121,12 @@ class Excavator(HookExcavator):
         lift=[0.176, 0.231, 0.256, 0.263], swing=[0.010, 0.176, 0.309, 0.412], curl=[0.335, 0.274, 0.218, 0.155], cases=["digging"]
     )
     loading = Over.path(lift=[0.263, 0.263, 0.390], swing=[0.412, 0.412, 0.150], curl=[0.155, 0.400, 0.400], cases=["carrying"])
+
+
+class DiggingExcavator(Excavator):
+    """The excavator on a cycle in seconds with a full bucket, drawn in, curled and lifted: its masses are felt."""
+
+    grading, loading = None, None
     cycle = Over.path(
         lift=ramp(0.176, 0.263, speed=0.05, acceleration=0.2).hold(1.5).then(ramp(0.263, 0.390, speed=0.12, acceleration=0.5)),
         swing=ramp(0.010, 0.412, speed=0.20, acceleration=0.6).hold(1.2).then(ramp(0.412, 0.150, speed=0.20, acceleration=0.6)),

@@ -19,7 +19,6 @@ class Forwarder(Mechanism):
 
     The levers press the stem against the head in right.T, which carries both pushes, `press`. Load and tool are the crane's crane.load.
     `loading` is the crane's own way with a stem held, `opening` the levers' whole way without one, the crane over the stakes.
-    `cycle` draws a stem in from afar, in seconds.
     """
 
     phi = Stroke(15 * deg, 99.9262455066517 * deg)  # the crane's own strokes
@@ -45,10 +44,16 @@ class Forwarder(Mechanism):
     opening = Over.path(
         phi=15 * deg, psi=15 * deg, t=0.0, swing=0.0, theta=[23.9 * deg, -72.5 * deg], twin=[23.9 * deg, -72.5 * deg], cases=["empty"],
     )  # fmt: skip
+
+    about = Featured("crane.T_y", ["crane.T", "right.A"])
+
+
+class LoadingForwarder(Forwarder):
+    """The forwarder draws a stem in from afar, in seconds."""
+
+    loading, opening = None, None
     cycle = Over.path(
         phi=ramp(60 * deg, 15 * deg, speed=12 * deg, acceleration=15 * deg),
         psi=ramp(150 * deg, 15 * deg, speed=20 * deg, acceleration=25 * deg), t=ramp(2.5, 0.0, speed=0.5, acceleration=0.5),
         swing=0.0, theta=-40 * deg, twin=-40 * deg, cases=["plain"],
     )  # fmt: skip
-
-    about = Featured("crane.T_y", ["crane.T", "right.A"])

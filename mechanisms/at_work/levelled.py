@@ -38,6 +38,5 @@ class LevelledTelehandler(Telehandler):
     far = LoadCase("far", scale=dict(load=1.1 / 3.0))
     stacking = Over.path(lift=[0.0, 0.7], extend=0.0, tilt=0.0, cases=["plain"])
     reaching = Over.path(lift=0.3, extend=[0.0, 3.0], tilt=0.0, cases=["far"])
-    cycle = None  # the other's tilts by a cylinder of its own
 
     about = Featured("level", ["F", "T"])

@@ -34,7 +34,6 @@ class Telehandler(Mechanism):
     """Cylinder AB lifts the boom OB, RT draws its inner section out, forks.ram tilts the carriage on its head.
 
     `stacking` lifts the whole load, drawn in, with level forks; `reaching` draws out, and carries 1.1 t instead of 3 t there.
-    `cycle` lifts the whole load in seconds, waits, and lets it down: braking, it tips the machine forward the most.
     """
 
     lift = Stroke(0.0, 0.86)  # m
@@ -62,13 +61,6 @@ class Telehandler(Mechanism):
     far = LoadCase("far", scale={"forks.load": 1.1 / 3.0})
     stacking = Over.path(lift=[0.0, 0.2, 0.4, 0.6], extend=0.0, tilt=[0.056, 0.131, 0.206, 0.281], cases=["plain"])
     reaching = Over.path(lift=0.3, extend=[0.0, 3.0], tilt=0.169, cases=["far"])
-    cycle = Over.path(
-        lift=ramp(0.0, 0.6, speed=0.15, acceleration=0.25).hold(1.0).then(ramp(0.6, 0.2, speed=0.15, acceleration=0.25)),
-        tilt=ramp(0.056, 0.281, speed=0.05625, acceleration=0.09375)
-        .hold(1.0)
-        .then(ramp(0.281, 0.131, speed=0.05625, acceleration=0.09375)),
-        extend=0.0, cases=["plain"],
-    )  # fmt: skip
 
     front_axle, rear_axle, M = Ground(0.0, 0.0), Ground(-2.85, 0.0), Ground(-1.75, 0.85)  # M of the chassis
     body = Weight(M, mass=6100.0)
@@ -83,3 +75,16 @@ class Telehandler(Mechanism):
     chassis = Outline([(-3.3, 0.55), (0.45, 0.55), (0.45, 0.95), (-2.3, 0.95), (-2.3, 1.75), (-2.9, 1.75), (-3.3, 1.2)])
 
     about = Featured("forks.F_y", ["forks.F", "T"])
+
+
+class BrakingTelehandler(Telehandler):
+    """The telehandler lifts its load in seconds, waits, and lets it down: as it brakes, it tips forward the most."""
+
+    stacking, reaching = None, None
+    cycle = Over.path(
+        lift=ramp(0.0, 0.6, speed=0.15, acceleration=0.25).hold(1.0).then(ramp(0.6, 0.2, speed=0.15, acceleration=0.25)),
+        tilt=ramp(0.056, 0.281, speed=0.05625, acceleration=0.09375)
+        .hold(1.0)
+        .then(ramp(0.281, 0.131, speed=0.05625, acceleration=0.09375)),
+        extend=0.0, cases=["plain"],
+    )  # fmt: skip

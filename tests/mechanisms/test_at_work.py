@@ -9,7 +9,7 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
 from hydraulics import Cylinder
-from linkage import LoadCase, LoadRule, Motion, Part, Target, equations, pin_forces, standing, working_field
+from linkage import LoadCase, LoadRule, Motion, Part, Target, axle_load, equations, pin_forces, standing, working_field
 from linkage.files import load, to_toml
 from linkage.statics import holding, work
 from mechanisms.at_work.excavator import Excavator, HookExcavator
@@ -17,7 +17,7 @@ from mechanisms.at_work.forwarder import Forwarder
 from mechanisms.at_work.front_loader import LoadedFrontLoader
 from mechanisms.at_work.hoist_tipper import HoistTipper
 from mechanisms.at_work.tail_lift import TailLift
-from mechanisms.at_work.telehandler import Telehandler
+from mechanisms.at_work.telehandler import BrakingTelehandler, Telehandler
 from mechanisms.at_work.tipper import Tipper
 from mechanisms.at_work.tractor import PloughTractor, SpreaderTractor
 from mechanisms.at_work.wheel_loader import WheelLoader
@@ -443,3 +443,24 @@ def test_the_tail_lifts_pilot_pressure_by_hand():
     expected = np.linalg.solve([[1.0, 3.0], [piston, -annulus]], np.stack([np.full(4, 140e5), thrust]))
     assert_allclose(TailLift.valve.pilot_pressure(motion), expected[1], rtol=1e-9)
     assert_allclose(TailLift.lifting.pressure(motion, case="parked"), thrust / piston, rtol=1e-9)
+
+
+def test_braking_tips_the_telehandler_by_the_change_of_its_momentum():
+    """Both axles carry the weights and what the load's, the carriage's and the tubes' centres gain upwards, by differences of places."""
+    motion = BrakingTelehandler().sweep(401, over="cycle")
+    step, braking = motion.time[1], slice(377, 397)
+
+    def centre(P, Q, along, across):
+        d = motion[Q] - motion[P]
+        e = d / np.hypot(*d)
+        return (motion[P] + along * e + across * np.array([-e[1], e[0]]))[1]
+
+    heights = {
+        3000.0: motion["forks.G"][1], 260.0: centre("forks.F", "forks.X", 0.20, 0.15),
+        700.0: centre("O", "B", 2.0, 0.0), 450.0: centre("Q", "T", -0.7, 0.0),
+    }  # fmt: skip
+    lifted = sum(mass * np.diff(height, 2) for mass, height in heights.items()) / step**2
+    loads = sum(motion[axle_load(name, case="plain")] for name in ("front", "rear"))
+    wanted = (6100.0 + sum(heights)) * 9.80665 + lifted
+    assert np.all(motion.accelerations["lift"][braking] == 0.25) and lifted[376:396].min() > 1000.0  # N, of 104 kN of weight
+    assert_allclose(loads[braking], wanted[376:396], rtol=1e-4)

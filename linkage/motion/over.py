@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from difflib import get_close_matches
 from typing import Any, ClassVar, Self, final
 
 import numpy as np
@@ -162,7 +163,9 @@ class Over(Member):
         for name in self.strokes:
             if name not in known:
                 error = unknown("Stroke", name, known, where=where)
-                raise DefinitionError(f"{error} Designs are varied by vary=, not by over=.")
+                near = get_close_matches(name, OPTIONS, 1)
+                remedy = f"Beside strokes an Over takes {near[0]}=." if near else "Designs are varied by vary=, not by over=."
+                raise DefinitionError(f"{error} {remedy}")
         missing = [name for name in known if name not in self.strokes] if self.shape != "box" else []
         if missing:
             what = f"{where}: it does not say where {', '.join(missing)} stand"
@@ -180,7 +183,7 @@ class Over(Member):
         for name in plan.strokes:
             given = self.strokes[name]
             is_course = isinstance(given, (Course, Curve))
-            amount = Amount(0.0, given.measures) if isinstance(given, Course) and given.measures else 0.0
+            amount = Amount(float(given(given.breaks[0])), given.measures) if isinstance(given, Course) and given.measures else 0.0
             require_kind(plan, name, amount if is_course else given, f"{plan.title}: {self}: {name}")
             known = given if is_course else self.numbers(given, plan, number)
             courses[name] = Course(self.time, known, "straight") if isinstance(known, list) else course_of(known, begin, end)

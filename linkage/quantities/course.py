@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..checks import require, require_number, require_whole
-from ..errors import DefinitionError, cited, one_word
+from ..errors import DefinitionError, article, cited, one_word
 from ..frozen import FrozenDict, own, read_only, refuses_changes
 from ..units import Amount, amounts_in, display_unit, require_measure, show
 from ..vectors import FloatArray
@@ -256,7 +256,7 @@ def ramp(a: float, b: float, *, speed: float, acceleration: float | None = None,
     Raises
     ------
     DefinitionError
-        A limit that is no number above zero, a jerk without an acceleration, two ends that are one.
+        A limit that is no number above zero, a jerk without an acceleration, two ends that are one, lengths among angles.
     """
     for name, end in (("ramp(a", a), ("ramp(b", b)):
         require_number(name, end, "a finite number is expected")
@@ -267,7 +267,11 @@ def ramp(a: float, b: float, *, speed: float, acceleration: float | None = None,
     if a == b:
         raise DefinitionError(f"ramp({cited(a)}, {cited(b)}): nothing moves; give the stroke that number, or hold(...) behind a course.")
     require(jerk is None or acceleration is not None, "ramp(jerk", jerk, "it limits an acceleration; give acceleration= too")
-    measures = next((each.measures for each in amounts_in([a, b])), "")
+    kinds = {each.measures: name for name, value in {"a": a, "b": b, **limits}.items() for each in amounts_in(value)}
+    if len(kinds) > 1:
+        both = " and ".join(f"{name} is {article(kind)} {kind}" for kind, name in kinds.items())
+        raise DefinitionError(f"ramp({cited(a)}, {cited(b)}): {both}; give ends and limits as one kind, speed=150 * mm for 0.15 m/s.")
+    measures = next(iter(kinds), "")
     given = {name: float(value) for name, value in limits.items() if value is not None}
     return Course.of_steps([{"ramp": (float(a), float(b)), **given}], measures)
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..errors import DefinitionError
 from ..language import said
-from ..loads import Acting, LinkMass, Weight
+from ..loads import Acting, ForceElement, LinkMass, Weight
 from ..motion import Judge, Request, require_motion
 from ..motion.requests import Combined
 from ..motion.strokes import checked_name
@@ -119,7 +119,8 @@ def dynamic_factor(request: Request) -> Combined:
 def pace_remarks(judge: Judge) -> list[Remark]:
     """Return over which paths in time the inertia of a machine's masses is left out, or a start or a stop that takes no time."""
     found = list[str]()
-    for place in judge.places if judge.plan.of_kind(Weight) or judge.plan.of_kind(LinkMass) else []:
+    has_masses = any(isinstance(each, (Weight, LinkMass)) for each in judge.plan.of_kind(ForceElement).values())
+    for place in judge.places if has_masses else []:
         name, jump = f"{place.over.title}: " if len(judge.places) > 1 else "", place.motion._rate_jump
         courses = {stroke: given for stroke, given in place.over.strokes.items() if isinstance(given, Course)}
         sudden = [

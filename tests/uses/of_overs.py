@@ -12,6 +12,8 @@ USES = [
     ("Over.poses(S=@)", '[]; ["a b"]; inf', ("finite numbers in their order are expected, or one, in SI.",)),
     ("Over.path(@)", "S=[0, 1], T=[1, 2, 3]", ("S has 2, T has 3 values; give each stroke as many, or one number where it is held.",)),
     ("made(a=@)", "Over(T=0.1)", ("Stroke 'T' is unknown in Made.a. Known: S. Designs are varied by vary=, not by over=.",)),
+    ("made(a=@)", 'Over(case="x"); Over.path(S=[0, 1], case="x")', ("Known: S. Beside strokes an Over takes cases=.",)),
+    ("lifting.answers([reachable], over=@)", "Over.path(S=ramp(0.1, 0.2, speed=9 * deg))", ("S=0.1 was given as an angle; expected",)),
     ("made(a=@)", 'Over(cases=["full"])', ("Load case 'full' is unknown in Made.a. Known: plain.",)),
     ("made(a=@)", 'Over(only=[x("Q") <= 3])', ("'Q' is unknown in Made.a: only=x(Q) <= 3.",)),
     ("made(@)", "only=Stroke(0, 1); lost=Stroke(0, 1); cases=Stroke(0, 1)", ("a stroke cannot be named", "Over takes for something else")),

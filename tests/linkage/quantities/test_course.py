@@ -132,6 +132,8 @@ def test_what_is_no_course_is_refused_in_words():
         (lambda: ramp(0.1, 0.2, speed=0.0), "above zero"),
         (lambda: ramp(0.1, 0.2, speed=1.0, jerk=1.0), "give acceleration="),
         (lambda: ramp("a", 0.2, speed=1.0), "finite number"),
+        (lambda: ramp(0.1, 0.2, speed=80 * mm, acceleration=9 * deg), "speed is a length and acceleration is an angle"),
+        (lambda: ramp(0.1, 20 * deg, speed=80 * mm), "b is an angle and speed is a length; give ends and limits as one kind"),
         (lambda: good.hold(0.0), "seconds above zero"),
         (lambda: good.hold(2 * mm), "given as a length"),
         (lambda: good.part(1.0, 4.0), "from 0 to 3 s"),

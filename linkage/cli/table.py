@@ -210,7 +210,7 @@ def forces_command(options: Namespace) -> int:
     for run, motion in motions:
         there = plain if run is None or options.case is not None else replace(plain, case=run.case)
         pins = pins_of(motion, there)
-        columns = [column for column in columns_of(motion) if column.name in motion.strokes]
+        columns = [column for column in columns_of(motion) if column.name in ("time", *motion.strokes)]
         if options.on is None:
             columns += force_columns(motion, there.case, there.direction)
             columns += joint_columns(pins) if options.poses else []

@@ -77,8 +77,9 @@ def test_a_report_tells_instants(tmp_path):
 def test_commands_run_along_a_path_in_time(tmp_path, capsys):
     save(Timed(), tmp_path / "lever.toml")
     machine = str(tmp_path / "lever.toml")
-    assert main(["table", machine, "--over", "up", "--count", "3"]) == 0
-    assert "time, s" in capsys.readouterr().out
+    for command in ("table", "forces"):
+        assert main([command, machine, "--over", "up", "--count", "3"]) == 0
+        assert "time, s" in capsys.readouterr().out
     for command in (["export", "-o", str(tmp_path / "up.csv")], ["plot", "G_y", "-o", str(tmp_path / "up.png")]):
         assert main([command[0], machine, *command[1:], "--over", "up", "--count", "9"]) == 0
     rows = (tmp_path / "up.csv").read_text().splitlines()

@@ -23,7 +23,7 @@ def point_by_time(
     plan, what = motion.plan, "acceleration" if order > 1 else "velocity"
     given = (*rates, *rates.values(), None, *accelerations, *accelerations.values())
     known = motion._kept.get(what)
-    if known is None or len(known[0]) != len(given) or any(a is not b for a, b in zip(known[0], given, strict=True)):
+    if known is None or len(known[0]) != len(given) or not all(map(stays, known[0], given)):
         kernel = plan.made(("by time", order), lambda twin: Kernel(points_by_time(twin, order)))
         inputs = {**motion._grid.flat, **flat_rates(motion, rates, accelerations)}
         known = motion._kept[what] = given, motion._grid.full(kernel(inputs, size=motion._grid.size).values)
@@ -31,6 +31,12 @@ def point_by_time(
     found = known[1][index : index + 2]
     found = found if motion.reached.all() else np.where(motion.reached, found, np.nan)
     return motion._finite(found, np.zeros(motion.shape, bool), f"The {what} of {point}")
+
+
+def stays(known: object, given: object) -> bool:
+    """Return whether what is given is what was known, and cannot have changed meanwhile: a number, a name, an array that is read-only."""
+    fixed = not given.flags.writeable if isinstance(given, np.ndarray) else given is None or isinstance(given, str | float | int)
+    return known is given and fixed
 
 
 def flat_rates(motion: MotionLike, rates: Mapping[str, Any], accelerations: Mapping[str, Any]) -> dict[str, FloatArray]:

@@ -34,7 +34,7 @@ from ..quantities import (
     real,
 )
 from ..quantities.course import check_rising
-from ..units import Amount, amount_or_float, amounts_in, require_measure, show
+from ..units import Amount, amount_or_float, require_measure, show
 from .grid import MotionLike
 from .instants import Instants
 from .limits import places_text, span_text, stroke_unit
@@ -423,8 +423,7 @@ def instants_given(time: Any, values: Mapping[str, Any]) -> tuple[float, ...] | 
         ends = [course.breaks[[0, -1]] for course in courses.values()]
         found = (float(min(low for low, _ in ends)), float(max(high for _, high in ends)))
     else:
-        for each in amounts_in(time):
-            require_measure(each, "time", "Over.path: time")
+        require_measure(time, "time", "Over.path: time")
         instants = numbers_in(time)
         fits = instants.ndim == 1 and instants.size > 1 and bool(np.isfinite(instants).all())
         require(fits, "Over.path(time", time, "instants in seconds are expected, one for each value, or a pair (begin, end)")

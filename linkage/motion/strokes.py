@@ -10,9 +10,11 @@ import numpy as np
 
 from ..checks import require_whole
 from ..errors import DefinitionError, cited, known_name, one_word
-from ..plan import Plan, rate_name, require_kinds
+from ..frozen import read_only
+from ..plan import Plan, rate_name, require_kind, require_kinds
 from ..program import FloatArray
 from ..quantities import Member, Stroke, as_mapping, is_number, is_whole, keywords, real
+from ..units import Amount
 from .grid import MotionLike
 from .limits import stroke_unit
 
@@ -25,11 +27,19 @@ FAR = 40.0
 
 def known_strokes(given: Mapping[str, object], strokes: Mapping[str, Stroke], title: str) -> None:
     """Raise DefinitionError for a stroke that is not there or not given."""
+    refuse_time(given, strokes, title)
     for name in given:
         known_name("Stroke", name, strokes, where=title)
     missing = [name for name in strokes if name not in given]
     if missing:
         raise DefinitionError(f"{title}: the stroke {', '.join(missing)} is not given; say {', '.join(f'{name}=...' for name in missing)}.")
+
+
+def refuse_time(given: Mapping[str, object], strokes: Collection[str], title: str) -> None:
+    """Raise DefinitionError where time is given for a stroke, which none is called."""
+    if "time" in given:
+        path = f"Over.path({keywords(dict.fromkeys(('time', *strokes), '[...]'))})"
+        raise DefinitionError(f"{title}: time={cited(given['time'])}: time is no stroke, it is that of a path; write sweep(over={path}).")
 
 
 def at_values(given: Mapping[str, object], plan: Plan, take: Callable[[Any], FloatArray] = real) -> dict[str, FloatArray]:
@@ -94,12 +104,14 @@ def float_array(value: object) -> FloatArray:
 def sweep_values(count: int | None, given: Mapping[str, object], plan: Plan) -> dict[str, FloatArray]:
     """Return strokes over their ranges: an int is a count, a float a value; two counts give a grid."""
     strokes, title = plan.strokes, plan.title
+    refuse_time(given, strokes, title)
     if count is not None:
         if not strokes:
             raise DefinitionError(f"{title} has no stroke, so there is nothing to sweep; declare one, S = Stroke(0, 0.25), or ask at().")
         if len(strokes) != 1 or given:
             each = keywords(dict.fromkeys(strokes, "..."))
-            raise DefinitionError(f"{title} has {len(strokes)} strokes: say sweep({each}), an int for a count and a float for a value.")
+            some = f"{len(strokes)} stroke{'' if len(strokes) == 1 else 's'}"
+            raise DefinitionError(f"{title} has {some}: say sweep({each}), an int for a count and a float for a value.")
         if not is_whole(count):
             remedy = f"for a value write at({keywords({next(iter(strokes)): repr(count)})})"
             raise DefinitionError(f"{title}: sweep({count!r}): a whole number of poses is expected; {remedy}.")
@@ -142,16 +154,23 @@ def checked_name(kind: str, target: object, known: Collection[str], title: str) 
 def rates_of(what: str, given: object, motion: MotionLike, *, gaps: bool = False) -> dict[str, FloatArray]:
     """Return the stroke rates by name, a float or an array over the poses, NaN where there may be `gaps`; DefinitionError for others."""
     title = motion.plan.title
-    known = strokes_named(what, given, motion.strokes, title)
+    known = strokes_named(what, given, motion.plan)
     return {name: checked_rate(f"{what}: {name}", value, motion.shape, title, gaps=gaps) for name, value in known.items()}
 
 
-def strokes_named(what: str, given: object, strokes: Collection[str], title: str) -> dict[str, Any]:
-    """Return what is given for strokes by name. Raise DefinitionError for another type, and for an unknown stroke."""
+def strokes_named(what: str, given: object, plan: Plan) -> dict[str, Any]:
+    """Return what is given for strokes by name. Raise DefinitionError for another type, an unknown stroke, and an amount of another kind.
+
+    An amount in the unit of the stroke stands for so much a second: `12 * deg` is 12 deg/s.
+    """
     if not isinstance(given, Mapping):
-        example = f"{what}={as_mapping({next(iter(strokes), 'S'): 0.05})}"
-        raise DefinitionError(f"{title}: {what}={given!r}: a value for each stroke is expected, such as {example}.")
-    return {checked_name("Stroke", name, strokes, title): value for name, value in given.items()}
+        example = f"{what}={as_mapping({next(iter(plan.strokes), 'S'): 0.05})}"
+        raise DefinitionError(f"{plan.title}: {what}={given!r}: a value for each stroke is expected, such as {example}.")
+    found = {checked_name("Stroke", name, plan.strokes, plan.title): value for name, value in given.items()}
+    for name, value in found.items():
+        if isinstance(value, (Amount, list, tuple)):
+            require_kind(plan, name, value, f"{plan.title}: {what}: {name}")
+    return found
 
 
 def rate_values(plan: Plan, rates: object, accelerations: object) -> dict[str, Any]:
@@ -164,7 +183,7 @@ def rate_values(plan: Plan, rates: object, accelerations: object) -> dict[str, A
         raise DefinitionError(f"{what}; give both, such as rates={as_mapping(dict.fromkeys(plan.strokes, 0.0))}.")
     found: dict[str, Any] = {}
     for order, (what, given) in enumerate((("rates", rates), ("accelerations", accelerations)), 1):
-        known = {} if given is None else strokes_named(what, given, plan.strokes, plan.title)
+        known = {} if given is None else strokes_named(what, given, plan)
         for name, value in known.items():
             if type(value) is not float:
                 checked_rate(f"{what}: {name}", value, np.shape(value), plan.title)
@@ -174,7 +193,7 @@ def rate_values(plan: Plan, rates: object, accelerations: object) -> dict[str, A
 
 
 def checked_rate(what: str, value: object, shape: tuple[int, ...], title: str, *, gaps: bool = False) -> FloatArray:
-    """Return one rate; DefinitionError unless it is finite, or NaN where there may be `gaps`, and fits the poses."""
+    """Return one rate, read-only; DefinitionError unless it is finite, or NaN where there may be `gaps`, and fits the poses."""
     try:
         rate = real(value)
         fits = np.broadcast_shapes(rate.shape, shape) == shape
@@ -182,7 +201,7 @@ def checked_rate(what: str, value: object, shape: tuple[int, ...], title: str, *
         fits = False
     if not fits or not np.all(np.isfinite(rate) | (gaps & np.isnan(rate))):
         raise DefinitionError(f"{title}: {what}={cited(value)}: a finite number or an array that fits the poses {shape} is expected.")
-    return rate
+    return read_only(rate)
 
 
 def order_of(order: object) -> int:

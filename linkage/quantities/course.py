@@ -65,13 +65,12 @@ class Course:
 
     def __init__(self, times: npt.ArrayLike, values: npt.ArrayLike, kind: str = "smooth") -> None:
         one_word("kind", kind, KINDS)
-        for each in amounts_in(times):
-            require_measure(each, "time", "Course: times")
+        require_measure(times, "time", "Course: times")
+        measures = measure_of("Course: values", values)
         found, rows = column("times", times, "Course"), column("values", values, "Course")
         check_rising("Course: time", found)
         require(len(rows) == len(found) > 1, "Course: values", values, f"one for each of {len(found)} instants is expected, two at least")
-        measures = {each.measures for each in amounts_in(values)}
-        self._hold([{"times": tuple(found.tolist()), "values": tuple(rows.tolist()), "kind": kind}], measures.pop() if measures else "")
+        self._hold([{"times": tuple(found.tolist()), "values": tuple(rows.tolist()), "kind": kind}], measures)
 
     @classmethod
     def of_phases(cls, times: npt.ArrayLike, phases: npt.ArrayLike, end: float | None = None, measures: str = "") -> Self:
@@ -145,6 +144,7 @@ class Course:
         array of float
             Shaped as x; a float for one instant.
         """
+        require_measure(x, "time", "course(x)")
         time, order = numbers_in(x), require_whole("order", order, "a whole number is expected, 0 for the value", least=0)
         require(time.size > 0 or np.size(x) == 0, "course(x", x, "instants in seconds are expected")
         within = time if phase is None else np.asarray(phase, float)
@@ -176,20 +176,22 @@ class Course:
 
     def hold(self, seconds: float) -> Course:
         """Return this, and then its last value for so many seconds."""
-        for each in amounts_in(seconds):
-            require_measure(each, "time", "hold")
+        require_measure(seconds, "time", "hold")
         require_number("hold", seconds, "a number of seconds above zero is expected", above=0.0)
         return Course.of_steps([*self.steps, {"hold": float(seconds)}], self.measures)
 
     def then(self, course: Course) -> Course:
-        """Return this, and behind its end another; DefinitionError where the value jumps there."""
+        """Return this, and behind its end another; DefinitionError where the value jumps there, or an angle follows a length."""
         require(isinstance(course, Course), "then", course, "a course is expected, such as then(ramp(0.3, 0.1, speed=0.1))")
-        return Course.of_steps([*self.steps, *course.steps], self.measures or course.measures)
+        ends = Amount(self._last, self.measures), Amount(course._phases[0, 0], course.measures)
+        measures = measure_of("Course.then: the next course", *ends)
+        return Course.of_steps([*self.steps, *course.steps], measures)
 
     def part(self, begin: float, end: float) -> Course:
         """Return what it is from one instant to another [s], which it keeps; DefinitionError beyond its ends."""
         first, last = self.breaks[[0, -1]].tolist()
         fits = is_number(begin) and is_number(end) and first <= begin < end <= last
+        require_measure((begin, end), "time", "part")
         require(fits, "part", (begin, end), f"two instants from {first:.6g} to {last:.6g} s are expected, the earlier one first")
         number = int(np.clip(np.searchsorted(self.breaks, begin, side="right") - 1, 0, len(self.breaks) - 2))
         stop = int(np.searchsorted(self.breaks, end, side="left"))
@@ -204,15 +206,19 @@ class Course:
 
     def __add__(self, number: float) -> Course:
         require(is_number(number), "Course: number", number, "a number is expected, which is added to all values")
+        measures = measure_of("Course: number", Amount(self._last, self.measures), number)
         rows = np.array(self._phases)
         rows[0] += number
-        return Course.of_phases(self.breaks, rows, self._last + number, self.measures)
+        return Course.of_phases(self.breaks, rows, self._last + number, measures)
 
     __radd__ = __add__
 
     def __sub__(self, number: float) -> Course:
         require(is_number(number), "Course: number", number, "a number is expected, which is taken from all values")
         return self + -number
+
+    def __rsub__(self, number: float) -> Course:
+        return -self + number
 
     def __str__(self) -> str:
         text = ""
@@ -271,7 +277,7 @@ def ramp(a: float, b: float, *, speed: float, acceleration: float | None = None,
     if len(kinds) > 1:
         both = " and ".join(f"{name} is {article(kind)} {kind}" for kind, name in kinds.items())
         raise DefinitionError(f"ramp({cited(a)}, {cited(b)}): {both}; give ends and limits as one kind, speed=150 * mm for 0.15 m/s.")
-    measures = next(iter(kinds), "")
+    measures = measure_of("ramp: ends and limits", a, b, *limits.values())
     given = {name: float(value) for name, value in limits.items() if value is not None}
     return Course.of_steps([{"ramp": (float(a), float(b)), **given}], measures)
 
@@ -287,6 +293,14 @@ def course_of(given: Course | Curve | float, begin: float, end: float) -> Course
     starts = np.concatenate([given.xs[:-1] + turn * (period or 0.0) for turn in turns])
     last = float(given.xs[-1] + turns[-1] * (period or 0.0))
     return Course.of_phases([*starts, last], np.tile(rows, len(turns)), float(given.ys[-1]))
+
+
+def measure_of(what: str, *given: object) -> str:
+    """Return what amounts measure, "length" or "angle", "" where none says it; DefinitionError where they differ, and for anything else."""
+    known = [each for each in amounts_in([*given]) if each.measures]
+    found = known[0].measures if known else ""
+    require_measure(known, "angle" if found == "angle" else "length", what)
+    return found
 
 
 # Steps as polynomials.

@@ -161,6 +161,20 @@ def test_a_motion_in_time_is_pickled_and_moved():
     assert motion.moved(motion.strokes).time is None and "time = 0 to 4 s" in repr(motion)
 
 
+def test_rates_that_change_in_place_are_read_anew():
+    """Arrays and lists are the caller's: those of the call count, not those of the one before."""
+    motion, rates, listed = Blocks().at(a=[0.1, 0.2, 0.3], b=0.1), np.full(3, 0.1), [0.1, 0.1, 0.1]
+
+    def found():
+        given = ({"a": rates}, {"a": listed})
+        return np.array([*(motion.velocity("A", each) for each in given), *(motion.acceleration("A", each, each) for each in given)])
+
+    before = found().copy()
+    rates *= 2.0
+    listed[:] = [0.2, 0.2, 0.2]
+    assert before[:, 0].all() and found()[:, 0] == pytest.approx(2.0 * before[:, 0])
+
+
 def test_what_is_no_path_in_time_is_refused_in_words():
     for make, words in [
         (lambda: Over.path(time=(0, 2), a=[0.1, 0.2, 0.3], b=0.1), "3 values beside the begin and the end of a path"),
@@ -175,6 +189,9 @@ def test_what_is_no_path_in_time_is_refused_in_words():
         (lambda: Over(a=ramp(0.1, 0.2, speed=0.1)), "Over(a="),
         (lambda: Blocks().sweep(over=Over.path(a=ramp(0.0, 20 * deg, speed=0.1), b=0.1)), "given as an angle"),
         (lambda: Blocks().sweep(over=Over.path(a=ramp(0.0, 0.2, speed=0.1))), "where b stand"),
+        (lambda: Blocks().sweep(5, time=(0, 2)), "time=(0, 2): time is no stroke, it is that of a path; write sweep(over=Over.path(time="),
+        (lambda: Blocks().at(a=0.1, b=0.1, time=2.0), "time is no stroke"),
+        (lambda: Blocks().at(a=0.1, b=0.1).velocity("A", {"a": 5 * deg}), "rates: a=0.0872665 was given as an angle"),
         (lambda: type("Timed", (Mechanism,), {"time": Stroke(0.0, 1.0)}), "cannot be named time"),
     ]:
         with pytest.raises(DefinitionError, match=re.escape(words)):

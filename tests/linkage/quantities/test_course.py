@@ -7,7 +7,7 @@ import pytest
 
 from linkage import Course, Curve, DefinitionError, ramp
 from linkage.quantities import course_of
-from linkage.units import deg, mm
+from linkage.units import bar, deg, mm
 
 
 def samples(course, count=997):
@@ -92,6 +92,14 @@ def test_what_is_written_is_the_same_course_to_the_last_bit():
         )
 
 
+def test_numbers_are_added_and_taken_away_on_both_sides():
+    good, at = ramp(20 * mm, 80 * mm, speed=0.1), np.linspace(0.0, 0.6, 7)
+    for made, wanted in [
+        (good + 5 * mm, good(at) + 0.005), (0.1 + good, good(at) + 0.1), (good - 0.1, good(at) - 0.1), (0.1 - good, 0.1 - good(at)),
+    ]:  # fmt: skip
+        assert made(at) == pytest.approx(wanted, abs=1e-16) and made.measures == "length"
+
+
 def test_beyond_its_ends_a_course_stands_still():
     course = Course([1.0, 2.0, 4.0], [0.1, 0.5, 0.2])
     assert course([0.0, 1.0, 4.0, 9.0]).tolist() == [0.1, 0.1, 0.2, 0.2]
@@ -136,6 +144,12 @@ def test_what_is_no_course_is_refused_in_words():
         (lambda: ramp(0.1, 20 * deg, speed=80 * mm), "b is an angle and speed is a length; give ends and limits as one kind"),
         (lambda: good.hold(0.0), "seconds above zero"),
         (lambda: good.hold(2 * mm), "given as a length"),
+        (lambda: Course([0.0, 1.0], [10 * deg, 20 * mm]), "given as a length"),
+        (lambda: ramp(0.1, 0.2, speed=5 * bar), "ends and limits=500000 was given as a pressure"),
+        (lambda: ramp(0.1, 20 * mm, speed=0.1).then(ramp(20 * deg, 0.0, speed=0.1)), "given as an angle"),
+        (lambda: ramp(0.0, 20 * mm, speed=0.1) + 3 * deg, "given as an angle"),
+        (lambda: good.part(1 * mm, 2 * mm), "given as a length"),
+        (lambda: good(5 * mm), "given as a length"),
         (lambda: good.part(1.0, 4.0), "from 0 to 3 s"),
         (lambda: good.then(0.3), "a course is expected"),
         (lambda: good + "x", "a number is expected"),

@@ -41,7 +41,20 @@ from linkage.verdict import Verdict
 
 from .inputs import Array, check_pressures, not_negative, one_design, one_number
 from .line import LiftLine
-from .member import PISTON, SIDES, AllOf, Feeds, OnLines, Ram, as_in, carries_loads, judge_of, least_and_most, thrust_request
+from .member import (
+    PISTON,
+    SIDES,
+    TO_ROUNDING,
+    AllOf,
+    Feeds,
+    OnLines,
+    Ram,
+    as_in,
+    carries_loads,
+    judge_of,
+    least_and_most,
+    thrust_request,
+)
 from .moving import flow
 from .remedy import Sizes, can_be_set, show_enough, size_words, smallest
 from .requests import going_back_request, pressure_request, reserve_request
@@ -392,7 +405,7 @@ class LiftingCylinder:
         parts = [
             said("the {side} holds up to {pressure}, {where}", pressure=self.show(each.value), side=side, where=each.place)
             for each, side in zip(found, words, strict=True)
-            if each.value > 0.0
+            if each.value > TO_ROUNDING * limit
         ]
         stands = ", ".join(parts) or said("neither side holds pressure")
         given, pump = self.show(limit), not circuit.relieves(self.judge.plan)
@@ -430,15 +443,15 @@ class LiftingCylinder:
         judge, against = self.judge, said("against {pressure} in the return line", pressure=self.show(resistance))
         each_way = [(way, judge.answers([most(self.back(way, resistance)) <= 0.0])[0]) for way in self.ways_back]
         way, push = max(each_way, key=lambda each: (each[1].unbounded, float(np.nan_to_num(each[1].value, nan=-np.inf))))
-        alone = judge.answer(least(self.back(way, resistance, "load")))
+        alone, nothing = judge.answer(least(self.back(way, resistance, "load"))), TO_ROUNDING * float(self.circuit.supply(judge.motion))
         if push.ok is None:
             return Verdict("lowering", None, said("it goes back nowhere over what it runs."))
-        if push.ok:
+        if push.ok or push.value <= nothing:
             by = {"against": against, "where": alone.place, "pressure": self.show(alone.value)}
             text = said("it sinks by itself {against}: the load makes at least {pressure} in the working side, {where}.", **by)
-            if alone.value <= 1e-9 * float(self.circuit.supply(judge.motion)):
+            if alone.value <= nothing:
                 text = said("it goes back by itself {against}; {where} the load presses on neither side and nothing drives it.", **by)
-            return Verdict("lowering", True, text, answer=push)
+            return Verdict("lowering", True, text, answer=replace(push, ok=True))
         where, enough = self.stuck(replace(self.back(way, resistance), acting=replace(judge.situation(push), direction=None))), False
         by = {"where": where, "against": against, "place": push.place, "pose": push.place, "push": self.show(push.value)}
         if push.unbounded:

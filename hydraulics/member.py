@@ -40,6 +40,7 @@ from linkage.loads import (
 from linkage.loads.element import DIRECTIONS, UNBOUNDED, Declared, Formulas, Parameter, Poses, Push, Rates, Share, Tie, require_poses
 from linkage.loads.two_point import DrawnAs, TwoPoint
 from linkage.motion import (
+    Answer,
     Column,
     HasVerdicts,
     Judge,
@@ -278,6 +279,15 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         """Return the condition that the load is on the side that works everywhere, with the drive at rest; of the class's, or of itself."""
         thrust = thrust_request(which, Acting(direction=FRICTIONLESS))
         return most(thrust) <= 0.0 if self.side == "rod" else least(thrust) >= 0.0
+
+    def pressed_wrongly(self, judge: Judge) -> Answer | None:
+        """Return the answer on a load against the side that works; None where there is none, to rounding."""
+        found = judge.answer(self.pressed(self))
+        if found.ok or np.isnan(found.value):
+            return None
+        ends = judge.answers(least_and_most(thrust_request(self, Acting(direction=FRICTIONLESS))))
+        size = max((abs(each.value) for each in ends if np.isfinite(each.value)), default=0.0)
+        return None if abs(found.value) <= TO_ROUNDING * size and not found.unbounded else found
 
     def _is_alone(self, judge: Judge) -> bool:
         """Return whether it carries loads on no line that has a verdict on holding."""
@@ -546,7 +556,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
     def buckling_verdicts(self, judge: Judge) -> list[Verdict]:
         """Return whether it buckles over all that a judge looks at, and what it does against a stop."""
         worst = judge.answer(most(buckling_request(self, Acting())) <= 1.0)
-        if np.isnan(worst.value) or not worst.value > 0.0:
+        if np.isnan(worst.value) or not worst.value > TO_ROUNDING:
             return [never_pushed(), *self.stopped(judge)]
         with unwarned():  # the verdict itself says what comes of it
             place, acting = judge.there(worst), judge.situation(worst)
@@ -800,8 +810,8 @@ class Cylinder(BarrelAndRod, Ram):
     def size_verdicts(self, judge: Judge) -> list[Verdict]:
         """Return whether it is of a standard size, and a note where the load is against the side that works, which no line says."""
         own = [self.standard(judge.motion), *self.speed_verdicts(judge)]
-        found = judge.answer(self.pressed(self)) if self._is_bare(judge) else None
-        if found is None or found.ok or np.isnan(found.value):
+        found = self.pressed_wrongly(judge) if self._is_bare(judge) else None
+        if found is None:
             return own
         force = said("a force without bounds") if found.unbounded else said("up to {thrust}", thrust=show(abs(found.value), "kN", 4))
         given = {"name": self.name, "force": force, "where": found.place}
@@ -1381,7 +1391,7 @@ def found_in(members: NamedMembers, reference: Reference, where: str) -> Ram:
 TOLERANCE = 1e-9  # m: a length that is met to rounding is met
 MISSING = noted("; {missing} are missing: take a longer stroke")
 TO_ROUNDING = 1e-9
-"""Of the greatest thrust: a load that turns by less than this part drives one way."""
+"""Of the greatest thrust, of what buckles a rod, of a pump's pressure: what is no larger is nothing, to rounding."""
 
 
 def _listed(values: Iterable[float]) -> str:

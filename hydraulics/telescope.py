@@ -253,8 +253,8 @@ class Telescope(Ram):
         return [Verdict("holding", True, text, answer=found) if pulled is None else pulled]
 
     def pulled(self, judge: Judge) -> Verdict | None:
-        found = judge.answer(self.pressed(self))
-        if found.ok or found.ok is None:
+        found = self.pressed_wrongly(judge)
+        if found is None:
             return None
         text = said(
             "the load pulls at it with up to {force}, {where}: it is single acting and no oil holds it; "

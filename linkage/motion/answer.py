@@ -12,7 +12,7 @@ import numpy as np
 from ..language import said, translated
 from ..loads import FRICTIONLESS
 from ..units import display_unit, show
-from .limits import places_text
+from .limits import places_text, timed_texts
 
 OF_VALUE, LOST, UNBOUNDED, NOTHING_LEFT = "value", "lost", "unbounded", "nothing left"
 """What an answer rests on: a value; places that are lost; a value that grows without bounds; nothing, as no place is asked or limited."""
@@ -27,6 +27,8 @@ LOST_SHARE = "lost share"
 class Lost:
     """What has no value where it was asked for: its share of the places, the deepest of them [m or rad], and what is missing there.
 
+    `time` is the instant of the deepest [s] over a path in time, else NaN.
+
     The places stand evenly: in a box along each stroke, along a path on each leg. There a leg weighs by the most that one stroke moves on
     it, as a part of that stroke's range over the path. `surely` is False where places may be lost between those that were
     looked at: those of groups, and of laws that have no value.
@@ -36,6 +38,7 @@ class Lost:
     strokes: Mapping[str, float] = field(default_factory=dict)
     sentence: str = ""
     surely: bool = True
+    time: float = nan
 
     def __bool__(self) -> bool:
         return self.share > 0.0 or bool(self.sentence)
@@ -99,9 +102,8 @@ class Answer:
         Of a path in time `at 0.1875 s (lift = 114.1 mm)`.
         """
         if self.strokes and not np.ndim(self.time) and not np.isnan(self.time):
-            forms = {name: ("deg", "z.2f") if unit == "rad" else ("mm", "z.1f") for name, unit in self.units.items()}
-            strokes = ", ".join(f"{name} = {show(float(value), *forms[name])}" for name, value in self.strokes.items())
-            return said("at {time} ({place})", time=show(round(float(self.time), 6), "s", 4), place=strokes)
+            time, place = timed_texts(self.strokes, self.units, float(self.time))
+            return said("at {time} ({place})", time=time, place=place)
         return said("at {place}", place=places_text(self.strokes, self.units)) if self.strokes else ""
 
     @property

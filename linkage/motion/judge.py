@@ -336,24 +336,29 @@ class Domain:
 
     def lost(self, seen: Coverage) -> Lost:
         """Return what cannot be assembled of the places asked for, of one design: what the grid sees, and holes between its places."""
+
+        def of_design(value: PerDesign) -> float:
+            return float(np.asarray(value)[seen.design])
+
         holes = [
-            {name: float(np.asarray(value)[seen.design]) for name, value in each.strokes.items()}
+            ({name: of_design(value) for name, value in each.strokes.items()}, of_design(each.time))
             for each in self.margins if np.asarray(each.is_hole)[seen.design]
         ]  # fmt: skip
         if not (seen.lost_share or holes):
             return NONE_LOST
         if self.motion._design_shape:
-            deepest = seen.deepest or holes[0]
-            return Lost(seen.lost_share, deepest, "" if seen.lost_share else said("some poses are refused"), not self.plan.groups)
+            deepest, time = (seen.deepest, seen.time) if seen.deepest else holes[0]
+            refused = "" if seen.lost_share else said("some poses are refused")
+            return Lost(seen.lost_share, deepest, refused, not self.plan.groups, time)
         with unwarned():
-            places = holes + ([dict(seen.deepest)] if seen.deepest and seen.lost_share else [])
-            errors = [(assembly_error_at(self.motion, place), place) for place in places]
-        known = [(error, place) for error, place in errors if error is not None]
+            places = holes + ([(dict(seen.deepest), float(seen.time))] if seen.deepest and seen.lost_share else [])
+            errors = [(assembly_error_at(self.motion, *place), *place) for place in places]
+        known = [(error, place, time) for error, place, time in errors if error is not None]
         if not known:
-            return Lost(seen.lost_share, seen.deepest, said("some poses are refused"), not self.plan.groups)
-        error, place = max(known, key=lambda each: each[0].shortfall or 0.0)
+            return Lost(seen.lost_share, seen.deepest, said("some poses are refused"), not self.plan.groups, seen.time)
+        error, place, time = max(known, key=lambda each: each[0].shortfall or 0.0)
         strokes = {name: float(value) for name, value in place.items()}
-        return Lost(seen.lost_share, strokes, " ".join(str(error).split()), not self.plan.groups)
+        return Lost(seen.lost_share, strokes, " ".join(str(error).split()), not self.plan.groups, time)
 
 
 def rubs(plan: Plan, motion: Motion, acting: Acting) -> bool:
@@ -391,6 +396,8 @@ class Coverage:
     lost_share: PerDesign = 0.0
     outside: PerDesign = 0.0
     deepest: Mapping[str, PerDesign] = field(default_factory=dict)
+    time: PerDesign = np.nan
+    """When the deepest is [s], over a path in time."""
     lawless: PerDesign = 0.0
     unlimited: PerDesign = 0.0
     count: int = 0
@@ -400,7 +407,8 @@ class Coverage:
         """Return what was seen of one design, by its place in a batch."""
         deepest = {name: float(value[design]) for name, value in self.deepest.items()}
         lost, outside = (float(np.asarray(each)[design]) for each in (self.lost_share, self.outside))
-        return replace(self, lost_share=lost, outside=outside, deepest=deepest if lost else {}, design=design)
+        time = float(np.broadcast_to(self.time, np.shape(self.lost_share))[design])
+        return replace(self, lost_share=lost, outside=outside, deepest=deepest if lost else {}, time=time, design=design)
 
 @final
 class Asked:
@@ -481,10 +489,12 @@ class Asked:
         self.seen.lost_share, self.seen.outside = counted(lost) / total, counted(np.asarray(~asked)) / total
         flat = lost.reshape(*designs, -1)
         middle = np.argmax(np.cumsum(flat, axis=-1) > flat.sum(axis=-1, keepdims=True) // 2, axis=-1)[..., None]
-        self.seen.deepest = {
-            name: np.take_along_axis(np.broadcast_to(value, motion.shape).reshape(*designs, -1), middle, axis=-1)[..., 0]
-            for name, value in motion.strokes.items()
-        }
+
+        def in_the_middle(value: FloatArray) -> FloatArray:
+            return np.take_along_axis(np.broadcast_to(value, motion.shape).reshape(*designs, -1), middle, axis=-1)[..., 0]
+
+        self.seen.deepest = {name: in_the_middle(value) for name, value in motion.strokes.items()}
+        self.seen.time = np.nan if motion.time is None else in_the_middle(motion.time)
         self.seen.lawless = counted(np.isnan(values) & ~unlimited & good) / count
         self.seen.unlimited = counted(unlimited & good) / count
 
@@ -881,7 +891,7 @@ class Judge:
         if not lost and all(each.outside >= 1.0 for each in every):
             ok, status = None, NOTHING_LEFT
         return Answer(
-            reachable, seen.lost_share, ok, status, lost.strokes, over=place.over.name, lost=lost,
+            reachable, seen.lost_share, ok, status, lost.strokes, over=place.over.name, lost=lost, time=lost.time,
             outside=seen.outside, width=place.width, count=sum(each.count for each in self._seen), units=units, measures=LOST_SHARE,
             named=frozenset(["over"] if len(self.places) > 1 else []),
         )  # fmt: skip

@@ -21,7 +21,7 @@ from ..verdict import Remark, Verdict
 from . import stroke_search
 from .answer import NONE_LOST, Answer, share_text
 from .judge import Domain, Judge, Question, measures_of
-from .limits import BoxLimits, Limits, LoopMargin, StrokeLimits, place_text, places_text
+from .limits import BoxLimits, Limits, LoopMargin, StrokeLimits, place_text, places_text, timed_texts
 from .measures import Condition, Measure, conditions_of, least, reachable
 from .motion import Motion, require_motion
 from .over import Over
@@ -164,7 +164,8 @@ def in_line(place: Domain) -> dict[tuple[int, ...], str]:
     for each in place.margins:
         flat = np.asarray((each.value <= IN_LINE**2) & ~np.asarray(each.is_hole)) & (each.kind in ("links", "guides"))
         for design in map(tuple, np.argwhere(flat).tolist()):
-            at = places_text({name: np.asarray(value)[design] for name, value in each.strokes.items()}, each.units)
+            strokes, time = {name: np.asarray(value)[design] for name, value in each.strokes.items()}, float(np.asarray(each.time)[design])
+            at = places_text(strokes, each.units) if np.isnan(time) else "{} ({})".format(*timed_texts(strokes, each.units, time))
             text = said("{step} at {place}", step=name_or_pins(place.plan, each.step), place=at)
             found[design] = f"{found[design]}; {text}" if design in found else text
     return found

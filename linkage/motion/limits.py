@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from math import nan
 from typing import Any, final
 
 import numpy as np
@@ -123,7 +124,7 @@ class LoopMargin:
     `kind` is "links", "guides", "length" or "meeting", of two points that a direction is taken between. `value` is the squared sine of
     the angle between two links, or two guides, the length where that follows others [m], or the squared one between two points. Below
     zero the `step` cannot be assembled, by more than rounding where it `is_hole`. NaN where no pose tells. `strokes` [m or rad, which
-    `units` say] are the place.
+    `units` say] are the place, `time` [s] its instant over a path in time, else NaN.
     """
 
     step: str
@@ -132,6 +133,7 @@ class LoopMargin:
     is_hole: Any
     strokes: Mapping[str, Any]
     units: Mapping[str, str]
+    time: Any = nan
 
     @property
     def clear(self) -> float:
@@ -306,6 +308,13 @@ def place_text(value: Any, unit: str) -> str:
 def places_text(strokes: Mapping[str, object], units: Mapping[str, str]) -> str:
     """Return values of strokes as a place is read: `S1 = 0.1000 m, phi = 25.00 deg`; of several, the ranges."""
     return ", ".join(f"{name} = {place_text(value, units[name])}" for name, value in strokes.items())
+
+
+def timed_texts(strokes: Mapping[str, Any], units: Mapping[str, str], time: float) -> tuple[str, str]:
+    """Return an instant [s] and the strokes there as they are read: `0.1875 s`, `lift = 114.1 mm, phi = 25.00 deg`."""
+    forms = {name: ("deg", "z.2f") if unit == "rad" else ("mm", "z.1f") for name, unit in units.items()}
+    there = ", ".join(f"{name} = {show(float(value), *forms[name])}" for name, value in strokes.items())
+    return show(round(time, 6), "s", 4), there
 
 
 def stroke_text(value: float, unit: str, digits: int = 9) -> str:

@@ -504,7 +504,8 @@ def least_margins(motion: Motion, kept: Callable[[Motion], Mask] | None = None) 
         for row, loop in enumerate(known.loops):
             place = {name: value[row] for name, value in least.strokes.items()}
             hole = np.asarray(least.value[row] < -rounding_at(motion, known, place)[row].reshape(motion._design_shape))[()]
-            each_of.append(LoopMargin(loop.step, loop.kind, least.value[row], hole, place, least.units))
+            time = np.broadcast_to(least.time, np.shape(least.value))[row]
+            each_of.append(LoopMargin(loop.step, loop.kind, least.value[row], hole, place, least.units, time))
         return each_of
 
     return recalled(motion, "margins", found) if kept is None else found()
@@ -527,10 +528,13 @@ def rounding_at(motion: Motion, known: Clearances, strokes: Mapping[str, Any]) -
     return np.asarray(ROUNDING * np.fmax(np.abs(grid.full(sizes))[..., 0], 1.0))
 
 
-def assembly_error_at(motion: Motion, strokes: Mapping[str, float]) -> AssemblyError | None:
+def assembly_error_at(motion: Motion, strokes: Mapping[str, float], time: float = np.nan) -> AssemblyError | None:
     """Return why a motion's one design cannot be assembled at strokes [m or rad], as that pose says it; None where it can.
 
-    Its text names the step, what is missing there and the remedy; `point` is the step, `shortfall` what is missing [m].
+    Its text names the step, what is missing there and the remedy, over a path in time the instant [s]; `point` is the step, `shortfall`
+    what is missing [m].
     """
     there = motion.moved({name: np.reshape(value, (1,)) for name, value in strokes.items()})
+    if motion._instants is not None and not np.isnan(time):
+        there = Motion(motion.plan, motion.designs, there.strokes, "nan", instants=motion._instants.at(np.array([time])))
     return None if there.reached.all() else out_of_reach(there)

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from hydraulics import Cylinder, LiftCircuit, lift_verdicts
-from linkage import RIGHT, Actuator, DefinitionError, Dyad, Ground, Mechanism, OnLink, Stroke
+from hydraulics import Cylinder, LiftCircuit, Telescope, lift_verdicts
+from linkage import RIGHT, Actuator, Crank, DefinitionError, Dyad, Ground, Mechanism, OnLink, Stroke
 from linkage.loads import PinFriction, Weight
 from linkage.statics import driving_force
 from linkage.units import bar, cm2, deg, g0, kN, litre, minute, mm
@@ -238,3 +238,28 @@ def test_a_replaced_cylinder_is_the_one_that_counts():
     wide = type("Wide", (Lift,), {"lift": Cylinder("A", "B", bore=220 * mm, rod=63 * mm, count=2)})
     assert_allclose(circuit.largest(wide().sweep(3)), 4.0 * circuit.largest(LIFT.sweep(3)))
     assert Lift.lift.size.area > 100 * cm2
+
+
+class Upright(Mechanism):
+    """An arm whose load stands above its pivot where the range begins: nothing to hold there but a rounded cosine, 6e-17 the wrong way."""
+
+    phi = Stroke(90 * deg, 160 * deg)
+    O, A = Ground(0, 0), Ground(-1.0, -0.3)
+    B = Crank(O, OB=0.5, angle=phi)
+    G = OnLink(O, B, OG=1.5)
+    load = Weight(G, mass=400)
+    lift = Cylinder(A, B, bore=0.08, rod=0.045)
+    line = LiftCircuit(lift, pressure=200 * bar, flow=40 * litre / minute)
+
+
+def test_a_load_that_is_nothing_but_rounding_is_told_as_nothing():
+    """Whichever side works, alone, on a line or as a telescope: nothing is pushed, held or stuck where the load passes its zero."""
+    both, pulling = (Cylinder("A", "B", bore=0.08, rod=0.045, works=works) for works in ("both", "rod"))
+    stages = Telescope("A", "B", bores=[0.1, 0.08], strokes=[0.4, 0.4], closed=0.6)
+    for A, lift in [((-1.0, -0.3), both), ((-1.0, -0.3), stages), ((1.0, -0.3), pulling)]:
+        found = {each.rule: each for each in type("Own", (Upright,), {"A": Ground(*A), "lift": lift})().verdicts()}
+        assert not any("e-" in each.sentence for each in found.values()), found
+        assert found["lowering"].ok and "presses on neither side" in found["lowering"].sentence
+        assert ("never pushed" in found["buckling"].sentence) == (A[0] > 0.0) and " holds up to" in found["holding"].sentence
+        assert " where the load drives" not in found["holding"].sentence
+    assert "side" not in {each.rule for each in type("Bare", (Upright,), {"line": None})().verdicts()}

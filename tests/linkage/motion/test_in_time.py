@@ -207,6 +207,16 @@ def test_a_course_out_of_reach_is_refused_with_its_instant():
     assert not motion.reached.all() and np.isfinite(motion.time).all()
 
 
+def test_what_is_lost_over_a_path_in_time_is_told_with_its_instant():
+    """The verdict, an answer and what it lost name the instant of the deepest place; so where a hole is shorter than any sample."""
+    narrow = Course([0.0, 1.0, 1.0005, 1.001, 2.0], [0.1, 0.2, 1.1, 0.2, 0.1], kind="straight")
+    for over, time in [(Over.path(S=ramp(0.05, 1.2, speed=0.5)), 2.3), (Over.path(S=narrow), 1.0005)]:
+        machine = type("Far", (Lever,), {"go": over})()
+        assembly, answer = machine.verdicts()[0], machine.answers([most(y("B"))])[0]
+        assert answer.lost.time == pytest.approx(time, abs=2e-4) and f"at time = {answer.lost.time:.4f} s, S = " in answer.lost.sentence
+        assert f"deepest over go, at {answer.lost.time:.4g} s (S = " in assembly.sentence and assembly.answer.time == answer.lost.time
+
+
 def test_poses_near_a_path_in_time_are_looked_at():
     course = Course([0.0, 1.0, 2.0], [0.1, 0.9, 0.1])  # it bends: between its rows it is far from straight
     over = Over.path(a=course, b=Course([0.0, 2.0], [0.0, 1.0]))

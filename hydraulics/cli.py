@@ -64,7 +64,7 @@ def print_capacity(options: Namespace) -> int:
     case = None if options.case is None else known_name("Load case", options.case, machine.plan.of_kind(LoadCase), machine.plan.title)
     motions, tables = motions_at(machine, options), list[Table]()
     for run, over in motions:
-        whole = over.moved(over.strokes)  # together, over the poses as they are
+        whole = over._with_gaps()
         further = circuit.lifted(whole, point, along=along, share=share, cylinder=ram, case=case)
         places = (*over.strokes, f"{point}_x", f"{point}_y")
         shown = [each for each in columns_of(over) if each.name in places]

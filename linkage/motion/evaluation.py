@@ -19,6 +19,7 @@ from ..plan import NEAR, ArrayReading, Mask, Plan, failures, negative
 from ..program import LAST, QUICKEST, FloatArray, Kernel, Node, Result, RunOptions, disturbed
 from .conditions import DOUBTFUL, ROUGH, Conditioning, PrecisionLeft, Rounding, conditioning, iterated
 from .grid import Angles, Grid, Made, angles_of, to_rounding
+from .over import Over
 from .requests import Request, Trait
 
 PIECE = 1 << 18
@@ -74,7 +75,8 @@ def require_rates(plan: Plan, kernel: Kernel, known: Container[str]) -> None:
     missing = [node.value for node in kernel.plan.pose_inputs if node.value not in known]
     if missing:
         what = f"{plan.title}: what is asked for follows {', '.join(missing)}, and nothing says how fast the strokes move"
-        raise DefinitionError(f"{what}; give rates= and accelerations=, or sweep over a path in time.")
+        timed = next((f', over="{name}"' for name, over in plan.of_kind(Over).items() if over.time is not None), "")
+        raise DefinitionError(f"{what}; give rates= and accelerations=, or ask over a path in time{timed}.")
 
 
 def members_behind(plan: Plan, requests: Sequence[Request]) -> set[str]:

@@ -90,7 +90,7 @@ def worst_pins(machine: Mechanism, over: Sequence[Over | Motion] | None, acting:
 
 def pins_of(motion: Motion, acting: Acting) -> PinForces:
     """Return the joint forces of a motion in a load case and a direction."""
-    return pin_forces(motion, case=acting.case, direction=acting.movement, drive=acting.drive)
+    return pin_forces(motion, case=acting.case, direction=acting.direction, drive=acting.drive)
 
 
 Table: TypeAlias = tuple[str, Sequence[Column], Sequence[bool]]

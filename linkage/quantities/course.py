@@ -66,7 +66,7 @@ class Course:
     def __init__(self, times: npt.ArrayLike, values: npt.ArrayLike, kind: str = "smooth") -> None:
         one_word("kind", kind, KINDS)
         require_measure(times, "time", "Course: times")
-        measures = measure_of("Course: values", values)
+        measures = common_measure("Course: values", values)
         found, rows = column("times", times, "Course"), column("values", values, "Course")
         check_rising("Course: time", found)
         require(len(rows) == len(found) > 1, "Course: values", values, f"one for each of {len(found)} instants is expected, two at least")
@@ -184,7 +184,7 @@ class Course:
         """Return this, and behind its end another; DefinitionError where the value jumps there, or an angle follows a length."""
         require(isinstance(course, Course), "then", course, "a course is expected, such as then(ramp(0.3, 0.1, speed=0.1))")
         ends = Amount(self._last, self.measures), Amount(course._phases[0, 0], course.measures)
-        measures = measure_of("Course.then: the next course", *ends)
+        measures = common_measure("Course.then: the next course", *ends)
         return Course.of_steps([*self.steps, *course.steps], measures)
 
     def part(self, begin: float, end: float) -> Course:
@@ -206,7 +206,7 @@ class Course:
 
     def __add__(self, number: float) -> Course:
         require(is_number(number), "Course: number", number, "a number is expected, which is added to all values")
-        measures = measure_of("Course: number", Amount(self._last, self.measures), number)
+        measures = common_measure("Course: number", Amount(self._last, self.measures), number)
         rows = np.array(self._phases)
         rows[0] += number
         return Course.of_phases(self.breaks, rows, self._last + number, measures)
@@ -277,7 +277,7 @@ def ramp(a: float, b: float, *, speed: float, acceleration: float | None = None,
     if len(kinds) > 1:
         both = " and ".join(f"{name} is {article(kind)} {kind}" for kind, name in kinds.items())
         raise DefinitionError(f"ramp({cited(a)}, {cited(b)}): {both}; give ends and limits as one kind, speed=150 * mm for 0.15 m/s.")
-    measures = measure_of("ramp: ends and limits", a, b, *limits.values())
+    measures = common_measure("ramp: ends and limits", a, b, *limits.values())
     given = {name: float(value) for name, value in limits.items() if value is not None}
     return Course.of_steps([{"ramp": (float(a), float(b)), **given}], measures)
 
@@ -295,7 +295,7 @@ def course_of(given: Course | Curve | float, begin: float, end: float) -> Course
     return Course.of_phases([*starts, last], np.tile(rows, len(turns)), float(given.ys[-1]))
 
 
-def measure_of(what: str, *given: object) -> str:
+def common_measure(what: str, *given: object) -> str:
     """Return what amounts measure, "length" or "angle", "" where none says it; DefinitionError where they differ, and for anything else."""
     known = [each for each in amounts_in([*given]) if each.measures]
     found = known[0].measures if known else ""

@@ -543,7 +543,7 @@ def rates_identity(rates: StrokeRates) -> Hashable:
 def once_in(motion: AnyMotion, acting: Acting, what: Hashable, make: Callable[[], Made]) -> Made:
     """Return what several ask of a motion in one situation, made once; each time where its loads may change."""
     identity = situation_identity(acting)
-    return make() if identity is None else motion._once((what, identity, acting.movement, acting.drive), make)
+    return make() if identity is None else motion._once((what, identity, acting.direction, acting.drive), make)
 
 
 def is_unchanging(thing: object) -> bool:

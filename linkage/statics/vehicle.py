@@ -583,5 +583,5 @@ def balancing_reaction(motion: Motion, acting: Acting, name: str, support: Suppo
         column[:, row, 0] += value
     found = Equilibrium(system, given=((system.drive(stroke), known),), supports=column).solution()
     check_joints(system.structure, poses)
-    locked_words(found, acting.movement)
+    locked_words(found, applied.rates.direction)
     return poses.full(found.u[:, -1])

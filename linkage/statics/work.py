@@ -176,7 +176,7 @@ def member_thrust_on(motion: AnyMotion, member: TwoPoint, acting: Acting) -> Flo
             raise DefinitionError(f"{plan.title}: {member.name or member} carries nothing here: {why}.")
         return np.where(motion.reached, sum(laws, np.zeros(motion.shape)), np.nan)
     what = f"The thrust of {member.name or member}"
-    found = with_friction(motion, applied, acting, what)
+    found = with_friction(motion, applied, what)
     if found is not None:
         return found.thrusts[member_title(member)]
     ends = (end for each in (holders.every_cylinder if holders.closed else line.cylinders) for end in each.ends)
@@ -210,7 +210,7 @@ def closed_force(motion: AnyMotion, element: ForceElement, acting: Acting) -> Fl
     rates = rates_in(motion, acting)
     applied = kept(motion, acting, rates, "applied", lambda: applied_on(motion, acting, rates))
     what = f"The force of {element.name}"
-    found = with_friction(motion, applied, acting, what)
+    found = with_friction(motion, applied, what)
     if found is not None:
         return found.runs[element.name]
     points = (*(end for each in holders.every_cylinder for end in each.ends), *needs(element))
@@ -223,7 +223,7 @@ def closed_force(motion: AnyMotion, element: ForceElement, acting: Acting) -> Fl
     return poses.full(where_negative(units[0][pulling], forces[1], forces[0]))[()]
 
 
-def with_friction(motion: AnyMotion, applied: AppliedLoads, acting: Acting, what: str) -> PoseForces | None:
+def with_friction(motion: AnyMotion, applied: AppliedLoads, what: str) -> PoseForces | None:
     """Return all forces where friction has a part in them; None where it has none. UntracedError for a program."""
     if not applied.frictions:
         return None
@@ -233,7 +233,7 @@ def with_friction(motion: AnyMotion, applied: AppliedLoads, acting: Acting, what
         remedy = f'Ask while nothing rubs, direction="frictionless", or leave {rubbing[0]} out by a LoadCase'
         raise UntracedError(f"{what}: there are values, and no derivatives. {remedy}.")
     found = forces_at(poses_held(require_motion(motion), applied, what), applied)
-    locked_words(found, acting.movement)
+    locked_words(found, applied.rates.direction)
     return found
 
 

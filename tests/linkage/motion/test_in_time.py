@@ -2,6 +2,7 @@
 
 import pickle
 import re
+from functools import partial
 
 import numpy as np
 import pytest
@@ -17,10 +18,13 @@ from linkage import (
     Mechanism,
     OnGuide,
     Over,
+    PinFriction,
     Stroke,
+    Weight,
     drive_force,
     least,
     most,
+    pin_force,
     pin_forces,
     plot,
     ramp,
@@ -92,6 +96,19 @@ def test_friction_goes_as_it_runs_and_stands_where_nothing_moves():
             ask()
     with pytest.raises(DefinitionError, match="as it runs"):
         Blocks().answers([most(drive_force("a"))], over="there", acting=Acting(direction="extending"))
+
+
+def test_what_runs_and_what_is_frictionless_are_told_apart_whichever_is_asked_first():
+    machine = type("Rubbing", (Lever,), {"pins": PinFriction("O", radius=0.05, coefficient=0.3), "load": Weight("G", mass=100.0)})()
+    up = Over.path(S=ramp(0.02, 0.18, speed=0.1, acceleration=0.5))
+    asks = partial(pin_force, "O"), drive_force
+    asked = {each: [ask(acting=Acting(direction=each)) for ask in asks] for each in (None, "frictionless")}
+    fresh = {each: [request.of(machine.sweep(9, over=up)) for request in requests] for each, requests in asked.items()}
+    assert all(np.all(np.abs(a - b)[1:-1] > 1e-3 * np.abs(b)[1:-1]) for a, b in zip(*fresh.values(), strict=True))
+    for order in ((None, "frictionless"), ("frictionless", None)):
+        motion = machine.sweep(9, over=up)
+        for each in order:
+            assert np.array([request.of(motion) for request in asked[each]]) == pytest.approx(np.array(fresh[each]), rel=1e-12)
 
 
 def test_both_sides_of_a_break_are_judged():

@@ -73,7 +73,7 @@ class Instants:
     def rate_jump(self) -> tuple[float, str, float] | None:
         """The first jump of a rate between both ends: its instant [s], the stroke, its size [m/s or rad/s]; None where there is none."""
         begin, end = self.breaks[[0, -1]]
-        inner = [(at, name) for name, course in self.courses.items() for at in course.jumps(1) if begin < at < end]
+        inner = [(at, name) for name, course in self.courses.items() for at in course.jumps(1, ends=True) if begin < at < end]
         if not inner:
             return None
         time, name = min(inner)

@@ -163,14 +163,18 @@ class Course:
             total = np.where(time >= end, self._last, total)
         return float(total) if total.ndim == 0 else total
 
-    def jumps(self, order: int) -> tuple[float, ...]:
-        """Return the instants [s] between its ends at which a derivative of that order jumps: 1 for the rate, 2 for the acceleration."""
-        inner, middle = self.breaks[1:-1], 0.5 * (self.breaks[1:] + self.breaks[:-1])
-        before, after = (np.asarray(self(inner, order, phase=each)) for each in (middle[:-1], middle[1:]))
+    def jumps(self, order: int, *, ends: bool = False) -> tuple[float, ...]:
+        """Return the instants [s] at which a derivative of that order jumps: 1 for the rate, 2 for the acceleration.
+
+        They lie between its ends. With `ends` these count too, where it begins from a stand and stands afterwards.
+        """
+        middle, stand = 0.5 * (self.breaks[1:] + self.breaks[:-1]), np.zeros(1)
+        before = np.concatenate([stand, self(self.breaks[1:], order, phase=middle)])
+        after = np.concatenate([self(self.breaks[:-1], order, phase=middle), stand])
         begin, end = self.breaks[[0, -1]].tolist()
         known = np.concatenate([before, after, self(np.linspace(begin, end, 4 * len(self.breaks)), order)])
-        size = float(np.max(np.abs(known), initial=0.0))
-        return tuple(inner[np.abs(after - before) > JUMP * size].tolist())
+        jumping = np.abs(after - before) > JUMP * float(np.max(np.abs(known)))
+        return tuple(self.breaks[jumping].tolist() if ends else self.breaks[1:-1][jumping[1:-1]].tolist())
 
     # -- courses made of courses -------------------------------------------------------------------------
 

@@ -11,6 +11,7 @@ from linkage import (
     LEFT,
     RIGHT,
     Carried,
+    Course,
     Crank,
     DefinitionError,
     Dyad,
@@ -202,6 +203,24 @@ def test_in_every_load_case_the_judge_counts_inertia_as_the_motion_does():
                 found = [each.value for each in judged]
                 assert_allclose(found, [values.max(), values.min()], rtol=5e-3, err_msg=f"{name} {case}")
         assert found[0] > 1.05 and found[1] < 0.95
+
+
+def test_a_rate_that_ends_or_begins_at_once_within_a_path_is_a_jump():
+    """One course stops dead before the path ends, another one starts at speed behind its begin: neither has a force of inertia there."""
+
+    class Pair(Swing):
+        T = Stroke(0.0, 1.0)
+        B = Crank("O", OB=0.4, angle=T)
+        go = hard = None
+
+    soft, late = ramp(0.0, 0.9, speed=0.5, acceleration=1.0), Course([0.5, 1.5], [0.2, 0.9], kind="straight")
+    for S, at in [(ramp(0.0, 0.8, speed=0.8), "0.8 rad/s at 1 s"), (late, "0.7 rad/s at 0.5 s"), (soft, "")]:
+        motion = Pair().sweep(9, over=Over.path(S=S, T=soft, time=(0.0, 2.3)))
+        still = driving_force(motion, drive="S", acting=Acting(inertia=False))
+        assert np.array_equal(driving_force(motion, drive="S"), still) == bool(at)
+        if at:
+            with pytest.raises(DefinitionError, match=f"the rate of S jumps by {at}"):
+                driving_force(motion, drive="S", acting=Acting(inertia=True))
 
 
 def test_verdicts_tell_where_inertia_or_a_start_is_left_out():

@@ -829,6 +829,8 @@ class Cylinder(BarrelAndRod, Ram):
         shown = {"name": self.name, "limit": show(limit, "mm/s", 4), "speed": show(answer.value, "mm/s", 4), "where": answer.place}
         if answer.ok is False:
             text = said("{name} moves with {speed}, {where}; its seals allow {limit}. Run slower there, or take other seals.", **shown)
+        elif answer.value <= TO_ROUNDING * limit:
+            text = said("{name} stands still over the paths in time.", name=self.name)
         else:
             text = said("{name} moves with up to {speed}, {where}; its seals allow {limit}.", **shown)
         return [Verdict("speed", answer.ok, text, answer=answer)]

@@ -93,6 +93,17 @@ def test_seals_that_are_too_slow_are_told_over_paths_in_time_alone():
     ok, text = told(Arm())
     assert not ok and "lift moves with 150 mm/s" in text and "its seals allow 100 mm/s" in text
     assert told(Lined())[0] and told(Arm(), over=Over()) is None
+    # beside an arm that turns, a cylinder that stands still on it moves by rounding alone
+
+    class Folded(Arm):
+        U = Stroke(0.0, 0.2)
+        E = OnLink("O", "B", OE=0.9, BOE=0.3)
+        L = Dyad(E, "G", EL=0.5 + U, GL=0.4, side=RIGHT)
+        lift = Cylinder("A", "B", bore=0.08, rod=0.045, works="both")
+        fold = Cylinder(E, L, bore=0.05, rod=0.028, max_speed=0.1)
+        go = Over.path(S=UP, U=0.1)
+
+    assert told(Folded()) == (True, "ok   speed: fold stands still over the paths in time.")
 
 
 def test_a_pump_that_is_too_small_is_told_over_paths_in_time_alone():

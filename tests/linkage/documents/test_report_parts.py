@@ -202,7 +202,7 @@ def test_standards_are_those_that_rules_and_inputs_cite():
 
 def test_no_number_stands_without_its_unit():
     (grid,) = (block for block in blocks(shown(), TableBlock) if block.caption.startswith("Loads, force"))
-    rows = {name: text for name, text, _ in grid.rows}
+    rows = {row[0]: row[1] for row in grid.rows}
     assert "pressure=180 bar" in rows["pump"] and "relief=210 bar" in rows["pump"] and "flow=30 l/min" in rows["pump"]
     assert "bore=80 mm" in rows["lift"] and "mass=800 kg" in rows["load"]
     assert not [text for text in texts(shown()) if re.search(r"\d{7}\.0|\de[+-]?\d{2}\b", text) and "e-" not in text]

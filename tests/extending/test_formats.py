@@ -181,7 +181,7 @@ def test_mjcf_holds_the_places_the_lengths_and_the_joints(package, tmp_path):
     for each in root.iter("connect"):
         (body,) = [found for found in root.iter("body") if found.get("name") == each.get("body1")]
         assert numbers(each, "anchor").shape == (3,) and body is not None
-    (slide,) = [each for each in root.iter("joint") if each.get("name") == "AB"]
+    (slide,) = [each for each in root.iter("joint") if each.get("name") == "lift"]
     along = motion["B"] - motion["A"]
     assert_allclose(numbers(slide, "axis"), [*(along / np.hypot(*along)), 0.0], rtol=1e-9)
 

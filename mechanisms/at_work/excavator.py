@@ -126,7 +126,7 @@ class Excavator(HookExcavator):
 class DiggingExcavator(Excavator):
     """The excavator on a cycle in seconds with a full bucket, drawn in, curled and lifted: its masses are felt."""
 
-    grading, loading = None, None
+    grading, loading = None, None  # type: ignore[assignment]
     cycle = Over.path(
         lift=ramp(0.176, 0.263, speed=0.05, acceleration=0.2).hold(1.5).then(ramp(0.263, 0.390, speed=0.12, acceleration=0.5)),
         swing=ramp(0.010, 0.412, speed=0.20, acceleration=0.6).hold(1.2).then(ramp(0.412, 0.150, speed=0.20, acceleration=0.6)),

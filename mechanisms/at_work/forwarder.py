@@ -51,7 +51,7 @@ class Forwarder(Mechanism):
 class LoadingForwarder(Forwarder):
     """The forwarder draws a stem in from afar, in seconds."""
 
-    loading, opening = None, None
+    loading, opening = None, None  # type: ignore[assignment]
     cycle = Over.path(
         phi=ramp(60 * deg, 15 * deg, speed=12 * deg, acceleration=15 * deg),
         psi=ramp(150 * deg, 15 * deg, speed=20 * deg, acceleration=25 * deg), t=ramp(2.5, 0.0, speed=0.5, acceleration=0.5),

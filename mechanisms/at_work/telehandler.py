@@ -80,7 +80,7 @@ class Telehandler(Mechanism):
 class BrakingTelehandler(Telehandler):
     """The telehandler lifts its load in seconds, waits, and lets it down: as it brakes, it tips forward the most."""
 
-    stacking, reaching = None, None
+    stacking, reaching = None, None  # type: ignore[assignment]
     cycle = Over.path(
         lift=ramp(0.0, 0.6, speed=0.15, acceleration=0.25).hold(1.0).then(ramp(0.6, 0.2, speed=0.15, acceleration=0.25)),
         tilt=ramp(0.056, 0.281, speed=0.05625, acceleration=0.09375)

@@ -386,7 +386,7 @@ class Motion(Shown):
 
     def _is_in_pass(self, target: object, *rates: object) -> bool:
         """Return whether a target is a point that moves at such rates, at poses that are all far from singular ones."""
-        is_point = isinstance(target, str | Member) and name_of(target) in self.plan.moving
+        is_point = isinstance(target, str | Point) and name_of(target) in self.plan.moving
         return is_point and not self._is_near_singular and all(isinstance(each, Mapping) for each in rates) and bool(rates[0])
 
     def _rates_or_own(self, what: str, rates: Mapping[str, object] | None) -> dict[str, FloatArray]:

@@ -668,11 +668,8 @@ class Judge:
 
     def there(self, answer: Answer) -> Motion:
         """Return the pose of an answer of one design, of a path in time at its instant."""
-        instants = next((each.instants for each in self.places if each.over.name == answer.over and each.instants is not None), None)
-        if instants is not None and not np.isnan(answer.time):
-            there = instants.at(np.asarray(answer.time))
-            return Motion(self.plan, self.designs, there.strokes, "nan", instants=there)
-        return self.motion.moved({name: np.asarray(value) for name, value in answer.strokes.items()})
+        timed = (each.motion for each in self.places if each.over.name == answer.over and each.instants is not None)
+        return next(timed, self.motion)._there({name: np.asarray(value) for name, value in answer.strokes.items()}, answer.time)
 
     @property
     def is_reached(self) -> bool:

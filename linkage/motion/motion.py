@@ -605,11 +605,12 @@ class Motion(Shown):
         with unwarned():
             return Motion(self.plan, self.designs, self.strokes, "nan", over=self._over, instants=self._instants)
 
-    def _there(self, strokes: Mapping[str, float], time: float | None) -> Motion:
-        """Return one pose of some strokes, over a path in time at its instant."""
-        if time is None or self._instants is None:
+    def _there(self, strokes: Mapping[str, object], time: object = np.nan) -> Motion:
+        """Return the poses of some strokes, over a path in time at its instants [s], shaped as these; NaN where there are none."""
+        at = np.asarray(time, float)
+        if self._instants is None or np.isnan(at).any():
             return self.moved(strokes)
-        there = self._instants.at(np.asarray(time))
+        there = self._instants.at(at)
         return Motion(self.plan, self.designs, there.strokes, "nan", instants=there)
 
     # -- reach -------------------------------------------------------------------------------------------

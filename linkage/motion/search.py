@@ -534,7 +534,5 @@ def assembly_error_at(motion: Motion, strokes: Mapping[str, float], time: float 
     Its text names the step, what is missing there and the remedy, over a path in time the instant [s]; `point` is the step, `shortfall`
     what is missing [m].
     """
-    there = motion.moved({name: np.reshape(value, (1,)) for name, value in strokes.items()})
-    if motion._instants is not None and not np.isnan(time):
-        there = Motion(motion.plan, motion.designs, there.strokes, "nan", instants=motion._instants.at(np.array([time])))
+    there = motion._there({name: np.reshape(value, (1,)) for name, value in strokes.items()}, np.reshape(time, (1,)))
     return None if there.reached.all() else out_of_reach(there)

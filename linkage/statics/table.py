@@ -185,13 +185,13 @@ def largest_loads(result: PinForces) -> list[PinLoad]:
                 strokes = {name: float(value[where[designs:]]) for name, value in result.motion.strokes.items()}
                 rows.append(pin_load(result, joint, float(joint.size[where]), where, where[:designs], strokes))
         return rows
-    rows, timed = [], result.motion.time is not None
+    rows = []
     for place, joint in enumerate(joints):
         value = np.asarray(found.value)[place]
         if not np.isnan(value).all():
             design = np.unravel_index(int(np.nanargmax(value)), value.shape)
             strokes = {name: float(np.asarray(each)[place][design]) for name, each in found.strokes.items()}
-            there = result.again(result.motion._there(strokes, float(np.asarray(found.time)[place][design]) if timed else None))
+            there = result.again(result.motion._there(strokes, np.broadcast_to(found.time, np.shape(found.value))[place][design]))
             same = next(each for each in there.joints if joint_key(each) == joint_key(joint))
             rows.append(pin_load(there, same, float(value[design]), design, design, strokes))
     return rows

@@ -29,6 +29,8 @@ FLOORS = (
     ("cli",),
 )
 FLOOR = {room: number for number, rooms in enumerate(FLOORS) for room in rooms}
+BLOCKS = ("body", "handlers", "orelse", "finalbody", "cases")
+"""Where a statement has statements: an import is one, so expressions are not gone through."""
 FRONT_DOOR = {"__init__", "__main__", "doors"}
 MAY_IMPORT = {  # of the project's own three
     "linkage": {"linkage"},
@@ -58,7 +60,7 @@ def imports(path: PurePosixPath, tree: ast.AST, lazy: bool = False) -> Iterator[
 
     `from linkage import x` is the module `linkage.x` when `x` is a room, else the front door, `linkage`.
     """
-    for node in ast.iter_child_nodes(tree):
+    for node in (each for part in BLOCKS for each in getattr(tree, part, ())):
         if isinstance(node, ast.Import):
             yield from ((node, alias.name, lazy) for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
@@ -106,8 +108,8 @@ def import_faults(path: PurePosixPath, tree: ast.AST) -> Iterator[str]:
 def print_faults(path: PurePosixPath, source: str) -> Iterator[str]:
     """Yield a sentence for each `print(` outside the command and the demo."""
     if MAY_PRINT.isdisjoint(path.with_suffix("").parts):
-        for node in nodes(source):
-            if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "print":
+        for node in nodes(source)[ast.Call]:
+            if isinstance(node.func, ast.Name) and node.func.id == "print":
                 yield f"{path}:{node.lineno}: print( in library code: return the text"
 
 
@@ -119,15 +121,11 @@ def circles(sources: dict[str, str]) -> list[list[str]]:
     modules = {path.removesuffix(".py").removesuffix("/__init__").replace("/", "."): path for path in sources}
     graph = nx.DiGraph()
     for path, text in sources.items():
-        for node in nodes(text):
-            if isinstance(node, ast.Import):
-                names = [alias.name for alias in node.names]
-            elif isinstance(node, ast.ImportFrom):
-                base = origin(PurePosixPath(path), node)
-                names = [name if (name := f"{base}.{alias.name}") in modules else base for alias in node.names]
-            else:
-                continue
-            graph.add_edges_from((path, modules[name]) for name in names if name in modules)
+        names = [alias.name for node in nodes(text)[ast.Import] for alias in node.names]
+        for node in nodes(text)[ast.ImportFrom]:
+            base = origin(PurePosixPath(path), node)
+            names += [name if (name := f"{base}.{alias.name}") in modules else base for alias in node.names]
+        graph.add_edges_from((path, modules[name]) for name in names if name in modules)
     return sorted(sorted(circle) for circle in nx.strongly_connected_components(graph) if len(circle) > 1)
 
 
@@ -154,9 +152,9 @@ def named_steps(path: str, source: str) -> list[str]:
     In equations Offset is one of the words that all steps are written in, no kind among others.
     """
     kinds = step_kinds() - ({"Offset"} if path.startswith("linkage/formulas/") else set())
-    names = [node.id for node in nodes(source) if isinstance(node, ast.Name)]
-    names += [node.attr for node in nodes(source) if isinstance(node, ast.Attribute)]
-    names += [alias.name for node in nodes(source) if isinstance(node, ast.ImportFrom) for alias in node.names]
+    names = [node.id for node in nodes(source)[ast.Name]]
+    names += [node.attr for node in nodes(source)[ast.Attribute]]
+    names += [alias.name for node in nodes(source)[ast.ImportFrom] for alias in node.names]
     return sorted(kinds.intersection(names))
 
 

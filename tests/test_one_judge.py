@@ -38,23 +38,21 @@ LOOPED = {"DIRECTIONS", "LoadCase"}
 
 def calls_of(source):
     """Yield the names of functions that are called, with their lines."""
-    for node in nodes(source):
-        if isinstance(node, ast.Call):
-            name = node.func.attr if isinstance(node.func, ast.Attribute) else node.func.id if isinstance(node.func, ast.Name) else ""
-            yield name, node
+    for node in nodes(source)[ast.Call]:
+        name = node.func.attr if isinstance(node.func, ast.Attribute) else node.func.id if isinstance(node.func, ast.Name) else ""
+        yield name, node
 
 
 def loops_of(source):
     """Yield what is looped over, as nodes."""
-    for node in nodes(source):
-        if isinstance(node, (ast.For, ast.comprehension)):
-            yield node.iter
+    for node in (*nodes(source)[ast.For], *nodes(source)[ast.comprehension]):
+        yield node.iter
 
 
 def halved_strokes(source):
     """Yield the lines where the middle of start and end of a stroke is taken."""
-    for node in nodes(source):
-        if isinstance(node, ast.BinOp) and isinstance(node.op, (ast.Mult, ast.Div)):
+    for node in nodes(source)[ast.BinOp]:
+        if isinstance(node.op, (ast.Mult, ast.Div)):
             names = {each.attr for each in ast.walk(node) if isinstance(each, ast.Attribute)}
             numbers = {each.value for each in ast.walk(node) if isinstance(each, ast.Constant)}
             if {"start", "end"} <= names and numbers & {0.5, 2} and any(isinstance(each, ast.Add) for each in ast.walk(node)):

@@ -37,7 +37,7 @@ def size_of(motion):
     return float(np.ptp(places.reshape(-1, 2, motion.reached.size), axis=(0, 2)).max())
 
 
-@for_all("seed", range(10), slow=range(10, 24))
+@for_all("seed", range(4), slow=range(4, 24))
 def test_every_pose_is_among_the_answers_for_its_own_place(seed):
     machine, random = machine_of(seed), np.random.default_rng(seed)
     chosen = aims(machine, random)
@@ -57,7 +57,7 @@ def test_every_pose_is_among_the_answers_for_its_own_place(seed):
             assert np.abs(again.value(each) - target.value).max() <= 1e-10 * size_of(motion)
 
 
-@for_all("seed", [seed for seed in range(18) if seed % 3])
+@for_all("seed", (1, 2, 4, 5), slow=[seed for seed in range(6, 18) if seed % 3])
 def test_a_path_leads_forth_and_back_on_its_own_branch(seed):
     machine, random = machine_of(seed), np.random.default_rng([seed, 1])
     chosen = aims(machine, random)
@@ -261,7 +261,7 @@ class Wide(Mechanism):
 
 
 @for_all("kind", [Rocking, Wide])
-@for_all("seed", range(4))
+@for_all("seed", range(2), slow=range(2, 4))
 def test_poses_next_to_dead_points_of_loops_are_found_too(kind, seed):
     machine, random = kind(), np.random.default_rng(seed)
     at = {name: random.uniform(each.start, each.end, 16) for name, each in machine.strokes.items()}

@@ -54,10 +54,10 @@ def called(node: ast.Call) -> str:
 
 def messages(path: str, source: str) -> Iterator[Message]:
     """Yield what a file says: the templates of said and said_of, what is noted, and the rules of verdicts that are literals."""
-    imports = [node for node in nodes(source) if isinstance(node, ast.ImportFrom) and str(node.module).split(".")[-1] == "language"]
+    imports = [node for node in nodes(source)[ast.ImportFrom] if str(node.module).split(".")[-1] == "language"]
     ours = {alias.name for node in imports for alias in node.names} | {"Verdict", *(["said"] if path == "linkage/language.py" else [])}
-    for node in nodes(source):
-        if not isinstance(node, ast.Call) or called(node) not in ours:
+    for node in nodes(source)[ast.Call]:
+        if called(node) not in ours:
             continue
         name, where = called(node), f"{path}:{node.lineno}"
         if name in ("said", "noted") and node.args:

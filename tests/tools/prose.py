@@ -63,7 +63,7 @@ def sentences(text):
 def docstrings(source):
     """Return the docstrings of a source, but those of private names, without their examples; each section and argument a paragraph."""
     kinds = ast.Module, ast.ClassDef, ast.FunctionDef
-    found = [each for each in nodes(source) if isinstance(each, kinds) and not getattr(each, "name", "").startswith("_")]
+    found = [each for kind in kinds for each in nodes(source)[kind] if not getattr(each, "name", "").startswith("_")]
     return [SECTION.sub("\n\n", ARGUMENT.sub("\n\n", EXAMPLE.sub("", ast.get_docstring(each) or ""))) for each in found]
 
 

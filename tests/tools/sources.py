@@ -2,8 +2,10 @@
 
 import ast
 import gc
+from collections import defaultdict
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 ROOT = Path(__file__).parents[2]
 PACKAGES = ("linkage", "hydraulics", "mechanisms")
@@ -28,6 +30,15 @@ def parsed(source: str) -> ast.Module:
 
 
 @cache
-def nodes(source: str) -> tuple[ast.AST, ...]:
-    """Return all nodes of a source."""
-    return tuple(ast.walk(parsed(source)))
+def nodes(source: str) -> dict[type, list[Any]]:
+    """Return all nodes of a source by their kinds, those of one kind in the order of `ast.walk`: each look needs few kinds."""
+    found: dict[type, list[Any]] = defaultdict(list)
+    walked: list[ast.AST] = [parsed(source)]
+    for node in walked:
+        found[type(node)].append(node)
+        for value in vars(node).values():
+            if isinstance(value, ast.AST):
+                walked.append(value)
+            elif isinstance(value, list):
+                walked += [each for each in value if isinstance(each, ast.AST)]
+    return found

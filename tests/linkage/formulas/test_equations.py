@@ -93,7 +93,7 @@ def test_chain_of_derivatives_is_the_ratio(machine, targets):
             assert_allclose(values[f"I_{target}"] * np.ones(11), motion.ratio(target)[1], rtol=1e-10, atol=1e-11)
 
 
-@for_all("seed", range(3), slow=range(3, 8))
+@for_all("seed", range(1), slow=range(1, 8))
 def test_random_dyads(seed):
     machine = random_mechanism(seed, strokes=1 + seed % 2)()
     at = {name: np.array([stroke.start, 0.3 * stroke.end, stroke.end]) for name, stroke in machine.strokes.items()}

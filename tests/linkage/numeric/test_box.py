@@ -72,7 +72,7 @@ def check_waves(seed, k, poses):
         assert (sense * values).max() <= value + 1e-6 * np.ptp(values)
 
 
-@for_all("seed", range(8), slow=range(8, 60))
+@for_all("seed", range(3), slow=range(3, 60))
 @for_all("k", [1, 2, 3])
 def test_no_random_pose_betters_a_sum_of_waves(k, seed):
     check_waves(seed, k, 10_000)
@@ -128,7 +128,7 @@ def test_functions_together_cost_few_poses():
     assert box.count < 1.05 * box.side**3
 
 
-@for_all("seed", range(4), slow=range(4, 30))
+@for_all("seed", range(1), slow=range(1, 30))
 @for_all("k", [2, 3])
 def test_a_box_turned_and_mirrored_is_the_same(k, seed):
     one = case(seed, k)

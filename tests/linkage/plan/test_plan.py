@@ -122,7 +122,7 @@ def test_points_are_placed_once_a_class_whatever_is_asked(monkeypatch):
     assert len(Own.plan._placed.graph.nodes) == sizes
 
 
-@for_all("seed", range(1, 40, 4))
+@for_all("seed", range(1, 40, 12), slow=[*range(5, 40, 12), *range(9, 40, 12)])
 def test_a_fork_goes_on_as_what_it_was_forked_from(seed):
     plan = random_mechanism(seed).plan
     placed, names = plan._placed, [*plan.moving]

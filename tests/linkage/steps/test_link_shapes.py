@@ -66,7 +66,7 @@ def check_kept(sheet, seed):
         assert_allclose(motion.distance(P, Q), sheet.length(P, Q), rtol=0, atol=1e-9, err_msg=f"{seed} {P}{Q}")
 
 
-SEEDS = for_all("seed", range(4), slow=range(1000, 1200))
+SEEDS = for_all("seed", range(2), slow=[2, 3, *range(1000, 1200)])
 
 
 @SEEDS

@@ -23,7 +23,7 @@ FLOORS = (
     ("motion",),
     ("mechanism",),
     ("statics",),
-    ("formulas", "study", "synthesis", "files"),
+    ("formulas", "study", "synthesis", "files", "sketch"),
     ("pictures", "reports"),
     ("documents", "exports", "notebook"),
     ("cli",),
@@ -41,7 +41,9 @@ MAY_PRINT = {"cli", "demo"}
 
 HEAVY = {"PIL", "imageio_ffmpeg", "matplotlib", "networkx", "numba", "pydantic", "rich", "scipy", "sympy"}
 OPTIONAL = {"dask", "distributed", "ezdxf", "pymoo", "typst", "xlsxwriter"}  # extras: there may be nothing to import
-HEAVY_ROOMS = {f"linkage.{room}" for room in ("formulas", "study", "synthesis", "pictures", "reports", "files", "exports", "documents")}
+HEAVY_ROOMS = {
+    f"linkage.{room}" for room in ("formulas", "study", "synthesis", "pictures", "reports", "files", "sketch", "exports", "documents")
+}
 
 
 def room(module: str) -> str:
@@ -147,7 +149,7 @@ def step_kinds() -> set[str]:
 
 
 def named_steps(path: str, source: str) -> list[str]:
-    """Return the kinds of steps that a file names: only `steps` knows them, `assembly` makes dyads, `files` lists what it may hold.
+    """Return the kinds of steps that a file names: `steps` knows them, `assembly` makes dyads, `files` and `sketch` list what they hold.
 
     In equations Offset is one of the words that all steps are written in, no kind among others.
     """
@@ -159,7 +161,7 @@ def named_steps(path: str, source: str) -> list[str]:
 
 
 def test_no_room_names_kinds_of_steps():
-    free = ("linkage/steps/", "linkage/assembly/", "linkage/files/", "linkage/__init__.py", "mechanisms/")
+    free = ("linkage/steps/", "linkage/assembly/", "linkage/files/", "linkage/sketch/", "linkage/__init__.py", "mechanisms/")
     found = {path: named_steps(path, text) for path, text in sources().items() if not path.startswith(free)}
     assert {path: names for path, names in found.items() if names} == {}
 

@@ -275,10 +275,11 @@ def next_group(parts: Parts) -> Group:
             with about(name):
                 rows += link_equations(parts, name)
     for slide in parts.slides.values():
-        held = (name_of(slide.point), *parts.guides[name_of(slide.guide)].points)
+        guide = parts.guides[name_of(slide.guide)]
+        held = (name_of(slide.point), *guide.points)
         loose = tuple(point for point in held if point in parts.pins and point not in parts.settled)
         if loose:
-            rows.append(PinEquation(loose, slide=slide))
+            rows.append(PinEquation(loose, slide=slide.renewed(guide=guide)))  # it may be named by a text, as a file has it
     matched = matching(rows, parts)
     graph = nx.DiGraph()
     graph.add_nodes_from(dict.fromkeys(pin for pin, _ in matched))  # a set would be in another order in every run

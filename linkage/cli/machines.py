@@ -28,11 +28,16 @@ def find(text: str) -> type[Mechanism]:
     entries = registered()
     if text in entries:
         return machine(guarded(entries[text].load, f"The machine {text} ({entries[text].value})"), text)
+    place, name = split(text)
+    if not (name or place.endswith((".py", ".toml"))):
+        from ..sketch import is_foreign, read_sketch
+
+        if is_foreign(text):
+            return read_sketch(text).to_class()
     if text.endswith((".toml", ".json")):
         from ..files import load
 
         return load(text)
-    place, name = split(text)
     if place.endswith(".py"):
         read(place, most=0)  # a file that is not there is named in words
         return of_module(guarded(lambda: module_of_file(place), place), name, place)

@@ -365,26 +365,35 @@ DEEP = 16
 """How deep blocks may stand in blocks."""
 
 
-def dxf_lines(path: str, layers: Sequence[str] = ()) -> list[npt.NDArray[np.float64]]:
-    """Return the lines of a drawing's model space, shape (n, 2) each, in the drawing's units, curves by short chords.
+def dxf_entities(path: str) -> tuple[Any, list[Any]]:
+    """Return a drawing and the entities of its model space, those of inserted blocks among them.
 
-    FileError where the file cannot be read; DefinitionError without ezdxf, or where no line is on the layers named.
+    FileError where the file cannot be read; DefinitionError without ezdxf, and for more entities than a picture shows.
     """
     try:
         from ezdxf import filemanagement, lldxf
-        from ezdxf import path as curves
     except ImportError:
         raise DefinitionError(f"{path}: drawings are read with ezdxf; install it by pip install hydrolinkage[cad].") from None
     if not Path(path).is_file():
         raise FileError(f"{path}: there is no such file; give the path from where the program runs, or a whole one.")
     try:
-        space = filemanagement.readfile(path).modelspace()
+        drawing = filemanagement.readfile(path)
     except (OSError, lldxf.const.DXFError) as error:
         raise FileError(f"{path} is no DXF drawing that can be read: {error}") from error
-    every = list(islice(unblocked(space, path), MOST + 1))
+    every = list(islice(unblocked(drawing.modelspace(), path), MOST + 1))
     if len(every) > MOST:
         raise DefinitionError(f"{path}: its blocks, inserted, are more than {MOST} lines, which no picture shows; take some of them out.")
-    every = [each for each in every if each.dxftype() != "INSERT"]
+    return drawing, [each for each in every if each.dxftype() != "INSERT"]
+
+
+def dxf_lines(path: str, layers: Sequence[str] = ()) -> list[npt.NDArray[np.float64]]:
+    """Return the lines of a drawing's model space, shape (n, 2) each, in the drawing's units, curves by short chords.
+
+    Errors are those of `dxf_entities`; DefinitionError where no line is on the layers named.
+    """
+    _, every = dxf_entities(path)
+    from ezdxf import path as curves
+
     entities = [each for each in every if not layers or each.dxf.layer in layers]
     paths = list(drawable(entities, curves, path))
     distance = 1e-3 * span_of(paths, path)  # no farther from curves; up to one corner more than can be drawn

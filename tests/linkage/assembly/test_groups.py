@@ -206,3 +206,14 @@ def test_a_drawn_pin_is_not_measured_from_a_rough_one():
     rough = {"D": Pin(at=(-0.038, 0.096)), "coupler": Link("A B D", AB=0.2)}
     with pytest.raises(DefinitionError, match="cannot be measured from"):
         type("Rough", (StephensonThreeFar,), rough)
+
+
+def test_a_guide_of_the_group_may_be_named_by_a_text():
+    def bar(slide):
+        members = dict(phi=Stroke(0.0, 1.0), O=Ground(0, 0), P=Ground(0, -0.1), A=Crank("O", at=(0.03, 0.01), angle=linkage.ref("phi")))
+        pins = dict(Q=Pin(at=(0.06, 0.12)), H=Pin(at=(0.01, -0.05)), I=Pin(at=(0.05, 0.07)), bar=Link("P Q H I"))
+        slot = Guide("H", "I")
+        return type("Bar", (Mechanism,), {**members, **pins, "slot": slot, "shoe": Slide("A", slide or slot)})
+
+    one, other = (bar(slide)().sweep(5) for slide in (None, "slot"))
+    assert np.array_equal(one["Q"], other["Q"])

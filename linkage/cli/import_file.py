@@ -1,0 +1,48 @@
+"""`hydrolinkage import`: a drawing, a table of points or another program's file becomes a machine."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+from pathlib import Path
+
+from ..disk import check_place, replacing_text
+from ..errors import ensure
+from ..units import parse
+from .command import Command, option, repeatable, say_remark
+from .settings import pair
+
+
+@Command(
+    "import",
+    "a drawing, a table of points, or a file of Linkage, PMKS, PMKS+ or pylinkage as a machine",
+    option("file", metavar="FILE", help=".csv, .linkage2, .txt, .json, .dxf, or a share address of PMKS+ in quotes"),
+    option("-o", "--output", metavar="FILE", help=".toml or .py for a machine, .csv, .linkage2 or .txt (PMKS) (default: NAME.toml)"),
+    option("--scale", metavar="1mm", help="what 1 of the file is, where it has no unit or another one is meant"),
+    option("--drive", nargs=2, action="append", metavar=("O", "A"), help="a crank: a fixed pin, and a pin of the link that turns about it"),
+    option("--cylinder", nargs=2, action="append", metavar=("A", "B"), help="a cylinder between two pins"),
+    option("--round", metavar="1mm", help="round lengths, and tell what moves by how much"),
+    repeatable("--layer", "pins=Bolts", "the layer of pins, links, ground, slides, crank or cylinder of a drawing; repeatable", "layers"),
+)
+def import_command(options: Namespace) -> int:
+    """Read a file, look whether it assembles, and write the machine."""
+    from ..sketch import read_sketch, sketch_text
+
+    scale = None if options.scale is None else parse(options.scale, "length")
+    layers: dict[str, list[str]] = {}
+    for text in options.layers:
+        role, name = pair(text, "--layer", "pins=Bolts")
+        layers.setdefault(role, []).append(name)
+    found = read_sketch(options.file, scale=scale, drives=options.drive or (), cylinders=options.cylinder or (), layers=layers)
+    if options.round is not None:
+        found = found.rounded(parse(options.round, "length"))
+    path = Path(f"{found.name.lower()}.toml" if options.output is None else options.output)
+    check_place(path)
+    ensure(options.output is not None or not path.exists(), f"{path} is there already and stays as it is; choose another name, -o FILE.")
+    machine = found.to_class()
+    text = sketch_text(found, path.suffix.lower())
+    with replacing_text(path) as stream:
+        stream.write(text)
+    for note in found.notes:
+        say_remark(note)
+    print(f"{path}: {machine.__name__}, points: {len(found.points)}, links: {len(found.links)}. Look at it by: hydrolinkage show {path}")
+    return 0

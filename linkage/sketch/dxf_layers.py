@@ -1,0 +1,169 @@
+"""A drawing as a machine: circles are pins, lines and outlines are links, a hatch in a circle fixes it, layers say the rest."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from math import atan2, hypot
+from typing import Any, final
+
+from ..errors import ensure
+from ..surroundings import dxf_entities
+from .found import FoundDrive, FoundMachine, ensure_file
+from .machine_sketch import Place
+
+ROLES = "pins", "links", "ground", "slides", "crank", "cylinder"
+"""What a layer may be of, and by default its name."""
+METRES = {1: 0.0254, 2: 0.3048, 4: 1e-3, 5: 1e-2, 6: 1.0}
+"""The unit of a drawing by the number in its head [m]."""
+MEETS = 1e-6
+"""A line ends at a pin, or passes through it, where it comes nearer to it than so much of the size, or than the pin's radius."""
+
+
+def read_dxf(found: FoundMachine, path: str, layers: Mapping[str, Sequence[str]]) -> None:
+    """Read the model space of a drawing; `layers` says by role which layers are meant, such as pins=["Bolts"]."""
+    unknown = [role for role in layers if role not in ROLES]
+    ensure(not unknown, f"{found.file}: --layer {', '.join(unknown)}: a layer is of {', '.join(ROLES)}.")
+    drawing, entities = dxf_entities(path)
+    found.unit = METRES.get(int(drawing.header.get("$INSUNITS", 0)))
+    DrawingReader(found, entities, {role: [each.lower() for each in layers.get(role, (role,))] for role in ROLES}).read()
+
+
+@final
+class DrawingReader:
+    """The entities of a drawing by the roles of their layers, on their way into what is found."""
+
+    def __init__(self, found: FoundMachine, entities: Sequence[Any], layers: Mapping[str, Sequence[str]]) -> None:
+        self.found, self.entities = found, entities
+        self.role = {layer: role for role, names in layers.items() for layer in names}
+        self.pins: dict[str, tuple[Place, float]] = {}
+        """Each pin's centre and radius."""
+
+    def of(self, kinds: Sequence[str], *roles: str) -> Iterator[Any]:
+        """Yield the entities of some kinds on the layers of some roles; "" is any other layer."""
+        for each in self.entities:
+            if each.dxftype() in kinds and self.role.get(str(each.dxf.layer).lower(), "") in roles:
+                yield each
+
+    def read(self) -> None:
+        """Enter pins, links, slides and drives."""
+        circles = [*self.of(("CIRCLE",), "pins")] or [*self.of(("CIRCLE",), "", "links")]
+        ground = [*self.of(("CIRCLE",), "ground")]
+        hatches = [corners_of(each) for each in self.of(("HATCH",), *ROLES, "")]
+        words = [(text_of(each), (each.dxf.insert.x, each.dxf.insert.y)) for each in self.of(("TEXT", "MTEXT"), *ROLES, "")]
+        for circle in (*circles, *ground):
+            place, radius = (float(circle.dxf.center.x), float(circle.dxf.center.y)), float(circle.dxf.radius)
+            if any(hypot(place[0] - x, place[1] - y) <= radius for (x, y), _ in self.pins.values()):
+                continue  # a pin and its washer
+            near = [(hypot(at[0] - place[0], at[1] - place[1]), word) for word, at in words if word]
+            far, word = min(near, default=(0.0, ""))
+            key = f"P{len(self.pins) + 1}"
+            is_hatched = any(hatch and surrounds(place, hatch) for hatch in hatches)
+            self.found.add_point(key, word if far <= 4.0 * radius and word else key, *place, circle in ground or is_hatched)
+            self.pins[key] = place, radius
+        ensure_file(self.pins, f"{self.found.file}: there is no circle on the layers of pins; a circle is a pin, see --layer pins=NAME.")
+        lines = ("LINE", "LWPOLYLINE", "POLYLINE")
+        for each in [*self.of(lines, "links")] or [*self.of(lines, "")]:
+            self.link(each)
+        for each in self.of(("LINE",), "slides"):
+            self.slide(each)
+        for role in ("crank", "cylinder"):
+            for each in self.of(("LINE",), role):
+                keys = self.met(corners_of(each), False)
+                if len(keys) == 2:
+                    self.drive(role, keys[0], keys[1])
+                else:
+                    self.found.left_out.append(f"a line of the layer {each.dxf.layer} that ends at {len(keys)} pins instead of two")
+
+    def met(self, corners: Sequence[Place], closed: bool) -> list[str]:
+        """Return the pins that a line meets, or that a closed outline surrounds."""
+        limit = MEETS * self.found.size
+        sides = [*zip(corners, [*corners[1:], *corners[:1]], strict=True)][: None if closed else -1]
+        return [
+            key
+            for key, (place, radius) in self.pins.items()
+            if any(distance_to(place, P, Q) <= max(limit, 0.5 * radius) for P, Q in sides) or (closed and surrounds(place, corners))
+        ]
+
+    def link(self, entity: Any) -> None:
+        """Enter a line or an outline with the pins on it; one with fewer than two is left out."""
+        corners = corners_of(entity)
+        keys = self.met(corners, ends_meet(entity))
+        if len(keys) > 1:
+            self.found.add_link("", keys)
+        else:
+            self.found.left_out.append(f"a {entity.dxftype().lower()} of the layer {entity.dxf.layer} with {len(keys)} pins")
+
+    def slide(self, line: Any) -> None:
+        """Let the pins on a line slide on it."""
+        P, Q = corners_of(line)
+        keys = [key for key in self.met([P, Q], False) if not self.found.points[key].fixed]
+        self.found.slides += [(key, atan2(Q[1] - P[1], Q[0] - P[0])) for key in keys]
+        if not keys:
+            self.found.left_out.append(f"a line of the layer {line.dxf.layer} without pins")
+
+    def drive(self, role: str, P: str, Q: str) -> None:
+        """Enter what drives between two pins; a crank turns about the fixed one, and brings its own link."""
+        if role == "cylinder":
+            self.found.drives.append(FoundDrive("cylinder", (P, Q)))
+            return
+        pivot, arm = (P, Q) if self.found.points[P].fixed else (Q, P)
+        is_fixed = self.found.points[pivot].fixed
+        ensure_file(is_fixed, f"{self.found.file}: the crank {P} {Q} has no fixed pin; hatch one, or put it on the layer ground.")
+        if not any({P, Q} <= {*points} for _, points in self.found.links):
+            self.found.add_link("", [pivot, arm])
+        self.found.drives.append(FoundDrive("crank", (pivot, arm)))
+
+
+def corners_of(entity: Any) -> list[Place]:
+    """Return the corners of a line, a polyline or the outer border of a hatch, in the drawing's units."""
+    match entity.dxftype():
+        case "LINE":
+            return [(float(each.x), float(each.y)) for each in (entity.dxf.start, entity.dxf.end)]
+        case "LWPOLYLINE":
+            return [(float(x), float(y)) for x, y, *_ in entity.get_points("xy")]
+        case "POLYLINE":
+            return [(float(each.x), float(each.y)) for each in entity.points()]
+    found: list[Place] = []
+    for path in entity.paths:  # a border of lines has vertices, one of arcs has edges
+        found += [(float(x), float(y)) for x, y, *_ in getattr(path, "vertices", ())]
+        for edge in getattr(path, "edges", ()):
+            centre = getattr(edge, "center", None)
+            if centre is not None:
+                radius = float(getattr(edge, "radius", 0.0))
+                found += [(centre[0] + dx * radius, centre[1] + dy * radius) for dx, dy in ((1, 0), (0, 1), (-1, 0), (0, -1))]
+            else:
+                found += [(float(edge.start[0]), float(edge.start[1]))] if hasattr(edge, "start") else []
+    return found
+
+
+def ends_meet(entity: Any) -> bool:
+    """Return whether a polyline is closed, by its flag or because it ends where it begins."""
+    if entity.dxftype() == "LINE":
+        return False
+    corners = corners_of(entity)
+    flag = entity.closed if entity.dxftype() == "LWPOLYLINE" else entity.is_closed
+    return bool(flag) or (len(corners) > 3 and corners[0] == corners[-1])
+
+
+def text_of(entity: Any) -> str:
+    """Return the words of a text, where they are few enough for a name."""
+    text = str(entity.dxf.text if entity.dxftype() == "TEXT" else entity.plain_text()).strip()
+    return text if len(text) <= 20 else ""
+
+
+def distance_to(place: Place, P: Place, Q: Place) -> float:
+    """Return the distance of a place from the line between two others, in their units."""
+    (x, y), (px, py), (qx, qy) = place, P, Q
+    base = (qx - px) ** 2 + (qy - py) ** 2
+    along = 0.0 if base == 0.0 else min(1.0, max(0.0, ((x - px) * (qx - px) + (y - py) * (qy - py)) / base))
+    return hypot(x - px - along * (qx - px), y - py - along * (qy - py))
+
+
+def surrounds(place: Place, corners: Sequence[Place]) -> bool:
+    """Return whether a place is inside a closed outline."""
+    x, y = place
+    crossed = False
+    for (px, py), (qx, qy) in zip(corners, [*corners[1:], *corners[:1]], strict=True):
+        if (py > y) != (qy > y) and x < px + (qx - px) * (y - py) / (qy - py):
+            crossed = not crossed
+    return crossed

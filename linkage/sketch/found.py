@@ -1,0 +1,255 @@
+"""What a reader of a file finds, piece by piece, and how it becomes a sketch: names made legal, units, slides on their lines, drives."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import combinations, permutations
+from math import cos, dist, hypot, inf, isfinite, pi, sin
+from typing import Any, final
+from unicodedata import normalize
+
+from ..errors import FileError
+from ..files.names import shortened
+from ..mechanism import Mechanism
+from ..quantities import is_name, joined_names
+from ..units import show
+from .machine_sketch import MachineSketch, Place, SketchDrive, SketchSlide
+
+OFF_LINE = 1e-3
+"""A point farther from its slide than so much of the size of the drawing is not on it."""
+WORDS = {"Mechanism", "Stroke", "drawn", "Ground", "Crank", "Pin", "Link", "Guide", "Slide", "deg", "sketch", *vars(Mechanism)}
+"""What a member may not be called, because the file of the class says it already."""
+TURN = 2.0 * pi
+HALF = 0.5
+"""The stroke of a cylinder of which the file says nothing, in drawn lengths."""
+NO_NUMBER = "{where}: {given} is no finite number; correct it in the file."
+
+
+@final
+@dataclass
+class FoundPoint:
+    """A point of a file in its units, by its own name there."""
+
+    name: str
+    place: Place
+    fixed: bool = False
+
+
+@final
+@dataclass
+class FoundDrive:
+    """What drives: a crank about its first key or a cylinder between two; the stroke [units of the file, rad] where the file gives it."""
+
+    kind: str
+    ends: tuple[str, str]
+    reach: float | None = None
+    name: str = ""
+
+
+@final
+@dataclass
+class FoundMachine:
+    """Points, links, slides and drives by the keys of a file, and notes on them. `unit` is 1 of the file [m]; None where it has none."""
+
+    file: str
+    unit: float | None = None
+    points: dict[str, FoundPoint] = field(default_factory=dict)
+    links: list[tuple[str, list[str]]] = field(default_factory=list)
+    slides: list[tuple[str, tuple[str, str] | float]] = field(default_factory=list)
+    drives: list[FoundDrive] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+    left_out: list[str] = field(default_factory=list)
+
+    # -- what readers say --------------------------------------------------------------------------------
+
+    def add_point(self, key: str, name: object, x: object, y: object, fixed: bool = False) -> None:
+        """Enter a point; FileError for one that is there, and for coordinates that are no finite numbers."""
+        ensure_file(key not in self.points, f"{self.file}: the point {shortened(key)} stands twice; each point has a name of its own.")
+        place = self.number(x, f"x of {shortened(key)}"), self.number(y, f"y of {shortened(key)}")
+        self.points[key] = FoundPoint(str(name) or key, place, fixed)
+
+    def number(self, given: object, where: str) -> float:
+        """Return a finite number of the file; FileError for anything else."""
+        try:
+            value = float(given) if isinstance(given, (int, float, str)) and not isinstance(given, bool) else inf
+        except (ValueError, OverflowError):
+            value = inf
+        ensure_file(isfinite(value) and abs(value) < 1e12, NO_NUMBER.format(where=f"{self.file}, {where}", given=shortened(given)))
+        return value
+
+    def known(self, key: object, what: str) -> str:
+        """Return the key of a point; FileError for any other."""
+        is_there = isinstance(key, str) and key in self.points
+        ensure_file(is_there, f"{self.file}: {what} names the point {shortened(key)}, which is not there.")
+        return str(key)
+
+    def add_link(self, name: str, keys: Sequence[object], what: str = "") -> None:
+        """Enter a link, each of its points once; one of fewer than two points is left out."""
+        points = [*dict.fromkeys(self.known(key, what or f"the link {shortened(name)}") for key in keys)]
+        if len(points) < 2:
+            self.left_out.append(f"the link {shortened(name, quote=False)} of one point")
+        elif points:
+            self.links.append((name, points))
+
+    def helper(self, key: str, along: Place, link: list[str] | None) -> str:
+        """Return the key of a new point at a place from another one, on a link or fixed."""
+        name = next(each for number in range(1, 99) if (each := f"{key}_{number}") not in self.points)
+        (x, y), (dx, dy) = self.points[key].place, along
+        self.points[name] = FoundPoint(f"{self.points[key].name}_{name.rpartition('_')[2]}", (x + dx, y + dy), link is None)
+        if link is not None:
+            link.append(name)
+        return name
+
+    def slot(self, key: str, angle: float, carrier: list[str] | None) -> tuple[str, str] | float:
+        """Return the line through a point at an angle [rad]: two points of its carrier, new ones if need be; of the frame the angle."""
+        if carrier is None:
+            return angle
+        (x, y), (c, t) = self.points[key].place, (cos(angle), sin(angle))
+        away = {each: (self.points[each].place[0] - x, self.points[each].place[1] - y) for each in carrier}
+        near = [each for each, (u, v) in away.items() if abs(c * v - t * u) <= 1e-9 * self.size and hypot(u, v) > 1e-3 * self.size]
+        for sign in (-0.25, 0.25)[: max(0, 2 - len(near))]:
+            near.append(self.helper(key, (sign * self.size * c, sign * self.size * t), carrier))
+        return near[0], near[1]
+
+    def slide_body(self, link: list[str], key: str, angle: float, along: tuple[str, str] | float) -> None:
+        """Let a link slide without turning: a point of it and a second one farther along the line at an angle [rad]."""
+        reach = 0.25 * self.size
+        second = self.helper(key, (reach * cos(angle), reach * sin(angle)), link)
+        self.slides += [(key, along), (second, along)]
+
+    def push(self, key: str, angle: float, along: tuple[str, str] | float) -> None:
+        """Let a cylinder drive a point on its slide: from a point of the line behind it."""
+        if isinstance(along, tuple):
+            foot = max(along, key=lambda end: dist(self.points[end].place, self.points[key].place))
+        else:
+            foot = self.helper(key, (-self.size * cos(angle), -self.size * sin(angle)), None)
+        self.drives.append(FoundDrive("cylinder", (foot, key)))
+
+    def turn(self, pivot: str) -> None:
+        """Let the link on a fixed pivot be the crank; left out where there is not exactly one."""
+        arms = [points for _, points in self.links if pivot in points and not all(self.points[each].fixed for each in points)]
+        if len(arms) == 1 and self.points[pivot].fixed:
+            other = next(each for each in arms[0] if each != pivot and not self.points[each].fixed)
+            self.drives.append(FoundDrive("crank", (pivot, other)))
+        else:
+            why = f"{len(arms)} links" if self.points[pivot].fixed else "no fixed pin"
+            self.left_out.append(f"the drive at {self.points[pivot].name}, which turns {why}")
+
+    @property
+    def size(self) -> float:
+        """The longer side of the box around all points, in the file's units; 1 where they stand at one place."""
+        places = [each.place for each in self.points.values()]
+        return max(max(part) - min(part) for part in zip(*places, strict=True)) or 1.0
+
+    # -- the sketch --------------------------------------------------------------------------------------
+
+    def sketch(self, title: str) -> MachineSketch:
+        """Return the sketch; FileError where there is nothing, or no unit."""
+        ensure_file(self.points, f"{self.file}: it holds no points.")
+        ensure_file(self.unit is not None, f"{self.file}: the file has no unit of length; say what 1 of it is, --scale 1mm.")
+        assert self.unit is not None
+        self.straighten()
+        used = {key for _, points in self.links for key in points} | {key for key, _ in self.slides}
+        used |= {key for _, along in self.slides if isinstance(along, tuple) for key in along}
+        used |= {each for drive in self.drives for each in drive.ends}
+        for key in [key for key, point in self.points.items() if key not in used and not point.fixed]:
+            self.left_out.append(f"the point {shortened(self.points.pop(key).name, quote=False)}, which is on no link")
+        taken = set(WORDS)
+        names, labels = self.point_names(taken)
+        size, unit = self.size * self.unit, self.unit
+        ensure_file(isfinite(size) and size > 1e-9, f"{self.file}: all points stand at one place ({show(size, 'mm')}); look at --scale.")
+        places = {names[key]: (point.place[0] * unit, point.place[1] * unit) for key, point in self.points.items()}
+        links = {}
+        for name, points in self.links:
+            own = name if name and name not in labels else f"link_{name}"
+            links[legal_name(own, taken)] = tuple(names[key] for key in points)
+        slides = {}
+        for key, along in self.slides:
+            line = along if isinstance(along, float) else (names[along[0]], names[along[1]])
+            slides[legal_name(f"slide_{names[key]}", taken)] = SketchSlide(names[key], line)
+        drives = {}
+        for drive in self.drives:
+            P, Q = (names[key] for key in drive.ends)
+            reach = TURN if drive.kind == "crank" else HALF * dist(places[P], places[Q])
+            if drive.kind == "cylinder" and drive.reach is None:
+                self.notes.append(f"The file does not say the stroke of the cylinder {P} {Q}: it goes out by half its drawn length.")
+            end = reach if drive.reach is None else drive.reach * (1.0 if drive.kind == "crank" else unit)
+            drives[legal_name(drive.name or ("phi" if drive.kind == "crank" else "S"), taken)] = SketchDrive(drive.kind, (P, Q), 0.0, end)
+        if self.left_out:
+            self.notes.append(f"Left out: {'; '.join(self.left_out)}.")
+        fixed = tuple(names[key] for key, point in self.points.items() if point.fixed)
+        return MachineSketch(
+            legal_name(title, {"Mechanism"}), places, fixed, links, slides, drives, notes=tuple(map(printable, self.notes))
+        )
+
+    def straighten(self) -> None:
+        """Put each point that slides between two others onto their line; FileError for one that is not near it."""
+        for key, along in self.slides:
+            if isinstance(along, float):
+                continue
+            (ax, ay), (bx, by), (x, y) = (self.points[each].place for each in (*along, key))
+            base = hypot(bx - ax, by - ay)
+            ensure_file(base > 0.0, f"{self.file}: the slide of {self.points[key].name} has both ends at one place.")
+            off = ((bx - ax) * (y - ay) - (by - ay) * (x - ax)) / base
+            if abs(off) <= 1e-12 * self.size:
+                continue
+            ensure_file(
+                abs(off) <= OFF_LINE * self.size,
+                f"{self.file}: {self.points[key].name} is {abs(off):.4g} away from the line of its slide; move it there in the drawing.",
+            )
+            self.points[key].place = x + off * (by - ay) / base, y - off * (bx - ax) / base
+            self.notes.append(f"{self.points[key].name} is moved by {abs(off):.2g} of the file onto its slide.")
+
+    def point_names(self, taken: set[str]) -> tuple[dict[str, str], set[str]]:
+        """Return legal names of the points by their keys, and the labels they make; numbers where joined names would be one for two."""
+        names = {key: legal_name(point.name, taken) for key, point in self.points.items()}
+        labels = [*labels_of([[names[key] for key in points] for _, points in self.links])]
+        if len({*labels}) < len(labels) or not taken.isdisjoint(labels):
+            names = {key: legal_name(f"P{number}", taken) for number, key in enumerate(self.points, 1)}
+            labels = [*labels_of([[names[key] for key in points] for _, points in self.links])]
+        changed = [f"{point.name} is {names[key]}" for key, point in self.points.items() if point.name != names[key]]
+        if changed:
+            self.notes.append(f"Named anew: {', '.join(changed)}.")
+        return names, {*labels}
+
+
+def labels_of(links: Sequence[Sequence[str]]) -> Iterator[str]:
+    """Yield the labels of the lengths and angles of some links in both spellings; two that are equal cannot be told apart."""
+    pairs = {frozenset(pair): pair for points in links for pair in combinations(points, 2)}
+    corners = {(P, frozenset((Q, R))): (Q, P, R) for points in links for Q, P, R in permutations(points, 3)}
+    for names in (*pairs.values(), *corners.values()):
+        yield from {joined_names(*names), joined_names(*reversed(names))}
+
+
+def legal_name(given: str, taken: set[str]) -> str:
+    """Return a name that a member may have and none has yet, as near to a given one as may be; it is taken from then on."""
+    text = re.sub(r"\W+", "_", normalize("NFKC", given)).strip("_")[:40]
+    text = text if text[:1].isalpha() else f"P{text}"
+    found = next(each for each in (text, *(f"{text}_{number}" for number in range(2, 10_000))) if is_name(each) and each not in taken)
+    taken.add(found)
+    return found
+
+
+def printable(text: str) -> str:
+    """Return a text in one line of printable characters, not too long."""
+    return "".join(each if each.isprintable() else " " for each in text)[:1000]
+
+
+def ensure_file(holds: object, message: str) -> None:
+    """Raise FileError with a message unless something holds."""
+    if not holds:
+        raise FileError(message)
+
+
+def json_table(given: object, file: str, what: str) -> Mapping[str, Any]:
+    """Return a table of a JSON file; FileError for anything else."""
+    ensure_file(isinstance(given, dict), f"{file}: {what} is no table {{...}}.")
+    return given  # type: ignore[return-value]
+
+
+def json_list(given: object, file: str, what: str) -> list[Any]:
+    """Return a list of a JSON file; FileError for anything else, and for one that is too long for a drawing."""
+    ensure_file(isinstance(given, list) and len(given) <= 1000, f"{file}: {what} is no list [...] of up to 1000 entries.")
+    return given  # type: ignore[return-value]

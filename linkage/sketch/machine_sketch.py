@@ -1,0 +1,315 @@
+"""The value of this room: where pins are drawn, which links join them, what is fixed, what slides and what drives."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from math import dist, hypot, isfinite
+from typing import Any, final
+
+from ..errors import DefinitionError, ensure
+from ..files import from_dict, to_toml
+from ..files.design import in_unit
+from ..mechanism import Mechanism
+from ..quantities import joined_names
+from ..units import show
+
+Place = tuple[float, float]
+
+
+@final
+@dataclass(frozen=True)
+class SketchSlide:
+    """A point that slides on a straight line.
+
+    Parameters
+    ----------
+    point : str
+        The point that slides.
+    along : tuple of str, or float
+        Two other points of a body, on whose line it slides; or the angle [rad] of a line of the frame through its drawn place.
+    """
+
+    point: str
+    along: tuple[str, str] | float
+
+
+@final
+@dataclass(frozen=True)
+class SketchDrive:
+    """What drives a sketch, a crank or a cylinder, by a stroke of its own.
+
+    Parameters
+    ----------
+    kind : str
+        "crank" or "cylinder".
+    ends : tuple of str
+        The fixed pivot of a crank and a point of the link that it turns; the two ends of a cylinder.
+    start, end : float
+        The ends of the stroke [m or rad].
+    drawn : float
+        The stroke at which the sketch is drawn [m or rad].
+    """
+
+    kind: str
+    ends: tuple[str, str]
+    start: float
+    end: float
+    drawn: float = 0.0
+
+
+@final
+@dataclass(frozen=True)
+class MachineSketch:
+    """Pins by coordinates, named links, what is fixed, what slides and what drives: a machine as one draws it.
+
+    Parameters
+    ----------
+    name : str
+        The name of the class it becomes.
+    points : mapping of str to (float, float)
+        Where each point is drawn [m].
+    fixed : collection of str
+        The points that are fixed to the frame.
+    links : mapping of str to tuple of str
+        The points of each rigid body.
+    slides : mapping of str to SketchSlide
+        What slides, by the name that the slide gets.
+    drives : mapping of str to SketchDrive
+        What drives, by the name of its stroke.
+    lengths : mapping of str to float
+        Lengths that are given instead of measured [m], by their labels, such as those of `rounded`.
+    notes : tuple of str
+        What reading it changed or left out, in sentences.
+
+    Raises
+    ------
+    DefinitionError
+        A place is not finite, a name is not among the points, or nothing is drawn.
+    """
+
+    name: str
+    points: Mapping[str, Place]
+    fixed: tuple[str, ...] = ()
+    links: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    slides: Mapping[str, SketchSlide] = field(default_factory=dict)
+    drives: Mapping[str, SketchDrive] = field(default_factory=dict)
+    lengths: Mapping[str, float] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        ensure(self.points, f"{self.name}: no point is drawn; a sketch begins with points and links.")
+        for name, place in self.points.items():
+            ensure(all(isfinite(each) for each in place), f"{self.name}: {name} stands at {place}; give finite coordinates.")
+        for what, names in self.named():
+            missing = [each for each in names if each not in self.points]
+            ensure(not missing, f"{self.name}: {what} names {', '.join(missing)}, which is not among the points.")
+            ensure(len({*names}) == len(names), f"{self.name}: {what} names a point twice.")
+
+    def named(self) -> Iterator[tuple[str, tuple[str, ...]]]:
+        """Yield in words what names points, and which."""
+        yield "what is fixed", self.fixed
+        yield from ((f"the link {name}", points) for name, points in self.links.items())
+        for name, slide in self.slides.items():
+            yield f"the slide {name}", (slide.point, *(slide.along if isinstance(slide.along, tuple) else ()))
+        yield from ((f"the drive {name}", drive.ends) for name, drive in self.drives.items())
+
+    @property
+    def size(self) -> float:
+        """The longer side of the box around all points [m]."""
+        xs, ys = ([place[axis] for place in self.points.values()] for axis in (0, 1))
+        return max(max(xs) - min(xs), max(ys) - min(ys))
+
+    def length(self, P: str, Q: str) -> float:
+        """Return the drawn distance of two points [m]."""
+        return hypot(self.points[P][0] - self.points[Q][0], self.points[P][1] - self.points[Q][1])
+
+    # -- what it becomes -----------------------------------------------------------------------------------
+
+    def tables(self) -> dict[str, Any]:
+        """Return the sketch as the tables of a machine's file, as `from_dict` takes them [SI].
+
+        Returns
+        -------
+        dict
+            Sections by name; their entries are plain numbers, texts, lists and tables.
+
+        Raises
+        ------
+        DefinitionError
+            Nothing drives it.
+        """
+        self.check_driven()
+        cranks = {drive.ends[1]: (name, drive) for name, drive in self.drives.items() if drive.kind == "crank"}
+        rods = {frozenset(drive.ends): (name, drive) for name, drive in self.drives.items() if drive.kind == "cylinder"}
+        turned = {frozenset(drive.ends) for _, drive in cranks.values()}
+        found: dict[str, Any] = {"name": self.name, "doc": " ".join(self.notes)} if self.notes else {"name": self.name}
+        found["strokes"] = {name: [drive.start, stroke_end(drive)] for name, drive in self.drives.items()}
+        found["drawn"] = {"sketch": {name: drive.drawn for name, drive in self.drives.items()}}
+        found["ground"] = {name: [*self.points[name]] for name in self.fixed}
+        found["points"] = {
+            name: {"Crank": drive.ends[0], "at": [*self.points[name]], **self.labels((drive.ends[0], name)), "angle": stroke}
+            for name, (stroke, drive) in cranks.items()
+        }
+        found["pins"] = {name: {"at": [*place]} for name, place in self.points.items() if name not in {*self.fixed, *cranks}}
+        found["links"] = {
+            name: {"points": " ".join(points), **self.labels(points)}
+            for name, points in self.links.items()
+            if not {*points} <= {*self.fixed} and frozenset(points) not in turned
+        }
+        for name, drive in rods.values():
+            P, Q = drive.ends
+            label, closed = joined_names(P, Q), self.lengths.get(joined_names(P, Q), self.length(P, Q) - drive.drawn)
+            is_measured = label not in self.lengths and min(drive.start, drive.end) <= 0.0
+            found["links"][f"rod_{name}"] = {"points": f"{P} {Q}", label: name if is_measured else f"{closed!r} + {name}"}
+        found["guides"] = {
+            f"line_{name}": {"from": [*self.points[each.point]], "angle": each.along}
+            if isinstance(each.along, float)
+            else {"from": each.along[0], "to": each.along[1]}
+            for name, each in self.slides.items()
+        }
+        found["slides"] = {name: {"point": each.point, "guide": f"line_{name}"} for name, each in self.slides.items()}
+        return {name: table for name, table in found.items() if table}
+
+    def check_driven(self) -> None:
+        """Raise DefinitionError where nothing drives the sketch, naming what could."""
+        if self.drives:
+            return
+        arms = [(P, Q) for points in self.links.values() for P in points for Q in points if P in self.fixed and Q not in self.fixed]
+        P, Q = arms[0] if arms else ("O", "A")
+        others = f" Links on fixed pins: {', '.join(f'{P} {Q}' for P, Q in arms[:6])}." if arms else ""
+        text = f"{self.name}: nothing says what drives it. Name a fixed pin and a pin of the link that turns about it, --drive {P} {Q}; "
+        raise DefinitionError(f"{text}or the two ends of a cylinder, --cylinder P Q.{others}")
+
+    def labels(self, points: Iterable[str]) -> dict[str, float]:
+        """Return the given lengths among some points [m], by their labels."""
+        names = [*points]
+        pairs = (joined_names(P, Q) for P in names for Q in names if P != Q)
+        return {label: self.lengths[label] for label in pairs if label in self.lengths}
+
+    def to_class(self) -> type[Mechanism]:
+        """Return the class of mechanism in the parts-list form; what no length gives is measured from the coordinates.
+
+        Returns
+        -------
+        type of Mechanism
+            The class.
+
+        Raises
+        ------
+        DefinitionError, FileError
+            Nothing drives it, or it cannot be a machine: the message says where and why.
+        AssemblyError
+            It cannot be assembled where it is drawn.
+        """
+        return from_dict(self.tables())
+
+    def to_toml(self) -> str:
+        """Return the machine as TOML text, which `load` reads into the same class. Errors are those of `to_class`."""
+        return to_toml(self.to_class())
+
+    def to_python(self) -> str:
+        """Return the machine as a Python file, a class of the parts-list form with the same numbers. Errors are those of `to_class`."""
+        tables = self.tables()
+        lines = [f"class {self.name}(Mechanism):", f'    """{self.name}, as it is drawn."""', *(f"    # {note}" for note in self.notes), ""]
+        lines += [f"    {name} = Stroke({python_number(low)}, {python_number(high)})" for name, (low, high) in tables["strokes"].items()]
+        lines += [f"    sketch = drawn({', '.join(f'{name}={value!r}' for name, value in tables['drawn']['sketch'].items())})", ""]
+        lines += [f"    {name} = Ground({x!r}, {y!r})" for name, (x, y) in tables.get("ground", {}).items()]
+        for section in ("points", "pins", "links", "guides", "slides"):
+            lines += [f"    {name} = {python_member(section, table)}" for name, table in tables.get(section, {}).items()]
+        return "\n".join(["from linkage import *", "", "", *lines]) + "\n"
+
+    # -- round numbers -------------------------------------------------------------------------------------
+
+    def rounded(self, step: float) -> MachineSketch:
+        """Return the sketch with round lengths and fixed pins, its other points where these put them.
+
+        Parameters
+        ----------
+        step : float
+            What lengths and fixed coordinates are whole multiples of [m].
+
+        Returns
+        -------
+        MachineSketch
+            The lengths given; a note says which point moves most, and by how much.
+
+        Raises
+        ------
+        DefinitionError
+            The step is not above zero, or a length would round to nothing.
+        AssemblyError
+            With round lengths it does not close where it is drawn.
+        """
+        ensure(isfinite(step) and step > 0.0, f"{self.name}: lengths are rounded to {step!r}; give a length above zero, such as 1mm.")
+        pairs = [pair for points in (*self.links.values(), *(each.ends for each in self.drives.values())) for pair in sides_of(points)]
+        free = [pair for pair in pairs if not {*pair} <= {*self.fixed}]
+        lengths = {joined_names(P, Q): round(self.length(P, Q) / step) * step for P, Q in free}
+        for drive in self.drives.values():
+            if drive.kind == "cylinder":
+                lengths[joined_names(*drive.ends)] = round((self.length(*drive.ends) - drive.drawn) / step) * step
+        for label, value in lengths.items():
+            ensure(value > 0.0, f"{self.name}: {label} rounds to nothing in steps of {show(step, 'mm')}; take a finer step.")
+        places = {name: grid(place, step) if name in self.fixed else place for name, place in self.points.items()}
+        put = replace(self, points=places, lengths={label: clean(value) for label, value in lengths.items()})
+        strokes: dict[str, Any] = {name: drive.drawn for name, drive in self.drives.items()}
+        motion = put.to_class()().at(**strokes)
+        settled = {name: (float(motion.x(name)), float(motion.y(name))) for name in self.points}
+        settled |= {name: places[name] for name in self.fixed}
+        moved = {name: dist(place, self.points[name]) for name, place in settled.items()}
+        most = max(moved, key=lambda each: moved[each])
+        note = f"Lengths are rounded to {show(step, 'mm')}; {most} moves most, by {show(moved[most], 'mm', 3)}."
+        return replace(put, points=settled, notes=(*self.notes, note))
+
+
+def sides_of(points: tuple[str, ...]) -> Iterator[tuple[str, str]]:
+    """Yield the distances of a body that are made round: from its first point, so that its angles stay and a flat one does not bend."""
+    yield from ((points[0], each) for each in points[1:])
+
+
+def grid(place: Place, step: float) -> Place:
+    """Return the nearest place with round coordinates [m]."""
+    x, y = (clean(round(each / step) * step) for each in place)
+    return x, y
+
+
+def clean(value: float) -> float:
+    """Return a length without the last digits that a multiple of a decimal step brings [m]."""
+    return float(f"{value:.12g}")
+
+
+def stroke_end(drive: SketchDrive) -> float | str:
+    """Return the end of a stroke as a file holds it: in degrees where that is an angle [rad] and exact, else as it is."""
+    return in_unit(drive.end, "deg") if drive.kind == "crank" else drive.end
+
+
+def python_number(value: float | str) -> str:
+    """Return a number as Python has it, `360 * deg` for the text `360 deg`."""
+    return value.replace(" ", " * ") if isinstance(value, str) else repr(value)
+
+
+def python_member(section: str, table: Mapping[str, Any]) -> str:
+    """Return the call that makes a member of a section."""
+    given = {name: value for name, value in table.items() if name not in ("points", "from", "to", "point", "guide", "at", "Crank")}
+    words = [f"{name}={value if isinstance(value, str) else repr(value)}" for name, value in given.items()]
+    at = [f"at=({', '.join(map(repr, table['at']))})"] if "at" in table else []
+    match section:
+        case "points":
+            return f"Crank({', '.join([table['Crank'], *at, *words])})"
+        case "pins":
+            return f"Pin({at[0]})"
+        case "links":
+            return f"Link({', '.join([repr_text(table['points']), *words])})"
+        case "guides":
+            ends = [
+                repr_text(table[name]) if isinstance(table[name], str) else f"{(*table[name],)!r}"
+                for name in ("from", "to")
+                if name in table
+            ]
+            return f"Guide({', '.join([*ends, *words])})"
+    return f"Slide({repr_text(table['point'])}, {table['guide']})"
+
+
+def repr_text(text: str) -> str:
+    """Return a name as text in double quotes."""
+    return f'"{text}"'

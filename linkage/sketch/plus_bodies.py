@@ -1,0 +1,174 @@
+"""The JSON of PMKS+ version 2: bodies with poses, attachments on them, joints between these, drivers and limits."""
+
+from __future__ import annotations
+
+from base64 import urlsafe_b64decode
+from binascii import Error
+from collections.abc import Mapping
+from math import cos, sin
+from typing import Any
+from zlib import crc32
+
+from ..errors import FileError
+from ..units import parse
+from .found import TURN, FoundDrive, FoundMachine, ensure_file, json_list, json_table
+
+ENVELOPE = "pmks2:"
+SLIDES = "prismatic", "pin-in-slot"
+
+
+def json_in_address(file: str, text: str) -> str:
+    """Return the JSON in an address `pmks2:<crc>.<letters>`; FileError where it is damaged."""
+    check, _, letters = text.strip().removeprefix(ENVELOPE).partition(".")
+    try:
+        raw = urlsafe_b64decode(letters + "=" * (-len(letters) % 4))
+        ensure_file(f"{crc32(raw):08x}" == check, f"{file}: the address is damaged, its check does not fit; copy it whole.")
+        return raw.decode("utf-8")
+    except (Error, ValueError):
+        raise FileError(f"{file}: the address is damaged; copy it whole.") from None
+
+
+def read_plus_bodies(found: FoundMachine, data: Mapping[str, Any]) -> None:
+    """Read bodies: attachments that pins join are one point, welded bodies one link, cylinders a length between their mounts."""
+    BodyReader(found, data).read()
+
+
+class BodyReader:
+    """One document on its way into what is found."""
+
+    def __init__(self, found: FoundMachine, data: Mapping[str, Any]) -> None:
+        self.found, self.file = found, found.file
+        found.unit = parse(f"1 {json_table(data.get('units'), self.file, 'units').get('length')}", "length")
+        self.bodies = self.by_id(data, "bodies")
+        self.attachments = self.by_id(data, "attachments")
+        self.joints = self.by_id(data, "joints")
+        self.drivers = {self.joint_of(each): each for each in self.by_id(data, "drivers").values()}
+        self.limits = {self.joint_of(each): each for each in self.by_id(data, "limits").values()}
+        self.cylinders = [each for each in self.by_id(data, "assemblies").values() if each.get("kind") == "cylinder"]
+        self.world = {key for key, body in self.bodies.items() if body.get("kind") == "world"}
+        self.places = {key: self.place(each) for key, each in self.attachments.items()}
+        self.one = {key: key for key in (*self.attachments, *self.bodies)}
+        for name in ("forces", "groups", "gears"):
+            found.left_out += [f"{len(data[name])} {name}"] if isinstance(data.get(name), list) and data[name] else []
+
+    def by_id(self, data: Mapping[str, Any], name: str) -> dict[str, Mapping[str, Any]]:
+        """Return the tables of a list by their ids."""
+        tables = [json_table(each, self.file, f"an entry of {name}") for each in json_list(data.get(name, []), self.file, name)]
+        found = {str(each.get("id")): each for each in tables}
+        ensure_file(len(found) == len(tables), f"{self.file}: two of {name} have one id.")
+        return found
+
+    def joint_of(self, table: Mapping[str, Any]) -> str:
+        """Return the id of the joint whose coordinate a driver or a limit is about."""
+        return str(json_table(table.get("coordinate"), self.file, "a coordinate").get("jointId"))
+
+    def entry(self, table: Mapping[str, Mapping[str, Any]], key: object, what: str) -> Mapping[str, Any]:
+        """Return the entry of an id; FileError where there is none."""
+        ensure_file(isinstance(key, str) and key in table, f"{self.file}: there is no {what} {key!r}.")
+        return table[str(key)]
+
+    def pose(self, body: object) -> tuple[float, float, float]:
+        """Return where a body is, x and y in the file's units, its angle [rad]."""
+        given = json_table(self.entry(self.bodies, body, "body").get("pose"), self.file, "a pose")
+        x, y, angle = (self.found.number(given.get(name, 0.0), f"{name} of {body}") for name in ("x", "y", "angle"))
+        return x, y, angle
+
+    def place(self, attachment: Mapping[str, Any]) -> tuple[float, float]:
+        """Return where an attachment is, in the file's units."""
+        x, y, angle = self.pose(attachment.get("bodyId"))
+        point = json_table(attachment.get("point"), self.file, "a point")
+        u, v = (self.found.number(point.get(name), f"{name} of {attachment.get('label')}") for name in "xy")
+        return x + u * cos(angle) - v * sin(angle), y + u * sin(angle) + v * cos(angle)
+
+    def root(self, key: str) -> str:
+        """Return what stands for all that is one with an attachment or a body."""
+        while self.one[key] != key:
+            key = self.one[key]
+        return key
+
+    def frame(self, joint: Mapping[str, Any], side: str) -> tuple[str, str, float]:
+        """Return the attachment, the body and the angle [rad] of a side of a joint."""
+        given = json_table(joint.get(f"frame{side}"), self.file, "a frame")
+        attachment = str(given.get("attachmentId"))
+        body = str(self.entry(self.attachments, attachment, "attachment").get("bodyId"))
+        return attachment, body, self.pose(body)[2] + self.found.number(given.get("angle", 0.0), "the angle of a frame")
+
+    def sides(self, joint: Mapping[str, Any]) -> list[tuple[str, str, float]]:
+        """Return both sides of a joint, that of the frame first."""
+        return sorted((self.frame(joint, "A"), self.frame(joint, "B")), key=lambda side: side[1] not in self.world)
+
+    def read(self) -> None:
+        """Enter points, links, slides and drives."""
+        within = {str(each.get("internalJoint")): each for each in self.cylinders}
+        for joint in self.joints.values():
+            (first, a, _), (second, b, _) = self.frame(joint, "A"), self.frame(joint, "B")
+            if joint.get("kind") in ("revolute", "weld"):
+                self.one[self.root(second)] = self.root(first)
+            if joint.get("kind") == "weld":
+                self.one[self.root(b)] = self.root(a)
+        hollow = {str(each.get(name)) for each in self.cylinders for name in ("barrel", "rod")}
+        fixed = {self.root(key) for key, each in self.attachments.items() if each.get("bodyId") in self.world}
+        inside = {self.root(key) for key, each in self.attachments.items() if each.get("bodyId") in hollow}
+        inside -= {
+            self.root(str(each.get(name))) for each in self.cylinders for name in ("barrelMount", "rodMount") if each.get(name) in self.one
+        }
+        lines = [self.sides(joint)[0][0] for joint in self.joints.values() if joint.get("kind") in SLIDES]
+        ends = [end for joint in self.joints.values() for end in self.sides(joint)[joint.get("kind") in SLIDES :]]
+        inside |= {*lines} - {self.root(attachment) for attachment, _, _ in ends}  # where a slot is drawn, which is no point
+        for key, each in self.attachments.items():
+            if self.root(key) == key and key not in inside:
+                self.found.add_point(key, each.get("label") or key, *self.places[key], key in fixed)
+        bodies: dict[str, list[str]] = {}
+        for key, each in self.attachments.items():
+            body = self.root(str(each.get("bodyId")))
+            if each.get("bodyId") not in {*self.world, *hollow} and self.root(key) not in inside:
+                bodies.setdefault(body, []).append(self.root(key))
+        for key, joint in self.joints.items():
+            if key not in within and joint.get("kind") in SLIDES:
+                self.slide(key, joint, bodies)
+        for body, keys in bodies.items():
+            self.found.add_link(str(self.bodies[body].get("label") or body), keys)
+        for each in self.cylinders:
+            self.cylinder(each)
+        for key, driver in self.drivers.items():
+            if self.entry(self.joints, key, "joint").get("kind") == "revolute":
+                self.crank(self.joints[key], driver)
+
+    def slide(self, key: str, joint: Mapping[str, Any], bodies: dict[str, list[str]]) -> None:
+        """Enter a slide: the point of one body on a line of the other, without turning where it is prismatic."""
+        (_, carrier, angle), (mover, body, _) = self.sides(joint)
+        point = self.root(mover)
+        along = self.found.slot(point, angle, None if carrier in self.world else bodies[self.root(carrier)])
+        if joint.get("kind") == "prismatic":
+            self.found.slide_body(bodies[self.root(body)], point, angle, along)
+        else:
+            self.found.slides.append((point, along))
+        if key in self.drivers:
+            self.found.push(point, angle, along)
+            self.found.drives[-1].reach = self.reach(key)
+
+    def reach(self, key: str) -> float | None:
+        """Return how far a driven joint goes, in the file's units or rad: from where it is driven from to its limit; None without one."""
+        if key not in self.limits:
+            return None
+        profile = json_table(self.drivers[key].get("profile"), self.file, "a profile") if key in self.drivers else {}
+        initial = self.found.number(profile.get("initial", 0.0), "where a driver begins")
+        return self.found.number(self.limits[key].get("upper"), "a limit") - initial
+
+    def cylinder(self, given: Mapping[str, Any]) -> None:
+        """Enter a cylinder between its mounts; without a driver it holds nothing and is left out."""
+        ends = [self.root(str(given.get(name))) for name in ("barrelMount", "rodMount") if given.get(name) in self.one]
+        ensure_file(len(ends) == 2, f"{self.file}: the cylinder {given.get('label')} has no two mounts.")
+        key = str(given.get("internalJoint"))
+        if key in self.drivers:
+            self.found.drives.append(FoundDrive("cylinder", (ends[0], ends[1]), self.reach(key), str(given.get("label") or "")))
+        else:
+            self.found.left_out.append(f"the cylinder {given.get('label')}, which nothing drives")
+
+    def crank(self, joint: Mapping[str, Any], driver: Mapping[str, Any]) -> None:
+        """Enter a crank about a pin of the frame."""
+        count = len(self.found.drives)
+        self.found.turn(self.root(self.frame(joint, "A")[0]))
+        profile = json_table(driver.get("profile"), self.file, "a profile")
+        for drive in self.found.drives[count:]:
+            drive.reach = -TURN if self.found.number(profile.get("speed", 1.0), "a speed") < 0.0 else TURN

@@ -1,0 +1,255 @@
+"""Machines of PMKS+: share addresses, old (?j=...&l=...) and short (2P.Ay,...), and JSON of joints and links."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from math import atan2, pi, radians
+from typing import Any, final
+from urllib.parse import parse_qs, unquote, urlsplit
+
+from ..units import parse
+from .found import FoundDrive, FoundMachine, ensure_file, json_list
+
+DIGITS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_-"
+CHECKS = DIGITS[:62]
+DIGEST = 6
+LENGTHS = "in", "cm", "m"
+"""Units of length of a short address, by their digit."""
+RIGHT, COARSE = 0.5 * pi, 6e-4
+"""An angle is written in thousandths of a radian; so near to a whole quarter of a turn it is that."""
+SHORT = re.compile(r"[\w-]{1,2}\.[\w-]+(?:,[\w-]+)*\.[\w-]+,[\w-]+\.[0-3]{3,4}\..*", re.DOTALL)
+"""How the text of a short address begins: settings as flags, numbers, whole numbers and units."""
+
+
+@final
+@dataclass(frozen=True)
+class PlusJoint:
+    """A joint: a pin, or a slide where it `slides`, on a line at an angle [rad] of the frame or through two joints of a link."""
+
+    key: str
+    name: str
+    x: object
+    y: object
+    slides: bool = False
+    fixed: bool = False
+    drives: bool = False
+    rigid: bool = False
+    """Of a slide, whether what slides may not turn."""
+    angle: float = 0.0
+    line: tuple[str, str] | None = None
+
+
+@final
+@dataclass(frozen=True)
+class PlusLink:
+    """A link by the keys of its joints; a block only holds the pin and the slide of one joint together."""
+
+    name: str
+    keys: tuple[str, ...]
+    block: bool = False
+
+
+def read_plus(found: FoundMachine, joints: Sequence[PlusJoint], links: Sequence[PlusLink], clockwise: bool = False) -> None:
+    """Enter joints and links; a pin and a slide that a block holds together become one joint."""
+    known = {joint.key: joint for joint in joints}
+    ensure_file(len(known) == len(joints), f"{found.file}: two joints have one name.")
+    for link in links:
+        ensure_file(all(key in known for key in link.keys), f"{found.file}: the link {link.name} names a joint that is not there.")
+        if link.block and len(link.keys) == 2:
+            pin, slide = sorted(link.keys, key=lambda key: known[key].slides)
+            ensure_file(known[slide].slides and not known[pin].slides, f"{found.file}: the block {link.name} holds no pin and slide.")
+            held, line = known[pin], known.pop(slide)
+            known[pin] = replace(line, key=pin, name=held.name, rigid=held.rigid or line.rigid, drives=held.drives or line.drives)
+    for joint in known.values():
+        found.add_point(joint.key, joint.name, joint.x, joint.y, joint.fixed and not joint.slides)
+    for link in links:
+        if not link.block:
+            found.add_link(link.name, link.keys)
+    for joint in known.values():
+        if joint.slides and not enter_cylinder(found, joint, known):
+            slide_plus(found, joint)
+    for joint in known.values():
+        if joint.drives and not joint.slides:
+            found.turn(joint.key)
+    for drive in found.drives:
+        if drive.kind == "crank" and clockwise:
+            drive.reach = -2.0 * pi
+
+
+def slide_plus(found: FoundMachine, joint: PlusJoint) -> None:
+    """Enter a slide: of a pin, or of all links at it where these may not turn on it."""
+    angle, along = joint.angle, joint.line or joint.angle
+    if joint.line is not None:
+        (ax, ay), (bx, by) = (found.points[key].place for key in joint.line)
+        angle = atan2(by - ay, bx - ax)
+    on = [points for _, points in found.links if joint.key in points]
+    if joint.rigid and on:
+        found.slide_body(on[0], joint.key, angle, along)
+    else:
+        found.slides.append((joint.key, along))
+    if joint.drives:
+        found.push(joint.key, angle, along)
+
+
+def enter_cylinder(found: FoundMachine, joint: PlusJoint, known: Mapping[str, PlusJoint]) -> bool:
+    """Enter a driven slide of a rod in a barrel as one cylinder, and return True; False where more than the rod hangs on it."""
+    if not (joint.drives and joint.rigid and joint.line):
+        return False
+    barrels = [points for _, points in found.links if {*points} == {*joint.line}]
+    rods = [points for _, points in found.links if joint.key in points]
+    if len(barrels) != 1 or len(rods) != 1 or len(rods[0]) != 2:
+        return False
+    others = [key for _, points in found.links if points not in (barrels[0], rods[0]) for key in points]
+    others += [key for key, each in known.items() if each.fixed and not each.slides]
+    (rod_end,) = (key for key in rods[0] if key != joint.key)
+    feet = [key for key in joint.line if key in others]
+    if len(feet) != 1 or joint.key in others:
+        return False
+    (ax, ay), (bx, by), (cx, cy) = (found.points[key].place for key in (*joint.line, rod_end))
+    if abs((bx - ax) * (cy - ay) - (by - ay) * (cx - ax)) > 5e-3 * found.size**2:
+        return False
+    inside = [found.points.pop(key).name for key in (joint.key, *(key for key in joint.line if key != feet[0]))]
+    found.links = [each for each in found.links if each[1] not in (barrels[0], rods[0])]
+    found.drives.append(FoundDrive("cylinder", (feet[0], rod_end)))
+    ends = f"{found.points[feet[0]].name} and {found.points[rod_end].name}"
+    found.notes.append(f"Barrel and rod between {ends} are one cylinder; {', '.join(inside)} lie in it.")
+    return True
+
+
+# -- the short address -------------------------------------------------------------------------------------
+
+
+def read_short_address(found: FoundMachine, text: str) -> None:
+    """Read what stands behind the ? of an address, `2P.Ay,1E8.K,0.1011...`; FileError where its checks say that it is damaged."""
+    body, mark, digest = text.rpartition("*")
+    if mark and len(digest) == DIGEST:
+        ensure_file(digest_of(body) == digest, f"{found.file}: the address is damaged, its digest does not fit; copy it whole.")
+    else:
+        body = text
+    body, check = body[:-1], body[-1:]
+    ensure_file(
+        CHECKS[len(body) % 62] == check, f"{found.file}: the address is damaged, its length does not fit its last letter; copy it whole."
+    )
+    flags, _, _, units, rest = (body.split(".", 4) + [""] * 5)[:5]
+    ensure_file(units[:1] in "012" and units, f"{found.file}: the address has no unit of length; say --scale 1cm.")
+    found.unit = parse(f"1 {LENGTHS[int(units[0])]}")
+    sections = rest.split("..", 2)  # each section ends with a dot of its own
+    texts = rest.split(".")
+    first = texts.index("") if "" in texts else len(texts)
+    second = texts.index("", first + 1) if "" in texts[first + 1 :] else len(texts)
+    ensure_file(len(sections) > 1 and first > 0, f"{found.file}: the address has no joints and links; copy it whole.")
+    joints = [short_joint(found, each.split(",")) for each in texts[:first]]
+    links = [short_link(found, each.split(",")) for each in texts[first + 1 : second]]
+    read_plus(found, joints, [each for each in links if each is not None], clockwise=bool(whole_of(found, flags) & 1))
+
+
+def short_joint(found: FoundMachine, fields: list[str]) -> PlusJoint:
+    """Return a joint: flags and key, name, x, y, angle, then the link and the two joints of its slot."""
+    ensure_file(
+        len(fields) >= 5 and len(fields[0]) > 1, f"{found.file}: a joint of the address has {len(fields)} parts instead of five or more."
+    )
+    bits = DIGITS.find(fields[0][0])
+    key, name, (x, y, angle) = fields[0][1:], fields[1], (whole_of(found, each) / 1000.0 for each in fields[2:5])
+    quarter = round(angle / RIGHT) * RIGHT
+    line = (fields[6], fields[7]) if len(fields) > 7 and fields[6] and fields[7] else None
+    return PlusJoint(
+        key, name or key, x, y, slides=bool(bits & 1), drives=bool(bits & 2), fixed=bool(bits & 4), rigid=bool(bits & 8),
+        angle=quarter if abs(angle - quarter) < COARSE else angle, line=line,
+    )  # fmt: skip
+
+
+def short_link(found: FoundMachine, fields: list[str]) -> PlusLink | None:
+    """Return a link: kind and key, name, mass, inertia, centre, colour, joints; None for one that is within another."""
+    ensure_file(
+        len(fields) >= 9 and len(fields[0]) > 2, f"{found.file}: a link of the address has {len(fields)} parts instead of nine or more."
+    )
+    keys = fields[7 : 7 + fields[7:].index("")] if "" in fields[7:] else fields[7:]
+    return None if fields[0][0] in "Namg4567" else PlusLink(fields[1] or fields[0][2:], tuple(keys), block=fields[0][1] == "P")
+
+
+def whole_of(found: FoundMachine, text: str) -> int:
+    """Return a whole number of the address; one with a 0 in front is negative. FileError for other letters."""
+    is_number = text and {*text} <= {*DIGITS} and len(text) < 12
+    ensure_file(is_number, f"{found.file}: the address holds {text[:20]!r} where a number is expected; copy it whole.")
+    value = 0
+    for letter in text:
+        value = 64 * value + DIGITS.index(letter)
+    return -value if text[0] == "0" else value
+
+
+def digest_of(text: str) -> str:
+    """Return the digest of an address, FNV-1a of 32 bits in letters."""
+    value = 0x811C9DC5
+    for letter in text:
+        value = (value ^ ord(letter)) * 0x01000193 & 0xFFFFFFFF
+    letters = ""
+    for _ in range(DIGEST):
+        value, digit = divmod(value, 62)
+        letters = CHECKS[digit] + letters
+    return letters
+
+
+# -- the old address, and JSON -----------------------------------------------------------------------------
+
+
+def read_old_address(found: FoundMachine, text: str) -> None:
+    """Read joints, links and settings of an address, `j=a,-1.24,-0.89,ab,R,t,Null,t%0A...&l=...&s=10,false,false,cm`."""
+    parts = parse_qs(text, keep_blank_values=True, max_num_fields=20)
+    rows = {name: [row.split(",") for row in parts.get(name, [""])[0].splitlines() if row.strip()] for name in "jls"}
+    joints = [old_joint(found, row) for row in rows["j"]]
+    links = [PlusLink(row[0], tuple(filter(None, row[6].split("|"))), block=row[1] == "P") for row in rows["l"] if len(row) > 6]
+    ensure_file(len(links) == len(rows["l"]), f"{found.file}: a link of the address has fewer than seven parts; copy it whole.")
+    settings = rows["s"][0] if rows["s"] else []
+    if len(settings) > 3 and settings[3] in ("cm", "m", "mm", "in", "inch"):
+        found.unit = parse(f"1 {settings[3]}")
+    read_plus(found, joints, links, clockwise=settings[1:2] == ["true"])
+
+
+def old_joint(found: FoundMachine, row: list[str]) -> PlusJoint:
+    """Return a joint: key, x, y, links, R or P, fixed, angle [rad], whether it drives."""
+    ensure_file(
+        len(row) >= 8 and row[4] in ("R", "P"), f"{found.file}: a joint of the address has no eight parts with R or P; copy it whole."
+    )
+    angle = found.number(row[6], f"the angle of {row[0]}") if row[4] == "P" and row[6] != "Null" else 0.0
+    return PlusJoint(row[0], row[0], row[1], row[2], slides=row[4] == "P", fixed=row[5] == "t", drives=row[7] == "t", angle=angle)
+
+
+def read_plus_json(found: FoundMachine, data: Mapping[str, Any]) -> None:
+    """Read rows of joints under "j" and of links under "l"."""
+    joints = [json_joint(found, json_list(row, found.file, "a joint")) for row in json_list(data["j"], found.file, "j")]
+    links = []
+    for row in json_list(data["l"], found.file, "l"):
+        cells = json_list(row, found.file, "a link")
+        ensure_file(len(cells) > 6, f"{found.file}: a link has {len(cells)} cells instead of seven or more.")
+        links.append(PlusLink(str(cells[1]), tuple(str(whole(key)) for key in str(cells[6]).split("|") if key)))
+    read_plus(found, joints, links)
+
+
+def json_joint(found: FoundMachine, row: list[Any]) -> PlusJoint:
+    """Return a joint: key, name, x, y, kind (0 slides), angle [deg], fixed, whether it drives, speed, welded."""
+    ensure_file(len(row) >= 9, f"{found.file}: a joint has {len(row)} cells instead of nine or more.")
+    long = len(row) > 12  # the shorter rows, of an earlier version, have no cell of their own for what drives
+    weld = row[9] if long else row[8]
+    angle = radians(found.number(row[5] or 0, f"the angle of {row[1]}"))
+    return PlusJoint(
+        str(whole(row[0])), str(row[1]), row[2], row[3], slides=whole(row[4]) == 0, fixed=is_set(row[6]), drives=long and is_set(row[7]),
+        rigid=is_set(weld), angle=angle,
+    )  # fmt: skip
+
+
+def whole(given: object) -> object:
+    """Return a whole number, in digits of base 16 where it is a text, as the file writes it; anything else as it is."""
+    return int(given, 16) if isinstance(given, str) and re.fullmatch(r"-?[0-9a-f]{1,6}", given) else given
+
+
+def is_set(given: object) -> bool:
+    """Return whether a cell says yes."""
+    return given in (True, "y", "true", "1", 1)
+
+
+def address_text(text: str) -> str:
+    """Return what stands behind the ? of an address, letters unescaped where it is a short one; the text itself where it is no address."""
+    query = urlsplit(text).query if "?" in text else text
+    return query if re.search(r"(?:^|&)j=", query) else unquote(query)

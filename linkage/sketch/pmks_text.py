@@ -1,0 +1,134 @@
+"""Text of PMKS, a line for each joint, `ground input R 0 0 0 tfff`: read and written."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from math import atan2, degrees, radians
+from string import ascii_uppercase
+from typing import final
+
+from ..errors import ensure
+from .found import FoundMachine, ensure_file
+from .machine_sketch import MachineSketch, Place
+
+FRAME = ("ground", "gnd", "grnd", "grd")
+KINDS = ("R", "P", "RP", "G")
+
+
+@final
+@dataclass
+class PmksJoint:
+    """A line of the text: the key of its point, its kind, links, place [units of the file], angle [rad], and whether it drives."""
+
+    key: str
+    kind: str
+    links: list[str]
+    place: Place
+    angle: float
+    drives: bool
+
+
+def read_pmks_text(found: FoundMachine, text: str) -> None:
+    """Read joints: R pins its links, P lets the second slide in the first, RP is a pin in a slot; the fourth letter t drives."""
+    text = text.partition("mech=")[2] or text
+    lines = [line for line in re.split(r"[\n|]", text) if line.strip() and "=" not in line.split(",")[0]]
+    bodies: dict[str, list[str]] = {}
+    joints: list[PmksJoint] = []
+    for number, line in enumerate(lines):
+        joint = joint_of(found, line, number)
+        if joint.kind == "G":
+            found.left_out.append(f"the gear pair of {' and '.join(joint.links)}")
+        else:
+            joints.append(joint)
+            bodies |= {name: [] for name in joint.links if not is_frame(name)}
+    for joint in sorted(joints, key=lambda each: each.kind != "R"):  # a slide at a pin of its link is of that pin
+        on = joint.links if joint.kind == "R" else [mover_of(joint.links)]
+        pins = [each.key for each in joints if each.kind == "R" and each.place == joint.place and on[0] in each.links]
+        if joint.kind == "R" or not pins:
+            found.add_point(joint.key, joint.key, *joint.place, any(map(is_frame, on)))
+            for name in on:
+                if not is_frame(name):
+                    bodies[name].append(joint.key)
+        else:
+            joint.key = pins[0]
+    for joint in joints:
+        if joint.kind != "R":
+            mover = mover_of(joint.links)
+            (slot,) = (name for name in joint.links if name != mover)
+            along = found.slot(joint.key, joint.angle, None if is_frame(slot) else bodies[slot])
+            if joint.kind == "P":
+                found.slide_body(bodies[mover], joint.key, joint.angle, along)
+            else:
+                found.slides.append((joint.key, along))
+    for name, keys in bodies.items():
+        found.add_link(name, keys)
+    drive_pmks(found, joints)
+
+
+def joint_of(found: FoundMachine, line: str, number: int) -> PmksJoint:
+    """Return the joint of a line; FileError for a line that is none."""
+    words = re.split(r"[,\s]+", line.strip().strip(","))
+    where = f"{found.file}, joint {number + 1}"
+    places = [place for place, word in enumerate(words) if word.upper() in KINDS]
+    ensure_file(
+        places and 1 <= places[-1] <= len(words) - 3, f"{where}: links, R, P, RP or G, then x and y are expected, ground,input,R,0,0."
+    )
+    names, kind, rest = words[: places[-1]], words[places[-1]].upper(), words[places[-1] + 1 :]
+    x, y = (found.number(word, where) for word in rest[:2])
+    has_angle = len(rest) > 2 and re.match(r"[-+.\d]", rest[2]) is not None
+    ensure_file(kind == "R" or len({*names}) == 2, f"{where}: {kind} joins two links.")
+    ensure_file(kind in ("R", "G") or has_angle, f"{where}: {kind} has the angle of its slide behind x and y [deg].")
+    angle = radians(found.number(rest[2], where)) if has_angle else 0.0
+    key = ascii_uppercase[number] if number < len(ascii_uppercase) else f"P{number + 1}"
+    return PmksJoint(key, kind, names, (x, y), angle, rest[-1][3:4] == "t" and {*rest[-1]} <= {*"tf"})
+
+
+def is_frame(name: str) -> bool:
+    """Return whether a link is the frame."""
+    return name.lower().startswith(FRAME)
+
+
+def mover_of(names: list[str]) -> str:
+    """Return which of two links carries the point of a slide: the second, unless that is the frame and turns it round."""
+    return names[0] if is_frame(names[1]) else names[1]
+
+
+def drive_pmks(found: FoundMachine, joints: list[PmksJoint]) -> None:
+    """Enter what drives: the joint that says so, else the first of the frame."""
+    chosen = [joint for joint in joints if joint.drives]
+    on_frame = [joint for joint in joints if joint.kind != "RP" and len(joint.links) == 2 and any(map(is_frame, joint.links))]
+    if not chosen and on_frame:
+        chosen = on_frame[:1]
+        found.notes.append(f"No joint of the file drives; as in PMKS the first of the frame does, {chosen[0].key}.")
+    for joint in chosen:
+        if joint.kind == "R":
+            found.turn(joint.key)
+        else:
+            found.push(joint.key, joint.angle, next(along for point, along in found.slides if point == joint.key))
+
+
+def pmks_text(sketch: MachineSketch) -> str:
+    """Return a sketch as text of PMKS in mm; DefinitionError for what it cannot say."""
+    drives = [*sketch.drives.values()]
+    kinds = ", ".join(f"a {each.kind}" for each in drives)
+    ensure(
+        len(drives) == 1 and drives[0].kind == "crank", f"{sketch.name}: text of PMKS has one crank and no other drive, the sketch {kinds}."
+    )
+    lines, pivot = [], drives[0].ends[0]
+    on = {name: [link for link, points in sketch.links.items() if name in points] for name in sketch.points}
+    for name, (x, y) in sketch.points.items():
+        place, own = f"{1e3 * x:.16g},{1e3 * y:.16g}", [*(["ground"] if name in sketch.fixed else []), *on[name]]
+        if on[name]:
+            lines.append(f"{','.join(own)},R,{place},0,{'ffft' if name == pivot else 'ffff'}")
+        for slide in sketch.slides.values():
+            if slide.point == name:
+                along, carrier = slide.along, "ground"
+                if isinstance(along, tuple) and not {*along} <= {*sketch.fixed}:
+                    carrier = next((link for link, points in sketch.links.items() if {*along} <= {*points}), "")
+                ensure(carrier and on[name], f"{sketch.name}: the slide of {name} is between no two links, which text of PMKS cannot say.")
+                if isinstance(along, tuple):
+                    (ax, ay), (bx, by) = (sketch.points[end] for end in along)
+                    along = atan2(by - ay, bx - ax)
+                lines.append(f"{carrier},{on[name][0]},RP,{place},{degrees(along):.16g},ffff")
+    return "\n".join(lines) + "\n"

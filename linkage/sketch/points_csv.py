@@ -1,0 +1,109 @@
+"""The table of points and links, `kind,name,x [mm],y [mm],what`: read and written."""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+from collections.abc import Callable, Iterator
+from math import degrees
+
+from ..errors import DefinitionError, FileError
+from ..units import UNITS, parse
+from .found import FoundDrive, FoundMachine, ensure_file
+from .machine_sketch import MachineSketch
+
+HEADER = re.compile(r"(\w+)\s*(?:\[\s*([^\]]*?)\s*\]|\(\s*([^)]*?)\s*\))?\s*")
+COLUMNS = ("kind", "name", "x", "y", "what")
+
+
+def read_points_csv(found: FoundMachine, text: str) -> None:
+    """Read a table: rows point (fixed, pin), link (its points), slide (a point, two points or an angle), crank and cylinder."""
+    first = next((line for line in text.splitlines() if line.strip()), "")
+    mark = max(",;\t", key=first.count)
+    if mark == ";":  # the tables of countries that write 1,5
+        text = re.sub(r"(?<=\d),(?=\d)", ".", text)
+    rows = [[cell.strip() for cell in row] for row in csv.reader(io.StringIO(text), delimiter=mark) if any(cell.strip() for cell in row)]
+    heads = [HEADER.fullmatch(cell.lower()) for cell in rows[0]]
+    names = [head[1] if head else "" for head in heads]
+    ensure_file(names == [*COLUMNS], f"{found.file}, line 1: a table of points begins with kind,name,x [mm],y [mm],what.")
+    units = {head[2] or head[3] for head in heads[2:4] if head} - {None}
+    if units:
+        ensure_file(len(units) == 1 and units <= UNITS.keys(), f"{found.file}, line 1: x and y have one unit of length, such as [mm].")
+        found.unit = parse(f"1 {units.pop()}", "length")
+    later: list[tuple[str, str, list[str], str]] = []
+    for number, row in enumerate(rows[1:], 2):
+        where = f"{found.file}, row {number}"
+        ensure_file(len(row) <= len(COLUMNS), f"{where}: {len(row)} cells are too many; names with a comma stand in quotes.")
+        kind, name, x, y, what = [*row, *[""] * (len(COLUMNS) - len(row))]
+        if kind.lower() == "point":
+            ensure_file(name and what.lower() in ("", "fixed", "pin"), f"{where}: a point has a name, and is fixed or a pin.")
+            found.add_point(name, name, x, y, what.lower() == "fixed")
+        else:
+            ensure_file(kind.lower() in ROWS, f"{where}: {kind or 'nothing'} is none of point, {', '.join(ROWS)}.")
+            later.append((kind.lower(), name, what.split(), where))
+    for kind, name, words, where in later:  # points first, in whatever order the rows are
+        ROWS[kind](found, name, words, where)
+
+
+def read_link(found: FoundMachine, name: str, words: list[str], where: str) -> None:
+    """Read the row of a link."""
+    found.add_link(name, words, f"{where}: the link {name}")
+
+
+def read_slide(found: FoundMachine, name: str, words: list[str], where: str) -> None:
+    """Read the row of a slide: a point, then two points of its line or the angle of a line of the frame."""
+    words = [word for word in words if word.lower() not in ("on", "along", "at")]
+    ensure_file(len(words) in (2, 3), f"{where}: a slide names its point and two points of the line, `C P Q`, or an angle, `C 30deg`.")
+    keys = [found.known(word, where) for word in (words if len(words) == 3 else words[:1])]
+    found.slides.append((keys[0], (keys[1], keys[2]) if len(words) == 3 else value_in(words[1], "angle", where)))
+
+
+def read_drive(kind: str, found: FoundMachine, name: str, words: list[str], where: str) -> None:
+    """Read the row of a crank or a cylinder: its ends, then how far it goes."""
+    unit, example = ("angle", "O A 360deg") if kind == "crank" else ("length", "A B 250mm")
+    ensure_file(len(words) in (2, 3), f"{where}: a {kind} names its two ends and how far it goes, such as `{example}`.")
+    P, Q = (found.known(word, where) for word in words[:2])
+    reach = None if len(words) == 2 else value_in(words[2], unit, where)
+    if reach is not None and kind == "cylinder":
+        reach /= found.unit or 1.0
+    found.drives.append(FoundDrive(kind, (P, Q), reach, name))
+
+
+ROWS: dict[str, Callable[[FoundMachine, str, list[str], str], None]] = {
+    "link": read_link,
+    "slide": read_slide,
+    "crank": lambda *row: read_drive("crank", *row),
+    "cylinder": lambda *row: read_drive("cylinder", *row),
+}
+
+
+def value_in(text: str, kind: str, where: str) -> float:
+    """Return a value with its unit [SI]; FileError for anything else."""
+    try:
+        return parse(text, kind)
+    except DefinitionError as error:
+        raise FileError(f"{where}: {error}") from None
+
+
+def points_csv(sketch: MachineSketch) -> str:
+    """Return a sketch as a table of points and links; lengths in mm."""
+    stream = io.StringIO(newline="")
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow(["kind", "name", "x [mm]", "y [mm]", "what"])
+    writer.writerows(point_rows(sketch))
+    return stream.getvalue()
+
+
+def point_rows(sketch: MachineSketch) -> Iterator[list[str]]:
+    """Yield the rows below the header."""
+    for name, (x, y) in sketch.points.items():
+        yield ["point", name, f"{1e3 * x:.16g}", f"{1e3 * y:.16g}", "fixed" if name in sketch.fixed else "pin"]
+    for name, points in sketch.links.items():
+        yield ["link", name, "", "", " ".join(points)]
+    for name, slide in sketch.slides.items():
+        along = f"{degrees(slide.along):.17g}deg" if isinstance(slide.along, float) else " ".join(slide.along)
+        yield ["slide", name, "", "", f"{slide.point} {along}"]
+    for name, drive in sketch.drives.items():
+        reach = f"{degrees(drive.end - drive.drawn):.17g}deg" if drive.kind == "crank" else f"{1e3 * (drive.end - drive.drawn):.16g}mm"
+        yield [drive.kind, name, "", "", f"{' '.join(drive.ends)} {reach}"]

@@ -1,0 +1,186 @@
+"""The door to files of other programs: which one a file is of, and what its sketch is."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from math import isfinite
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+from ..disk import Place, read
+from ..errors import DefinitionError, FileError, ensure, unknown
+from ..files.names import shortened
+from ..files.source import FILE_BYTES, decoded
+from .dxf_layers import read_dxf
+from .found import FoundDrive, FoundMachine, ensure_file
+from .linkage_xml import read_linkage_xml
+from .machine_sketch import MachineSketch
+from .plus_bodies import ENVELOPE, json_in_address, read_plus_bodies
+from .pmks_plus import SHORT, address_text, read_old_address, read_plus_json, read_short_address
+from .pmks_text import read_pmks_text
+from .points_csv import read_points_csv
+from .pylinkage_json import read_pylinkage
+
+SUFFIXES = ".csv", ".linkage2", ".txt", ".pmks", ".json", ".dxf"
+DRAWING_BYTES = 20_000_000
+
+
+def read_sketch(
+    file: Place,
+    *,
+    scale: float | None = None,
+    drives: Sequence[tuple[str, str]] = (),
+    cylinders: Sequence[tuple[str, str]] = (),
+    layers: Mapping[str, Sequence[str]] = MappingProxyType({}),
+) -> MachineSketch:
+    """Return the sketch that a file of another program holds, or a share address.
+
+    Parameters
+    ----------
+    file : str or path
+        A table of points (.csv), a file of Linkage (.linkage2), PMKS (.txt), PMKS+ or pylinkage (.json), a drawing (.dxf); or the text
+        of a share address of PMKS+.
+    scale : float, optional
+        What 1 of the file is [m]. By default as the file says.
+    drives, cylinders : sequence of (str, str), optional
+        What drives in place of what the file says: the fixed pin and a pin of each crank, the two ends of each cylinder.
+    layers : mapping of str to sequence of str, optional
+        Of a drawing the layers of its pins, links, ground, slides, crank and cylinder.
+
+    Returns
+    -------
+    MachineSketch
+        The sketch; its notes say what was named anew, moved or left out. It may lack a drive, which `to_class` refuses.
+
+    Raises
+    ------
+    FileError
+        The file cannot be read, is damaged, has no unit, or holds what cannot be: where, and the remedy.
+    DefinitionError
+        A point that is named is not there.
+    """
+    found, title = content_of(file, layers)
+    if scale is not None:
+        ensure(isfinite(scale) and scale > 0.0, f"{found.file}: the scale is {scale!r}; say what 1 of the file is, such as 1mm.")
+        found.unit = scale
+    asked = [*(("crank", *ends) for ends in drives), *(("cylinder", *ends) for ends in cylinders)]
+    if asked:
+        found.drives = []
+        for kind, *ends in asked:
+            add_drive(found, kind, *(point_key(found, name) for name in ends))
+    return found.sketch(title)
+
+
+def is_foreign(text: str) -> bool:
+    """Return whether a text names a file of another program, or is a share address; a file in JSON is looked into."""
+    if is_address(text):
+        return True
+    path = Path(text)
+    if path.suffix.lower() != ".json":
+        return path.suffix.lower() in SUFFIXES
+    data = decoded(path.name, read(path, FILE_BYTES + 1), True).data
+    return isinstance(data, dict) and json_reader(data) is not None
+
+
+def is_address(text: str) -> bool:
+    """Return whether a text is a share address, or what stands behind its ?."""
+    query = address_text(text)
+    return text.startswith(ENVELOPE) or SHORT.match(query) is not None or re.match(r"j=[^&]*&l=", query) is not None
+
+
+def content_of(file: Place, layers: Mapping[str, Sequence[str]]) -> tuple[FoundMachine, str]:
+    """Return what a file or a share address holds, and a name for it."""
+    text = str(file)
+    if is_address(text):
+        found = FoundMachine("the address")
+        read_address(found, text)
+        return found, "Shared"
+    path = Path(file)
+    suffix = path.suffix.lower()
+    if suffix not in SUFFIXES:
+        raise FileError(f"{shortened(text, quote=False)}: the name of a file to import ends in one of {', '.join(SUFFIXES)}.")
+    found, title = FoundMachine(path.name), "".join(word[:1].upper() + word[1:] for word in re.findall(r"[^\W_]+", path.stem))
+    if suffix == ".dxf":
+        size = len(read(path, DRAWING_BYTES + 1))
+        ensure_file(
+            size <= DRAWING_BYTES, f"{path.name}: the drawing is larger than {DRAWING_BYTES / 1e6:g} MB; save the machine by itself."
+        )
+        read_dxf(found, str(path), layers)
+        return found, title
+    raw = read(path, FILE_BYTES + 1)
+    if suffix == ".json":
+        read_json(found, decoded(path.name, raw, True).data)
+        return found, title
+    ensure_file(len(raw) <= FILE_BYTES, f"{path.name}: the file is larger than {FILE_BYTES / 1e6:g} MB; a machine is a few kB.")
+    content = text_of_bytes(raw)
+    ensure_file(content.strip(), f"{path.name}: the file is empty.")
+    ensure_file("\0" not in content, f"{path.name}: the file is no text.")
+    readers: dict[str, Callable[[FoundMachine, str], None]] = {".csv": read_points_csv, ".linkage2": read_linkage_xml}
+    reader = read_address if is_address(content.strip()) else readers.get(suffix, read_pmks_text)
+    reader(found, content.strip())
+    return found, title
+
+
+def text_of_bytes(raw: bytes) -> str:
+    """Return a text in UTF-8, or in the letters of Windows where it is not that."""
+    try:
+        return raw.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return raw.decode("cp1252", "replace")
+
+
+def read_address(found: FoundMachine, text: str) -> None:
+    """Read a share address."""
+    ensure_file(len(text) <= FILE_BYTES, f"{found.file}: it is longer than {FILE_BYTES} characters.")
+    query = address_text(text.strip())
+    if text.startswith(ENVELOPE):
+        read_json(found, decoded(found.file, json_in_address(found.file, text).encode(), True).data)
+    elif re.match(r"j=", query):
+        read_old_address(found, query)
+    else:
+        read_short_address(found, query)
+
+
+def json_reader(data: Mapping[str, Any]) -> Callable[[FoundMachine, Mapping[str, Any]], None] | None:
+    """Return what reads a JSON file by its keys; None where no program is known that writes these."""
+    if data.get("version") == 2 and "bodies" in data and "attachments" in data:
+        return read_plus_bodies
+    if "j" in data and "l" in data:
+        return read_plus_json
+    return read_pylinkage if isinstance(data.get("joints"), list) else None
+
+
+def read_json(found: FoundMachine, data: object) -> None:
+    """Read a JSON file of the program whose keys it has."""
+    reader = json_reader(data) if isinstance(data, dict) else None
+    if reader is None:
+        raise FileError(
+            f'{found.file}: it is no machine of PMKS+ ("j" and "l", or version 2 with "bodies") and none of pylinkage ("joints").'
+        )
+    reader(found, data)  # type: ignore[arg-type]
+
+
+def point_key(found: FoundMachine, name: str) -> str:
+    """Return the key of a point by its name; DefinitionError for any other."""
+    keys = [key for key, point in found.points.items() if name in (point.name, key)]
+    if not keys:
+        raise unknown("Point", name, [point.name for point in found.points.values()], where=found.file)
+    return keys[0]
+
+
+def add_drive(found: FoundMachine, kind: str, P: str, Q: str) -> None:
+    """Enter a drive that is asked for; DefinitionError for a crank whose pivot is not fixed, or that no link joins to its pin."""
+    names = found.points[P].name, found.points[Q].name
+    if kind == "crank":
+        fixed = ", ".join(point.name for point in found.points.values() if point.fixed)
+        if not found.points[P].fixed:
+            what = f"{found.file}: --drive {' '.join(names)}"
+            raise DefinitionError(f"{what}: {names[0]} is not fixed; a crank turns about a fixed pin: {fixed}.")
+        joined = any({P, Q} <= {*points} for _, points in found.links)
+        ensure(
+            joined, f"{found.file}: --drive {' '.join(names)}: no link joins {names[0]} and {names[1]}; name a pin of the link that turns."
+        )
+    found.drives.append(FoundDrive(kind, (P, Q)))
+    found.links = [each for each in found.links if kind != "cylinder" or {*each[1]} != {P, Q}]  # a rod that is drawn becomes the cylinder

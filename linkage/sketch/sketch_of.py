@@ -1,0 +1,134 @@
+"""From a machine back to a sketch, at one of its poses."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+
+from ..errors import DefinitionError, ensure
+from ..mechanism import Mechanism, require_mechanism
+from ..motion import Motion
+from ..plan import Part
+from ..quantities import FRAME_SIDE, Dimension, Joint, Quantity, Stroke
+from .machine_sketch import MachineSketch, Place, SketchDrive, SketchSlide
+
+ONE_TO_ONE = 1e-12
+"""A driven length or angle follows its stroke one to one where its slope is 1 to so much."""
+NOT_TOLD = ("point", "link", "guide")
+"""Kinds of members that a sketch holds, or that it needs no more."""
+
+
+def sketch_of(machine: Mechanism | type[Mechanism], at: Mapping[str, float] | None = None) -> MachineSketch:
+    """Return a machine of pins, links, slides, cranks and cylinders as a sketch.
+
+    Parameters
+    ----------
+    machine : Mechanism or type of Mechanism
+        The machine; of a class the one with its own dimensions.
+    at : mapping of str to float, optional
+        The strokes [m or rad] at which it is drawn. By default those of its own sketch.
+
+    Returns
+    -------
+    MachineSketch
+        Its points where they are at these strokes. A note names what it does not hold: loads, outputs, outlines.
+
+    Raises
+    ------
+    DefinitionError
+        A member is none of these, by its name; a batch of designs.
+    AssemblyError
+        It cannot be assembled there.
+    """
+    design = machine() if isinstance(machine, type) and issubclass(machine, Mechanism) else machine
+    require_mechanism(design)
+    assert isinstance(design, Mechanism)
+    plan, title = design.plan, design.plan.title
+    ensure(not any(np.ndim(each) for each in design.dimensions.values()), f"{title}: a sketch is of one design, not of a batch of them.")
+    ensure(not plan.of_kind(Part), f"{title}: it has parts; take the sketch of each machine by itself.")
+    strokes: dict[str, Any] = {**plan.sketch_strokes, **(at or {})}
+    motion = design.at(**strokes)
+    places = {name: (float(motion.x(name)), float(motion.y(name))) for name in plan.points}
+    joints = [(name, joint) for name, point in plan.points.items() for joint in point.joints() if plan.is_there(joint)]
+    joints += [(each.name, joint) for group in plan.groups.values() for each in group.slides for joint in each.joints()]
+    drives = dict(drives_of(design, joints, strokes))
+    idle = [name for name in plan.strokes if name not in drives]
+    what = f"{title}: no crank on the frame and no cylinder follows the stroke"
+    ensure(not idle, f"{what} {', '.join(idle)} one to one; a sketch has no other drives.")
+    slides = {f"slide_{number}": each for number, each in enumerate(slides_of(design, joints, motion), 1)}
+    frame = tuple(name for name, point in plan.points.items() if point.is_fixed or name in plan.ground)
+    links = {f"link_{'_'.join(body.points)}": body.points for body in plan.links if not body.fixed and len(body.points) > 1}
+    arms = [drive.ends for drive in drives.values() if drive.kind == "crank"]
+    links |= {f"link_{P}_{Q}": (P, Q) for P, Q in arms if not any({P, Q} <= {*points} for points in links.values())}
+    held = {*frame, *(point for points in links.values() for point in points), *(slide.point for slide in slides.values())}
+    loose = [name for name in plan.points if name not in held]
+    ensure(not loose, f"{title}: the sketch has no word for what holds {', '.join(loose)}; it is on no link and no slide.")
+    others = [name for name, each in plan.members.items() if each.kind not in NOT_TOLD and not is_found_anew(each)]
+    notes = (f"Not in the sketch of {title}: {', '.join(others)}.",) if others else ()
+    return MachineSketch(title, places, frame, links, slides, drives, notes=notes)
+
+
+def is_found_anew(member: object) -> bool:
+    """Return whether a member is found anew from a sketch: dimensions are measured, groups are made of pins."""
+    return isinstance(member, (Dimension, Stroke)) or (
+        not isinstance(member, Quantity) and type(member).__name__ in ("Drawn", "Group", "Slide")
+    )
+
+
+def drives_of(design: Mechanism, joints: list[tuple[str, Joint]], strokes: Mapping[str, float]) -> Iterator[tuple[str, SketchDrive]]:
+    """Yield what drives, by its stroke; DefinitionError for a driven length or angle that does not follow one stroke one to one."""
+    plan = design.plan
+    driven: list[tuple[str, str, tuple[str, str], Quantity]] = []
+    for name, joint in joints:
+        if joint.kind == "crank" and joint.by == FRAME_SIDE:
+            driven += [(name, "crank", (joint.point, name), drive.quantity) for drive in joint.drives]
+    driven += [(f"{bar.P}{bar.Q}", "cylinder", (bar.P, bar.Q), bar.length) for bar in plan.cylinders]
+    for name, kind, ends, quantity in driven:
+        reached = plan.reaches(quantity) | {quantity.name}
+        own = [each for each in plan.strokes if each in reached]
+        slope = 0.0
+        if len(own) == 1 and plan.points.keys().isdisjoint(reached):
+            ends_of = [value_at(design, quantity, {**strokes, own[0]: strokes[own[0]] + step}) for step in (0.0, 1.0)]
+            slope = ends_of[1] - ends_of[0]
+        if abs(slope - 1.0) > ONE_TO_ONE:
+            raise DefinitionError(f"{plan.title}: the {kind} {name} does not follow one stroke one to one, which a sketch needs of it.")
+        stroke = plan.strokes[own[0]]
+        yield own[0], SketchDrive(kind, ends, float(stroke.start), float(stroke.end), float(strokes[own[0]]))
+
+
+def value_at(design: Mechanism, quantity: Quantity, strokes: Mapping[str, float]) -> float:
+    """Return a quantity that follows strokes alone [SI]."""
+    return float(design.plan.reading({**design.plan.defaults, **design.dimensions, **strokes}).value(quantity))
+
+
+def slides_of(design: Mechanism, joints: list[tuple[str, Joint]], motion: Motion) -> Iterator[SketchSlide]:
+    """Yield what slides; DefinitionError for a joint that is neither a slide nor a crank of the frame."""
+    plan, seen = design.plan, set[tuple[str, tuple[str, ...]]]()
+    for name, joint in joints:
+        if (joint.kind == "crank" and joint.by == FRAME_SIDE) or (joint.point, joint.track) in seen:
+            continue
+        guide = plan.guide_of(joint.by)
+        ends = guide.points if guide is not None else joint.track
+        if joint.kind != "guide" or (guide is not None and guide.joints()):
+            raise DefinitionError(f"{plan.title}: {name} = {plan.members[name]} is no pin, link, slide, crank or cylinder of a sketch.")
+        seen.add((joint.point, joint.track))
+        if len(ends) == 2:
+            P, Q = ends
+            what = f"{plan.title}: the slot of {name} = {plan.members[name]}"
+            ensure(is_in_line(motion, joint.point, P, Q), f"{what} misses its pins; a sketch needs it through two of them.")
+            yield SketchSlide(joint.point, (P, Q))
+        else:
+            assert guide is not None
+            ensure(not ends, f"{plan.title}: the guide {guide.name} = {guide} goes through a moving point in a direction of the frame.")
+            line = guide.line(plan.reading({**plan.defaults, **design.dimensions}))
+            yield SketchSlide(joint.point, float(np.arctan2(line.direction.y, line.direction.x)))
+
+
+def is_in_line(motion: Motion, *points: str) -> bool:
+    """Return whether three points stand in one line, to the digits of their places."""
+    places: list[Place] = [(float(motion.x(each)), float(motion.y(each))) for each in points]
+    (ax, ay), (bx, by), (cx, cy) = places
+    size = max(abs(each) for place in places for each in place) or 1.0
+    return abs((bx - ax) * (cy - ay) - (by - ay) * (cx - ax)) <= 1e-9 * size * size

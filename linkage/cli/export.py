@@ -12,8 +12,7 @@ import numpy as np
 from .. import plugins
 from ..disk import check_place, replacing_text
 from ..errors import DefinitionError, FileError, ensure
-from ..motion import Motion, columns_of
-from ..reports import case_along, results
+from ..motion import Motion
 from .command import Command, count_option, default_name, machine_options, option, repeatable, whole_number
 from .settings import ALONG, machine_of, strokes_or_motion, tell_gaps
 
@@ -55,9 +54,7 @@ def export_command(options: Namespace) -> int:
     found = strokes_or_motion(machine, options)
     if isinstance(found, Motion):
         ensure(options.poses is None, f"--over {options.over}: a motion has its poses; leave out --poses, or give --count.")
-        own = [*columns_of(found), *results(machine, found, case_along(found))] if "columns" in exporter.takes else []
-        columns = [*{each.name: each for each in own}.values()]
-        print(export(found, path, format=options.format, trace=options.path, columns=columns))
+        print(export(found, path, format=options.format, trace=options.path))
         return 0
     at = dict(found)
     if options.poses is not None:

@@ -67,7 +67,7 @@ def draw_command(options: Namespace) -> int:
 
     draw(
         machine, at or None, traced_points(machine, options.path), options.count, forces=options.on or options.forces,
-        case=settings.plain_value(acting).case, direction=options.direction or "frictionless", drive=options.drive,
+        case=settings.plain_value(acting).case, direction=options.direction, drive=options.drive,
         pole=options.poles, clearance=options.clearance,
     ).savefig(path)  # fmt: skip
     print(path)

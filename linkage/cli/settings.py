@@ -344,7 +344,7 @@ def columns_picked(
     """
     plan, is_plain = machine.plan, acting == PLAIN
     acting = replace(acting, case=run_case) if acting.case is None else acting
-    columns = results(machine, motion, acting.case) if is_plain else columns_of_all(motion, acting)
+    columns = results(machine, motion, acting.case or PLAIN_CASE) if is_plain else columns_of_all(motion, acting)
     known = {column.name: column for column in columns}
     ensure(known, f"{plan.title} has no results: it declares no stroke, no point that moves and no output.")
     if not names:

@@ -158,7 +158,7 @@ class ReportSubject:
     def columns(self) -> list[Column]:
         """The results at the poses of the drawings, under the machine's own loads."""
         with unwarned():
-            return results(self.machine, self.curve)
+            return results(self.machine, self.curve, PLAIN_CASE)
 
     def columns_along(self, run: Run, motion: Motion) -> dict[str, Column]:
         """Return the columns of results and of members over a run, in its load case, by name."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, final
@@ -15,8 +16,8 @@ from .. import plugins
 from ..checks import require_type
 from ..disk import Place, check_name, check_place, replacing
 from ..errors import DefinitionError, known_name
-from ..mechanism import Mechanism, require_mechanism
-from ..motion import Column, Motion, columns_of
+from ..mechanism import Mechanism, played_along, require_mechanism
+from ..motion import Column, Motion, columns_of, stroke_unit
 from ..pictures.strokes import pose_words
 from ..plugins import Plugins
 from ..quantities import as_mapping
@@ -107,7 +108,7 @@ class Workbook(Exporter):
 
 @final
 class Csv(Exporter):
-    """A table of results: of a machine its own, over its strokes; of a motion its points and outputs, or `columns`."""
+    """A table of results: of a machine its own, over its strokes; of a motion `motion_columns`, or `columns`."""
 
     suffix = ".csv"
     help = "a table in full precision"
@@ -116,13 +117,30 @@ class Csv(Exporter):
 
     def content(self, job: ExportJob) -> bytes:
         motion = self.poses(job)
-        table = list(job.columns) or (columns_of(motion) if isinstance(job.what, Motion) else results(job.what, motion))
+        table = list(job.columns) or (motion_columns(motion) if isinstance(job.what, Motion) else results(job.what, motion))
         stream = io.StringIO(newline="")
         write_csv(table, stream)
         return stream.getvalue().encode("utf-8")
 
     def poses(self, job: ExportJob) -> Motion:
         return job.what if isinstance(job.what, Motion) else over_strokes(job.what, job.at, job.count)
+
+
+def motion_columns(motion: Motion) -> list[Column]:
+    """Return what a table of a motion holds: strokes, points, outputs; in time how fast the strokes go and how that changes.
+
+    Of one design over an `Over` its results too, in a load case that occurs there.
+    """
+    found = columns_of(motion)
+    along = len(motion.strokes) + (motion.time is not None)
+    for order, what in ((1, motion.rates), (2, motion.accelerations)):
+        units = {name: f"{stroke_unit(motion.plan, name)}/s{order if order > 1 else ''}" for name in what}
+        rates = [Column(f"{('rate', 'acceleration')[order - 1]} {name}", value, units[name]) for name, value in what.items()]
+        found[along:along], along = rates, along + len(rates)
+    if motion.is_swept and not motion._design_shape:
+        with suppress(DefinitionError):  # a class that is not there any more has no table of its own
+            found += results(played_along(motion, None)[0], motion)
+    return [*{each.name: each for each in found}.values()]
 
 
 @final
@@ -188,7 +206,8 @@ def export(
       dimension typed over changes all of it. `at=dict(tilt=0.1)` holds a stroke, `at=dict(S=(0.1, 0.2))` says where one runs. What no
       formula gives (pins found by iteration) is a number there, marked so.
     * .csv is the table of results in full precision. Of a machine it goes over its strokes, `count` poses each of those that `at` does not
-      give. Of a motion it has its poses, with its points and outputs or the `columns` given.
+      give. Of a motion it has its poses, with its points and outputs or the `columns` given; over an `Over` the results too, in a load
+      case that occurs there, over time also the rates and the accelerations of the strokes.
     * .dxf (extra `cad`) and .svg are a drawing in millimetres, true size, by layers. Of a machine it has a pose each of the strokes that
       `at` gives (default: the start of the first stroke), of a motion all its poses. `trace` names points whose paths are drawn.
     * Of a working field .csv has a row each cell, .xlsx the chart as it is printed, too.

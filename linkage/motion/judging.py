@@ -6,7 +6,7 @@ from abc import abstractmethod
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, ClassVar, final
+from typing import ClassVar, final
 
 import numpy as np
 
@@ -427,15 +427,30 @@ def pose_sentence(motion: Motion) -> str:
     plan, designs = require_motion(motion).plan, motion.designs
     judge = Judge(plan, designs, [*plan.of_kind(Over).values()] or [Over()])
     near = [place for place in judge.places if (covered(place, motion) & place.over.kept(motion)).all()]
-    at: dict[str, Any] = {name: [float(np.ravel(value)[0])] for name, value in motion.strokes.items()}
     occurring = dict.fromkeys(place.over.cases for place in near or judge.places)
-    found, unknown = answers_at(Judge(plan, designs, [Over.poses(**at, cases=cases) for cases in occurring]))
+    found, unknown = answers_at(Judge(plan, designs, [over_pose(motion, cases) for cases in occurring]))
     if not found and not unknown:
         return ""
     faults = [f"{rule} {pose_value(each)}" for rule, each in found.items() if each.ok is False]
-    parts = [", ".join(faults) or said("all kept"), *([] if near else [said("outside what is judged")])]
-    parts += [said("not followed here: {rules}", rules=", ".join(unknown))] if unknown else []
+    kept = said("{count} kept", count=len(found)) if unknown else said("all kept")
+    parts = [", ".join(faults) or kept, *([] if near else [said("outside what is judged")])]
+    parts += [said("{count} not followed here: {rules}", count=len(unknown), rules=", ".join(unknown))] if unknown else []
     return f"{said('At this pose:')} {'; '.join(parts)}."
+
+
+INSTANT = 1e-9
+"""Of the time of a path: so long is what is judged at one of its instants, as it runs there."""
+
+
+def over_pose(motion: Motion, cases: Sequence[str] | None) -> Over:
+    """Return where a pose is judged: it alone, in time the shortest way from it on, at the end up to it."""
+    instants = motion._instants
+    if instants is None or not instants.courses:
+        return Over.poses(cases=cases, **{name: [float(np.ravel(value)[0])] for name, value in motion.strokes.items()})
+    (first, last), time = instants.breaks[[0, -1]].tolist(), float(np.ravel(instants.time)[0])
+    begin = min(max(time, first), last - INSTANT * (last - first))
+    ends = begin, begin + INSTANT * (last - first)
+    return Over.path(cases=cases, time=ends, **instants.courses)
 
 
 def answers_at(judge: Judge) -> tuple[dict[str, Answer], list[str]]:

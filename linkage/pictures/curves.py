@@ -22,7 +22,7 @@ from ..motion.measures import Constraint, Given, Leaf, Least, Most
 from ..motion.requests import may_be_unlimited
 from ..program import FloatArray
 from ..quantities import Quantity, is_number
-from ..reports import At, columns_about, motion_over, request_in_case, results, run_of, run_words, runs_of
+from ..reports import At, case_along, columns_about, in_case_words, motion_over, request_in_case, results, run_of, run_words, runs_of
 from ..statics import LawRequest
 from ..units import factor, require_measure
 from . import style
@@ -44,8 +44,10 @@ Curve: TypeAlias = tuple[Motion, Column, str]
 
 def plot_motion(motion: Motion, columns: Sequence[Column | RequestLike], limits: Mapping[str, Sequence[object]] | None) -> Figure:
     """Return a figure of columns over the stroke, a panel each; see `plot`."""
-    along, found = StrokeAxis.of(motion), columns_named(motion, columns)
-    return plot_curves(motion, [(motion, column, "") for column in found], limits, along.held)
+    along, case = StrokeAxis.of(motion), case_along(motion)
+    is_list = isinstance(columns, (list, tuple))
+    found = columns_named(motion, [request_in_case(each, case) for each in columns] if is_list else columns)
+    return plot_curves(motion, [(motion, column, "") for column in found], limits, along.held, in_case_words(motion.plan, case))
 
 
 def plot_machine(
@@ -68,13 +70,14 @@ def plot_machine(
         curves += [(motion, column, run_words(machine, run) if len(runs) > 1 else "") for column in columns_named(motion, shown)]
     names = {column.name for _, column, _ in curves}
     own_limits = {name: limit for name, limit in featured.limits.items() if name in names}
-    return plot_curves(motion, curves, own_limits | dict(limits or {}), held if len(runs) == 1 else "")
+    case = in_case_words(machine.plan, runs[0].case) if len(runs) == 1 else ""
+    return plot_curves(motion, curves, own_limits | dict(limits or {}), held if len(runs) == 1 else "", case)
 
 
-def plot_curves(first: Motion, curves: Sequence[Curve], limits: Mapping[str, Sequence[object]] | None, held: str) -> Figure:
+def plot_curves(first: Motion, curves: Sequence[Curve], limits: Mapping[str, Sequence[object]] | None, held: str, case: str) -> Figure:
     """Return a figure of curves, a panel each, with their limits; `held` are the strokes that are held along all of them.
 
-    `first` is a motion that they are of.
+    `first` is a motion that they are of, `case` the load case of all in words.
     """
     if limits is not None:
         require_type("limits", limits, Mapping, "a limit for each column by its name is expected, dict(tilt=(0.1, 'max'))")
@@ -86,7 +89,7 @@ def plot_curves(first: Motion, curves: Sequence[Curve], limits: Mapping[str, Seq
     if not shown:
         along = StrokeAxis.of(first).name
         raise DefinitionError(f"{first.plan.title}: there is no column to draw over {along}; name a result, not a stroke.")
-    figure, cells = panel_grid(len(shown), first.plan.heading, held)
+    figure, cells = panel_grid(len(shown), ", ".join(filter(None, (first.plan.heading, case))), held)
     for ax, (motion, result, where) in zip(cells, shown, strict=True):
         column, bound = as_curve(result, given.get(result.name))
         panel(ax, motion, column, bound)

@@ -42,7 +42,7 @@ if TYPE_CHECKING:
 
 
 @overload
-def draw(machine: Motion, *, ax: Axes, pose: Pose = ..., faint: bool = ...) -> Drawing: ...
+def draw(machine: Motion, *, ax: Axes, pose: Pose = ..., time: float | None = ..., faint: bool = ...) -> Drawing: ...
 @overload
 def draw(
     machine: Drawable,
@@ -52,11 +52,12 @@ def draw(
     *,
     ax: None = ...,
     pose: Pose = ...,
+    time: float | None = ...,
     faint: bool = ...,
     forces: bool | str = ...,
     loads: Loads = ...,
     case: Case = ...,
-    direction: str = ...,
+    direction: str | None = ...,
     drive: str | None = ...,
     velocities: Mapping[str, object] | None = ...,
     pole: bool | str | tuple[str, str] = ...,
@@ -72,11 +73,12 @@ def draw(
     *,
     ax: Axes | None = None,
     pose: Pose = 0,
+    time: float | None = None,
     faint: bool = False,
     forces: bool | str = False,
     loads: Loads = None,
     case: Case = None,
-    direction: str = "frictionless",
+    direction: str | None = None,
     drive: str | None = None,
     velocities: Mapping[str, object] | None = None,
     pole: bool | str | tuple[str, str] = False,
@@ -92,9 +94,10 @@ def draw(
     `path` names points whose paths are drawn over that stroke, at `count` poses. Poses out of reach are left out, and the
     picture says so; where none is in reach this raises AssemblyError.
 
-    Of a motion, `pose` is an index into its strokes, an int for the flat one; on axes that are given, the drawing comes back, whose
-    `update(pose)` moves it. Empty axes become a sheet with equal scales that has room for the whole motion. A faint mechanism has
-    no names. Raises DefinitionError for a batch of designs, an unknown name or a pose that is not there.
+    Of a motion, `pose` is an index into its strokes, an int for the flat one. Over a path in time `time` is an instant [s] in its place,
+    whether or not it is one of the motion's own. On axes that are given the drawing comes back, whose `update(pose)` moves it. Empty axes
+    become a sheet with equal scales that has room for the whole motion. A faint mechanism has no names.
+    Raises DefinitionError for a batch of designs, an unknown name or a pose that is not there.
 
     More is laid over the pose, the bold one of several. `forces=True` gives the pin forces and loads as arrows to one scale. With the name
     of a body, `forces="OBC"`, that body stands alone with all forces on it and their polygon. With the name of a pin, `forces="O"`, these
@@ -122,7 +125,7 @@ def draw(
     """
     laid = (faint, forces, pole, clearance, is_yes("freedom", freedom))
     is_laid = ax is not None or velocities is not None or any(each is not None and each is not False for each in laid)
-    is_laid = is_laid or not (isinstance(pose, int) and pose == 0)
+    is_laid = is_laid or time is not None or not (isinstance(pose, int) and pose == 0)
     if isinstance(machine, Synthesis):
         if at is not None or path or is_laid:
             title = machine.start.plan.title
@@ -152,7 +155,7 @@ def draw(
             raise DefinitionError(f"{title}: a search's result is drawn at the ends of its stroke; it takes count= alone.")
         return draw_optimum(machine, count)
     overlays = Overlays(force_question(forces, loads, case, direction, drive, velocities), velocities, pole, clearance, freedom)
-    return draw_machine(machine, at, path, count, overlays, ax, pose, faint)
+    return draw_machine(machine, at, path, count, overlays, ax, pose, time, faint)
 
 
 def plot(

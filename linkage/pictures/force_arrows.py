@@ -15,10 +15,12 @@ from ..loads import Case, ForceElement, Loads
 from ..motion import Motion
 from ..program import FloatArray
 from ..quantities import joined_names
+from ..reports import case_along, in_case_words
 from ..statics import JointForce, PinForces, pin_forces
 from ..units import current_system, shown_in
 from .arrows import NOTHING_THERE, ArrowLayer, TurningArrow, VectorArrow
 from .shapes import left_of
+from .strokes import pose_words
 from .style import part_of_points
 
 PIN, LOAD, MEMBER, GROUND = "#0072b2", "#d55e00", "#007f5c", "#000000"
@@ -38,21 +40,30 @@ class ForceQuestion:
     body: str = ""
     loads: Loads = None
     case: Case = None
-    direction: str = "frictionless"
+    direction: str | None = None
     drive: str | None = None
     rates: Rates = None
+
+    def along(self, motion: Motion) -> ForceQuestion:
+        """Return the same in the load case that a motion is shown in, where neither loads nor a case are said."""
+        return self if self.case is not None or self.loads is not None else replace(self, case=case_along(motion))
+
+    def pose_heading(self, motion: Motion, pose: int) -> str:
+        """Return the strokes at a pose and the load case, in words."""
+        return ", ".join(filter(None, (pose_words(motion, pose), in_case_words(motion.plan, self.along(motion).case))))
 
     def asked(self, motion: Motion) -> PinForces:
         """Return the forces of a motion."""
         return pin_forces(motion, self.loads, case=self.case, direction=self.direction, drive=self.drive, rates=self.rates)
 
 
-def force_question(forces: object, loads: Loads, case: Case, direction: str, drive: str | None, rates: Rates) -> ForceQuestion | None:
+def force_question(
+    forces: object, loads: Loads, case: Case, direction: str | None, drive: str | None, rates: Rates
+) -> ForceQuestion | None:
     """Return what `draw(forces=...)` asks for, None where it asks for nothing; DefinitionError for what is neither."""
     if forces is False or forces is None:
-        given = {"loads": loads, "case": case, "drive": drive}
+        given = {"loads": loads, "case": case, "drive": drive, "direction": direction}
         named = next((name for name, value in given.items() if value is not None), "")
-        named = named or ("" if isinstance(direction, str) and direction == "frictionless" else "direction")
         if named:
             raise DefinitionError(f"draw({named}=...) says of which forces; say forces=True, or the name of a body, too.")
         return None
@@ -87,12 +98,12 @@ class ForcesAt:
 
 def forces_at_pose(motion: Motion, pose: int, question: ForceQuestion) -> ForcesAt:
     """Return the forces at a pose; where they are refused at that pose, SingularError, or with `unreachable="nan"` the words why."""
+    question = question.along(motion)
     with unwarned():
         try:
             found = ForcesAt(question.asked(motion), pose)
         except SingularError:
-            alone = motion.moved({name: values.ravel()[pose] for name, values in motion.strokes.items()})
-            found = ForcesAt(question.asked(alone), 0)
+            found = ForcesAt(question.asked(one_pose(motion, pose, "nan")), 0)
     if all(np.isfinite(found.one(joint.force)).all() for joint in found.found.joints):
         return found
     words = why_no_forces(motion, pose, question) or next(iter(found.found.remarks), said("the forces are not known here"))
@@ -103,12 +114,19 @@ def forces_at_pose(motion: Motion, pose: int, question: ForceQuestion) -> Forces
 
 def why_no_forces(motion: Motion, pose: int, question: ForceQuestion) -> str:
     """Return why a pose has no forces, in words; empty where nothing refuses them."""
-    strokes = {name: np.array(values.ravel()[pose]) for name, values in motion.strokes.items()}
     try:
-        question.asked(Motion(motion.plan, motion.designs, strokes))
+        question.asked(one_pose(motion, pose))
     except AssemblyError as error:
         return str(error)
     return ""
+
+
+def one_pose(motion: Motion, pose: int, unreachable: str = "raise") -> Motion:
+    """Return a motion at one of its poses alone, a flat index, in time at its instant; errors or NaN where it cannot be had."""
+    strokes, instants = {name: np.array(values.ravel()[pose]) for name, values in motion.strokes.items()}, motion._instants
+    instants = None if instants is None else instants.shaped(lambda each: np.array(np.ravel(each)[pose]))
+    with unwarned():
+        return Motion(motion.plan, motion.designs, strokes, unreachable, instants=instants)
 
 
 def force_layer(forces: ForcesAt, body: str = "") -> ArrowLayer:

@@ -20,7 +20,6 @@ from .paper import BOTTOM, LEFT, RIGHT, TOP, footnote, legend_row, write_title
 from .scene import Places, Plate, Scene
 from .shapes import hull, segment
 from .sheet import empty_figure, fitted_to, grown, points_a_metre, sheet
-from .strokes import pose_words
 from .style import STRONG
 from .symbols import MovingPart, polygon
 
@@ -54,7 +53,8 @@ def draw_free_body(motion: Motion, pose: int, question: ForceQuestion) -> Figure
     sheet_note(ax, [said("No forces here: {why}", why=forces.refusal)] if forces.refusal else forces.found.remarks)
     heading = motion.plan.heading
     on_body = said("{machine}: forces on {body}", machine=heading, body=short_name(forces, body))
-    write_title(figure, said("{machine}: forces on the frame", machine=heading) if body == FRAME else on_body, pose_words(motion, pose))
+    on_body = said("{machine}: forces on the frame", machine=heading) if body == FRAME else on_body
+    write_title(figure, on_body, question.pose_heading(motion, pose))
     legend_row(ax, *ax.get_legend_handles_labels())
     footnote(figure, closing_words(layer, "" if forces.found.axle_loads else body))
     return figure

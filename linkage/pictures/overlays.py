@@ -19,7 +19,7 @@ from ..steps import Link
 from ..units import factor, mm, show, shown_in
 from . import arrows, style
 from .arrows import ArrowLayer, VectorArrow, Wording
-from .force_arrows import ForceQuestion, force_layer, forces_at_pose, why_no_forces
+from .force_arrows import ForceQuestion, force_layer, forces_at_pose, one_pose, why_no_forces
 from .gap_marks import GapMark, Pairs, asked_pair, assumed_pairs, body_pair, draw_gap, gap_mark, own_bodies, worst_pose
 from .lever_arms import LeverArm, lever_arms
 from .scene import Bounds, Scene
@@ -267,13 +267,6 @@ def velocity_layer(motion: Motion, pose: int, rates: Mapping[str, Any]) -> Arrow
         else:
             words.append(f"{name} {show(float(rate), 'm/s', 3)}")
     return ArrowLayer(shown, unit, ((VELOCITY, said("velocity at {rates}", rates=", ".join(words))),), notes=notes)
-
-
-def one_pose(motion: Motion, pose: int) -> Motion:
-    """Return a motion at one of its poses alone: what is refused there raises."""
-    strokes = {name: np.array(values.ravel()[pose]) for name, values in motion.strokes.items()}
-    with unwarned():
-        return motion.moved(strokes) if not motion.reached.ravel()[pose] else Motion(motion.plan, motion.designs, strokes)
 
 
 # Poles of bodies.

@@ -10,14 +10,15 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..checks import require, require_type, require_whole
-from ..errors import DefinitionError, known_name
+from ..errors import DefinitionError, cited, known_name
 from ..language import said, said_of
 from ..mechanism import Mechanism, require_mechanism
 from ..motion import Motion, least
 from ..plan import require_kinds
 from ..program import FloatArray
-from ..quantities import is_whole, numbers_in
+from ..quantities import is_number, is_whole, numbers_in
 from ..reports import Run, first_stroke, reached_motion, stroke_middles
+from ..units import require_measure
 from . import style
 from .drawing import Drawing, draw_scene, mechanism
 from .free_body import draw_free_body
@@ -40,7 +41,8 @@ FILLED = 1.0 / 3.0
 
 
 def draw_machine(
-    machine: Mechanism | Motion, at: object, path: Sequence[str], count: int, overlays: Overlays, ax: Axes | None, pose: Pose, faint: bool
+    machine: Mechanism | Motion, at: object, path: Sequence[str], count: int, overlays: Overlays, ax: Axes | None, pose: Pose,
+    time: float | None, faint: bool,
 ) -> Figure | Drawing:
     """Return a mechanism's figure at chosen strokes, or a motion at one of its poses, on axes if they are given; see `draw`."""
     if ax is not None and overlays:
@@ -49,12 +51,34 @@ def draw_machine(
         is_plain = at is None and isinstance(path, (list, tuple)) and not path and is_whole(count) and count == 101
         if not is_plain:
             title = machine.plan.title
-            raise DefinitionError(f"{title}: a motion is drawn at one of its poses, pose=; at=, path= and count= go with a machine.")
+            what = "a motion is drawn at one of its poses, pose=, over a path in time at an instant, time="
+            raise DefinitionError(f"{title}: {what}; at=, path= and count= go with a machine.")
+        machine, pose = (machine, pose) if time is None else with_instant(machine, time, pose)
         return mechanism(ax, machine, pose, faint=faint) if ax is not None else draw_pose(machine, pose, overlays, faint)
     require_mechanism(machine)
+    if time is not None:
+        what = f"{machine.plan.title}: time={cited(time)} is an instant of a motion"
+        raise DefinitionError(f'{what}; write draw(machine.sweep(101, over="..."), time={cited(time)}).')
     if ax is not None:
         raise DefinitionError(f"{machine.plan.title}: ax= takes a motion, which has poses; write draw(machine.at(...), ax=ax).")
     return draw_strokes(machine, at, path, count, overlays)
+
+
+def with_instant(motion: Motion, time: float, pose: Pose) -> tuple[Motion, int]:
+    """Return a motion over a path in time that has an instant [s] among its poses, and its place; DefinitionError where it has none."""
+    title, known, instants = motion.plan.title, motion.time, motion._instants
+    if known is None or instants is None or not instants.courses:
+        raise DefinitionError(f"{title}: time={cited(time)}: this motion has no courses over time; give pose=, a place among its poses.")
+    begin, end = instants.breaks[[0, -1]].tolist()
+    is_instant = is_number(time) and begin <= time <= end
+    require(is_instant, f"{title}: time", time, f"an instant from {begin:.6g} to {end:.6g} s is expected")
+    require(pose == 0, f"{title}: pose", pose, "time= says which pose is drawn; leave one of them out")
+    require_measure(time, "time", f"{title}: time")
+    place = int(np.searchsorted(known, time))
+    if known[place : place + 1].tolist() == [time]:
+        return motion, place
+    shown = instants.at(np.insert(known, place, time))
+    return Motion(motion.plan, motion.designs, shown.strokes, motion.unreachable, over=motion.over, instants=shown), place
 
 
 def draw_pose(motion: Motion, pose: Pose, overlays: Overlays, faint: bool) -> Figure:
@@ -71,7 +95,8 @@ def draw_pose(motion: Motion, pose: Pose, overlays: Overlays, faint: bool) -> Fi
         draw_laid(ax, scene, index, overlays, laid)
         footnote(figure, laid.sense)
         legend_row(ax, *ax.get_legend_handles_labels())
-    write_title(figure, motion.plan.heading, pose_words(motion, index))
+    heading = overlays.forces.pose_heading if overlays.forces else pose_words
+    write_title(figure, motion.plan.heading, heading(motion, index))
     return figure
 
 

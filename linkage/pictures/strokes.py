@@ -17,7 +17,7 @@ from ..motion import Column, Motion, check_any, last_holding, require_motion, st
 from ..plan import Plan
 from ..program import FloatArray
 from ..reports import NOTHING, At, Run, column_among, motion_over, reached_motion, results, run_of
-from ..units import factor, shown_in
+from ..units import factor, show, shown_in
 
 
 @final
@@ -77,10 +77,11 @@ def stroke_words(plan: Plan, name: str, value: float, *, fixed: bool = False) ->
 
 
 def pose_words(motion: Motion, pose: int, names: Iterable[str] | None = None) -> str:
-    """Return the strokes of a motion at a pose, a flat index, as text; some of them where they are named."""
+    """Return the strokes of a motion at a pose, a flat index, as text, over time with the instant; some of them where they are named."""
     shown = motion.strokes if names is None else names
     values = {name: float(np.broadcast_to(motion.strokes[name], motion._stroke_shape).ravel()[pose]) for name in shown}
-    return ", ".join(stroke_words(motion.plan, name, value) for name, value in values.items())
+    time = [] if motion.time is None or names is not None else [f"{said('time')} = {show(float(np.ravel(motion.time)[pose]), 's', 4)}"]
+    return ", ".join([*time, *(stroke_words(motion.plan, name, value) for name, value in values.items())])
 
 
 def others_in_words(motion: Motion, moving: str) -> str:

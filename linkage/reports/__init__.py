@@ -3,14 +3,14 @@
 from ..star import declare_public
 from .live_columns import LiveColumn, column_requests, is_column
 from .ranges import closely, ranges_below_zero, reached_span, spans_in_words
-from .results import column_among, columns_about, force_columns, is_changing, is_loaded, request_in_case, results
+from .results import case_along, column_among, columns_about, force_columns, is_changing, is_loaded, request_in_case, results
 from .runs import (
     NOTHING,
     At,
     Run,
-    case_along,
     case_shown,
     first_stroke,
+    in_case_words,
     motion_over,
     one_run,
     reached_motion,

@@ -10,7 +10,7 @@ from typing import TypeAlias
 import numpy as np
 
 from ..errors import LinkageError, UntracedError
-from ..loads import Case
+from ..loads import PLAIN_CASE, Case
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, Request, RequestLike, require_motion
 from ..program import FloatArray
@@ -36,7 +36,7 @@ def column_over(machine: Mechanism, place: int, name: str, motion: AnyMotion) ->
     if place >= len(found):
         if isinstance(motion, TracedMotion):
             raise UntracedError(f"{given.plan.title}: the column {name} is a member's, and the member does not say what asks for it.")
-        found = results(machine, given)
+        found = results(machine, given, PLAIN_CASE)
     return np.asarray(np.asarray(found[place].values)[()])[()]
 
 
@@ -54,7 +54,7 @@ def column_requests(
     plain = points | outputs | {name: name for name in plan.strokes}  # what the columns ask for that every machine has
     found: dict[str, LiveColumn] = {}
     acting = {} if case is None else {column.name: column for column in results(machine, motion, case)}
-    for place, plainly in enumerate(results(machine, motion) if columns is None else columns):
+    for place, plainly in enumerate(results(machine, motion, PLAIN_CASE) if columns is None else columns):
         column = acting.get(plainly.name, plainly)
         names[column.name] += 1
         name = column.name if names[column.name] == 1 else f"{column.name} ({names[column.name]})"

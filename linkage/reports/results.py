@@ -12,7 +12,7 @@ import numpy as np
 from ..errors import DefinitionError, cited, known_name
 from ..files.criterion import REQUESTS, request_function
 from ..language import noted
-from ..loads import Acting, Case, ForceElement
+from ..loads import PLAIN_CASE, Acting, Case, ForceElement
 from ..mechanism import Mechanism, require_mechanism
 from ..motion import Column, Motion, Request, Tabled, columns_of, require_motion, speakers, stroke_unit
 from ..program import FloatArray
@@ -26,10 +26,11 @@ def results(machine: Mechanism, motion: Motion, case: Case = None) -> list[Colum
 
     They are the generalised forces of its strokes, and what its members show: of a cylinder thrust, pressure and reserve. To a table
     of its own are added those of members that a variant of the machine declares. Of a machine that is not held there are places alone.
-    In a load case all are of that case but those of the machine's own table that do not say what asks for them.
+    In a load case all are of that case but those of the machine's own table that do not say what asks for them. Where none is given it is
+    the one that the motion is shown in (`case_along`); "plain" are the machine's own loads.
     """
+    case = case_along(require_motion(motion)) if case is None else None if case == PLAIN_CASE else case
     require_mechanism(machine)
-    require_motion(motion)
     is_held = not held_fault(motion)
     columns = columns_by(machine, motion) if is_held else columns_of(motion)
     if not is_held or not is_loaded(motion):
@@ -42,6 +43,15 @@ def results(machine: Mechanism, motion: Motion, case: Case = None) -> list[Colum
     is_own = owner is not Mechanism
     further = member_columns(whole, case, beside=owner.plan.members if is_own else ())
     return columns + [column for column in [*([] if is_own else drive_columns(whole, case)), *further] if column.name not in taken]
+
+
+def case_along(motion: Motion) -> Case:
+    """Return the load case that a motion is shown in: the first of the `Over` that it was swept over, which it keeps.
+
+    None, the machine's own loads, where these occur there, and of any other motion.
+    """
+    cases = motion.over.cases if motion.is_swept else None
+    return None if cases is None or PLAIN_CASE in cases else cases[0]
 
 
 def column_in_case(motion: Motion, column: Column, case: Case) -> Column:

@@ -19,10 +19,10 @@ from ..motion.judge import Domain
 from ..motion.measures import MeasuredQuantity
 from ..motion.requests import may_be_unlimited
 from ..numeric.line import stretches
-from ..plan import require_kind
+from ..plan import Plan, require_kind
 from ..program import FloatArray
 from ..quantities import as_mapping, numbers_in
-from .results import column_among, results
+from .results import case_along, column_among, results
 
 At: TypeAlias = Mapping[str, Any]
 NOTHING: At = MappingProxyType({})
@@ -99,19 +99,16 @@ def case_shown(place: Domain, acting: Acting = PLAIN) -> Case:
     return None if case == PLAIN_CASE else case
 
 
-def case_along(motion: Motion) -> Case:
-    """Return the load case that a motion is shown in: that of the `Over` that it was swept over; of any other the machine's own loads."""
-    is_one_sweep = motion.is_swept and not motion._design_shape
-    return case_shown(Judge(motion.plan, motion.designs, [motion]).places[0]) if is_one_sweep else None
-
-
 def run_words(machine: Mechanism, run: Run) -> str:
     """Return which run it is and in which load case, in words: `over reaching, in the case far`; "" where there is nothing to say."""
-    case = machine.plan.of_kind(LoadCase).get(run.case, run.case) if isinstance(run.case, str) else run.case
-    parts = [said("over {over}", over=run.title)] if run.title else []
-    if case is not None:
-        parts.append(said("in the case {case}", case=case.label if isinstance(case, LoadCase) else case))
-    return ", ".join(parts)
+    parts = [said("over {over}", over=run.title) if run.title else "", in_case_words(machine.plan, run.case)]
+    return ", ".join(filter(None, parts))
+
+
+def in_case_words(plan: Plan, case: Case) -> str:
+    """Return which load case it is in words, by its title; "" for the machine's own loads."""
+    known = plan.of_kind(LoadCase).get(case, case) if isinstance(case, str) else case
+    return "" if known is None else said("in the case {case}", case=known.label if isinstance(known, LoadCase) else known)
 
 
 def worst_place(machine: Mechanism, middle: Run, place: Domain, acting: Acting) -> tuple[str, Mapping[str, float]]:

@@ -333,9 +333,7 @@ class LiftLine(Circuit):
         return str(getattr(given, "unit", "")) or "bar"
 
     def gauges_of(self, cylinder: Ram, plan: Plan) -> dict[str, Reading]:
-        if self.kind_in(plan.members) != "held":
-            return {}
-        return {"most": self.supply, "reserve": lambda motion: self.reserve(motion, cylinder=cylinder)}
+        return {"most": self.supply} if self.kind_in(plan.members) == "held" else {}
 
     def largest(self, motion: AnyMotion, loads: Loads = None, *, share: float = 1.0, **choice: Unpack[Choice]) -> Array:
         """Return the greatest rod force in the working direction [N]: k_h p area, less the back pressure's share."""

@@ -447,13 +447,14 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
 
     def gauges(self, plan: Plan) -> dict[str, Request]:
         circuits = circuits_of(self, plan)
-        found: dict[str, Reading] = {"thrust": self.thrust}
-        if len(circuits) <= 1:
-            found["pressure"] = self.pressure
+        read: dict[str, Reading] = {name: partial(self.length_set, name) for name in self.lengths_given}
         if len(circuits) == 1:
-            found |= circuits[0].gauges_of(self, plan)
-        found |= {name: partial(self.length_set, name) for name in self.lengths_given}
-        return {name: LawRequest(text=f"{self.name} {name}", formula=read) for name, read in found.items()}
+            read |= circuits[0].gauges_of(self, plan)
+        found: dict[str, Request] = {name: LawRequest(text=f"{self.name} {name}", formula=each) for name, each in read.items()}
+        if len(circuits) <= 1:
+            in_case = partial(pressure_of, self)
+            found["pressure"] = LawRequest(text=f"{self.name} pressure", formula=in_case, acting=Acting(), mover=self.name)
+        return found
 
     def formulas(self, written: Formulas) -> None:
         """Write its area, and its pressure where no circuit says it."""
@@ -1180,7 +1181,7 @@ class Circuit(OnLines, HasVerdicts):
         return tuple(each for each in found if isinstance(each, Ram))
 
     def gauges_of(self, cylinder: Ram, plan: Plan) -> dict[str, Reading]:
-        """Return what it says of one of its cylinders on a live page: the `most` pressure it may have [Pa], its `reserve`."""
+        """Return what it says of one of its cylinders on a live page: the `most` pressure it may have [Pa]."""
         return {}
 
     @abstractmethod

@@ -20,7 +20,7 @@ import numpy as np
 from ..assembly import angles_text, constants_text, groups_text, json_of
 from ..errors import DefinitionError, LawError, UntracedError
 from ..frozen import FrozenDict
-from ..plan import ArrayReading, Plan
+from ..plan import ArrayReading, Plan, rate_name
 from ..program import Inputs, Level, Node, ancestors, arrow_function, replaced
 from ..steps import Point
 from .conditions import REFUSE
@@ -49,7 +49,8 @@ class LiveText:
 def live_text(plan: Plan, requests: Mapping[str, RequestLike], name: str = "engine") -> LiveText:
     """Return JavaScript `const engine=...;` that sweeps a machine in a page; what no program gives is left out, with the reason.
 
-    `engine.sweep(d, strokes)` takes a design and an array for each stroke. It gives `values`, an array for each row. `reason` is 0 where a
+    `engine.sweep(d, strokes, rates)` takes a design and an array for each stroke; with requests at rates also for the rate of each stroke,
+    and behind these for its acceleration, without them it stands still. It gives `values`, an array for each row. `reason` is 0 where a
     pose is reached, else the number from 1 on of the member in `engine.steps` that cannot be placed; `missing` tells by how much [m]. NaN
     stands where there is no value, and for ratios and forces where a dead point is so near that Python refuses them.
     """
@@ -94,13 +95,16 @@ def live_program_on(plan: Plan, requests: Sequence[Request]) -> tuple[str, str, 
     ends, angles = (found := clipped(plan, [*ends, *angles]))[: len(ends)], found[len(ends) :]
     missing = gaps_of(plan, [name for name, _ in checks])
     dimensions = tuple(plan.table.entries)
+    rates = [rate_name(name, order) for order in (1, 2) for name in plan.strokes]
+    rates = rates if any(node.op == "input" and node.value in rates for node in behind) else []
     inputs = Inputs(
         {each: place for place, each in enumerate(dimensions)},
-        {each: place for place, each in enumerate((*plan.strokes, *plan.solved))},
+        {each: place for place, each in enumerate((*plan.strokes, *plan.solved, *rates))},
     )
     constants = {
         "ROWS": json_of(len(rows)),
         "CHECKS": json_of(len(checks)),
+        "RATES": json_of([len(plan.strokes) + len(plan.solved) + place for place in range(len(rates))]),
         "REGULAR": json_of(REGULAR),
         "REFUSE": json_of(REFUSE),
         "fixed": f"new Set({json_of([k for k, node in enumerate(rows) if node.level is not Level.POSE])})",

@@ -2,7 +2,7 @@
 const steep=(s,r)=>M(1,(1+Q(1-(s=I(A(s),1))*s))/s*Q(M(r,1))/REGULAR);
 // What is found by iteration along the way from the sketch is kept for the latest design.
 let kept,solve;
-const sweep=(design,strokes)=>{
+const sweep=(design,strokes,rates)=>{
   const d=[...design];
   if(!kept||d.some((v,k)=>v!==kept[k])){kept=d;solve=solved(d);}
   const n=strokes.length?strokes[0].length:1,values=Array.from({length:ROWS},()=>new Float64Array(n));
@@ -11,6 +11,7 @@ const sweep=(design,strokes)=>{
   for(let i=0;i<n;i++){
     const p=strokes.map(s=>s[i]);
     solve(p);
+    RATES.forEach((k,j)=>{p[k]=rates?rates[j][i]:0;});
     const v=pose(p);
     let k=0;
     while(k<CHECKS&&v[ROWS+k]-v[ROWS+k]===0)k++;

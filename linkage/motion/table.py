@@ -167,7 +167,7 @@ class Tabled(Member):
     def gauges(self, plan: Plan) -> Mapping[str, Request]:
         """Return what a live page shows of it beside its columns, by its name.
 
-        `thrust` [N], `pressure` [Pa] and the greatest that it may have, `most`; `reserve`; its `closed` length and its `stroke` [m].
+        Its `pressure` [Pa] and the greatest that it may have, `most`; its `closed` length and its `stroke` [m].
         """
         return {}
 

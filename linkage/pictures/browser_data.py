@@ -5,8 +5,7 @@ from __future__ import annotations
 import sys
 from collections import Counter, defaultdict
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
-from functools import cached_property, partial
+from functools import cached_property
 from itertools import permutations
 from pathlib import Path
 from typing import Any, cast, final
@@ -14,9 +13,9 @@ from typing import Any, cast, final
 import numpy as np
 
 from ..checks import require, require_type
-from ..errors import DefinitionError, LinkageError, UntracedError, cited, known_name, unknown, unwarned
+from ..errors import DefinitionError, LinkageError, cited, known_name, unknown, unwarned
 from ..language import heading_of, language, translated
-from ..loads import AT_REST, PLAIN, Case, TwoPoint
+from ..loads import PLAIN_CASE, Case, TwoPoint
 from ..mechanism import Mechanism, verdicts_of
 from ..motion import (
     Answer,
@@ -25,7 +24,6 @@ from ..motion import (
     Judge,
     LiveText,
     Motion,
-    Request,
     RequestLike,
     Tabled,
     case_named,
@@ -33,7 +31,7 @@ from ..motion import (
     stroke_display_unit,
     transmission,
 )
-from ..motion.requests import NodeRequest, bound
+from ..motion.requests import NodeRequest
 from ..plan import Plan, name_or_pins, opening, plan_measure, require_kind
 from ..plugins import MACHINES, entry_points
 from ..program import FloatArray, Node
@@ -42,19 +40,19 @@ from ..reports import (
     NOTHING,
     At,
     LiveColumn,
-    case_shown,
     column_requests,
     is_changing,
     motion_over,
     reached_motion,
     request_in_case,
+    results,
     run_along,
     run_of,
 )
-from ..statics import AnyMotion, JointForce, LawRequest, TracedMotion, applied_loads, ground_loads, pin_force, pin_forces
 from ..units import SYSTEMS, UNITS, deg, display_unit, factor, shown_in, unit_system
 from .browser_file import MACHINE, START, PageData, page_part, page_text
-from .browser_judge import PLACES, LiveQuestions, rule_key, unit_data
+from .browser_forces import force_arrows, page_situations, situated_requests, situated_rows
+from .browser_judge import LiveQuestions, course_data, rule_key, unit_data
 from .curves import WHOLE, Limit, as_curve, check_poses, limit_of, typeset
 from .influence import influences
 from .labels import offsets
@@ -91,14 +89,6 @@ def track_number(track: SlideTrack, part: str, axis: str) -> NodeRequest:
     return NodeRequest(text=f"the {part} of {track.name}", key=("track", track.name, part, axis), nodes_of=nodes, names_of=names)
 
 
-def force_part(kind: str, place: int, axis: int, motion: AnyMotion) -> FloatArray:
-    """Return a part of a load, by its place among all of its kind, over a motion [N]; of the machine's own loads over a traced one."""
-    if kind == "ground":
-        return cast(FloatArray, ground_loads(motion, PLAIN)[place].force[axis])
-    assert isinstance(motion, TracedMotion)  # it is asked for by a page alone
-    return cast(FloatArray, applied_loads(motion, PLAIN, AT_REST).loads[place].force[axis])
-
-
 @final
 class PageRequests:
     """What a page of a machine shows, and what it asks the program for, by names of its own."""
@@ -119,23 +109,23 @@ class PageRequests:
     ) -> None:
         self.machine, self.plan, self.along, self.over = machine, machine.plan, along, over
         self.run, self.first = (run_of(machine, at), 0) if along is None else run_along(along)
-        run, steps = self.run, np.linspace(0.0, 1.0, PLACES)
-        if run.instants is not None:  # the page goes straight from place to place
-            self.run = run = replace(run, ways={name: tuple(run.over(steps)[name].tolist()) for name in run.ways})
+        run = self.run
         self.ends = run.ways[run.stroke]
         evenly = {**self.run.held, self.run.stroke: np.linspace(self.ends[0], self.ends[-1], count)}
         timed = None if run.instants is None else motion_over(machine, run, np.linspace(0.0, 1.0, count))
         self.motion = reached_motion(machine, timed or (run.divided(count) if run.is_path else evenly))
         self.count = self.motion.shape[0]
         self.scene = Scene(self.motion)
-        self.case_of = [case_shown(place) for place in machine.judge(along if over is None else over).places]
-        self.cases: list[Case] = list(dict.fromkeys((self.run.case, *self.case_of)))
+        self.situations, self.situation_of = page_situations(machine.judge(along if over is None else over), self.run)
+        self.arrows = force_arrows(machine, self.motion, self.situations)
         with language("en"):  # what is said otherwise in Russian is asked for apart
             self.featured = machine.featured()
         self.trace = named_points(machine, list(self.featured.path) if trace is None else trace, "trace")
         self.vary = ranges_given(machine, vary)
         with unwarned():
             self.results = chosen_columns(machine, self.motion, columns, self.run.case)
+        if self.motion.time is not None:  # the instants are what all is over
+            self.results.pop("time", None)
         self.curves = {name: as_curve(each) for name, (each, _, _) in self.results.items()}
         self.columns = {}
         for name, (result, request, why) in self.results.items():
@@ -172,6 +162,20 @@ class PageRequests:
             judged[column.name if name not in self.columns else name] = limit_of(bound or each, column.unit)
         return judged, drawn | judged
 
+    @cached_property
+    def columns_in_time(self) -> dict[int, dict[str, Column]]:
+        """The columns by name at even instants of the paths in time, by the numbers of their situations, beside that of the run."""
+        found = dict[int, dict[str, Column]]()
+        for number, each in enumerate(self.situations):
+            instants = each.motion._instants if each.motion is not None and number else None
+            if each.motion is not None and instants is not None:
+                shown = instants.shares(np.linspace(0.0, 1.0, self.count))
+                motion = Motion(self.plan, self.machine.dimensions, shown.strokes, "nan", over=each.motion.over, instants=shown)
+                with unwarned():
+                    columns = [as_curve(one)[0] for one in results(self.machine, motion, each.case or PLAIN_CASE)]
+                found[number] = {column.name: column for column in columns}
+        return found
+
     def _ask(self) -> None:
         """Note all that is asked of the program."""
         self.by_name |= self.questions.by_name
@@ -179,59 +183,17 @@ class PageRequests:
             self.by_name[f"point {name}"] = name
         for name, (_, request, why) in self.columns.items():
             if not why:
-                asked = [request_in_case(request, case) for case in self.cases]
-                self.by_name |= {f"column {name} {k}": each for k, each in enumerate(asked) if not k or each is not asked[0]}
+                self.by_name |= situated_requests(f"column {name}", request, self.situations)
         for track in self.scene.tracks:
             for k, (part, axis) in enumerate((part, axis) for part in ("origin", "direction") for axis in "xy"):
                 self.by_name[f"track {track.name} {k}"] = track_number(track, part, axis)
         for name in self.motion._joints:
             self.by_name[f"joint {name}"] = transmission(name)
         for name, member in speakers(self.plan, Tabled).items():
-            self.by_name |= {f"gauge {name} {what}": request for what, request in member.gauges(self.plan).items()}
+            for what, request in member.gauges(self.plan).items():
+                self.by_name |= situated_requests(f"gauge {name} {what}", request, self.situations)
         for k, (_, x, y, _) in enumerate(self.arrows):
-            self.by_name |= {f"arrow {k} x": x, f"arrow {k} y": y}
-
-    @cached_property
-    def arrows(self) -> list[tuple[str, Request, Request, bool]]:
-        """The forces that can be drawn: their points, their parts [N], and whether it is a load; those at pins and supports come first."""
-        poses = self.motion.moved({name: value[self.motion.reached][:1] for name, value in self.motion.strokes.items()})
-        try:
-            with unwarned():
-                joints = pin_forces(poses).joints
-            kept = self.plan.made(("traced loads",), lambda twin: twin)
-            loads = applied_loads(TracedMotion(kept, kept.trace.view()), PLAIN, AT_REST).loads
-        except LinkageError:  # no forces, or loads that have no program
-            return []
-        if not loads:
-            return []
-        forces = [each for each in joints if each.has_force and each.place is None]  # an arrow of the page begins at a point
-        told = [each for each in forces if alone_on(each, forces)]
-        try:
-            for joint in told[:1]:
-                bound(self.plan, joint_part(joint, forces, "x")).nodes(kept)
-        except UntracedError:  # which parts pull is found pose by pose: the loads alone are drawn
-            told = []
-        found = [(each.point, joint_part(each, forces, "x"), joint_part(each, forces, "y"), False) for each in told]
-        for kind, acting in (("ground", ground_loads(poses, PLAIN)), ("load", loads)):
-            for k, each in enumerate(acting):
-                keys = ((kind, k, axis) for axis in (0, 1))
-                x, y = (LawRequest(formula=partial(force_part, *key), text=f"{kind} {k}", known=key) for key in keys)
-                found.append((each.point, x, y, kind == "load"))
-        return found
-
-
-def alone_on(joint: JointForce, joints: Sequence[JointForce]) -> str:
-    """Return the body, its own or else the other, on which a joint's force is the only one at its point; "" where there is none."""
-    bodies = [body for each in joints if each.point == joint.point for body in (each.on, each.by)]
-    return next((body for body in (joint.on, joint.by) if bodies.count(body) == 1), "")
-
-
-def joint_part(joint: JointForce, joints: Sequence[JointForce], axis: str) -> Request:
-    """Return what asks for a part of a joint's force on its own body; where several joints of it meet there, by the other body's."""
-    body = alone_on(joint, joints)
-    asked = pin_force(joint.point, body, axis)
-    found: Request = asked if body == joint.on else -1.0 * asked
-    return found
+            self.by_name |= situated_requests(f"arrow {k} x", x, self.situations) | situated_requests(f"arrow {k} y", y, self.situations)
 
 
 def ranges_given(machine: Mechanism, vary: Any) -> dict[str, tuple[float, float] | None] | None:
@@ -298,7 +260,7 @@ def page_data(requests: PageRequests, live: LiveText) -> PageData:
     machine, plan = requests.machine, requests.plan
     dims = dimension_data(requests, live)
     names = [each[0] for each in dims]
-    columns = [column_data(name, each, live, requests.motion, len(requests.cases)) for name, each in requests.columns.items()]
+    columns = [column_data(name, each, live, requests) for name, each in requests.columns.items()]
     rows, index = {name: each[0] for name, each in live.rows.items()}, {name: place for place, name in enumerate(plan.points)}
     lines = {track.name: [rows[f"track {track.name} {k}"] for k in range(4)] for track in requests.scene.tracks}
     run = requests.run
@@ -313,18 +275,19 @@ def page_data(requests: PageRequests, live: LiveText) -> PageData:
         "run": len(machine.strokes) if run.is_path else list(machine.strokes).index(run.stroke),
         "columns": columns,
         "column": list(requests.columns).index(requests.column),
-        "cases": [case_named(plan, each) if each is not None else "" for each in requests.cases],
-        "caseOf": [requests.cases.index(each) for each in requests.case_of],
+        "cases": [case_named(plan, each.case) if each.case is not None else "" for each in requests.situations],
+        "situationOf": requests.situation_of,
         "limits": {typeset(name): limit_data(requests, name) for name in requests.limits},
         "rows": {"points": [[rows[f"point {name}"] + axis for axis in (0, 1)] for name in plan.points]},
         "scene": scene_data(requests.scene, lines),
-        "cylinders": cylinder_data(requests.scene, rows),
+        "cylinders": cylinder_data(requests.scene, live, len(requests.situations)),
         **unit_tables({*(each[3] for each in dims), *(str(each[1]) for each in columns)}),
         "joints": [{"point": name, "row": rows[key]} for name in requests.motion._joints if (key := f"joint {name}") in rows],
         "arrows": [
-            {"point": index[point], "x": rows[f"arrow {k} x"], "y": rows[f"arrow {k} y"]} | ({"load": 1} if is_load else {})
+            {"point": index[point], "x": x, "y": y} | ({"load": 1} if is_load else {})
             for k, (point, _, _, is_load) in enumerate(requests.arrows)
-            if {f"arrow {k} x", f"arrow {k} y"} <= rows.keys()
+            for x, y in [[situated_rows(f"arrow {k} {axis}", live, len(requests.situations)) for axis in "xy"]]
+            if x is not None and y is not None
         ],
         "paths": [index[name] for name in requests.trace],
         "grips": grip_data(requests, names, index),
@@ -458,7 +421,7 @@ def stroke_data(requests: PageRequests) -> list[PageData]:
     if run.is_path:
         first, last = requests.first + 1, requests.first + len(requests.ends)
         turn = all(abs(way[-1] - way[0]) <= ROUND * np.ptp(way) for way in run.ways.values())
-        path = {names.index(name): list(way) for name, way in run.ways.items()}
+        path: dict[int, list[float]] = {names.index(name): list(way) for name, way in run.ways.items()}
         places = enumerate(requests.questions.judge.places if requests.along is None else ())
         own = [(k, each.over.name) for k, each in places if each.over.name and each.over.shape == "path" and each.over.title == run.title]
         name, over = (own[0][1], {"over": own[0][0]}) if own else (ALONG, {})
@@ -466,27 +429,33 @@ def stroke_data(requests: PageRequests) -> list[PageData]:
         if run.instants is not None:
             first, last = run.instants.breaks[[0, -1]].tolist()
             place |= {"name": name if own else "time", "start": first, "end": last, "at": first, "unit": "s"}
-            turn = True
+            over, turn, path = (over or {"over": 0}) | course_data(run.instants), True, {k: [] for k in range(len(names))}
         found.append(place | {"turn": int(turn), "path": path} | over)
     return found
 
 
-def column_data(name: str, found: LiveColumn, live: LiveText, motion: Motion, count: int) -> list[Any]:
+def column_data(name: str, found: LiveColumn, live: LiveText, requests: PageRequests) -> list[Any]:
     """Return a column: its name, unit and row, -1 for none, its name in Russian; without a row its values, and why it has none.
 
-    Where `count` load cases occur in which it differs it has a row in each.
+    Where it differs between situations it has a row in each. Its values are by the numbers of situations: of the run of the page, and of
+    paths in time that its program does not follow.
     """
     column, _, why = found
     with language("ru"):
         russian = typeset(heading_of(name))
     shown, start = typeset(name), [typeset(name), typeset(shown_in(column.unit))]
-    keys = [f"column {name} {k}" for k in range(count)]
-    places = [live.rows[key][0] for key in keys if key in live.rows]
-    if keys[0] in live.rows and not any(key in live.left_out for key in keys):
-        return [*start, places if len(places) == count > 1 else places[0], *([russian] if russian != shown else [])]
-    values = np.broadcast_to(np.asarray(column.values, float), motion.shape)
-    shown_values = [float(f"{value:.6g}") if np.isfinite(value) else None for value in values.tolist()]
-    return [*start, -1, russian, shown_values, why or next(live.left_out[key] for key in keys if key in live.left_out)]
+    count = len(requests.situations)
+    places = situated_rows(f"column {name}", live, count)
+    if isinstance(places, int) or (places and None not in places):
+        return [*start, places, *([russian] if russian != shown else [])]
+    lost = [k for k in range(count) if places is None or places[k] is None]
+    reasons = [live.left_out[key] for key in (f"column {name} {k}" for k in lost) if key in live.left_out]
+    values = dict[int, list[float | None]]()
+    for k in lost:
+        given = requests.columns_in_time.get(k, {}).get(name) if k else column
+        whole = [] if given is None else np.broadcast_to(np.asarray(given.values, float), (requests.count,)).tolist()
+        values |= {k: [float(f"{value:.10g}") if np.isfinite(value) else None for value in whole]} if whole else {}
+    return [*start, -1 if places is None else [-1 if each is None else each for each in places], russian, values, why or reasons[0]]
 
 
 def limit_data(requests: PageRequests, name: str) -> list[Any]:
@@ -547,8 +516,8 @@ def meeting_data(plan: Plan, names: Sequence[str], index: Mapping[str, int]) -> 
     return dict(found)
 
 
-def cylinder_data(scene: Scene, rows: Mapping[str, int]) -> list[PageData]:
-    """Return the cylinders: where they hang, and the rows of what is read of them, of those that there are."""
+def cylinder_data(scene: Scene, live: LiveText | None = None, count: int = 0) -> list[PageData]:
+    """Return the cylinders: where they hang, and the rows of what a program gives of them in so many situations."""
     plan = scene.motion.plan
     points = list(plan.points)
     driven = {frozenset((bar.P, bar.Q)) for bar in plan.cylinders}
@@ -563,14 +532,15 @@ def cylinder_data(scene: Scene, rows: Mapping[str, int]) -> list[PageData]:
             continue
         pair = frozenset((each.P, each.Q))
         name = elements[pair].pop(0) if elements[pair] else ""
-        gauges = {what: rows[f"gauge {name} {what}"] for what in GAUGES if f"gauge {name} {what}" in rows}
+        gauges = {what: situated_rows(f"gauge {name} {what}", live, count) for what in GAUGES} if live is not None else {}
+        gauges = {what: row for what, row in gauges.items() if row is not None}
         data = {"name": name or joined_names(each.P, each.Q), "P": points.index(each.P), "Q": points.index(each.Q), "aside": each.aside}
         data |= {"drawn": 1} if (each.P, each.Q, each.aside) in drawn else {}
         found.append(data | gauges | ({} if pair in driven else {"beside": 1}))
     return found
 
 
-GAUGES = ("thrust", "pressure", "most", "reserve", "closed", "stroke")
+GAUGES = ("pressure", "most", "closed", "stroke")
 """What is read of a cylinder; see `Tabled.gauges`."""
 
 

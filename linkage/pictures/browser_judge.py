@@ -14,6 +14,7 @@ from ..language import heading_of, language, translated
 from ..loads import FRICTIONLESS, PLAIN_CASE, Acting
 from ..mechanism import Mechanism
 from ..motion import Column, Condition, HasVerdicts, LiveText, PageWords, Request, RequestLike, least, most, speakers
+from ..motion.instants import Instants
 from ..motion.judge import Domain, Sought, leaf_key, measures_of
 from ..motion.judging import NEAR
 from ..motion.measures import At, CombinedMeasure, Constraint, Given, Integral, Leaf, Measure, conditions_of, dimension_value
@@ -22,7 +23,7 @@ from ..motion.requests import NodeRequest, bound, is_of_force
 from ..plan import Plan
 from ..program import Node
 from ..quantities import is_number, quantity
-from ..reports import is_column
+from ..reports import at_its_rates, is_column
 from ..units import display_unit, factor, shown_in
 from .browser_file import PageData
 from .curves import Limit, limit_of, typeset
@@ -33,8 +34,10 @@ PLAIN_WORDS = PageWords("")
 """Of a condition that is said by its own number."""
 MOST = 5000
 """Poses that a page looks at for all its questions together."""
-PLACES = 65
-"""Places of a path in time on a page, which goes straight from one to the next."""
+INSTANTS = 129
+"""Instants of a path in time at which a page has what no program gives; from one to the next it goes straight."""
+PHASES = 200
+"""A course of more phases goes to a page as so many cubics through its values and rates."""
 TRUTHS = {"gaps": "where it has a bound", "assumed": "where it is true"}
 
 
@@ -65,6 +68,7 @@ class LiveQuestions:
         self.asked: list[tuple[str, list[Constraint], dict[Leaf, list[Piece]]]] = []
         self.said: dict[str, tuple[str, PageWords]] = {}
         self.units, self.untraced = dict[str, str](), False
+        self.delivered = dict[str, list[list[float | None]]]()
         with unwarned():
             for rule, (member, condition, words) in self.rules().items():
                 self.ask(rule, member, condition, words)
@@ -130,16 +134,18 @@ class LiveQuestions:
             raise DefinitionError(f"{leaf}: an integral is not followed in the page.")
         found = []
         for number, place in enumerate(self.judge.places[:1] if isinstance(leaf, At) else self.judge.places):
-            if place.instants is not None and is_of_force(leaf.quantity):
-                raise DefinitionError(f"{leaf}: over a path in time forces follow its rates, which the page has not.")
+            is_timed = place.instants is not None and is_of_force(leaf.quantity)
             if is_column(leaf.quantity) and PLAIN_CASE not in place.cases(self.judge.acting):
                 continue  # a table's own column is under the machine's own loads, which do not occur here
             for row in self.judge.sought(leaf, place):
-                name = self.new_row(row.request)
+                request = at_its_rates(place.motion, row.request) if is_timed else row.request
+                name = self.new_row(request)
                 try:
-                    looked_up = bound(self.machine.plan, row.request)
+                    looked_up = bound(self.machine.plan, request)
                 except (LawError, UntracedError):  # it is left out of the program then, and its question with it
                     self.untraced = True
+                    if is_timed:
+                        self.delivered[name] = delivered_over(place, row.request)
                 else:
                     self.by_name |= {f"{name} {which}": where_true(looked_up, which) for which in TRUTHS}
                 found.append((number, row, name))
@@ -167,17 +173,21 @@ class LiveQuestions:
             for place, names, ends in zip(self.judge.places, self.only, self.ends, strict=True)
         ]
         travel = [abs(each.end - each.start) for each in self.machine.plan.strokes.values()]
-        return {"overs": overs, "questions": [each for each in asked if each], "most": MOST, "travel": travel, "near": NEAR}
+        found: PageData = {"overs": overs, "questions": [each for each in asked if each], "most": MOST, "travel": travel, "near": NEAR}
+        return found | ({"delivered": [row for rows in self.delivered.values() for row in rows]} if self.delivered else {})
 
     def question(self, live: LiveText, rule: str, constraints: list[Constraint], pieces: Mapping[Leaf, list[Piece]]) -> PageData:
         """Return a question as data; nothing where the program does not give one of its pieces."""
         kinds = ("", *(f" {which}" for which in TRUTHS))
-        followed = {leaf: all(f"{name}{kind}" in live.rows for _, _, name in own for kind in kinds) for leaf, own in pieces.items()}
+        followed = {
+            leaf: all(name in self.delivered or all(f"{name}{kind}" in live.rows for kind in kinds) for _, _, name in own)
+            for leaf, own in pieces.items()
+        }
         if not all(followed[leaf] for each in constraints for side in (each.left, each.right) for leaf in side.leaves):
             return {}
         leaves = list({id(own): (leaf, own) for leaf, own in pieces.items() if followed[leaf]}.values())
         places = {leaf: next(k for k, (_, each) in enumerate(leaves) if each is own) for leaf, own in pieces.items() if followed[leaf]}
-        found = [{"at": int(isinstance(leaf, At)), "pieces": [piece_data(live, *each) for each in own]} for leaf, own in leaves]
+        found = [{"at": int(isinstance(leaf, At)), "pieces": [self.piece_data(live, *each) for each in own]} for leaf, own in leaves]
         measures = measures_of(self.machine.plan, constraints[0])
         unit = unit_data(self.units[rule]) if rule in self.units else live_unit(self.machine.plan, constraints[0])
         member, words = self.said[rule]
@@ -205,6 +215,48 @@ class LiveQuestions:
         }
 
 
+    def piece_data(self, live: LiveText, number: int, row: Sought, name: str) -> PageData:
+        """Return a piece as data: its `Over`, its rows, behind those of the program the delivered ones, its situation."""
+        situation, place = row.situation, self.judge.places[number]
+        if name in self.delivered:
+            first = sum(count for _, count in live.rows.values()) + 2 * [*self.delivered].index(name)
+            rows = {"row": first, "gaps": first + 1}
+        else:
+            rows = {"row": live.rows[name][0], "gaps": live.rows[f"{name} gaps"][0], "assumed": live.rows[f"{name} assumed"][0]}
+        is_timed = place.instants is not None and is_of_force(row.leaf.quantity)
+        return rows | ({"timed": 1} if is_timed else {}) | {
+            "over": number, "sense": row.sought, "reciprocal": int(row.is_reciprocal), "stays": int(row.stays_at_zero),
+            "case": situation.case, "direction": situation.direction, "drive": situation.drive, "side": row.piece.side,
+        }  # fmt: skip
+
+
+def delivered_over(place: Domain, request: Request) -> list[list[float | None]]:
+    """Return what no program gives over a path in time, at even instants, and what is above zero where it has a bound."""
+    assert place.instants is not None
+    motion = place.timed(place.instants.shares(np.linspace(0.0, 1.0, INSTANTS)), "nan")
+    with unwarned():
+        values, free = motion[request], request.unlimited(motion)
+    bounded = np.ones(motion.shape) if free is None else np.where(free, -1.0, 1.0)
+    return [[float(f"{each:.10g}") if np.isfinite(each) else None for each in row.tolist()] for row in (values, bounded)]
+
+
+def course_data(instants: Instants) -> PageData:
+    """Return the courses of the strokes over a path in time, from its begin to its end [s]: breaks, and powers of the time since each."""
+    begin, end = instants.breaks[[0, -1]].tolist()
+    found = list[list[Any]]()
+    for course in instants.courses.values():
+        breaks, rows = course.breaks, course._phases
+        if len(breaks) > PHASES:
+            breaks = np.linspace(begin, end, PHASES + 1)
+            value, rate = (np.asarray(course(breaks, order)) for order in (0, 1))
+            step = (end - begin) / PHASES
+            slope, last = np.diff(value) / step, rate[1:]
+            bend = (3.0 * slope - 2.0 * rate[:-1] - last) / step
+            rows = np.array([value[:-1], rate[:-1], bend, (rate[:-1] + last - 2.0 * slope) / step**2])
+        found.append([breaks.tolist(), rows.T.tolist(), course._last])
+    return {"time": [begin, end], "courses": found}
+
+
 def rule_key(rule: str, member: str) -> str:
     """Return what a rule of a member is known by, whether or not it bears the member's name, as it does where several have it."""
     return f"{member} {rule.removesuffix(f' {member}')}"
@@ -220,16 +272,6 @@ def unit_data(unit: str) -> PageData:
     return {"unit": typeset(shown_in(unit)), "factor": factor(shown_in(unit))}
 
 
-def piece_data(live: LiveText, number: int, row: Sought, name: str) -> PageData:
-    """Return a piece as data: its `Over`, its rows, its situation."""
-    situation = row.situation
-    return {
-        "over": number, "row": live.rows[name][0], "gaps": live.rows[f"{name} gaps"][0], "assumed": live.rows[f"{name} assumed"][0],
-        "sense": row.sought, "reciprocal": int(row.is_reciprocal), "stays": int(row.stays_at_zero),
-        "case": situation.case, "direction": situation.direction, "drive": situation.drive, "side": row.piece.side,
-    }  # fmt: skip
-
-
 def tree(measure: Measure, places: Mapping[Leaf, int]) -> object:
     """Return a measure as data: a number, the place of a leaf, or an operator with its two sides."""
     if isinstance(measure, Given):
@@ -243,14 +285,13 @@ def tree(measure: Measure, places: Mapping[Leaf, int]) -> object:
 def over_data(place: Domain, rows: Mapping[tuple[str, int], int]) -> PageData:
     """Return an `Over` as data: the ends of a box, or the places of a path or of poses, stroke by stroke [m or rad].
 
-    What follows the design is a row of the program, with the value of the delivered one: [row, value]. Of a path in time these are places
-    at equal steps of `time`, from its begin to its end [s].
+    What follows the design is a row of the program, with the value of the delivered one: [row, value]. Of a path in time these are the
+    courses of its strokes.
     """
     over, motion = place.over, place.motion
     found: PageData = {"name": over.name, "shape": over.shape, "lost": int(over.lost == ALLOWED)}
     if place.instants is not None:
-        motion = place.timed(place.instants.shares(np.linspace(0.0, 1.0, PLACES)), "nan")
-        found["time"] = place.instants.breaks[[0, -1]].tolist()
+        return found | course_data(place.instants)
     values = {name: np.broadcast_to(np.asarray(value, float), motion._stroke_shape).ravel() for name, value in motion.strokes.items()}
     listed = []
     for name, value in values.items():

@@ -76,7 +76,7 @@ def chart_data(field: WorkingField, scene: Scene) -> PageData:
         "rows": {"points": [[2 * k, 2 * k + 1] for k in range(len(plan.points))]},
         "values": np.round(np.concatenate(values), DIGITS).tolist(),
         "scene": drawn,
-        "cylinders": cylinder_data(scene, {}),
+        "cylinders": cylinder_data(scene),
         "border": np.round(field.border.reshape(-1, 4), 4).tolist(),
     }
 

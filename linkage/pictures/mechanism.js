@@ -125,7 +125,7 @@ function linework({ on: [P, Q], lines, hatched, slide }, ink = "ink", thin = 0.8
   return (at) => {
     const [x, y] = P === undefined ? px(0, 0) : at[P], beyond = Q === undefined ? [x + 1, y] : at[Q];
     for (const put of drawn) put(apart([x, y], beyond));
-    for (const tube of tubes) set(tube, { fill: heat(pose.values[held.pressure][0], pose.values[held.most] ? pose.values[held.most][0] : scale.most) });
+    for (const tube of tubes) set(tube, { fill: barrelColour(held) });
     set(group, { transform: turned([x, y], beyond) });
   };
 }
@@ -138,8 +138,8 @@ function span(P, Q) {
   }
   return [low, high];
 }
-function ram({ P, Q, aside, pressure, most }) {
-  const group = draw(sheet, "g", { w: 0.8 * EDGE, join: "round", stroke: css("ink") }), off = aside * unit0;
+function ram(each) {
+  const { P, Q, aside } = each, group = draw(sheet, "g", { w: 0.8 * EDGE, join: "round", stroke: css("ink") }), off = aside * unit0;
   const parts = ["eye", "barrel", "rod", "piston", "cap"].map((name) => draw(group, "rect", { fill: css(name === "barrel" || name === "rod" ? name : "piston") }));
   const [eye, barrel, shaft, piston, cap] = parts, put = (rect, from, to) => set(rect, { x: from, width: max(to - from, 0) });
   let low, high, u, least, mouth, seen;
@@ -152,7 +152,7 @@ function ram({ P, Q, aside, pressure, most }) {
     }
     const length = apart(at[P], at[Q]), place = min(max(length - low + least, least), mouth - 0.9 * u);
     put(shaft, place, max(length, place)); put(piston, place - 0.45 * u, place + 0.45 * u);
-    if (pressure !== undefined) set(barrel, { fill: heat(pose.values[pressure][0], pose.values[most] ? pose.values[most][0] : scale.most) });
+    set(barrel, { fill: barrelColour(each) });
     set(group, { transform: turned(at[P], at[Q]) });
   };
 }
@@ -224,6 +224,8 @@ function name(index) {
   return (at) => Object.assign(made, { said: scene.letters && !(phone.matches && scene.letters[index]) ? scene.letters[index] : scene.names[index], anchor: at[index], way: first, first, near: 0.5 * unit0 });
 }
 const scale = { most: 0 };
+/* The colour of a cylinder's barrel at the present pose. */
+const barrelColour = ({ pressure, most }) => (pressure === undefined ? css("barrel") : heat(pose.values[pressure][0], pose.values[most] ? pose.values[most][0] : scale.most));
 /* The colour of a barrel at a pressure: from the barrel's own through amber to red. */
 function heat(value, most) {
   const share = min(max(value / most, 0), 1) || 0, mix = (a, b, t) => `color-mix(in oklab, ${css(b)} ${(100 * t).toFixed(1)}%, ${css(a)})`;

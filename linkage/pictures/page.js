@@ -5,13 +5,18 @@ const within = (value, each) => { const [a, b] = reachOf(each); return min(max(v
 /* The questions of the verdicts, asked of the present design over all that the machine runs when the hand rests: coarsely while it holds something. */
 const asking = judging(engine, data.judge, data.joints.map(({ row }) => row)), DRAGGING = 9, STILL = 17, REST = 130;
 /* The paths that a machine declares run as strokes of their own, unless the page is of a path. */
-if (!strokes.some((each) => each.path && each.over === undefined)) for (const [over, { shape, name, places: ways, time }] of asking.spans().entries()) {
-  if (shape === "path" && name && ways[0].length > 1 && !strokes.some((each) => each.over === over)) strokes.push({ name, start: time ? time[0] : 1, end: time ? time[1] : ways[0].length, at: time ? time[0] : 1, unit: time ? "s" : "", factor: 1, turn: time ? 1 : 0, path: { ...ways }, over });
+if (!strokes.some((each) => each.path && each.over === undefined)) for (const [over, { shape, name, places: ways, time, courses }] of asking.spans().entries()) {
+  if (shape === "path" && name && ways[0].length > 1 && !strokes.some((each) => each.over === over)) strokes.push({ name, start: time ? time[0] : 1, end: time ? time[1] : ways[0].length, at: time ? time[0] : 1, unit: time ? "s" : "", factor: 1, turn: time ? 1 : 0, path: { ...ways }, over, time, courses });
 }
 /* A dimension as it comes: its name, value, least and greatest [SI], unit, whether it is a length, and where it stands. */
 /* A column has a row of the program in each load case in which it differs; that of the path that runs is shown. */
-const columns = data.columns.map(([name, unit, row, ru, values, why]) => ({ name, unit, factor: units[unit], ru, values, why, get row() { return row < 0 ? undefined : row[caseNow()] ?? row; } }));
-const caseNow = () => data.caseOf[strokes[runs].over] ?? 0;
+const rowNow = (row) => { const found = Array.isArray(row) ? row[caseNow()] : row; return found === null || found < 0 ? undefined : found; };
+const columns = data.columns.map(([name, unit, row, ru, values, why]) => ({ name, unit, factor: units[unit], ru, why, get values() { return values?.[caseNow()]; }, get row() { return rowNow(row); } }));
+const caseNow = () => data.situationOf[strokes[runs].over] ?? 0;
+for (const each of [...data.cylinders, ...data.arrows]) for (const name of ["pressure", "most", "x", "y"]) if (Array.isArray(each[name])) {
+  const row = each[name];
+  Object.defineProperty(each, name, { get: () => rowNow(row) });
+}
 const dims = data.dims.map(([name, value, ends, unit, positive, where]) => ({ name, value, low: ends[0] ?? value - ends, high: ends[1] ?? value + ends, unit, factor: units[unit], positive, where }));
 
 /* ---- the state, and what follows from it ---- */
@@ -35,20 +40,32 @@ function sweep(design, at, run) {
   const { start, end } = strokes[run];
   const along = Float64Array.from({ length: COUNT }, (_, i) => (i === COUNT - 1 ? end : start + ((end - start) * i) / (COUNT - 1)));
   const poses = Array.from(along, (value) => followed(at.map((stands, k) => (k === run ? value : stands)), run));
-  const found = engine.sweep(vector(design), own.map((_, k) => Float64Array.from(poses, (pose) => pose[k])));
+  const found = engine.sweep(vector(design), own.map((_, k) => Float64Array.from(poses, (pose) => pose[k])), ratesAt(strokes[run], [...along]));
   return { ...found, along, reached: [...along.keys()].filter((i) => found.reason[i] === 0) };
 }
 /* Along a path all strokes that it drives follow the place on it, in straight lines from one of its places to the next. */
 const own = strokes.filter((each) => !each.path);
 function followed(at, run = runs) {
-  const { path, start, end } = strokes[run], found = [...at];
+  const { path, start, end, courses } = strokes[run], found = [...at];
+  if (courses) { atInstant(strokes[run], at[run]).forEach(([value], k) => { found[k] = value; }); return found; }
   for (const k in path) {
     const u = ((at[run] - start) / (end - start)) * (path[k].length - 1), i = min(max(floor(u), 0), path[k].length - 2);
     found[k] = path[k][i] + (path[k][i + 1] - path[k][i]) * (u - i);
   }
   return found;
 }
-const single = (design, at) => { laid(design); return engine.sweep(vector(design), followed(at).slice(0, own.length).map((value) => [value])); };
+function single(design, at) {
+  laid(design);
+  const found = engine.sweep(vector(design), followed(at).slice(0, own.length).map((value) => [value]), ratesAt(strokes[runs], [at[runs]]));
+  if (data.judge.delivered && design.every((value, i) => value === dims[i].value)) found.values.push(...data.judge.delivered.map((list) => [valueAt(list, at[runs])]));
+  return found;
+}
+/* Return a value at a place of the running stroke, between two of a list of values at even steps; NaN where there is none. */
+function valueAt(list, place) {
+  const { start, end } = strokes[runs], last = list.length - 1, where = min(max(((place - start) / (end - start)) * last, 0), last), i = min(floor(where), last - 1), t = where - i;
+  const [a, b] = [list[i], list[i + 1]].map((each) => each ?? NaN);
+  return t === 0 ? a : t === 1 ? b : a + (b - a) * t;
+}
 const titled = (each) => (each.name === "along the path" ? say("place") : each.name);
 const isChanged = () => dims.some((each, i) => present[i] !== each.value);
 const isDriven = (k) => k === runs || k in (strokes[runs].path || {});
@@ -89,9 +106,9 @@ function warn(text) {
 function series(each, found) {
   if (!each) return null;
   if (each.row !== undefined) return found.values[each.row];
-  return found === base || !(isChanged() || isMoved()) ? each.values : null;
+  return found === base || asDelivered() ? each.values : null;
 }
-const live = (each) => each && (each.row !== undefined || !(isChanged() || isMoved()));
+const asDelivered = () => !isChanged() && (strokes[runs].courses || !isMoved());
 
 /* ---- what is drawn of the present state beside the mechanism ---- */
 
@@ -148,10 +165,12 @@ for (const end of ["pointerup", "pointercancel"]) on(sheet, end, (event) => {
   soon("fit"); remember();
 });
 /* An arrow: a force at a point, in the scale in which the greatest is a sixth of the sheet. */
-function arrow({ point, x, y, load }) {
-  const colour = css(load ? "accent" : "other"), line = draw(sheet, "path", { w: 2.2, join: "round", fill: colour, stroke: colour });
+function arrow(each) {
+  const { point, load } = each, colour = css(load ? "accent" : "other"), line = draw(sheet, "path", { w: 2.2, join: "round", fill: colour, stroke: colour });
   const number = label(point, "halo force", FORCE_FONT, 12, `color-mix(in srgb, ${colour} 60%, var(--ink))`);
   return (at) => {
+    const { x, y } = each;
+    if (x === undefined || y === undefined) { set(line, { d: "" }); number.said = ""; return; }
     const k = pull.scale, f = [pose.values[x][0] * k, -pose.values[y][0] * k], long = hypot(...f), head = min(9, 0.5 * long);
     if (!showsForces || !(long > 1)) { set(line, { d: "" }); number.said = ""; return; }
     const d = [f[0] / long, f[1] / long], tip = [at[point][0] + f[0], at[point][1] + f[1]], neck = [tip[0] - head * d[0], tip[1] - head * d[1]], w = 0.38 * head;
@@ -163,7 +182,7 @@ function arrow({ point, x, y, load }) {
 const pull = { scale: 0, most: 0 };
 function pullScale() {
   pull.most = 0;
-  for (const { x, y } of data.arrows) for (const i of now.reached) pull.most = max(pull.most, hypot(now.values[x][i], now.values[y][i]) || 0);
+  for (const { x, y } of data.arrows) if (x !== undefined && y !== undefined) for (const i of now.reached) pull.most = max(pull.most, hypot(now.values[x][i], now.values[y][i]) || 0);
   pull.scale = pull.most ? min(sheetWide, sheetTall) / 4.5 / pull.most : 0;
 }
 function pressureScale() {
@@ -308,9 +327,7 @@ function plotted() {
 }
 /* Return a list's value at the present stroke, between two poses; NaN where there is none. */
 function between(list) {
-  const { start, end } = strokes[runs], where = min(max(((stands[runs] - start) / (end - start)) * (COUNT - 1), 0), COUNT - 1);
-  const i = min(floor(where), COUNT - 2), t = where - i;
-  return !list ? NaN : t === 0 ? list[i] : list[i] + (list[i + 1] - list[i]) * t;
+  return list ? valueAt(list, stands[runs]) : NaN;
 }
 function mark(each, list, up, dot, out) {
   const value = between(list), { start, end } = strokes[runs], there = isNumber(value) && (stands[runs] - start) * (end - stands[runs]) >= -1e-12;

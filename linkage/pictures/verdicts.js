@@ -289,7 +289,7 @@ function count(found) {
 
 /* What is out of bounds where the machine stands: rules with their numbers, dead points; whether it is judged, and what is not followed. */
 function atPose() {
-  const at = followed(stands).slice(0, own.length), { covered, found } = asking.here(at, pose), faults = [];
+  const at = followed(stands).slice(0, own.length), { covered, found } = asking.here(at, pose, strokes[runs].courses ? strokes[runs].over : -1), faults = [];
   for (const [q, each] of found.entries()) {
     const { unit } = questions[q], value = isNumber(each.value) ? size(each.value, unit) : say("no value");
     if (each.ok === false) faults.push({ q, rule: ruled(questions[q]), text: value, limit: isNumber(each.limit) ? size(each.limit, unit) : "", case: each.case });
@@ -304,7 +304,7 @@ function atPose() {
   }
   const unknown = found.flatMap((each, q) => (each.unknown ? [ruled(questions[q])] : []));
   for (const { key, plain, rule, isOfPoses } of delivered()) if (isOfPoses && plain !== "assembly" && !byKey.has(key)) unknown.push(rule);
-  return { faults, covered, unknown, kept: found.some((each) => each.ok === true) };
+  return { faults, covered, unknown, kept: found.filter((each) => each.ok === true).length };
 }
 let hereBefore = "";
 function here() {
@@ -318,9 +318,10 @@ function here() {
       on(link, "click", (event) => { event.preventDefault(); showRule(q); });
       return link;
     }));
-    if (!found.faults.length && (found.kept || !found.unknown.length)) parts.push(make("span", { className: "ok", textContent: say("all kept") }));
+    const { length: open } = found.unknown;
+    if (!found.faults.length && (found.kept || !open)) parts.push(make("span", { className: "ok", textContent: open ? say("{count} kept", { count: found.kept }) : say("all kept") }));
     if (!found.covered) parts.push(make("span", { className: "beyond", textContent: say("outside what is judged") }));
-    if (found.unknown.length) parts.push(make("span", { className: "open", textContent: say("not followed here: {rules}", { rules: found.unknown.join(", ") }) }));
+    if (open) parts.push(make("span", { className: "open", textContent: say("{count} not followed here: {rules}", { count: open, rules: found.unknown.join(", ") }) }));
   }
   line.replaceChildren(...parts.flatMap((each) => [each, " "]));
 }

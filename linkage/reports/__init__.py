@@ -1,7 +1,7 @@
 """Results as text: tables, values with units, stroke ranges in words."""
 
 from ..star import declare_public
-from .live_columns import LiveColumn, column_requests, is_column
+from .live_columns import LiveColumn, at_its_rates, column_requests, is_column
 from .ranges import closely, ranges_below_zero, reached_span, spans_in_words
 from .results import case_along, column_among, columns_about, force_columns, is_changing, is_loaded, request_in_case, results
 from .runs import (

@@ -13,6 +13,7 @@ from ..errors import LinkageError, UntracedError
 from ..loads import PLAIN_CASE, Case
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, Request, RequestLike, require_motion
+from ..motion.requests import as_they_run
 from ..program import FloatArray
 from ..quantities import Dimension, Quantity, Stroke, x, y
 from ..statics import AnyMotion, LawRequest, TracedMotion
@@ -62,18 +63,24 @@ def column_requests(
             continue
         formula, known = partial(column_over, machine, place, column.name), ("column", machine, place, column.name)
         own = LawRequest(formula=formula, text=f"the column {column.name}", known=known, column=column.name)
+        reasons = list[str]()
         for request in (plain.get(name), plainly.request, own):
             if request is not None:
-                reason = not_followed(motion, request_in_case(request, case), column)
-                found[name] = column, request, reason
-                if not reason:
+                reasons.append(not_followed(motion, request_in_case(request, case), column))
+                found[name] = column, request, reasons[0] if reasons[-1] else ""
+                if not reasons[-1]:
                     break
     return found
 
 
+def at_its_rates(motion: Motion, request: RequestLike) -> RequestLike:
+    """Return a request for a program that takes the rates of a motion in time, and accelerations where no rate jumps; else as it is."""
+    return request if motion.time is None else as_they_run([request], motion._rate_jump is None, True)[0]
+
+
 def not_followed(motion: Motion, request: RequestLike, column: Column) -> str:
     """Return why a program does not give what a column holds, NaN at the same poses, in words; empty where it does."""
-    own = np.broadcast_to(np.asarray(column.values, float), motion.shape)
+    own, request = np.broadcast_to(np.asarray(column.values, float), motion.shape), at_its_rates(motion, request)
     try:
         found = motion._requested(request) if isinstance(request, Request) else motion[request]
     except LinkageError as error:

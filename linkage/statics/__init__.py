@@ -1,7 +1,7 @@
 """Forces: the drive's by virtual work, the joints' by equilibrium of every body, supports, friction. N and Nm."""
 
 from ..star import declare_public
-from .applied import applied_elements, applied_loads, elements_of, plan_in_case
+from .applied import applied_elements, applied_loads, elements_of, plan_in_case, rates_in
 from .carried import PROBE, Direction, direction_at, direction_words, is_steady, member_limits, pull_direction, pulling
 from .force_requests import drive_force, drive_remarks, held_verdict, pin_force, pin_forces_under, thrust_from_forces
 from .holding import each_once, is_among, same, stroke_followed, tied_forces

@@ -1,0 +1,113 @@
+"""The situations in which a live page shows forces, one for each `Over` that differs, and the arrows that it draws of them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import partial
+from typing import Any, TypeVar, cast, final
+
+import numpy as np
+
+from ..errors import LinkageError, UntracedError, unwarned
+from ..loads import PLAIN, Acting, Case
+from ..mechanism import Mechanism
+from ..motion import Judge, LiveText, Motion, Request
+from ..motion.requests import bound
+from ..program import FloatArray
+from ..reports import Run, at_its_rates, case_shown, request_in_case
+from ..statics import AnyMotion, JointForce, LawRequest, TracedMotion, applied_loads, ground_loads, pin_force, pin_forces, rates_in
+
+Asked = TypeVar("Asked")
+
+
+@final
+@dataclass(frozen=True)
+class PageSituation:
+    """How a page shows forces over an `Over`: in a load case; over a path in time, the motion, at its rates."""
+
+    case: Case
+    motion: Motion | None = None
+
+    def asked(self, request: Asked) -> Asked:
+        """Return a request in this situation; over a path in time its program takes rates and accelerations."""
+        found = request_in_case(request, self.case)
+        return found if self.motion is None else cast(Asked, at_its_rates(self.motion, cast(Any, found)))
+
+
+def page_situations(judge: Judge, run: Run) -> tuple[list[PageSituation], list[int]]:
+    """Return the situations of a page, that of its first run first, and which of them each `Over` of the judge has."""
+    of_places = [PageSituation(case_shown(each), each.motion if each.instants is not None else None) for each in judge.places]
+    own = [each for each, place in zip(of_places, judge.places, strict=True) if place.over.title == run.title and each.motion is not None]
+    first = own[0] if run.instants is not None and own else PageSituation(run.case)
+    found = list(dict.fromkeys((first, *of_places)))
+    return found, [found.index(each) for each in of_places]
+
+
+def situated_requests(name: str, request: Asked, situations: Sequence[PageSituation]) -> dict[str, Asked]:
+    """Return what is asked in each situation, by its name and number; once where it is the same as in the first."""
+    asked = [each.asked(request) for each in situations]
+    return {f"{name} {k}": each for k, each in enumerate(asked) if not k or each is not asked[0]}
+
+
+def situated_rows(name: str, live: LiveText, count: int) -> int | list[int | None] | None:
+    """Return the row of what is asked in situations, one for all or one for each; None where its program does not give it."""
+    keys = [f"{name} {k}" for k in range(count)]
+    keys = [key if key in live.rows or key in live.left_out else keys[0] for key in keys]
+    found = [live.rows[key][0] if key in live.rows else None for key in keys]
+    return found[0] if len(set(found)) == 1 else found
+
+
+def load_part(kind: str, name: Any, axis: int, motion: AnyMotion, acting: Acting) -> FloatArray:
+    """Return a part of what the ground does, by its place, or of an element's loads at a point, over a motion in a situation [N]."""
+    if kind == "ground":
+        return ground_loads(motion, acting)[name].force[axis]
+    loads = [each for each in applied_loads(motion, acting, rates_in(motion, acting)).loads if (each.element, each.point) == name]
+    return cast(FloatArray, sum((each.force[axis] for each in loads), np.zeros(motion.shape)))
+
+
+def force_arrows(machine: Mechanism, motion: Motion, situations: Sequence[PageSituation]) -> list[tuple[str, Request, Request, bool]]:
+    """Return the forces that can be drawn: their points, their parts [N], and whether it is a load; those at pins and supports come first.
+
+    A load that acts in one of the situations alone, as the couple of what is accelerated, is among them.
+    """
+    plan, poses = machine.plan, motion.moved({name: value[motion.reached][:1] for name, value in motion.strokes.items()})
+    try:
+        with unwarned():
+            joints = pin_forces(poses).joints
+        kept = plan.made(("traced loads",), lambda twin: twin)
+        traced = TracedMotion(kept, kept.trace.view())
+        here: list[AnyMotion] = [traced, *(each.motion for each in situations if each.motion is not None)]
+        loads = dict.fromkeys(
+            (each.element, each.point) for one in here for each in applied_loads(one, PLAIN, rates_in(one, PLAIN)).loads
+        )
+    except LinkageError:  # no forces, or loads that have no program
+        return []
+    forces = [each for each in joints if each.has_force and each.place is None] if loads else []  # an arrow of the page begins at a point
+    told = [each for each in forces if alone_on(each, forces)]
+    try:
+        for joint in told[:1]:
+            bound(plan, joint_part(joint, forces, "x")).nodes(kept)
+    except UntracedError:  # which parts pull is found pose by pose: the loads alone are drawn
+        told = []
+    found = [(each.point, joint_part(each, forces, "x"), joint_part(each, forces, "y"), False) for each in told]
+    ground = [("ground", k, each.point) for k, each in enumerate(ground_loads(poses, PLAIN) if loads else ())]
+    for kind, name, point in [*ground, *(("load", each, each[1]) for each in loads)]:
+        keys = ((kind, name, axis) for axis in (0, 1))
+        x, y = (LawRequest(formula=partial(load_part, *key), text=f"{kind} {name}", known=key, acting=PLAIN) for key in keys)
+        found.append((point, x, y, kind == "load"))
+    return found
+
+
+def alone_on(joint: JointForce, joints: Sequence[JointForce]) -> str:
+    """Return the body, its own or else the other, on which a joint's force is the only one at its point; "" where there is none."""
+    bodies = [body for each in joints if each.point == joint.point for body in (each.on, each.by)]
+    return next((body for body in (joint.on, joint.by) if bodies.count(body) == 1), "")
+
+
+def joint_part(joint: JointForce, joints: Sequence[JointForce], axis: str) -> Request:
+    """Return what asks for a part of a joint's force on its own body; where several joints of it meet there, by the other body's."""
+    body = alone_on(joint, joints)
+    asked = pin_force(joint.point, body, axis)
+    found: Request = asked if body == joint.on else -1.0 * asked
+    return found

@@ -88,6 +88,17 @@ def for_all(names, daily, ids=None, slow=()):
     return decorated
 
 
+def first_daily(count, names, cases, ids=None):
+    """Return a `pytest.mark.parametrize` whose first `count` cases run every day, and the others under the mark `slow`."""
+    listed, ids = [name.strip() for name in names.split(",")] if isinstance(names, str) else names, ids or (lambda value: None)
+    told = [*ids] if not callable(ids) else None
+    rows = []
+    for place, case in enumerate(cases):
+        marks = [*(case.marks if isinstance(case, PARAM) else ()), *([pytest.mark.slow] if place >= count else ())]
+        rows.append(pytest.param(*row(case, listed), marks=marks, id=told[place] if told else case.id if isinstance(case, PARAM) else None))
+    return pytest.mark.parametrize(names, rows, ids=None if told else ids)
+
+
 def row(case, names):
     """Return the values of a case."""
     return case.values if isinstance(case, PARAM) else (case,) if len(names) == 1 else tuple(case)

@@ -303,7 +303,7 @@ def test_only_what_a_picture_needs_is_run():
     assert run == ["import numpy as np", "class A:", "rows = [1]", "rows.append(2)", "rows[0] = 3", "draw(A, rows)"]
 
 
-@pytest.mark.parametrize("name", ["three_point_hitch", "slider_crank"])
+@pytest.mark.parametrize("name", ["three_point_hitch", pytest.param("slider_crank", marks=pytest.mark.slow)])
 def test_a_machine_has_a_page(name, tmp_path):
     from made import machines
 

@@ -4,7 +4,7 @@ import inspect
 
 import pytest
 
-from tests.for_all import check_all, for_all
+from tests.for_all import check_all, first_daily, for_all
 
 
 def test_all_cases_run_and_those_that_fail_are_named():
@@ -70,3 +70,14 @@ def test_cases_with_the_mark_are_among_the_slow_ones():
     assert seen == [1, 3, 2]
     with pytest.raises(AssertionError, match="other than `slow`"):
         for_all("number", [pytest.param(2, marks=pytest.mark.skip)])
+
+
+def test_cases_after_the_first_ones_are_slow_and_keep_their_marks_and_names():
+    xfail = pytest.mark.xfail
+    cases = [1, pytest.param(2, id="two", marks=xfail), (3, 4), pytest.param(5, marks=xfail)]
+    one, two, three, four = first_daily(2, "case", cases).args[1]
+    assert [each.values for each in (one, two, three, four)] == [(1,), (2,), ((3, 4),), (5,)]
+    assert [[mark.name for mark in each.marks] for each in (one, two, three, four)] == [[], ["xfail"], ["slow"], ["xfail", "slow"]]
+    assert (one.id, two.id) == (None, "two")
+    (named,) = first_daily(1, ("first", "second"), [(1, 2)], ids=["pair"]).args[1]
+    assert (named.values, named.id) == ((1, 2), "pair")

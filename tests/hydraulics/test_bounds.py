@@ -71,7 +71,7 @@ def test_bounds_follow_the_designs_of_a_batch():
 
 
 @for_all("machine", [Lift, Both, Pulling])
-@for_all("share", [1.0, 0.9])
+@for_all("share", [0.9], slow=[1.0])
 @for_all("rubs", [False, True])
 def test_at_its_capacity_the_cylinder_stands_at_its_bound(machine, share, rubs):
     own = [Weight("B", mass=200), *([PinFriction("O", radius=40 * mm, coefficient=0.2)] if rubs else [])]

@@ -9,6 +9,7 @@ from linkage import RIGHT, Actuator, Crank, DefinitionError, Dyad, Ground, Mecha
 from linkage.loads import PinFriction, Weight
 from linkage.statics import driving_force
 from linkage.units import bar, cm2, deg, g0, kN, litre, minute, mm
+from tests.for_all import first_daily
 
 
 class Lift(Mechanism):
@@ -160,7 +161,7 @@ def test_it_sinks_by_itself_where_the_load_beats_friction_and_the_return_line():
     assert_allclose(sinks.working[0], 5 * bar * 1.001)
 
 
-@pytest.mark.parametrize("count", [2, 5, 50, 500])
+@first_daily(2, "count", [2, 500, 5, 50])
 def test_verdicts_with_their_remedy(count):
     strong, weak = Lift(), Lift(**{"load.mass": 40e3})
     good = {verdict.rule: verdict for verdict in lift_verdicts(circuit, strong.sweep(count), ["load"], resistance=0.1 * bar)}

@@ -8,7 +8,7 @@ from hydraulics import Buckling, Cylinder, LiftCircuit, lift_verdicts
 from linkage import RIGHT, Actuator, DefinitionError, Dimension, Dyad, Ground, LoadCase, Mechanism, PinFriction, Stroke, Weight
 from linkage.statics import driving_force
 from linkage.units import bar, kN, mm
-from tests.for_all import for_all
+from tests.for_all import first_daily, for_all
 
 
 class Arm(Mechanism):
@@ -162,7 +162,7 @@ def test_buckling_is_of_one_of_the_cylinders_at_its_worst_pose():
     assert [bool(each) for each in Arm.lift.checks(motion, load)] == [True, True, True]
 
 
-@pytest.mark.parametrize("count", [2, 5, 50])
+@first_daily(2, "count", [2, 50, 5])
 def test_buckling_looks_at_every_load_case_and_direction(count):
     class Loaded(Arm):
         load = Weight("B", mass=9000.0)

@@ -11,7 +11,7 @@ from linkage.errors import DefinitionError
 from linkage.units import bar, litre
 from tests.for_all import for_all
 
-TEMPERATURES = np.linspace(245.0, 340.0, 20)
+TEMPERATURES = np.linspace(245.0, 340.0, 10)
 PRESSURES = np.concatenate([np.geomspace(0.5, 20.0, 8), np.linspace(27.0, 500.0, 40)]) * bar
 
 

@@ -1,13 +1,12 @@
 """Laws of the gap of outlines: where the pair stands, how it is turned, mirrored, exchanged and written down changes nothing."""
 
 import numpy as np
-import pytest
 from numpy.testing import assert_allclose
 
 from linkage import Crank, Ground, Mechanism, Outline, Part, Planes, Stroke, clearance, gap, mm, ref
+from tests.for_all import first_daily
 
-DAILY = (0, 3)
-SEEDS = [seed if seed in DAILY else pytest.param(seed, marks=pytest.mark.slow) for seed in range(30)]
+SEEDS = first_daily(2, "seed", [0, 3, 1, 2, *range(4, 30)])
 SIZE = 1.5  # m, about how far the outlines reach
 STROKES = {"s": np.linspace(0.0, 1.4, 9)}
 
@@ -65,7 +64,7 @@ def same(found, wanted):
     assert_allclose(found, wanted, rtol=0.0, atol=1e-12 * SIZE)
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@SEEDS
 def test_where_the_pair_stands_changes_nothing(seed):
     one, other = drawn_pair(seed)
     rng = np.random.default_rng(seed)
@@ -75,7 +74,7 @@ def test_where_the_pair_stands_changes_nothing(seed):
         same(found, own)
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@SEEDS
 def test_how_the_pair_is_written_changes_nothing(seed):
     """Exchanged in the request and in the class; the corners counted from another one, and the other way round."""
     one, other = drawn_pair(seed)
@@ -85,7 +84,7 @@ def test_how_the_pair_is_written_changes_nothing(seed):
     same(again[1], wanted[1])
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@SEEDS
 def test_the_outlines_of_a_part_keep_their_gap(seed):
     """A part that is placed, turned, mirrored: the gap of its outlines is that of the machine alone, also against the whole's."""
     one, other = drawn_pair(seed)

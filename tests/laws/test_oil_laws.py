@@ -13,17 +13,18 @@ from numpy.testing import assert_allclose
 from hydraulics import Accumulator, AccumulatorBlock, FloatCircuit, Holding, LiftCircuit, Lowering, OilLine, Pump, Relief, pressure, thrust
 from linkage import driving_force, pin_forces
 from linkage.errors import LinkageError
+from tests.for_all import first_daily
 from tests.laws.by_hand import FRAME, ByHand
 from tests.laws.plane import PLAIN, Move, size
 from tests.laws.random_machines import random_machine
 from tests.laws.random_oil import KINDS, random_oil
 from tests.laws.test_random_machines import works_of
 
-MANY, DAILY = 100, 7
+MANY, DAILY = 100, 5
 NOTHING = 1e-12
 MOVES = [Move(mirror=True), Move(turn=0.7), Move(mirror=True, turn=-2.1, scale=1.7), Move(scale=0.6, turn=1.9)]
-EACH = pytest.mark.parametrize("seed", [n if n < DAILY else pytest.param(n, marks=pytest.mark.slow) for n in range(MANY)])
-KIND = pytest.mark.parametrize("seed", [n if n in (1, 2, 3) else pytest.param(n, marks=pytest.mark.slow) for n in range(4 * len(KINDS))])
+EACH = first_daily(DAILY, "seed", range(MANY))
+KIND = first_daily(3, "seed", [1, 2, 3, 0, *range(4, 4 * len(KINDS))])
 
 
 @lru_cache(maxsize=32)
@@ -197,7 +198,7 @@ def groups_of(draft, held):
     return [[each.member for each in draft.holders if each.stroke == stroke and each.member in held] for stroke in strokes]
 
 
-SPELLED = pytest.mark.parametrize("seed", [n if n in (1, 3, 5) else pytest.param(n, marks=pytest.mark.slow) for n in range(80)])
+SPELLED = first_daily(3, "seed", [1, 3, 5, 0, 2, 4, *range(6, 80)])
 
 
 def answers_of(machine, draft, held, fed):

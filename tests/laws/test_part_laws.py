@@ -68,7 +68,7 @@ def test_a_part_moves_as_the_machine_alone_does(machine):
 
 
 @ALL
-@for_all("how", [dict(angle=TURN, at=AT), dict(mirrored=True, angle=TURN, at=AT)], ids=str)
+@for_all("how", [dict(mirrored=True, angle=TURN, at=AT)], ids=str, slow=[dict(angle=TURN, at=AT)])
 def test_a_part_that_is_mirrored_or_turned_stands_there(machine, how):
     alone, held = motions(machine, **how)
     size = max(float(np.nanmax(np.abs(alone[name]))) for name in machine.plan.points)
@@ -95,7 +95,7 @@ def test_mirrored_twice_is_not_mirrored(machine):
 
 
 @ALL
-@for_all("how", [dict(), dict(mirrored=True, at=(0.3, -0.2), angle=-40 * deg)], ids=str)
+@for_all("how", [dict(mirrored=True, at=(0.3, -0.2), angle=-40 * deg)], ids=str, slow=[dict()])
 def test_a_part_on_a_moving_body_goes_with_it(machine, how):
     base = {"t": Stroke(-1, 1), "o": Ground(0.4, 0.1), "q": Crank("o", oq=0.7, angle="t")}
     outlines = machine.plan.of_kind(Outline).items()

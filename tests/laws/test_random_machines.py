@@ -16,25 +16,21 @@ from hydraulics import Cylinder, FloatCircuit, LiftCircuit
 from linkage import Actuator, Crank, DefinitionError, LoadCase, Spring, Stroke, drive_force, driving_force, pin_force, pin_forces
 from linkage.loads import ForceElement
 from linkage.quantities import ref
-from tests.for_all import for_all
+from tests.for_all import first_daily, for_all
 from tests.laws.by_hand import FRAME, ByHand, by_point, full
 from tests.laws.plane import G0, PLAIN, Move, cross, facing, size, turned
 from tests.laws.random_machines import TAGS, random_machine, wants
 
-MANY, DAILY, BLOCK = 300, 10, 10
+MANY, DAILY, BLOCK = 300, 6, 10
 NOTHING = 1e-12  # of the largest force: what rounding leaves
 FRICTION = 1e-10  # of the largest force: where friction and joint forces are found by iteration
 
 
-def seeds(chosen):
-    """Return the parameters of a law of each machine: some seeds daily, all when it is slow."""
-    return [seed if seed < DAILY else pytest.param(seed, marks=pytest.mark.slow) for seed in chosen]
-
-
-EACH = for_all("seed", seeds(range(MANY)))
-SIXTH = pytest.mark.parametrize("seed", seeds(range(0, MANY, 6)))
-RUBBING = for_all("seed", seeds([seed for seed in range(MANY) if "friction" in wants(seed)]))
-BLOCKS = pytest.mark.parametrize("first", [n if n < DAILY else pytest.param(n, marks=pytest.mark.slow) for n in range(0, MANY, BLOCK)])
+EACH = for_all("seed", range(DAILY), slow=range(DAILY, MANY))
+SIXTH = first_daily(1, "seed", range(0, MANY, 6))
+WITH_FRICTION = [seed for seed in range(MANY) if "friction" in wants(seed)]
+RUBBING = for_all("seed", WITH_FRICTION[:3], slow=WITH_FRICTION[3:])
+BLOCKS = first_daily(1, "first", range(0, MANY, BLOCK))
 
 
 def speeds(draft):

@@ -338,8 +338,8 @@ def on_gas(spelling, charges, rule, exponent):
 
 @for_all(
     ("charges", "rule", "exponent"),
-    [((20 * bar, 56 * bar), "charge", 1.0), ((52 * bar,), "charge", 1.3), ((15 * bar, 30 * bar), "compression", 1.0)],
-    slow=[((52 * bar,), "charge", 1.0), ((14 * bar,), "compression", 1.0)],
+    [((52 * bar,), "charge", 1.3), ((15 * bar, 30 * bar), "compression", 1.0)],
+    slow=[((20 * bar, 56 * bar), "charge", 1.0), ((52 * bar,), "charge", 1.0), ((14 * bar,), "compression", 1.0)],
 )
 def test_a_charge_that_is_named_keeps_its_rule_on_the_line_that_has_it(charges, rule, exponent):
     promised = 0

@@ -1,7 +1,6 @@
 """Laws of forces in time over random machines: rates and accelerations of strokes as inputs of programs, and the inertia of masses."""
 
 import numpy as np
-import pytest
 from numpy.testing import assert_allclose
 
 from hydraulics import FloatCircuit
@@ -12,8 +11,8 @@ from tests.laws.by_hand import FRAME, ByHand, full
 from tests.laws.plane import PLAIN, cross, size
 from tests.laws.random_machines import random_machine
 
-DAILY, MANY = 4, 60
-EACH = for_all("seed", [seed if seed < DAILY else pytest.param(seed, marks=pytest.mark.slow) for seed in range(MANY)])
+DAILY, MANY = 3, 60
+EACH = for_all("seed", range(DAILY), slow=range(DAILY, MANY))
 
 
 def moving(draft, order=1):

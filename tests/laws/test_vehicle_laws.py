@@ -6,11 +6,12 @@ from numpy.testing import assert_allclose
 
 from linkage import pin_forces, standing
 from linkage.formulas import equations
+from tests.for_all import first_daily
 from tests.laws.random_machines import random_machine
 from tests.laws.random_vehicles import random_vehicle
 
-MANY, DAILY = 120, 3
-EACH = pytest.mark.parametrize("seed", [seed if seed < DAILY else pytest.param(seed, marks=pytest.mark.slow) for seed in range(MANY)])
+MANY, DAILY = 120, 2
+EACH = first_daily(DAILY, "seed", range(MANY))
 
 
 def turning(place, force):

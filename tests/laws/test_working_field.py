@@ -47,7 +47,7 @@ from linkage import (
 from linkage.units import bar, deg, g0, kN, mm
 from mechanisms.at_work.tipper import Tipper
 from mechanisms.crane import Crane
-from tests.for_all import for_all
+from tests.for_all import first_daily, for_all
 from tests.machines.test_excavator import Excavator
 
 ALONE = {"hold": {"S3": 0.2}, "without": ["dig"]}
@@ -239,7 +239,7 @@ def poses_of_crane(crane, across, up, t):
         return {"phi": pi / 2 - np.angle(joint), "psi": np.mod(np.angle((tip - joint) / -joint), 2.0 * pi), "t": t}
 
 
-@pytest.mark.parametrize("over", [None, {"phi": (30 * deg, 80 * deg), "psi": (40 * deg, 150 * deg), "t": (0.4, 2.0)}, {"t": (0.0, 3.1)}])
+@first_daily(2, "over", [None, {"phi": (30 * deg, 80 * deg), "psi": (40 * deg, 150 * deg), "t": (0.4, 2.0)}, {"t": (0.0, 3.1)}])
 def test_strokes_to_spare_stand_where_most_is_carried(over):
     crane = Crane(Q=0.0)
     radii, heights = np.array([1.0, 2.4, 4.7, 7.7, 8.9, 9.9, 10.4]), np.array([-1.0, 1.6, 4.8, 8.0])

@@ -30,6 +30,7 @@ from linkage import (
     pin_forces,
 )
 from linkage.units import bar, mm
+from tests.for_all import first_daily
 from tests.machines import plane
 from tests.machines.words import number
 
@@ -333,7 +334,7 @@ def test_spring_for_its_force():
     assert_allclose(first.thrusts["lift"], want, rtol=1e-11)
 
 
-@pytest.mark.parametrize("count", [2, 5, 50])
+@first_daily(2, "count", [2, 50, 5])
 def test_largest_force_lies_between_the_poses(count):
     """The bearing carries most in the middle of the stroke, the cylinder at neither end."""
     table = {(each.point, each.on): each for each in max_table(pin_forces(Pulled().sweep(count)))}

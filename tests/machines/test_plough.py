@@ -27,7 +27,7 @@ from linkage import (
     pin_forces,
 )
 from linkage.units import bar, litre, minute, mm
-from tests.for_all import for_all
+from tests.for_all import first_daily, for_all
 from tests.machines import plane
 from tests.machines.words import number
 from tests.mechanisms.free_bodies import FreeBodies
@@ -165,14 +165,14 @@ def test_verdicts_short_of_the_dead_centre(count):
     assert_allclose(number("holds up to", holding), most / ring / bar, rtol=1e-3)
 
 
-@pytest.mark.parametrize("count", [2, 3, 50])
+@first_daily(2, "count", [2, 50, 3])
 def test_verdict_over_the_dead_centre_is_no(count):
     """Whether a pose meets it, as that of three does, or not: no pump turns the beam through it."""
     lifting, *_ = lift_verdicts(Plough.line, Plough().sweep(count))
     assert not lifting, str(lifting)
 
 
-@pytest.mark.parametrize("count", [2, 3, 50])
+@first_daily(2, "count", [2, 50, 3])
 def test_length_is_looked_for_between_the_ends(count):
     """At both ends AB is longest; 5 mm are missing in the middle, where the cylinder would be too long closed."""
     long_closed = Cylinder("A", "B", bore=80 * mm, rod=40 * mm, works="both", closed=0.535, stroke=0.260)

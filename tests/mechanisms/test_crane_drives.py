@@ -24,7 +24,7 @@ from mechanisms.crane.drives import (
 )
 from mechanisms.crane.duty import DriveCylinders, DriveDuty, duty_of
 from mechanisms.crane.skeleton import CraneSkeleton
-from tests.for_all import for_all
+from tests.for_all import first_daily, for_all
 
 # Source: Syunyov et al., (2.19) to (2.66), as reconstructed; numbers of its examples 2, 3a and 3b, computed independently.
 
@@ -418,7 +418,7 @@ def test_lever_at_the_reference(bore):
     assert_allclose(-motion.ratio("length"), BOOMS[bore][8], rtol=1e-10)
 
 
-@pytest.mark.parametrize("bore", BOOMS)
+@first_daily(1, "bore", BOOMS)
 def test_a_search_through_the_boom_finds_the_reference(bore):
     start = boom_of(bore).replaced(S=0.9, r_2=1.5, r_3=0.65)
     phi = np.linspace(PHI_0, PHI_K, 21)

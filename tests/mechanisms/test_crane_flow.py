@@ -38,6 +38,7 @@ from mechanisms.crane import (
 )
 from mechanisms.crane.drive_report import movements_of
 from mechanisms.crane.load_map import dragging
+from tests.for_all import first_daily
 
 FOUND = {  # example 1 of the source, both readings of (2.13): W_m and the variables
     ">=": (3.755721473767066, (4.542413835813202, 3.116420231283486, 2.493136185026789, 1.85, 20.526019274994923 * deg)),
@@ -80,7 +81,7 @@ def test_stages_take_what_the_user_gives():
         assert float(found.crane[name]) == pytest.approx(float(value), rel=tolerance, abs=1e-9)
 
 
-@pytest.mark.parametrize("machine", [Crane, BellCrankCrane, DirectCrane, DirectCraneAbove])
+@first_daily(2, "machine", [Crane, BellCrankCrane, DirectCrane, DirectCraneAbove])
 def test_drives_on_their_own_are_those_of_the_crane(machine):
     crane = bell_crank() if machine is BellCrankCrane else machine()
     boom, arm = boom_drive_of(crane), arm_drive_of(crane)
@@ -97,7 +98,7 @@ def test_drives_on_their_own_are_those_of_the_crane(machine):
     assert_allclose(arm_moment(crane, psi), (-given["folding"], given["opening"]), rtol=1e-9)
 
 
-@pytest.mark.parametrize("machine", [DirectCrane, DirectCraneAbove])
+@first_daily(1, "machine", [DirectCrane, DirectCraneAbove])
 def test_a_direct_drive_carries_the_crane_by_virtual_work(machine):
     """The cylinder's thrust is the arm's moment over the lever (2.30); the pin E carries that thrust; the reserve is 1."""
     crane, side = machine(), 1.0 if machine is DirectCrane else -1.0
@@ -139,6 +140,7 @@ class FreeCrane(Crane):
         return {"phi": (-np.pi, np.pi), "psi": (0.0, np.pi), "t": (0.0, float(self["l_t"]))}
 
 
+@pytest.mark.slow
 def test_area_of_a_crane_that_turns_fully_is_a_ring():
     crane = FreeCrane()
     l_c, l_p, l_t = (float(crane[name]) for name in ("l_c", "l_p", "l_t"))
@@ -268,7 +270,7 @@ def test_other_cranes_have_maps_too():
     assert CraneSkeleton(**Duty(L=9.0).dimensions())["L"] == 9.0
 
 
-@pytest.mark.parametrize("name", ["boom_drive", "arm_drive"])
+@first_daily(1, "name", ["boom_drive", "arm_drive"])
 def test_the_command_shows_a_drive_with_its_figures(tmp_path, capsys, name):
     folder = tmp_path / "new" / name  # is made
     assert main(["crane", name, "--pictures", str(folder)]) == 0

@@ -26,7 +26,7 @@ from mechanisms.grapple import (
     moment_ratio,
     travelling,
 )
-from tests.for_all import for_all
+from tests.for_all import first_daily, for_all
 
 # Example 4 of the specification: computed by its author with closed formulas and a search of his own.
 O = (0.3497067455977797, 0.0854704164223494)
@@ -273,7 +273,7 @@ def greatest_ratio(design):
     return -minimize_scalar(negative, bounds=(end, 0.0), method="bounded", options={"xatol": 1e-10}).fun
 
 
-@pytest.mark.parametrize(("row", "rod"), [(LISTED[0], 28), (LISTED[1], 36)], ids=["best", "runner-up"])
+@first_daily(1, ("row", "rod"), [(LISTED[0], 28), (LISTED[1], 36)], ids=["best", "runner-up"])
 def test_scipy_finds_the_optimum_through_the_machine(row, rod):
     """The ratio falls as OC grows up to where a condition is just met, so that bound is sought by Brent's rule."""
     bore, S, rho, share = row
@@ -516,7 +516,7 @@ def test_the_command_prints_moments_verdicts_and_a_figure(tmp_path, capsys):
     assert main(["grapple", "--set", "rho=100mm"]) == 2
 
 
-@pytest.mark.parametrize("machine", [Grapple, InnerGrapple])
+@first_daily(1, "machine", [Grapple, InnerGrapple])
 def test_the_rosette_shows_every_stem_on_the_housing(machine):
     page = figure("stems", machine())
     for ax in page.axes:

@@ -27,7 +27,7 @@ from mechanisms.header_balancer import (
 )
 from mechanisms.header_balancer.criteria import FAST, HEADERS, PAPER, SLOW, criteria, hang_up, matching, rises, valve
 from mechanisms.header_balancer.following import PLAIN, HeaderState, at_horizon, stroke_of
-from tests.for_all import for_all
+from tests.for_all import first_daily, for_all
 from tests.mechanisms.balancer_reference import REFERENCE
 
 PUBLISHED = {1: 94.0, 2: 34.0, 3: 50.0}
@@ -89,7 +89,7 @@ def test_the_arm_is_the_transfer_ratio(number):
     assert_allclose(HeaderState(motion).arm, 1.0 / motion.ratio(angle("O", "B")), rtol=1e-12)
 
 
-@EACH
+@first_daily(1, "number", HEADERS)
 def test_work_and_equilibrium_agree_and_nothing_is_left_for_the_pump(number):
     motion = over(number)
     loads = ["feeder", "header", "floating"]
@@ -115,7 +115,7 @@ def test_the_largest_charge_without_hang_up(number, way, limits):
     assert abs(largest_charge(motion, way) / kgf_cm2 - limits[number - 1]) < 0.02
 
 
-@EACH
+@first_daily(1, "number", HEADERS)
 def test_at_the_largest_charge_the_shoe_just_carries_nothing(number):
     machine = with_header(number)
     limit = largest_charge(machine.at(h=0.0))

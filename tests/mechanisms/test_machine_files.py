@@ -78,7 +78,7 @@ def test_forces_and_pressures_come_back(name, write):
     assert same(forces(load(write(machine))()), forces(machine()))
 
 
-@for_all("write", [to_toml, to_json])
+@for_all("write", [to_toml], slow=[to_json])
 @for_all("name", DESIGNS)
 def test_design_comes_back(name, write):
     design = DESIGNS[name]

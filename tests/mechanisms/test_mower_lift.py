@@ -299,15 +299,15 @@ def test_oil_is_area_times_travel():
     assert MowerLift.circuit.oil(motion) == pytest.approx(np.pi / 4 * 0.08**2 * 0.25, rel=1e-12)
 
 
-@for_all("dimensions", [{}, {"BOG": 0.6}, {"BOG": 3.5}, {"p_max": 50 * kgf_cm2}, {"weight": 500 * kgf}], ids=str)
+@for_all("dimensions", [{}, {"BOG": 0.6}], ids=str, slow=[{"BOG": 3.5}, {"p_max": 50 * kgf_cm2}, {"weight": 500 * kgf}])
 def test_verdict_is_the_same_from_however_many_poses(dimensions):
-    said = {verdict(count, **dimensions) for count in (2, 5, 50, 500)}
+    said = {verdict(count, **dimensions) for count in (2, 5, 500)}
     assert len(said) == 1
 
 
 def test_verdict_of_a_batch_is_the_same_from_however_many_poses():
     lift = MowerLift(BOG=np.linspace(0.5, 2.5, 9))
-    assert len({tuple(lift.verdicts(lift.sweep(count))) for count in (2, 5, 50)}) == 1
+    assert len({tuple(lift.verdicts(lift.sweep(count))) for count in (2, 50)}) == 1
 
 
 # -- what a user adds --------------------------------------------------------------------------------------

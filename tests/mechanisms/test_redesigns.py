@@ -27,7 +27,7 @@ from mechanisms.redesigns import (
 )
 from mechanisms.three_point_hitch import ThreePointHitch
 from mechanisms.three_point_hitch.capacity import capacity
-from tests.for_all import for_all
+from tests.for_all import first_daily, for_all
 
 HEADERS = (1, 2, 3)
 
@@ -122,7 +122,7 @@ def test_the_flat_hitch_by_equilibrium_and_by_virtual_work():
     assert_allclose(capacity(motion)[1:-1], (18e6 * 2 * pi / 4 * 0.110**2 * 0.85 / rise)[1:-1], rtol=1e-4)
 
 
-@pytest.mark.parametrize("number", HEADERS)
+@first_daily(1, "number", HEADERS)
 def test_the_reaction_is_steady_with_every_header(number):
     machine, before = steady_balancer(number), with_header(number)
     now, was = (HeaderState(over_following(each.at(h=0.0), 1001)) for each in (machine, before))
@@ -137,7 +137,7 @@ def test_the_reaction_is_steady_with_every_header(number):
     assert machine.at(h=0.45).y("R") == pytest.approx(float(before.at(h=0.45).y("R")), abs=10 * mm)
 
 
-@pytest.mark.parametrize("number", HEADERS)
+@first_daily(1, "number", HEADERS)
 def test_three_headers_side_by_side_are_the_three_machines(number):
     case = ("first", "second", "third")[number - 1]
     state = HeaderState(over_following(with_header(number).at(h=0.0), 41))

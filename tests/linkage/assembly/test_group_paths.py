@@ -10,7 +10,7 @@ from linkage import AssemblyError, Crank, Ground, Guide, Link, Mechanism, Pin, S
 from linkage.assembly import group_continuation, newton
 from linkage.program import fixed_backend
 from mechanisms.classics.stephenson_three import StephensonThree, StephensonThreeFar
-from tests.for_all import for_all
+from tests.for_all import first_daily, for_all
 from tests.linkage.assembly.test_groups import Platform, platform
 from tests.linkage.random_parts import group_parts
 
@@ -168,7 +168,7 @@ def check_same(found, expected):
     assert found[2] == expected[2]
 
 
-@pytest.mark.parametrize("seed", range(3))
+@first_daily(1, "seed", range(3))
 def test_lanes_in_floats_and_in_arrays_are_the_same(seed, monkeypatch):
     in_floats = solved(seed)
     monkeypatch.setattr(group_continuation, "FEW", 0)

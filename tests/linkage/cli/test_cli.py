@@ -25,6 +25,7 @@ from linkage.cli import entry as commands
 from linkage.cli.command import lined_up
 from linkage.cli.machines import find
 from linkage.cli.settings import judged_over
+from tests.for_all import first_daily
 
 OWN = '''
     """A machine of a user."""
@@ -154,7 +155,7 @@ def test_point_is_set_whole_or_by_coordinate(said):
     assert whole[1].split()[-1] == "2.463"
 
 
-@pytest.mark.parametrize("name", ["lever.py", "lever.py:Lever", "./lever.py", "lever:Lever"])
+@first_daily(2, "name", ["lever.py", "lever.py:Lever", "./lever.py", "lever:Lever"])
 def test_machine_of_a_users_own(said, own, name):
     code, out, err = said("table", name, "turn", "--count", "2")
     assert (code, err) == (0, "")

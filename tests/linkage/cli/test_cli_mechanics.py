@@ -285,7 +285,7 @@ def test_russian_is_spoken_when_asked_and_no_longer(said):
     assert said("show", "loader.py")[1] == english
 
 
-@pytest.mark.parametrize("command", ["show", "table", "forces", "capacity"])
+@pytest.mark.parametrize("command", ["show", "capacity", *(pytest.param(name, marks=pytest.mark.slow) for name in ("table", "forces"))])
 def test_check_turns_a_failing_verdict_into_an_exit_code(said, command):
     weak = ("--set", "pump.pressure=20bar")
     assert said(command, "loader.py", "--check")[0] == 0

@@ -54,7 +54,7 @@ from mechanisms.classics.scotch_yoke import ScotchYoke
 from mechanisms.classics.stephenson_three import StephensonThreeFar
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
-from tests.for_all import for_all
+from tests.for_all import first_daily, for_all
 from tests.linkage.known_machines import GrabArms
 
 X = "{http://www.w3.org/1999/xhtml}"
@@ -543,7 +543,7 @@ class Beside(OverCentre):
     pump = LiftCircuit(["ram", "aid"], pressure=180 * bar)
 
 
-@pytest.mark.parametrize("machine", [OverCentre, Pumped, pytest.param(Beside, marks=pytest.mark.slow)])
+@first_daily(1, "machine", [OverCentre, Pumped, pytest.param(Beside, marks=pytest.mark.slow)])
 def test_a_dead_centre_in_the_middle_of_the_run_is_gone_round(machine, tmp_path):
     """Forces are refused in the middle: the calculation is of the pose beside it, and every number of it is one."""
     with pytest.raises(SingularError):

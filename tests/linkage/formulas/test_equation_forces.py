@@ -37,7 +37,7 @@ from mechanisms.header_balancer.following import HeaderState
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
 from mechanisms.three_point_hitch.capacity import capacity
-from tests.for_all import for_all
+from tests.for_all import first_daily, for_all
 
 
 def along(design, count=7):
@@ -101,7 +101,7 @@ class Laden(ThreePointHitch):
     own = LinkMass("E F", mass=120)
 
 
-@pytest.mark.parametrize("hitch", [ThreePointHitch(), ThreePointHitch(OB=0.32, **{"load.mass": 900.0}), Laden()], ids=repr)
+@first_daily(2, "hitch", [ThreePointHitch(), ThreePointHitch(OB=0.32, **{"load.mass": 900.0}), Laden()], ids=repr)
 def test_hitch_has_capacity_pressure_and_reserve(hitch):
     motion, values = check_forces(hitch)
     assert_allclose(values["G_g"], capacity(motion), rtol=1e-9)
@@ -111,7 +111,7 @@ def test_hitch_has_capacity_pressure_and_reserve(hitch):
     assert_allclose(values["F_lift"], hitch.circuit.rod_force(motion), rtol=1e-9)
 
 
-@pytest.mark.parametrize("header", [HeaderBalancer(), HeaderBalancer(m2=2000.0, charge=94 * kgf_cm2), ImprovedBalancer()], ids=repr)
+@first_daily(1, "header", [HeaderBalancer(), HeaderBalancer(m2=2000.0, charge=94 * kgf_cm2), ImprovedBalancer()], ids=repr)
 def test_header_has_its_arm_and_reactions(header):
     motion, strokes = along(header)
     values, state = equations(header, forces=True).values(at=strokes), HeaderState(motion)
@@ -340,7 +340,7 @@ def test_numbers_within_an_equation_are_si_and_the_result_has_its_own_unit():
 LOW = {"P_I": 30 * kgf_cm2, "atmosphere": 0.0, "charge": 60 * kgf_cm2}
 
 
-@pytest.mark.parametrize("changed", [{}, {"charge": 60 * kgf_cm2}, {"charge": 60 * kgf_cm2, "V_II": 0.0}, LOW])
+@first_daily(2, "changed", [{}, {"charge": 60 * kgf_cm2}, {"charge": 60 * kgf_cm2, "V_II": 0.0}, LOW])
 def test_gases_of_a_line_have_a_formula(changed):
     header = HeaderBalancer(**changed)
     motion = header.sweep(41)

@@ -27,11 +27,7 @@ from linkage import (
     y,
 )
 from linkage.units import bar, deg, mm
-
-
-def seeds(every, daily):
-    """Return seeds, those beyond the daily ones for slow runs."""
-    return [*range(daily), *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(daily, every))]
+from tests.for_all import first_daily, for_all
 
 
 def lever(start, end, frame, arm, bent, sense=1.0):
@@ -74,7 +70,7 @@ def told(machine):
     return [each for each in verdicts if each.rule == "dead points"]
 
 
-@pytest.mark.parametrize("seed", seeds(40, daily=3))
+@first_daily(3, "seed", range(40))
 def test_a_dead_point_at_an_end_is_told_and_no_mark_contradicts_its_words(seed):
     rng = np.random.default_rng(seed)
     frame, arm, bent = rng.uniform(0.3, 0.9), rng.uniform(0.2, 0.9), rng.choice([0.0, rng.uniform(-0.6, 0.6)])
@@ -97,7 +93,7 @@ def test_one_that_ends_beyond_its_dead_point_or_well_before_it_is_told_as_before
     assert verdict.ok and "none within the stroke; the nearest: B at S = 0.3000 m, 10 mm beyond it" in verdict
 
 
-def test_sliders_cranks_boxes_paths_and_batches_end_in_dead_points_too():
+def test_sliders_cranks_and_batches_end_in_dead_points_too():
     class Slider(Mechanism):
         S = Stroke(0.0, 0.2)
         A = Ground(0, 0.3)
@@ -110,20 +106,21 @@ def test_sliders_cranks_boxes_paths_and_batches_end_in_dead_points_too():
         B = Crank(A, AB=0.4, angle=phi)
         C = Dyad(B, D, BC=0.4, CD=0.3, side=RIGHT)
 
-    class Boxed(lever(0.5, 0.8, 0.4, 0.4, 0.3)):
-        T = Stroke(0.0, 0.1)
-        C = Dyad("A", "G", AC=0.7 + T, CG=0.6, side=RIGHT)
-
-    class Along(Boxed):
-        way = Over.path(S=[0.0, 0.3], T=[0.0, 0.1])
-
     assert told(Slider())[0].ok is False and told(Turned())[0].ok is None
-    for machine, place in ((Boxed(), "B at S = 0.3000 m, T ="), (Along(), "B at S = 0.3000 m, T = 0.1000 m")):
-        (verdict,) = told(machine)
-        assert verdict.ok is False and place in verdict
     batch = lever(0.5, 0.8, 0.4, 0.4, 0.3)(OB=np.array([0.42, 0.4, 0.41]))
     (verdict,) = told(batch)
     assert verdict.ok is False and "1 of 3 designs" in verdict and "design 2: B at S = 0.3000 m" in verdict
+
+
+@for_all(("over", "place"), [(Over.path(S=[0.0, 0.3], T=[0.0, 0.1]), "T = 0.1000 m")], slow=[(Over(), "T =")])
+def test_a_box_and_a_path_end_in_dead_points_too(over, place):
+    class Boxed(lever(0.5, 0.8, 0.4, 0.4, 0.3)):
+        T = Stroke(0.0, 0.1)
+        C = Dyad("A", "G", AC=0.7 + T, CG=0.6, side=RIGHT)
+        way = over
+
+    (verdict,) = told(Boxed())
+    assert verdict.ok is False and f"B at S = 0.3000 m, {place}" in verdict
 
 
 def test_a_law_without_a_value_at_some_places_fails_in_its_own_words():
@@ -151,7 +148,7 @@ class Arms(Mechanism):
     D = Crank(A, AD=0.4, angle=u + v)
 
 
-@pytest.mark.parametrize("seed", seeds(30, daily=4))
+@first_daily(4, "seed", range(30))
 def test_a_pole_is_never_told_as_a_value(seed):
     rng = np.random.default_rng(seed)
     machine = (Rocker, Rocker, Rocker, Arms)[seed % 4]()

@@ -83,11 +83,6 @@ def test_a_top_anywhere(shape, place):
     assert lowest(Lift().sweep(2), of_stroke(lambda u: -SHAPES[shape](u, place))).value == -found.value
 
 
-def seeds(every, daily):
-    """Return the seeds of a test: the first `daily` in each run of the suite, the others in the soak."""
-    return [pytest.param(seed, marks=[pytest.mark.slow] if seed >= daily else []) for seed in range(every)]
-
-
 def pieces(rng, least, most):
     """Return the corners of a broken line over 0 ... 1, no two nearer than `least`, up to `most`."""
     count = int(rng.integers(2, most))
@@ -96,7 +91,7 @@ def pieces(rng, least, most):
     return x / x[-1], rng.uniform(-1.0, 1.0, count + 1)
 
 
-@for_all("seed", seeds(40, daily=4))
+@for_all("seed", range(4), slow=range(4, 40))
 def test_broken_lines_with_gaps(seed):
     """The highest corner, or the highest edge of a gap, of lines of up to 1500 pieces."""
     rng = np.random.default_rng(seed)
@@ -257,7 +252,7 @@ def test_a_quotient_is_without_bounds_where_its_divisor_vanishes():
     assert found.value == pytest.approx(10.0 / np.cos(1.5), rel=1e-12) and not found.unbounded
 
 
-@for_all("seed", seeds(60, daily=5))
+@for_all("seed", range(5), slow=range(5, 60))
 def test_poles_and_what_is_none(seed):
     """Poles of several orders on a moving ground, refused about them or at the end of the reach, against values that stay finite."""
     rng = np.random.default_rng(seed)

@@ -97,7 +97,7 @@ def test_measures_that_make_no_number_are_not_kept():
     assert "what is calculated from them has none" in str(root)
 
 
-@pytest.mark.parametrize("machine", [Loader(), Rubbing()])
+@pytest.mark.parametrize("machine", [pytest.param(Loader(), marks=pytest.mark.slow), Rubbing()])
 def test_measures_of_a_cylinder_and_of_all_pins_combine(machine):
     over, two = Over(T=0.1), [most(pin_force("O", "OBC")), most(thrust("lift"))]
     parts = []

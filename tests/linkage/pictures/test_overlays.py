@@ -51,7 +51,7 @@ from mechanisms.header_balancer import HeaderBalancer
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests import shipped
-from tests.for_all import for_all
+from tests.for_all import first_daily, for_all
 from tests.linkage.statics.test_vehicle import Digger, Truck
 from tests.machines.test_tipper import Tipper
 
@@ -119,7 +119,7 @@ QUICK = ("ThreePointHitch", "HeaderBalancer", "Press")
 EVERY = [pytest.param(each, marks=() if each.__name__ in QUICK else pytest.mark.slow) for each in (*LOADED, Press, Tipper)]
 
 
-@pytest.mark.parametrize("machine", EVERY, ids=[each.values[0].__name__ for each in EVERY])
+@first_daily(2, "machine", EVERY, ids=[each.values[0].__name__ for each in EVERY])
 def test_arrows_are_the_pin_forces_and_loads_in_one_scale(machine):
     motion = pose_of(machine())
     found = pin_forces(motion)
@@ -345,7 +345,7 @@ def test_moments_about_the_cranes_pins_are_those_of_its_source():
         assert_allclose([loads, held], [expected, -expected], rtol=1e-7)
 
 
-@pytest.mark.parametrize("machine", [MowerLift, HeaderBalancer, Press, Tipper], ids=lambda machine: machine.__name__)
+@first_daily(2, "machine", [MowerLift, HeaderBalancer, Press, Tipper], ids=lambda machine: machine.__name__)
 def test_loads_about_a_pin_balance_what_holds_them(machine):
     pin = "C" if machine is Press else "O"
     strokes = {name: float(np.ravel(values)[0]) for name, values in pose_of(machine()).strokes.items()}
@@ -400,7 +400,7 @@ def test_velocities_stand_square_on_the_rays_of_the_pole(machine):
                 assert_allclose(speed[point], spin * np.array([-ray[1], ray[0]]), atol=1e-9 * max(fastest, abs(spin) * np.hypot(*ray)))
 
 
-@pytest.mark.parametrize("machine", [ThreePointHitch, FourBar, Press], ids=lambda machine: machine.__name__)
+@first_daily(2, "machine", [ThreePointHitch, FourBar, Press], ids=lambda machine: machine.__name__)
 def test_velocity_arrows_are_in_one_scale(machine):
     motion = pose_of(machine())
     rates = dict.fromkeys(motion.strokes, 0.3)
@@ -430,7 +430,7 @@ def test_pole_of_a_coupler_is_where_crank_and_rocker_meet():
     assert all(np.allclose(ray[0], pole) for ray in rays)
 
 
-@pytest.mark.parametrize("name", ["watt_two", "three_point_hitch", "klann", pytest.param("jansen", marks=pytest.mark.slow)])
+@first_daily(2, "name", ["watt_two", "three_point_hitch", "klann", pytest.param("jansen", marks=pytest.mark.slow)])
 def test_three_poles_stand_in_a_line(name):
     """Kennedy and Aronhold: of any three bodies the three poles are in line."""
     machine = next(point for point in entry_points(group="hydrolinkage.machines") if point.name == name).load()

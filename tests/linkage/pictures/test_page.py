@@ -67,7 +67,7 @@ from mechanisms.grapple import Grapple
 from mechanisms.header_balancer import HeaderBalancer
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
-from tests.for_all import for_all
+from tests.for_all import first_daily, for_all
 from tests.laws.test_working_field import Digger as LiftingDigger
 from tests.laws.test_working_field import Robot
 from tests.linkage.statics.test_vehicle import Digger, Truck
@@ -321,7 +321,7 @@ def test_a_page_opens_in_silence_and_asks_for_nothing_but_itself(chromium, writt
         assert len(shown.told) == len(verdicts)
 
 
-@pytest.mark.parametrize("machine", [ThreePointHitch(), StephensonThree(), Reach()], ids=lambda each: type(each).__name__)
+@first_daily(2, "machine", [ThreePointHitch(), StephensonThree(), Reach()], ids=lambda each: type(each).__name__)
 def test_the_page_says_what_python_says_of_random_designs(chromium, written, machine):
     random = np.random.default_rng(13)
     with Shown(chromium, written(machine)) as shown:
@@ -670,7 +670,7 @@ CONTRASTS = """() => {
 }"""
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
+@first_daily(1, "scheme", ["light", "dark"])
 def test_what_is_written_can_be_read_and_every_control_has_a_name(chromium, written, chart, scheme):
     with Shown(chromium, written(ThreePointHitch()), color_scheme=scheme) as shown:
         shown("hydrolinkage.set({ design: { OB: 0.29, 'lift.bore': 0.06 } })")
@@ -758,7 +758,7 @@ def test_every_path_that_a_machine_declares_runs_and_what_is_out_of_bounds_is_to
         assert shown("(({ scrollWidth, clientWidth }) => scrollWidth <= clientWidth)(document.getElementById('here'))")
 
 
-@pytest.mark.parametrize("playing", [False, True])
+@first_daily(1, "playing", [False, True])
 def test_the_first_change_by_keyboard_is_undone(chromium, written, playing):
     with Shown(chromium, written(ThreePointHitch(), vary=SIZES), reduced_motion="no-preference" if playing else "reduce") as shown:
         assert shown.state["playing"] is playing
@@ -1508,7 +1508,7 @@ def robot_field():
     return working_field(Robot(), "B", [0.5, 0.9, 1.1, 3.0], [0.5, 0.8, 1.0], limits={"rated load": 2e3})
 
 
-@pytest.mark.parametrize("made", [digger_field, telehandler_field, robot_field])
+@first_daily(1, "made", [digger_field, telehandler_field, robot_field])
 def test_a_charts_page_has_the_numbers_of_its_field_and_the_poses_of_its_strokes(made):
     field = made()
     data = data_of(chart_page(field, "en"))
@@ -1625,7 +1625,7 @@ def test_every_shipped_machine_opens(chromium, name, tmp_path):
     opens(chromium, find(name)(), tmp_path / "machine.html")
 
 
-@pytest.mark.parametrize("kind", [Digger, Truck])
+@first_daily(1, "kind", [Digger, Truck])
 def test_axle_loads_are_arrows_of_the_page(kind):
     """By the page's own requests, in another design: the reactions at the supports, and what holds the vehicle along the ground."""
     design, strokes = kind(**{"G.x": -0.1, "F.x": 1.7}), {"S": [0.05, 0.2], "s": 0.1}

@@ -141,7 +141,8 @@ def check(machine, designs, n=9):
     ("machine", "lengths"),
     [
         *((each, 1) for each in (ThreePointHitch, MowerLift)),
-        *((each, 0) for each in (Grab, CorneredOnce)),  # two strokes: Python looks at many poses
+        (Grab, 0),  # two strokes: Python looks at many poses
+        pytest.param(CorneredOnce, 0, marks=SLOW),
         *(pytest.param(each, 3, marks=SLOW) for each in (ThreePointHitch, Grapple, Grab, CorneredOnce, LostOnce, Cornered, Lost)),
     ],
 )
@@ -280,7 +281,7 @@ def check_delivered(machine):
             assert delivered(data, name, system) == told(machine, name, system)
 
 
-@pytest.mark.parametrize("name", ("mower_lift", "log_splitter", "lifting_arm"))
+@pytest.mark.parametrize("name", ("mower_lift", pytest.param("log_splitter", marks=SLOW), "lifting_arm"))
 def test_delivered_verdicts_are_pythons_word_for_word(name):
     for design in near(MACHINES[name], 5, 1):
         check_delivered(MACHINES[name](**design))

@@ -35,7 +35,7 @@ from linkage.plan import Trace
 from linkage.program.schedule import schedule
 from linkage.quantities import Quantity
 from mechanisms.three_point_hitch import ThreePointHitch
-from tests.for_all import for_all
+from tests.for_all import first_daily, for_all
 from tests.linkage.random_mechanisms import random_mechanism
 
 WORDS = dict(
@@ -62,8 +62,7 @@ WORDS = dict(
 )
 
 
-@pytest.mark.parametrize(
-    "machine", [ThreePointHitch, *(random_mechanism(seed) for seed in (1, 3, 5))], ids=lambda machine: machine.__name__
+@first_daily(2, "machine", [ThreePointHitch, *(random_mechanism(seed) for seed in (1, 3, 5))], ids=lambda machine: machine.__name__
 )
 def test_a_printed_plan_can_be_pasted_back(machine):
     members = {}

@@ -25,7 +25,7 @@ from linkage.program.schedule import ancestors, lowered, schedule
 from linkage.program.text import numba_text
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests import shipped
-from tests.for_all import for_all
+from tests.for_all import first_daily, for_all
 from tests.linkage.random_mechanisms import random_mechanism
 
 SHIPPED = shipped.MACHINES
@@ -237,7 +237,7 @@ def test_an_unknown_way_is_refused(asked):
 
 
 @pytest.mark.skipif(shutil.which("gcc") is None, reason="no C compiler")
-@pytest.mark.parametrize("machine", [ThreePointHitch, SHIPPED[GROUPED[0]]])
+@first_daily(1, "machine", [ThreePointHitch, SHIPPED[GROUPED[0]]])
 def test_the_text_in_c_agrees(machine, tmp_path):
     kernel, inputs = everything(machine), given(machine, 200)
     (tmp_path / "k.c").write_text(LANGUAGES["c"].text(kernel.outputs), encoding="utf-8")
@@ -269,7 +269,7 @@ def test_sines_and_cosines_are_those_of_numpy(name):
 
 
 @pytest.mark.skipif(shutil.which("node") is None, reason="no JavaScript")
-@pytest.mark.parametrize("machine", [ThreePointHitch, SHIPPED["four_bar"], SHIPPED[GROUPED[0]]])
+@first_daily(2, "machine", [ThreePointHitch, SHIPPED["four_bar"], SHIPPED[GROUPED[0]]])
 def test_the_text_in_javascript_agrees(machine):
     kernel, inputs = everything(machine), given(machine, 5)
     plan = kernel.fused.plan

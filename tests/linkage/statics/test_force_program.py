@@ -44,6 +44,7 @@ from linkage.statics.work import poses_held
 from linkage.steps import Guide
 from linkage.units import bar, kN, litre, mm
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests.for_all import first_daily
 
 
 class Rubbing(ThreePointHitch):
@@ -117,7 +118,7 @@ def check(motion, loads=None, **choice):
     return found
 
 
-@pytest.mark.parametrize("direction", ["frictionless", "extending", "retracting"])
+@first_daily(2, "direction", ["frictionless", "extending", "retracting"])
 def test_the_hitch_with_friction_everywhere(direction):
     loads = ["load", "own", "relief", *PINS]
     check(Rubbing().sweep(301), loads, direction=direction)

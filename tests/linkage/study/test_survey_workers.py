@@ -17,6 +17,7 @@ from linkage import LinkageError, StudyError
 from linkage.plan.plan import RECENT, REGISTRY
 from linkage.study import survey
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests.for_all import first_daily
 from tests.linkage.study.survey_measures import deadly, failing, far_points, group_designs, hitch_designs, logged, travel
 from tests.linkage.study.test_survey import read, same
 
@@ -53,7 +54,7 @@ def client(tmp_path_factory):
 # -- the same to the last bit -------------------------------------------------------------------------------
 
 GIVEN = [(hitch_designs(640), travel), (group_designs(256), far_points)]
-STUDIES = pytest.mark.parametrize(("given", "measure"), GIVEN, ids=["hitch", "group"])
+STUDIES, FIRST = (first_daily(count, ("given", "measure"), GIVEN, ids=["hitch", "group"]) for count in (2, 1))
 
 
 @pytest.fixture(scope="module")
@@ -75,13 +76,13 @@ def test_forked_processes_give_what_one_process_gives(small, wanted, given, meas
         same(survey(*given, measure, executor=pool), wanted(measure))
 
 
-@STUDIES
+@FIRST
 def test_spawned_processes_give_what_one_process_gives(small, wanted, spawned, given, measure):
     """They hash names with a seed of their own, and have done no work before."""
     same(survey(*given, measure, executor=spawned), wanted(measure))
 
 
-@STUDIES
+@FIRST
 def test_dask_gives_what_one_process_gives(small, wanted, client, given, measure):
     same(survey(*given, measure, executor=client.get_executor()), wanted(measure))
     same(survey(*given, measure, executor=client), wanted(measure))

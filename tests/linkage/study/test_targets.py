@@ -9,7 +9,7 @@ from linkage import Crank, DefinitionError, Dimension, Ground, Mechanism, Stroke
 from linkage.quantities import ref
 from linkage.study import Target, settings_for
 from mechanisms.three_point_hitch import ThreePointHitch
-from tests.for_all import for_all
+from tests.for_all import first_daily, for_all
 from tests.linkage.random_mechanisms import random_mechanism
 from tests.linkage.synthesis.synthesis_tasks import Bar
 
@@ -26,7 +26,7 @@ def work_and_transport(hitch, work=0.05, transport=0.2):
     ]
 
 
-@pytest.mark.parametrize("hole", [(0.22, 1.05), (0.22, 0.95)])
+@first_daily(1, "hole", [(0.22, 1.05), (0.22, 0.95)])
 def test_the_hitch_is_set_for_work_and_transport(hole):
     """The paper's own task: MK, CD and the mounting hole from a height of F and a tilt in two positions."""
     hitch = ThreePointHitch(MK=0.83, CD=0.60, M=hole)

@@ -38,7 +38,7 @@ from linkage.study import Tolerance, monte_carlo, sigma, sobol, spread, tornado
 from linkage.study.tolerances import tolerance_words, tolerances_of
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
-from tests.for_all import for_all
+from tests.for_all import first_daily, for_all
 from tests.linkage.study.test_study import Triad
 
 HITCH = {"OB": 0.1 * mm, "CD": 0.1 * mm, "MK": Tolerance(0.1 * mm, "uniform"), "M": 0.1 * mm}
@@ -123,7 +123,7 @@ def test_sigma_of_a_four_bar_is_that_of_its_closed_form():
     assert_allclose(spread(machine, {}, "psi", dict.fromkeys(lengths, 0.1 * mm), {"phi": phi}), known, rtol=1e-6)
 
 
-@pytest.mark.parametrize("quantity", ["tilt", drive_force(), pin_force("O", component="x"), ratio("tilt")])
+@first_daily(2, "quantity", ["tilt", drive_force(), pin_force("O", component="x"), ratio("tilt")])
 def test_sigma_is_made_of_the_gradient_of_the_motion(quantity):
     designs = {"OB": np.array([0.29, 0.30, 0.31])}
     names, sigmas = ["OB", "CD", "MK", "M.x", "M.y"], np.array([0.1, 0.1, 0.1 * np.sqrt(3), 0.1, 0.1]) * mm / 3
@@ -184,7 +184,7 @@ def test_bands_are_those_of_the_same_designs_one_motion():
     assert found.design(7)["OB"] == found.designs["OB"][7]
 
 
-@pytest.mark.parametrize("quantity", ["tilt", drive_force(), pin_force("O")])
+@first_daily(2, "quantity", ["tilt", drive_force(), pin_force("O")])
 def test_the_sigma_of_samples_is_that_of_the_gradient(quantity):
     found = monte_carlo(ThreePointHitch(), [quantity], HITCH, count=1 << 13, S=S)
     assert_allclose(found[quantity].sigma, spread(ThreePointHitch(), {}, quantity, HITCH, {"S": S}), rtol=3e-3)
@@ -294,7 +294,7 @@ def test_measures_are_taken_over_the_strokes_looked_at():
 # -- the worst case -------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("quantity", ["tilt", drive_force()])
+@first_daily(1, "quantity", ["tilt", drive_force()])
 def test_no_corner_and_no_sample_is_worse_than_the_worst_case(quantity):
     limits = {"OB": 5 * mm, "CD": 5 * mm, "MK": 8 * mm, "KFG": 1 * deg}
     band = monte_carlo(ThreePointHitch(), [quantity], limits, count=64, S=S)[quantity]

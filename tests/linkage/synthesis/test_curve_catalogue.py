@@ -29,7 +29,7 @@ from linkage.synthesis.curve_catalogue import CurveMeasure
 from mechanisms.classics.four_bar import FourBar, TripleRocker
 from mechanisms.classics.stephenson_one import StephensonOne
 from tests.benchmarks import bench_catalogue
-from tests.for_all import for_all
+from tests.for_all import first_daily, for_all
 from tests.linkage.synthesis.test_closed_curves import known_bars, pairs
 
 
@@ -84,7 +84,7 @@ def test_what_runs_well_is_in_it():
     assert 200 < runs.sum() < 3000
 
 
-@pytest.mark.parametrize(("machine", "of"), [(StephensonOne(), "F"), (SixBar(), "Q")])
+@first_daily(1, ("machine", "of"), [(StephensonOne(), "F"), (SixBar(), "Q")])
 def test_six_bars_in_it_run_over_five_thousand_poses(machine, of):
     found = curve_catalogue(machine, of, count=200)
     for number in range(0, 200, 10):

@@ -1,6 +1,7 @@
 """Exact synthesis: all solutions of the printed problem, machines that must be found again, and a search of its own beside the algebra."""
 
 import pickle
+from functools import cache
 
 import numpy as np
 import pytest
@@ -10,11 +11,16 @@ from scipy.optimize import root
 from linkage import RIGHT, DefinitionError, StudyError, burmester, deg, five_point, freudenstein
 from linkage.synthesis.exact_paths import general_task, solutions_of
 from mechanisms.classics.four_bar import FourBar
-from tests.for_all import for_all
+from tests.for_all import first_daily, for_all
 from tests.linkage.synthesis.exact_tasks import as_rows, bar_at, lengths
 
 LINE = [(0.5, 1.06), (-0.83, -0.27), (-0.34, 0.22), (-0.13, 0.43), (0.22, 0.78)]
 """Morgan and Wampler's problem 7."""
+
+
+@cache
+def printed_problem():
+    return five_point([(0, 0), (1, 0)], LINE)
 
 
 # -- five points of a path ------------------------------------------------------------------------------------
@@ -29,7 +35,7 @@ def by_two_circles(each, points):
 
 
 def test_the_printed_problem_has_fifteen_real_solutions_of_thirty_three():
-    found = five_point([(0, 0), (1, 0)], LINE)
+    found = printed_problem()
     assert (found.complex_count, len(found.all)) == (33, 15)
     assert max(each.error for each in found.all) < 1e-12
     assert not found.solutions and "15 real solutions of 33" in str(found)
@@ -112,7 +118,7 @@ def test_a_found_machine_goes_through_pickle():
     poses = [(0.0, 0.0, 0.0), (0.1, 0.0, 0.4), (0.25, 0.0, 1.1)]
     body = burmester(poses)
     slides = body.four_bar(body.link(centre=(0.1, -0.3)), body.link(point=(0.0, 0.0)))
-    bar = next(each for each in five_point([(0, 0), (1, 0)], LINE).all if each.side is RIGHT)
+    bar = next(each for each in printed_problem().all if each.side is RIGHT)
     for each in (slides, bar):
         machine = each.machine
         again = pickle.loads(pickle.dumps(machine))
@@ -180,7 +186,7 @@ def test_three_pairs_are_three_linear_equations():
     assert_allclose(lengths(found.machine), np.abs([a, b, c]), rtol=1e-12)
 
 
-@pytest.mark.parametrize(("count", "free", "zeros"), CASES[1:])
+@first_daily(1, ("count", "free", "zeros"), CASES[1:])
 def test_no_function_machine_is_missed_that_a_search_finds(count, free, zeros):
     bar, phi = bar_at(40 + count, count, 2.0)
     pairs = pairs_of(bar, phi, zeros)

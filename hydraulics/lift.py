@@ -273,6 +273,7 @@ class LiftingCylinder:
         """Return what its verdicts ask at first."""
         ways = ("retracting", "extending") if self.ram.side == "both" else self.ram.ways_back(0.0, 0.0)
         going = [question for way in ways for question in (most(self.back(way)), least(self.back(way, tells="load")))]
+        going += [most(self.back(way, tells="whole push")) for way in ways] if len(ways) > 1 else []
         return [*self.thrusts, least(reserve_request(*self.asked)), *self.standing, *going]
 
     @property
@@ -481,7 +482,7 @@ class LiftingCylinder:
         way = self.judge.way
         if way is None:
             return said("anywhere") if self.judge.answer(least(back)).value > 0.0 else said("in places")
-        stuck, whole = below_zero(way, lambda at: -np.nan_to_num(back.of(at), nan=-1.0)), reached(way)
+        stuck, whole = self.judge.parts_below(-back), reached(way)
         everywhere = len(stuck) == len(whole) and all(str(a) == str(b) for a, b in zip(stuck, whole, strict=True))
         return said("anywhere") if everywhere or not stuck else with_and(stuck)
 

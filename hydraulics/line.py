@@ -130,7 +130,8 @@ def way_back(
     load alone makes in the side that empties, the second what the other side must give beyond the third one, that of its tank. It is
     below zero where the load does it by itself.
     """
-    goes, sense = ram.goes(motion, replace(acting, direction=None)), -1.0 if way == "retracting" else 1.0
+    runs = AS_IT_RUNS if acting.rates == AS_IT_RUNS else None  # whatever direction it is looked at in
+    goes, sense = ram.goes(motion, replace(acting, direction=runs)), -1.0 if way == "retracting" else 1.0
     acting = acting.towards(way)
     size, drives = ram.sized(motion, way), -sense * line_thrust(ram, line, motion, acting, with_tanks=False) + 0.0
     empties, other = (size.outward_area, size.pull_area) if way == "retracting" else (size.pull_area, size.outward_area)
@@ -138,9 +139,8 @@ def way_back(
     helps = sense * by_other_lines(ram, line, held_in_case(motion, acting), None, True)
     brings = np.where(drives > 0.0, drives * k_m, drives / k_m)
     push = (against * empties - brings - helps) / other
-    counts = 1.0 if goes is None else np.where(goes == sense, 1.0, np.nan)
     pressures = np.maximum(brings + helps, 0.0) / empties, push, helps / other
-    working, push, tank = (np.asarray(counts * each)[()] for each in pressures)
+    working, push, tank = (each if goes is None else only_where(goes * sense > 0.0, each) for each in pressures)
     return working, push, tank
 
 

@@ -8,6 +8,7 @@ cannot be assembled or a law gives no number, unlimited where a law has no bound
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Mapping, Sequence
+from contextlib import suppress
 from copy import copy
 from dataclasses import dataclass, field, replace
 from functools import cached_property, reduce
@@ -18,7 +19,7 @@ import numpy as np
 from ..checks import require_type
 from ..errors import DefinitionError, cited, known_name, told, unwarned, warned_once
 from ..language import said
-from ..loads import FRICTIONLESS, PLAIN, PLAIN_CASE, Acting, ForceElement, LoadCase
+from ..loads import AS_IT_RUNS, FRICTIONLESS, PLAIN, PLAIN_CASE, Acting, ForceElement, LoadCase
 from ..numeric.box import values_a_stroke
 from ..numeric.line import SAMPLES
 from ..numeric.quadrature import quadrature
@@ -55,7 +56,7 @@ from .measures import (
 from .motion import Motion
 from .over import ALLOWED, Over, Run, with_strokes
 from .requests import Request, SmoothPiece, Trait, identity_of, is_of_force
-from .search import assembly_error_at, extremum, least_margins, strokes_moved
+from .search import Span, assembly_error_at, below_zero, extremum, least_margins, strokes_moved
 from .strokes import at_values, strokes_over_axes
 
 Question: TypeAlias = "Measure | Condition"
@@ -241,6 +242,20 @@ class Domain:
         """Return the motion over a path in time at some instants, which it keeps."""
         return Motion(self.plan, self.designs, instants.strokes, unreachable, over=self.over, instants=instants)
 
+    def as_it_runs(self, quantity: Any) -> Any:
+        """Return what is looked for as a program takes it: over a path in time forces at rates and accelerations that are inputs.
+
+        None where it says itself how it moves, so that it has no program there.
+        """
+        if self.instants is None or not is_of_force(quantity):
+            return quantity
+        is_smooth = self.instants.rate_jump is None
+        accelerations, inertia = (AS_IT_RUNS, None) if is_smooth else (None, False)
+        for direction in (AS_IT_RUNS, FRICTIONLESS):
+            with suppress(DefinitionError):
+                return quantity.under(Acting(None, None, direction, AS_IT_RUNS, None, accelerations, inertia))
+        return None
+
     @property
     def is_path(self) -> bool:
         """Whether it is a path, along which several strokes go on together; one that stays where it is moves nothing."""
@@ -420,8 +435,7 @@ class Asked:
         self._bound: dict[int, Request] = {}
         self._rows: dict[int, Asked] = {}
         for k, row in enumerate(rows):
-            is_timed = place.instants is not None and is_of_force(row.request)  # forces follow the rates there
-            bound = None if is_timed else traced(self.plan, row.request)
+            bound = traced(self.plan, place.as_it_runs(row.request))
             if bound is not None:
                 self._bound[k] = bound
 
@@ -635,6 +649,16 @@ class Judge:
         """The motion of its one way, a stroke or a path, along which parts can be named; None where there are several, or a box."""
         motion = self.motion
         return motion if len(self.places) == 1 and len(motion._stroke_shape) <= 1 and self.places[0].over.shape != "poses" else None
+
+    def parts_below(self, request: Request) -> tuple[Span, ...]:
+        """Return the parts of its one way on which a request is below zero; DefinitionError for a batch of designs."""
+        asked = Asked(self.places[0], [Sought(Least(request), SmoothPiece(request), Situation(), -1.0)])
+        way, key = self.places[0].motion, plain_identity(self.plan, request)
+
+        def found() -> tuple[Span, ...]:
+            return below_zero(way, lambda each: asked.values(each)[0][0])
+
+        return found() if key is None else recalled(way, ("below zero", key), found)
 
     @property
     def cases(self) -> list[str]:

@@ -52,10 +52,10 @@ def test_programs_take_rates_as_inputs(seed):
     assert_allclose(f(*last), [each[-1] for each in found], rtol=0, atol=1e-11 * scale)
     dimension = next(name for name in machine.plan.table.entries if name.partition(".")[0] in machine.plan.of_kind(ForceElement))
     value, step = machine[dimension], 1e-4 * max(abs(machine[dimension]), 1.0)
-    near = [machine.replaced(**{dimension: value + way * step}).evaluate(requests, rates=rates, **strokes) for way in (1, -1)]
-    for request, more, less in zip(requests, *near, strict=True):
+    near = [machine.replaced(**{dimension: value + way * step}).evaluate(requests, rates=rates, **strokes) for way in (1, -1, 2, -2)]
+    for request, more, less, far, back in zip(requests, *near, strict=True):
         (slope,) = motion.gradient(request, wrt=[dimension], rates=rates)
-        assert_allclose(slope, (more - less) / (2.0 * step), rtol=0, atol=1e-9 * scale / step, err_msg=str(request))
+        assert_allclose(slope, (8.0 * (more - less) - (far - back)) / (12.0 * step), rtol=0, atol=1e-9 * scale / step, err_msg=str(request))
 
 
 # -- inertia: along a path in time, against energy and momentum by differences of the eighth order ----------------------------------------

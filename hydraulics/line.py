@@ -130,9 +130,9 @@ def way_back(
     load alone makes in the side that empties, the second what the other side must give beyond the third one, that of its tank. It is
     below zero where the load does it by itself.
     """
-    runs = AS_IT_RUNS if acting.rates == AS_IT_RUNS else None  # whatever direction it is looked at in
-    goes, sense = ram.goes(motion, replace(acting, direction=runs)), -1.0 if way == "retracting" else 1.0
-    acting = acting.towards(way)
+    running = replace(acting, direction=AS_IT_RUNS if acting.rates == AS_IT_RUNS else None)  # whatever it is looked at for
+    goes, sense = ram.goes(motion, running), -1.0 if way == "retracting" else 1.0
+    acting = acting.towards(way) if goes is None else running
     size, drives = ram.sized(motion, way), -sense * line_thrust(ram, line, motion, acting, with_tanks=False) + 0.0
     empties, other = (size.outward_area, size.pull_area) if way == "retracting" else (size.pull_area, size.outward_area)
     other = empties if ram.is_single_acting else other  # nothing pushes it back: what is missing where it empties

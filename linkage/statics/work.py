@@ -287,10 +287,11 @@ def member_rates(motion: AnyMotion, member: TwoPoint, acting: Acting, line: Pres
     direction, sense = acting.movement, SENSES[acting.movement]
     is_own = direction in ("extending", "retracting")
     moves = rates_in(motion, replace(acting, direction=None if is_own else acting.direction, drive=None))
-    if not is_own or moves.direction == AS_IT_RUNS or isinstance(acting.rates, str):
+    if not is_own or moves.direction == AS_IT_RUNS:
         return moves  # over a path in time it goes as that runs, whichever direction is looked at
     if moves:
-        if np.any(sense * np.nan_to_num(member.growth(motion, moves)) < 0.0):
+        growth = member.growth(motion, moves)
+        if np.any(sense * (growth if is_traced(growth) else np.nan_to_num(growth)) < 0.0):
             what = f"{member.name or member}: direction={direction!r} is its own, and at these rates it goes the other way at some poses"
             raise DefinitionError(f"{motion.plan.title}: {what}; drop one of them.")
         return Rates(moves, True, direction, moves.accelerations)

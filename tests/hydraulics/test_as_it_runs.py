@@ -1,10 +1,15 @@
 """Cylinders over a path in time: each instant is that of the direction in which the cylinder goes there."""
 
+from dataclasses import replace
+from functools import partial
+from itertools import product
+
 import numpy as np
 import pytest
 
 from hydraulics import Cylinder, LiftCircuit, pressure, reserve, thrust
 from linkage import RIGHT, DefinitionError, Dyad, Ground, Mechanism, OnLink, Over, PinFriction, Stroke, Weight, least, ramp
+from linkage.loads import Acting
 from linkage.units import bar, mm
 
 
@@ -63,3 +68,23 @@ def test_going_back_is_asked_where_it_goes_back():
     assert timed.ok and timed.value == pytest.approx(plain.value, rel=1e-9)
     (nowhere,) = (each for each in Raised().verdicts() if each.rule == "lowering")
     assert nowhere.ok is None and str(nowhere) == "--   lowering: it goes back nowhere over what it runs."
+
+
+def test_rates_and_a_direction_agree_or_are_refused_at_every_door():
+    """Friction acts in the direction that is said, also where rates are given; a direction that they contradict is refused."""
+    boom = Boom()
+    for request, way, rate in product((thrust, pressure, reserve), ("extending", "retracting"), (0.1, -0.1)):
+        asked = request("ram", direction=way)
+        given = replace(asked, acting=Acting(direction=way, rates={"S": rate}))
+        doors = [
+            partial(boom.at(S=0.1).__getitem__, given),
+            partial(boom.evaluate, [asked], S=0.1, rates={"S": rate}),
+            partial(boom.function([asked], rates=True), 0.1, rate),
+        ]
+        if (rate > 0.0) is (way == "extending"):
+            plain = float(boom.at(S=0.1)[asked])
+            assert [float(np.ravel(door())[0]) for door in doors] == pytest.approx([plain] * 3, rel=1e-12)
+            continue
+        for door in doors:
+            with pytest.raises(DefinitionError, match="at these rates it goes the other way"):
+                door()

@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from linkage import Course, Over, driving_force, most, ramp
+from linkage import Course, Over, driving_force, most, pin_forces, ramp
 from linkage.loads import Acting
 from tests.for_all import for_all
 from tests.laws.random_machines import random_machine
+from tests.laws.test_time_laws import asked, heavy
 
 DAILY, MANY = 2, 40
 EACH = for_all("seed", range(DAILY), slow=range(DAILY, MANY))
@@ -89,3 +90,20 @@ def test_forces_as_it_runs_are_those_at_its_rates(seed):
         own = driving_force(motion, drive=stroke, acting=Acting(direction="frictionless", inertia=False))
         given = driving_force(plain, drive=stroke, rates=motion.rates)
         assert_allclose(own, given, rtol=0, atol=1e-9 * max(np.abs(given).max(), 1.0))
+
+
+@EACH
+def test_the_judge_asks_a_program_what_it_would_ask_instant_by_instant(seed):
+    """With inertia, and where rates jump without; a plain function of a motion has no program."""
+    draft = random_machine(seed)
+    machine = heavy(draft)()
+    pose = machine.at(**draft.strokes())
+    requests, _ = asked(pose, pin_forces(pose))
+    there = {name: (float(np.min(each)), float(np.max(each))) for name, each in draft.strokes().items()}
+    smooth = {name: ramp(*ends, speed=np.ptp(ends), acceleration=4.0 * np.ptp(ends)) for name, ends in there.items()}
+    pairs = [most(each) for request in (requests[0], requests[-1]) for each in (request, request.of)]
+    for over in (Over.path(**smooth), Over.path(**courses(draft))):
+        found = machine.answers(pairs, over=over)
+        scale = max(abs(each.value) for each in found)
+        for traced, plain in zip(found[::2], found[1::2], strict=True):
+            assert traced.value == pytest.approx(plain.value, rel=0, abs=1e-9 * scale), (str(traced), str(plain))

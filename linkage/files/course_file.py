@@ -10,7 +10,7 @@ from typing import Any
 
 from ..errors import DefinitionError, FileError, ensure, known_name, unknown
 from ..quantities import Course, Curve, is_number, ramp
-from ..units import UNITS
+from ..units import UNITS, Amount
 from .design import degrees_text
 from .expression import one_unit
 from .names import FileTable, Keywords, Names, require_entry, shortened
@@ -86,7 +86,10 @@ def step_read(table: Any, names: Names) -> Course | Curve | float:
 
 
 def numbers_read(key: str, given: Any, names: Names) -> Any:
-    """Return a number of a step [SI], or a list of such; DefinitionError for a unit that measures something else."""
+    """Return a number of a step [SI], or a list of such; DefinitionError for a unit that measures something else.
+
+    One with a unit knows whether it is of a length or of an angle, so that a course knows what it moves.
+    """
     if isinstance(given, list):
         return [numbers_read(key, each, names) for each in given]
     unit, measures = one_unit(given) if isinstance(given, str) else "", MEASURES.get(key, ())
@@ -96,7 +99,9 @@ def numbers_read(key: str, given: Any, names: Names) -> Any:
     found = amount_of(given, names, "")
     if not is_number(found):
         raise DefinitionError(f"{key} = {shortened(given)}: a number is expected; a course follows no dimension.")
-    return float(found)
+    if not unit or "time" in measures:
+        return float(found)
+    return Amount(found, "angle" if UNITS[unit][1].startswith("ang") else "length")
 
 
 def course_written(course: Course | Curve, is_angle: bool) -> Keywords | list[Keywords]:
@@ -141,7 +146,7 @@ def rows_read(name: object, folder: Path | None, strokes: Collection[str]) -> Fi
         ensure(UNITS[unit][1] in measures, f"csv = {name}: {heading}: a unit of {' or '.join(measures)} is expected.")
         for row, text in enumerate(values, 2):
             try:
-                found.setdefault(column, []).append(float(text) * float(UNITS[unit][0]))
+                found.setdefault(column, []).append(Amount(float(text) * float(UNITS[unit][0]), UNITS[unit][1]))
             except ValueError:
                 raise DefinitionError(f"csv = {name}: {heading}: in line {row} {shortened(text)} is no number.") from None
     if "time" not in found or len(found) < 2:

@@ -13,7 +13,7 @@ import numpy as np
 from ..errors import DefinitionError, ensure, known_name, unknown
 from ..quantities import Number, Quantity, is_number, label, name_of, quantity
 from ..steps import Arrow
-from ..units import UNITS, parse
+from ..units import UNITS, Amount, parse
 from ..vectors import Side
 from .design import Design, degrees_text, option_said
 from .expression import arrow_in, expression, one_unit
@@ -85,15 +85,19 @@ def number_of(given: object, names: Names, measures: str = "") -> float:
 
 
 def amount_of(given: object, names: Names, measures: str) -> Any:
-    """Return a number [SI], that of a text such as `1200 kg` whose unit measures what it should, or an expression as a quantity."""
+    """Return a number [SI], that of a text such as `1200 kg` whose unit measures what it should, or an expression as a quantity.
+
+    Where nothing says what it should measure, a number with a unit knows what it does.
+    """
     if not isinstance(given, str):
         require_entry(is_number(given), given, "is not a finite number")
         return given  # an int stays one: it prints as it was written
-    unit = one_unit(given) if measures else ""
-    if unit and UNITS[unit][1] != measures:
+    unit = one_unit(given)
+    if unit and measures and UNITS[unit][1] != measures:
         parse(given.strip("+-() \t\n"), measures)  # which tells the units that do
     found = expression(given, names)
-    return found.number if isinstance(found, Number) else found
+    number = found.number if isinstance(found, Number) else found
+    return Amount(number, UNITS[unit][1]) if unit and not measures and isinstance(found, Number) else number
 
 
 def several(what: str, one: Read) -> Read:

@@ -183,7 +183,7 @@ class Over(Member):
         for name in plan.strokes:
             given = self.strokes[name]
             is_course = isinstance(given, (Course, Curve))
-            amount = Amount(float(given(given.breaks[0])), given.measures) if isinstance(given, Course) and given.measures else 0.0
+            amount = Amount(float(given(given.breaks[0])), given.measures) if is_course and given.measures else 0.0
             require_kind(plan, name, amount if is_course else given, f"{plan.title}: {self}: {name}")
             known = given if is_course else self.numbers(given, plan, number)
             courses[name] = Course(self.time, known, "straight") if isinstance(known, list) else course_of(known, begin, end)

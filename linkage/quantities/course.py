@@ -25,6 +25,9 @@ JUMP = 1e-9
 NOISE = 16.0 * float(np.finfo(float).eps)
 """Of the size of its terms: a derivative that is no larger is zero, to rounding."""
 
+FAST = 10.0
+"""A speed [m/s or rad/s] above this of which no more than one part in so many is reached was meant in another unit."""
+
 Phases: TypeAlias = tuple[FloatArray, FloatArray, float]
 """Instants (n + 1,) [s], the polynomials between them by powers of the time since each begins (k, n), and the last value."""
 
@@ -123,6 +126,12 @@ class Course:
         return float(self.breaks[-1] - self.breaks[0])
 
     @property
+    def starts_at_once(self) -> bool:
+        """Whether it begins or ends at a steady rate, as a ramp without an acceleration does: its start or stop takes no time."""
+        rate, bend = (self(self.breaks[[0, -1]], order, phase=0.5 * (self.breaks[[0, -2]] + self.breaks[[1, -1]])) for order in (1, 2))
+        return bool(np.any((rate != 0.0) & (bend == 0.0)))
+
+    @property
     def key(self) -> bytes:
         """What tells it from courses that go otherwise."""
         return bytes(self.breaks.tobytes() + self._phases.tobytes())
@@ -206,14 +215,26 @@ class Course:
         return Course.of_phases(times, rows, self(end), self.measures)
 
     def __neg__(self) -> Course:
-        return Course.of_phases(self.breaks, -self._phases, -self._last, self.measures)
+        return self._turned(-1.0, 0.0, self.measures)
 
     def __add__(self, number: float) -> Course:
         require(is_number(number), "Course: number", number, "a number is expected, which is added to all values")
         measures = common_measure("Course: number", Amount(self._last, self.measures), number)
-        rows = np.array(self._phases)
-        rows[0] += number
-        return Course.of_phases(self.breaks, rows, self._last + number, measures)
+        return self._turned(1.0, float(number), measures)
+
+    def _turned(self, sense: float, number: float, measures: str) -> Course:
+        """Return its values times a sense, 1.0 or -1.0, with a number added. Ramps and holds stay such."""
+        steps, last = list[Mapping[str, Any]](), 0.0
+        for step in self.steps:
+            times, rows, last = phases_of(step, last)
+            if "ramp" in step:
+                steps.append({**step, "ramp": tuple(sense * each + number for each in step["ramp"])})
+            elif "hold" in step:
+                steps.append(step)
+            else:
+                found = np.concatenate([[sense * rows[0] + number], sense * rows[1:]])
+                steps.append({"times": tuple(times.tolist()), "phases": tuple(map(tuple, found.tolist())), "end": sense * last + number})
+        return Course.of_steps(steps, measures)
 
     __radd__ = __add__
 
@@ -266,7 +287,8 @@ def ramp(a: float, b: float, *, speed: float, acceleration: float | None = None,
     Raises
     ------
     DefinitionError
-        A limit that is no number above zero, a jerk without an acceleration, two ends that are one, lengths among angles.
+        A limit that is no number above zero, a jerk without an acceleration, two ends that are one, lengths among angles; a speed above
+        10 m/s that is not nearly reached, as 150 for 150 mm/s.
     """
     for name, end in (("ramp(a", a), ("ramp(b", b)):
         require_number(name, end, "a finite number is expected")
@@ -283,7 +305,13 @@ def ramp(a: float, b: float, *, speed: float, acceleration: float | None = None,
         raise DefinitionError(f"ramp({cited(a)}, {cited(b)}): {both}; give ends and limits as one kind, speed=150 * mm for 0.15 m/s.")
     measures = common_measure("ramp: ends and limits", a, b, *limits.values())
     given = {name: float(value) for name, value in limits.items() if value is not None}
-    return Course.of_steps([{"ramp": (float(a), float(b)), **given}], measures)
+    found = Course.of_steps([{"ramp": (float(a), float(b)), **given}], measures)
+    reached = float(np.max(np.abs(found(found.breaks, 1))))
+    if speed > FAST and reached < speed / FAST:
+        what, unit = f"it is never reached, the acceleration allows {reached:.3g} on this way", "deg" if measures == "angle" else "mm"
+        remedy = f"write speed={speed:.6g} * {unit} for {speed:.6g} {unit}/s, or a speed that is nearly reached"
+        raise DefinitionError(f"ramp(speed={cited(speed)}): {what}; {remedy}.")
+    return found
 
 
 def course_of(given: Course | Curve | float, begin: float, end: float) -> Course:

@@ -13,6 +13,7 @@ import numpy.typing as npt
 from ..checks import require, require_number
 from ..errors import DefinitionError
 from ..frozen import immutable, read_only, refuses_changes
+from ..units import amounts_in
 from ..vectors import FloatArray, Scalar, pick
 from .member import Pick, Reference, Where
 from .quantity import Quantity, quantity, real, spelled
@@ -41,9 +42,12 @@ class Curve:
     ys: FloatArray
     period: float | None
     name: str
+    measures: str
+    """What its values measure, where amounts were given: "length" or "angle"; else ""."""
 
     def __init__(self, xs: npt.ArrayLike, ys: npt.ArrayLike, *, period: float | None = None, name: str = "curve") -> None:
         self.__dict__.update(xs=column("xs", xs, "Curve"), ys=column("ys", ys, "Curve"), period=period, name=name)
+        self.__dict__["measures"] = next((each.measures for each in amounts_in(ys)), "")
         fault = ""
         if len(self.xs) != len(self.ys) or len(self.xs) < 2:
             fault = f"{len(self.xs)} values of x and {len(self.ys)} of y; a table has two rows or more"

@@ -297,7 +297,8 @@ def known_accelerations(motion: AnyMotion, acting: Acting) -> Mapping[str, Float
     jump = motion._rate_jump if own and isinstance(motion, Motion) else None
     if jump is not None and acting.inertia:
         name, words = jump
-        raise DefinitionError(f"{motion.plan.title}: {words}: give the ramp of {name} an acceleration, or leave inertia= out.")
+        remedy = f"give the ramp of {name} an acceleration, take a smooth course, or leave inertia= out"
+        raise DefinitionError(f"{motion.plan.title}: {words}: {remedy}.")
     return None if jump is not None else found if found or acting.inertia else None
 
 

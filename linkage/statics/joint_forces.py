@@ -370,7 +370,7 @@ def inertia_words(applied: AppliedLoads, motion: Motion) -> Iterator[str]:
         if points:
             yield said("{names}: without inertia= a mass counts as a point at its centre.", names=", ".join(points))
     elif jump is not None and applied.acting.inertia is None and not isinstance(applied.acting.rates, Mapping):
-        yield said("{jump}, so that inertia is left out: give its ramp an acceleration.", jump=jump[1])
+        yield said("{jump}, so that inertia is left out: give its ramp an acceleration, or take a smooth course.", jump=jump[1])
 
 
 def lift_off_words(found: PoseForces) -> Iterator[str]:

@@ -18,7 +18,7 @@ from ..motion.requests import Combined
 from ..motion.strokes import checked_name
 from ..plan import Plan
 from ..program import FloatArray
-from ..quantities import Course, Reference, as_mapping, name_of
+from ..quantities import Reference, as_mapping, name_of
 from ..verdict import Remark
 from .applied import known_rates
 from .law_requests import LawRequest
@@ -122,15 +122,14 @@ def pace_remarks(judge: Judge) -> list[Remark]:
     has_masses = any(isinstance(each, (Weight, LinkMass)) for each in judge.plan.of_kind(ForceElement).values())
     for place in judge.places if has_masses else []:
         name, jump = f"{place.over.title}: " if len(judge.places) > 1 else "", place.motion._rate_jump
-        courses = {stroke: given for stroke, given in place.over.strokes.items() if isinstance(given, Course)}
-        sudden = [
-            stroke for stroke, course in courses.items()
-            if any("ramp" in step and "acceleration" not in step for step in (course.steps[0], course.steps[-1]))
-        ]  # fmt: skip
+        sudden = [] if place.instants is None else [stroke for stroke, each in place.instants.courses.items() if each.starts_at_once]
         if jump is not None:
-            found.append(name + said("{jump}, so that inertia is left out: give its ramp an acceleration.", jump=jump[1]))
+            text = said("{jump}, so that inertia is left out: give its ramp an acceleration, or take a smooth course.", jump=jump[1])
+            found.append(name + text)
         elif sudden:
-            listed = ", ".join(sudden)
-            name += said("{strokes} starts or stops at once, which is in no force: give its ramp an acceleration.", strokes=listed)
-            found.append(name)
+            text = said(
+                "{strokes} starts or stops at once, which is in no force: give its ramp an acceleration, or take a smooth course.",
+                strokes=", ".join(sudden),
+            )  # fmt: skip
+            found.append(name + text)
     return [*map(Remark, found)]

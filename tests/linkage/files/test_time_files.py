@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 
-from linkage import Course, Crank, Curve, FileError, Ground, Mechanism, Over, Stroke, export, ramp
+from linkage import Course, Crank, Curve, DefinitionError, FileError, Ground, Mechanism, Over, Stroke, export, ramp
 from linkage.files import load, to_toml
 from tests.linkage.motion.test_in_time import Blocks, DampedLever
 from tests.linkage.quantities.test_course import random_course
@@ -96,6 +96,20 @@ def test_what_a_file_gets_wrong_is_refused_in_words(tmp_path):
     ]:
         with pytest.raises(FileError, match=re.escape(words)):
             load(HEAD + go)
+    for go in (
+        'a = ["10 deg", "20 deg"]', 'a = "10 deg"', 'csv = "rows.csv"',
+        'time = ["0 s", "1 s"]\na = ["10 deg", "20 deg"]', 'path = true\na = ["1 deg", "2 deg"]',
+        'a = { ramp = ["10 deg", "11 deg"], speed = "1 deg/s" }', 'a = { times = [0, 1], values = ["0.1 rad", "0.2 rad"] }',
+        'a = { times = [0, 1, 2], values = ["9 deg", "8 deg", "9 deg"], period = 2 }',
+        'a = [{ ramp = ["10 deg", "11 deg"], speed = 0.1 }, { hold = "1 s" }]',
+    ):  # fmt: skip
+        (tmp_path / "machine.toml").write_text(f"{HEAD}{go}\nb = 0.1")
+        (tmp_path / "rows.csv").write_text('"time, s","a, deg"\n0,10\n1,20\n')
+        with pytest.raises(DefinitionError, match=r"a=0\.\d+ was given as an angle; expected is a value of length"):
+            load(tmp_path / "machine.toml")().sweep(over="go")
+    for step in ('speed = "1 deg/s"', 'speed = "150 mm/s", acceleration = "1 rad/s2"'):
+        with pytest.raises(FileError, match=r"is a length and (speed|acceleration) is an angle"):
+            load(f'{HEAD}a = {{ ramp = ["100 mm", "110 mm"], {step} }}\nb = 0.1')
     (tmp_path / "machine.toml").write_text(HEAD + 'csv = "rows.csv"\nb = 0.1')
     for headings, last, words in [
         ('"time, s","a, m"', "oops", "in line 3 'oops' is no number"),

@@ -145,6 +145,8 @@ def test_what_is_no_course_is_refused_in_words():
         (lambda: good.hold(0.0), "seconds above zero"),
         (lambda: good.hold(2 * mm), "given as a length"),
         (lambda: Course([0.0, 1.0], [10 * deg, 20 * mm]), "given as a length"),
+        (lambda: ramp(0.1, 0.3, speed=150, acceleration=0.8), "allows 0.4 on this way; write speed=150 * mm for"),
+        (lambda: ramp(0.0, 20 * deg, speed=40, acceleration=1, jerk=9), "write speed=40 * deg for 40 deg/s"),
         (lambda: ramp(0.1, 0.2, speed=5 * bar), "ends and limits=500000 was given as a pressure"),
         (lambda: ramp(0.1, 20 * mm, speed=0.1).then(ramp(20 * deg, 0.0, speed=0.1)), "given as an angle"),
         (lambda: ramp(0.0, 20 * mm, speed=0.1) + 3 * deg, "given as an angle"),

@@ -230,8 +230,11 @@ def test_verdicts_tell_where_inertia_or_a_start_is_left_out():
     swing, sudden = Swing.plan.members, ramp(0.0, 1.0, speed=0.8)
     assert told(swing["go"]) == []
     (jump,) = told(swing["hard"])
-    assert jump == "the rate of S jumps by 0.5 rad/s at 0.625 s, so that inertia is left out: give its ramp an acceleration."
-    for course in (sudden, ramp(0.0, 0.5, speed=0.8, acceleration=2.0).then(ramp(0.5, 1.0, speed=0.3))):
+    remedy = "give its ramp an acceleration, or take a smooth course."
+    assert jump == f"the rate of S jumps by 0.5 rad/s at 0.625 s, so that inertia is left out: {remedy}"
+    straight = Course([0.0, 1.0], [0.2, 0.9], kind="straight")
+    stopped = ramp(0.0, 0.5, speed=0.8, acceleration=2.0).then(ramp(0.5, 1.0, speed=0.3))
+    for course in (sudden, -sudden + 1.0, sudden.part(0.0, 0.5), straight, stopped):
         assert len(told(Over.path(S=course))) == 1
     both = told([Over.path(S=sudden), swing["hard"]])
     assert "S starts or stops at once" in both[0] and both[1].startswith("hard: the rate")

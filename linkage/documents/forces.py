@@ -88,25 +88,32 @@ def drive_rows(subject: ReportSubject) -> Iterator[tuple[str, ...]]:
 
     Thrusts that members show of themselves stand with these, and so do drives that are held by one of them.
     """
-    one, plan = subject.forces[0], subject.machine.plan
-    asked: list[tuple[str, Request, str]] = [
-        (name, drive_force(name), "kNm" if stroke_display_unit(plan, name) == "deg" else "kN") for name in one.drives
-    ]
-    thrusts = [(name, column.request) for name, column in subject.member_columns if column.name == "thrust"]
-    shown = [(name, request) for name, request in thrusts if isinstance(request, Request)]
-    members = {name for name, _ in shown}
-    asked += [(said("thrust of {name}", name=name), thrust_from_forces(name, PLAIN), "kN") for name in one.thrusts if name not in members]
-    questions = [each(request) for request in [*(request for _, request in shown), *(each[1] for each in asked)] for each in (least, most)]
-    answers = subject.judge.answers(questions)
+    shown, asked = thrusts_shown(subject), drives_asked(subject)
+    requests = [*shown.values(), *(request for _, request, _ in asked)]
+    answers = subject.judge.answers([end(each) for each in requests for end in (least, most)])
     ends = [(float(low.value), float(high.value)) for low, high in zip(answers[::2], answers[1::2], strict=True)]
+    drives = slice(len(shown), len(shown) + len(subject.forces[0].drives))
     for k, (name, _, unit) in enumerate(asked, len(shown)):
         low, high = answers[2 * k : 2 * k + 2]
-        drives = slice(len(shown), len(shown) + len(one.drives))
         others = ends[: len(shown)] if k < drives.stop else ends[drives]
         if np.isnan(low.value) or any(np.allclose(ends[k], each, rtol=SAME, atol=0.0) for each in others):
             continue
         column = Column(name, np.zeros(1), unit, 3)
         yield name, unit_sign(unit), amount_text(subject, low, column), low.place, amount_text(subject, high, column), high.place
+
+
+def thrusts_shown(subject: ReportSubject) -> dict[str, Request]:
+    """Return the thrusts that members show of themselves, by their names."""
+    thrusts = {name: column.request for name, column in subject.member_columns if column.name == "thrust"}
+    return {name: request for name, request in thrusts.items() if isinstance(request, Request)}
+
+
+def drives_asked(subject: ReportSubject) -> list[tuple[str, Request, str]]:
+    """Return the forces of the drives, then the thrusts that no member shows of itself, each with its name and unit."""
+    one, plan, members = subject.forces[0], subject.machine.plan, thrusts_shown(subject)
+    drives = [(name, drive_force(name), "kNm" if stroke_display_unit(plan, name) == "deg" else "kN") for name in one.drives]
+    others = [(said("thrust of {name}", name=name), thrust_from_forces(name, PLAIN), "kN") for name in one.thrusts if name not in members]
+    return [*drives, *others]
 
 
 SAME = 1e-9

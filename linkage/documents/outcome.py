@@ -305,8 +305,7 @@ def members_section(subject: ReportSubject, members: Mapping[str, Tabled]) -> Se
     title, caption = translated(first.section), translated(first.caption)
     with unwarned():
         columns = [(name, column) for name, column in subject.member_columns if name in members]
-        asked = [column.request if column.request is not None else values_in_rows(subject, name, column) for name, column in columns]
-        questions = [[side(quantity) for side in sides_asked(quantity)] for quantity in asked]
+        questions = [column_questions(subject, name, column) for name, column in columns]
         try:
             answers = iter(subject.judge.answers([question for each in questions for question in each]))
         except LinkageError as error:
@@ -334,6 +333,12 @@ def sides_asked(quantity: object) -> tuple[Callable[[Any], Measure], ...]:
     Of a pressure the greatest: the least is nought, on the side that does not hold.
     """
     return (least,) if may_be_unlimited(quantity) else (most,) if getattr(quantity, "measures", "") == "pressure" else (least, most)
+
+
+def column_questions(subject: ReportSubject, member: str, column: Column) -> list[Measure]:
+    """Return what is asked of a column that a member shows of itself."""
+    quantity = column.request if column.request is not None else values_in_rows(subject, member, column)
+    return [side(quantity) for side in sides_asked(quantity)]
 
 
 def values_in_rows(subject: ReportSubject, member: str, column: Column) -> Callable[[Motion], FloatArray]:

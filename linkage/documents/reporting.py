@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
@@ -19,7 +19,7 @@ from ..errors import DefinitionError, LinkageError, cited, known_name, unwarned
 from ..language import current_language, heading_of, said, said_of, translated, with_decimals
 from ..language import language as spoken
 from ..loads import PLAIN_CASE, Acting, situation_of
-from ..mechanism import Mechanism, played_along
+from ..mechanism import Mechanism, played_along, verdicts_of
 from ..motion import (
     Answer,
     Column,
@@ -35,6 +35,7 @@ from ..motion import (
     speakers,
     stroke_display_unit,
 )
+from ..motion.judging import verdict_questions
 from ..motion.measures import measure_of
 from ..pictures.curves import limit_of
 from ..pictures.poses import named_points
@@ -47,11 +48,11 @@ from .calculation import calculated, calculation_blocks, has_loads
 from .checks import checks_section
 from .content import Block, Cell, Document, Illustration, Mark, Section, TableBlock
 from .fingerprint import fingerprint, own_version
-from .forces import forces_section
+from .forces import drives_asked, forces_section
 from .html import write_html
 from .inputs import definition_section, inputs_section, own_paragraphs, plain_words
 from .markdown import write_markdown
-from .outcome import amount_text, limits_section, members_sections, results_blocks, sketch_section
+from .outcome import amount_text, column_questions, limits_section, members_sections, results_blocks, sketch_section
 from .pdf import check_typst, write_pdf
 from .run import ReportSubject
 from .title import TitleBlock
@@ -174,6 +175,7 @@ def composed(
         known_name("Column", name, names, where=f"limits of {machine.plan.title}")
         limit_of(given, names[name].unit)
     path = named_points(machine, trace, "trace") if trace is not None else tuple(featured.path) or machine.plan.moving[-1:]
+    look_ahead(subject)
     found = calculated(machine, subject.pose, start)
     verdicts, mark, judged = verdict_section(subject, bounds)
     broken = "; ".join(each.heading for each in judged if each.is_rule and each.ok is False)
@@ -195,6 +197,14 @@ def composed(
     words = cited_numbers(plain_words(translated(own_paragraphs(type(machine))[0])))
     facts = tuple((name, with_decimals(text)) for name, text in title_rows(subject, title_block, mark, broken))
     return Document(machine.plan.heading, words, block, facts, mark, whole, current_language())
+
+
+def look_ahead(subject: ReportSubject) -> None:
+    """Look in one pass for what verdicts, members and drives ask, which their sections then find; what is refused, they say."""
+    with unwarned(), suppress(LinkageError):
+        members = [question for name, column in subject.member_columns for question in column_questions(subject, name, column)]
+        drives = [end(request) for _, request, _ in drives_asked(subject) for end in (least, most)] if has_loads(subject.machine) else []
+        subject.judge.answers([*verdict_questions(subject.verdict_judge), *members, *drives])
 
 
 def own_system(machine: object) -> str | None:
@@ -313,7 +323,7 @@ def verdict_section(subject: ReportSubject, limits: Mapping[str, Sequence[object
     title = said("Verdicts")
     try:
         with unwarned():
-            found = subject.machine.verdicts(over=subject.over, acting=subject.judge.acting)
+            found = verdicts_of(subject.machine, subject.verdict_judge)
             limited = limit_answers(subject, limits)
     except LinkageError as error:
         return (

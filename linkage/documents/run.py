@@ -52,7 +52,8 @@ class ReportSubject:
     machine: Mechanism
     runs: tuple[Run, ...]
     count: int
-    over: object
+    verdict_judge: Judge
+    """The judge of verdicts, for whom a place that is lost is a fault."""
     judge: Judge
 
     @classmethod
@@ -66,8 +67,8 @@ class ReportSubject:
                 f"{title}: a report is of one design, and {batch[0]} has {np.size(machine[batch[0]])} values; choose one of them."
             )
         require_whole("count", count, f"the rows of the report's tables, 2 to {MANY}; give a whole number such as 11", least=2, most=MANY)
-        judge = machine.judge(over, acting).lost_allowed()
-        found = cls(machine, runs_of(machine, at, over, judge.acting), count, over, judge)
+        judge = machine.judge(over, acting)
+        found = cls(machine, runs_of(machine, at, over, judge.acting), count, judge, judge.lost_allowed())
         found.judge.cases  # noqa: B018  refuses a load case that is unknown
         if not found.curve.reached.any():
             raise AssemblyError(f"{title}: no pose of this run can be assembled, so that there is nothing to report; see machine.at(...).")

@@ -106,11 +106,16 @@ def judge_verdicts(judge: Judge, fault: str = "") -> list[Verdict]:
         found = assembly_verdicts(judge)
     else:
         if not fault:
-            members = speakers(judge.plan, HasVerdicts).values()
-            judge.answers([reachable, *transmissions(judge).values(), *(each for member in members for each in member.questions(judge))])
+            judge.answers(verdict_questions(judge))
         found, said_of = geometry_verdicts(judge), member_verdicts(judge.lost_allowed(), fault)
         found += said_of if fault or not all(found) else map(valued_everywhere, said_of)
     return [*found, *map(Remark, filter(None, told)), *([] if fault else [*from_above(PACE)(judge), *from_above(DRIVES)(judge)])]
+
+
+def verdict_questions(judge: Judge) -> list[Question]:
+    """Return what the verdicts on one design ask, so that all of it is looked at in one pass."""
+    members = speakers(judge.plan, HasVerdicts).values()
+    return [reachable, *transmissions(judge).values(), *(each for member in members for each in member.questions(judge))]
 
 
 def over_time(judge: Judge, asked: Condition) -> Answer | None:

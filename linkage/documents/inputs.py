@@ -108,11 +108,15 @@ def dimension_table(machine: Mechanism, listing: Equations, notes: Mapping[str, 
         changed = said("was {value}", value=shown_number(entry.default, unit)) if float(value) != entry.default else ""
         note = "; ".join(each for each in (changed, said_of) if each)
         sign = unit_sign(unit) if unit else ""
-        rows.append((name, Formula(listing.symbol_latex(name)), shown_number(float(value), unit, 7), sign, where, note))
+        rows.append((name, Formula(listing.symbol_latex(name)), shown_number(float(value), unit, DIGITS), sign, where, note))
     heads = (said("dimension"), said("symbol"), said("value"), said("unit"), said("appears in"), said("source, note"))
     return TableBlock(said("Dimensions"), heads, tuple(rows), "llrllm")
 
 
+DIGITS = 7
+"""The digits of a number as it is declared."""
+LONG = re.compile(r"\d+\.\d{7,}(?:e[-+]?\d+)?")
+"""A number with more of them."""
 PARAMETER = re.compile(r"(, |(?<![\w.]))(\w+)=(-?\d+(?:\.\d*)?(?:e[-+]?\d+)?)(?=[,)])")
 """A number by itself; one in an expression keeps its SI, as the names beside it have no unit there."""
 
@@ -125,7 +129,7 @@ def with_units(element: ForceElement, text: str) -> str:
         comma, name, value = found[1], found[2], float(found[3])
         if comma and name in element.numbers and is_number(defaults.get(name)) and value == float(defaults[name]):
             return ""
-        return f"{comma}{name}={show(value, units[name])}" if units.get(name) else f"{comma}{name}={value:.7g}"
+        return f"{comma}{name}={show(value, units[name])}" if units.get(name) else f"{comma}{name}={value:.{DIGITS}g}"
 
     return PARAMETER.sub(shown, text)
 
@@ -143,7 +147,7 @@ def number_units(element: object) -> dict[str, str]:
 def member_rows(machine: Mechanism, names: tuple[str, ...], notes: Mapping[str, str]) -> tuple[tuple[str, str, str], ...]:
     """Return members as they are declared."""
     texts = written_out(machine.plan, {name: float(value) for name, value in machine.dimensions.items()})
-    return tuple((name, texts[name], notes.get(name, "")) for name in names)
+    return tuple((name, LONG.sub(lambda found: f"{float(found[0]):.{DIGITS}g}", texts[name]), notes.get(name, "")) for name in names)
 
 
 def definition_section(machine: Mechanism) -> Section:

@@ -173,7 +173,8 @@ class Part(Member):
 
     def having(self, values: Mapping[str, float]) -> Part:
         own = {name.removeprefix(f"{self.name}."): value for name, value in values.items() if name.startswith(f"{self.name}.")}
-        return self.renewed(given={**self.given, **own}) if own else self
+        once = {name: value for name, value in own.items() if name in self.plan.table.entries or name in self.given}
+        return self.renewed(given={**self.given, **once}) if once else self
 
     @property
     def stands_as_alone(self) -> bool:

@@ -41,7 +41,7 @@ from linkage.documents.breaking import LONGEST, formula_pieces
 from linkage.documents.content import Illustration, TableBlock
 from linkage.documents.forces import Stop, blocked_cylinders, worst_blocked
 from linkage.documents.html import html_text
-from linkage.documents.inputs import plain_words, with_units
+from linkage.documents.inputs import member_rows, plain_words, with_units
 from linkage.documents.markdown import markdown
 from linkage.documents.outcome import CURVE_ROOM, HALF, draw_column
 from linkage.documents.pdf import pdf
@@ -56,6 +56,7 @@ from linkage.formulas.typeset import Box, BoxRow, Fenced, Fraction, Script, Sign
 from linkage.motion import Column
 from linkage.statics import elements_of
 from linkage.units import bar, deg, mm
+from mechanisms.at_work.telehandler import Telehandler
 from mechanisms.crane import Crane
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
@@ -223,6 +224,14 @@ def test_a_number_in_an_expression_keeps_its_unit_to_itself():
 ])  # fmt: skip
 def test_a_note_loses_the_unit_that_the_table_converts(note, shown_as):
     assert without_unit(note) == shown_as
+
+
+def test_declared_numbers_have_seven_digits_and_a_part_says_each_once():
+    machine = Telehandler(**{"forks.NW": 0.29})
+    rows = {name: text for name, text, _ in member_rows(machine, tuple(machine.plan.members), {})}
+    assert rows["far"] == "LoadCase('far', scale={'forks.load': 0.3666667})"
+    assert "NW=0.29" in rows["forks"] and "WN=" not in rows["forks"]
+    assert [name for name, text in rows.items() if re.search(r"\d\.\d*[1-9]\d{7}", text)] == []
 
 
 def test_marks_of_emphasis_are_no_words():

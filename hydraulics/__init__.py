@@ -10,6 +10,7 @@ from .accumulator import AccumulatorBlock as AccumulatorBlock
 from .barrel import OnBarrel as OnBarrel
 from .barrel import OnRod as OnRod
 from .buckling import Buckling as Buckling
+from .cycle import PumpCycle as PumpCycle
 from .cylinder import CatalogueRow as CatalogueRow
 from .cylinder import CylinderSize as CylinderSize
 from .cylinder import catalogue as catalogue
@@ -34,9 +35,9 @@ from .moving import flow as flow
 from .moving import power as power
 from .moving import rate as rate
 from .oil import OilLine as OilLine
-from .oil import Pump as Pump
-from .oil import Relief as Relief
-from .oil import Tank as Tank
+from .pump import Pump as Pump
+from .pump import Relief as Relief
+from .pump import Tank as Tank
 from .requests import buckling as buckling
 from .requests import capacity as capacity
 from .requests import fits as fits
@@ -47,6 +48,7 @@ from .telescope import Telescope as Telescope
 from .valve import HoldingValve as HoldingValve
 from .valve import load_pressure as load_pressure
 from .valve import pilot_pressure as pilot_pressure
+from .working import PumpMotion as PumpMotion
 
 add_catalogue("hydraulics", Path(__file__).with_name("locale"))
 

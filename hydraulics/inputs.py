@@ -199,6 +199,8 @@ def check_pressures(element: ForceElement, whose: str, above_zero: Container[str
             efficient(given, f"{type(element).__name__}: {name}")
         elif name == "flow":
             in_cubic_metres(given, "Flow of the pump")
+        elif name == "power":
+            positive(given, "Power of the pump", "give watts, such as power=5.75 * kW, or leave it out")
         else:
             what = f"{name.replace('_', ' ').capitalize()} of the {whose}"
             pressure = in_pascals(given, what)

@@ -34,12 +34,12 @@ from linkage.motion import (
     reached,
     require_motion,
 )
-from linkage.quantities import NamedMembers, distance, of_kind
+from linkage.quantities import NamedMembers, Reference, distance, label, of_kind
 from linkage.statics import LawRequest, elements_of, is_among
 from linkage.units import UNITS, show
 from linkage.verdict import Verdict
 
-from .inputs import Array, check_pressures, not_negative, one_design, one_number
+from .inputs import Array, check_pressures, follows, not_negative, one_design, one_number
 from .line import LiftLine
 from .member import (
     PISTON,
@@ -51,11 +51,13 @@ from .member import (
     Ram,
     as_in,
     carries_loads,
+    in_class,
     judge_of,
     least_and_most,
     thrust_request,
 )
 from .moving import flow
+from .pump import Pump
 from .remedy import Sizes, can_be_set, show_enough, size_words, smallest
 from .requests import going_back_request, pressure_request, reserve_request
 from .shut import shut_verdicts
@@ -162,10 +164,38 @@ class LiftCircuit(PumpLine):
                 says = "what shares a chamber is one line with one pressure"
                 raise DefinitionError(f"{title}: {what}; {says}. Name all of them in one LiftCircuit, or none in both.")
 
+    @property
+    def numbers(self) -> Mapping[str, str]:
+        found = super().numbers
+        return {name: found[name] for name in found if name not in Pump.parameters} if isinstance(self.pressure, Pump) else found
+
+    def pump(self, members: NamedMembers) -> Pump | None:
+        found = in_class(members, self.pressure) if isinstance(self.pressure, (str, Pump)) else None
+        return found if isinstance(found, Pump) else None
+
+    def has_both_sides(self, members: NamedMembers) -> bool:
+        return self.pump(members) is not None
+
+    def among(self, members: NamedMembers) -> LiftCircuit:
+        """Return it with the pump that it is on, where a name says that; DefinitionError for numbers of its own beside one."""
+        pump = self.pump(members)
+        for name, usual in (("flow", 0.0), ("mechanical_efficiency", 1.0), ("hydraulic_efficiency", 1.0)):
+            given = self.given(name)
+            if pump is not None and (follows(given) or np.any(np.asarray(given) != usual)):
+                raise DefinitionError(f"{self.name} = {self}: {pump.name or 'its pump'} says its {name}; leave {name}= out there.")
+        return self if pump is None or pump is self.pressure else self.renewed(pressure=pump)
+
+    def parts(self) -> tuple[Reference, ...]:
+        return (*super().parts(), *((self.pressure,) if isinstance(self.pressure, Pump) else ()))
+
     def __str__(self) -> str:
-        return f"LiftCircuit({', '.join([self.named, *self.words()])})"
+        on = [label(self.pressure)] if isinstance(self.pressure, Pump) else []
+        return f"LiftCircuit({', '.join([self.named, *on, *self.words()])})"
 
     def says(self, name: str, members: NamedMembers) -> tuple[ForceElement, str] | None:
+        pump = self.pump(members)
+        if pump is not None and name in Pump.parameters:
+            return pump, name
         return None if self.given(name) is None else (self, name)
 
     def oil(self, motion: Motion) -> Array:
@@ -304,7 +334,8 @@ class LiftingCylinder:
     def lowers_alone(self) -> bool:
         """Whether it goes back by the load, on which there is a verdict here: over no valve that holds the line, and by no other pump."""
         valved = any(each.holds_line(self.circuit) for each in self.judge.plan.of_kind(OnLines).values())
-        return not valved and not self.goes_back_by_another
+        pumped = self.ram.side == "both" and self.circuit.has_both_sides(self.judge.plan.members)
+        return not valved and not pumped and not self.goes_back_by_another
 
     def show(self, pressure: Array | float) -> str:
         """Return a pressure in the unit of the sentences."""

@@ -698,6 +698,9 @@ class Cylinder(BarrelAndRod, Ram):
     def among(self, members: NamedMembers) -> Cylinder:
         """Return it as the lines of its class say what it works with; DefinitionError where it says another side itself."""
         found, others = works_by_lines(self, members), lines_of(self, members)
+        both = (each for each in circuits_among(members) if each.has_both_sides(members))
+        if found is None and self.works is None and any(self.name in map(label, each.references) for each in both):
+            found = "both"
         beside = self.works in SIDES and all(line.kind_in(members) == "given" and each.side != self.works for line, each in others)
         if found is None or beside:  # a tank or gas on its other side leaves the side that it says to a pump
             return self
@@ -1135,6 +1138,14 @@ class Circuit(OnLines, HasVerdicts):
     def kind_open(self, members: NamedMembers) -> str:
         """Return the kind of its line while no load case shuts it."""
         return "held"
+
+    def pump(self, members: NamedMembers) -> OnLines | None:
+        """Return the pump on it that may be on others, too; None where it has its own numbers or none."""
+        return None
+
+    def has_both_sides(self, members: NamedMembers) -> bool:
+        """Return whether it is on both sides of the cylinders that it names, whatever these say."""
+        return False
 
     @property
     def is_drained(self) -> bool:

@@ -55,7 +55,7 @@ from linkage.verdict import Verdict
 from .accumulator import AccumulatorBlock
 from .files import filled_kind, on_line_kind
 from .floating import Block, GasLine
-from .inputs import Array, check_pressures, follows, in_pascals, names_behind, number_set, one_design, one_number
+from .inputs import Array, follows, in_pascals, names_behind, number_set, one_design, one_number
 from .lift import PumpLine
 from .line import pressure_range
 from .member import (
@@ -65,7 +65,6 @@ from .member import (
     AllOf,
     Chamber,
     Circuit,
-    OnLines,
     Ram,
     Side,
     as_in,
@@ -80,58 +79,9 @@ from .member import (
     side_left,
     the_cylinder,
 )
+from .pump import Pump, Relief, Supply, Tank
 from .shut import EMPTY, intensified, shut_verdicts
 from .standing import standing_pressure
-
-
-class Supply(OnLines):
-    """The base of what lies on an oil line beside its chambers: a pressure, gauge [Pa], and what a pump has more."""
-
-    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"pressure": "bar"})
-    not_negative: ClassVar[frozenset[str]] = frozenset({"pressure"})
-    called: ClassVar[str]
-    """What it is called in words."""
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        check_pressures(self, self.called, () if isinstance(self, Tank) else ("pressure",))
-
-
-@final
-@immutable
-class Pump(Supply):
-    """A pump: `supply = Pump(180 * bar, flow=60 * litre / minute)`; a line that it is on is held, and its pressure is what the pose asks.
-
-    `pressure` is its highest, gauge [Pa], `flow` in m3/s. In a class they are design variables such as `supply.pressure`.
-    """
-
-    pressure: Parameter
-    flow: Parameter = 0.0
-    mechanical_efficiency: Parameter = 1.0
-    hydraulic_efficiency: Parameter = 1.0
-    parameters: ClassVar[Mapping[str, str]] = MappingProxyType(
-        {"pressure": "bar", "flow": "l/min", "mechanical_efficiency": "", "hydraulic_efficiency": ""}
-    )
-    not_negative: ClassVar[frozenset[str]] = frozenset({"pressure", "flow"})
-    called: ClassVar[str] = "pump"
-
-
-@final
-@immutable
-class Relief(Supply):
-    """A relief valve, which opens at a gauge pressure [Pa]: `valve = Relief(200 * bar)`; it may lie on any line."""
-
-    pressure: Parameter
-    called: ClassVar[str] = "relief valve"
-
-
-@final
-@immutable
-class Tank(Supply):
-    """A tank, whose line has a given gauge pressure [Pa]: `back = Tank(5 * bar)`, none where it is open."""
-
-    pressure: Parameter = 0.0
-    called: ClassVar[str] = "tank"
 
 
 @final
@@ -278,6 +228,9 @@ class OilLine(PumpLine, GasLine):
         found = (in_class(members, each) for each in self.bare)
         return [each for each in found if isinstance(each, kind)]
 
+    def pump(self, members: NamedMembers) -> Pump | None:
+        return next(iter(self.supplies(members, Pump)), None)  # type: ignore[arg-type]
+
     @property
     def blocks(self) -> list[Block]:
         """All accumulators that are named, of which one may be on it."""
@@ -391,11 +344,6 @@ class OilLine(PumpLine, GasLine):
                 first, second = (each for each in members if each in (self.name, other.name))
                 what = f"two pressures in {shared[0]}'s {shared[1]} side: {first} and {second} both have it"
                 raise DefinitionError(f"{title}: {what}. A chamber has one line; join the two, or take it out of one.")
-            pumps = other.supplies(members, Pump) if isinstance(other, OilLine) else []
-            both = next((each for each in self.supplies(members, Pump) if each in pumps), None)
-            if both is not None:
-                remedy = "give each line a pump of its own, Pump(...), or join the lines"
-                raise DefinitionError(f"{title}: {self.name} and {other.name} have one pump, {both.name}; {remedy}.")
             mine, its = self.block, getattr(other, "block", None)
             if mine is not None and mine is its:
                 remedy = "join the lines, or give each its own, AccumulatorBlock([Accumulator(...)])"

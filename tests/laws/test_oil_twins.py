@@ -288,7 +288,6 @@ FILLED = dict(slave=0.72)
 WRONG = [
     bad("two pressures in master's piston side", more=OilLine("master.piston_side", "lift.piston_side")),
     bad("have the same accumulators", **{side: OilLine(f"lift.{side}_side", BLOCK, charge_pressure=9e6) for side in ("piston", "rod")}),
-    bad("have one pump, supply", supply=Pump(2e7), **{side: OilLine(f"lift.{side}_side", "supply") for side in ("piston", "rod")}),
     bad("'Q' is unknown in .*filled", level=OilLine("master.piston_side", "slave.piston_side", filled=FILLED | {"Q": 1.0})),
     bad("'supplyy' is unknown", more=OilLine("lift.piston_side", "supplyy")),
     bad("'lft' is unknown", more=OilLine("lft.piston_side", Pump(2e7))),

@@ -1,0 +1,299 @@
+"""What a pump's lines ask for while a machine moves: flows [m3/s] and the gauge pressures [Pa] that they need, cylinder by cylinder.
+
+A line takes oil where one of its chambers grows; of a LiftCircuit that has both sides the one that grows. Its need is
+(F + p a) / (A k): F is the force in the sense of the movement, p the back pressure, a the area that empties, A the one that fills, and k
+the hydraulic efficiency. The mechanical efficiency stands in F. Where a need is below zero the load drives, and is braked. A holding valve
+is opened by its pilot, whose pressure the pump has to give then.
+Nothing of it follows the inertia: sharing is quasi-static. Friction and dampers go by the rates.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property, partial
+from typing import Any, final
+
+import numpy as np
+
+from linkage.errors import DefinitionError, unknown
+from linkage.loads import AS_IT_RUNS, Acting
+from linkage.loads.element import ForceElement
+from linkage.motion import Motion, PoseFunction, Request, ratio
+from linkage.plan import Plan
+from linkage.quantities import NamedMembers, distance, of_kind
+from linkage.statics import AnyMotion, LawRequest, each_once, same
+from linkage.units import show
+
+from .inputs import Array, one_design
+from .line import LiftLine
+from .member import PISTON, ROD, OnLines, Ram, cylinder_request, line_thrust, lines_of
+
+AT_BORDER = 1e-9
+"""Of its size: what is on the other side of a border by no more is on it."""
+STANDS = 1e-10
+"""Of the rates of the strokes: a length that changes by less stands, to rounding."""
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Inlet:
+    """How a cylinder takes oil from a line while it extends or retracts (`sense` 1 or -1).
+
+    `sides` say with which parts the areas of its sides count, pistons first; none where it takes nothing. `back` is the pressure of what
+    it puts out [Pa], the efficiencies are the pump's.
+    """
+
+    line: LiftLine
+    ram: Ram
+    sense: float
+    sides: tuple[float, float] | None
+    back: float
+    mechanical: float
+    hydraulic: float
+    valve: OnLines | None
+
+    @property
+    def way(self) -> str:
+        """The direction in which the cylinder moves."""
+        return "extending" if self.sense > 0.0 else "retracting"
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Branch:
+    """What one cylinder takes from one line over some instants: `flow` (m,), the `need` (m,), and its `force` and `speed` where it moves.
+
+    `signed` is what the need would be if a load could drive the pump.
+    """
+
+    inlet: Inlet
+    flow: Array
+    need: Array
+    signed: Array
+    force: Array
+    speed: Array
+
+    @property
+    def useful(self) -> Array:
+        """What the oil gives the machine (m,) [W], its efficiencies included."""
+        return np.maximum(self.need, 0.0) * self.flow
+
+    @property
+    def braked(self) -> Array:
+        """What the load gives that is throttled away (m,) [W]."""
+        return self.useful - (self.signed * self.flow if self.inlet.sides is not None else self.force * self.speed)
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Taken:
+    """What all consumers take over some instants, each with its branches, and the lengths of the cylinders (rams, m) [m]."""
+
+    branches: Sequence[Sequence[Branch]]
+    lengths: Array
+    slopes: Array
+
+    @cached_property
+    def flows(self) -> list[Array]:
+        """What each consumer takes (m,)."""
+        zero = 0.0 * self.lengths[0]
+        return [sum((each.flow for each in own), zero) for own in self.branches]
+
+    @cached_property
+    def needs(self) -> list[Array]:
+        """The highest of the needs of each consumer (m,), below zero where the load drives."""
+        low = np.full(self.lengths.shape[1], -np.inf)
+        return [np.max([low, *(each.need for each in own if each.inlet.sides is not None)], axis=0) for own in self.branches]
+
+    def borders(self, like: Taken, at: int | None = None) -> Array:
+        """Return what is above zero as long as all is as in the middle of a stretch, or `at` one of its places, (rows, m).
+
+        Beyond it loads act the other way. Rows are over the sizes that they have in that stretch. What is zero at the place, to rounding,
+        counts as at the next one.
+        """
+        rows, place = [], like.lengths.shape[1] // 2 if at is None else at
+        for own, others in zip(self.branches, like.branches, strict=True):
+            lead = max(range(len(own)), key=lambda k: others[k].need[place if at is None else place + 1], default=0)
+            for each, other in zip(own, others, strict=True):
+                size = max(float(np.abs(other.signed).max()), 1.0)
+                known = other.signed[place]
+                known = other.signed[place + 1] if at is not None and abs(known) <= AT_BORDER * size else known
+                rows.append(each.signed * np.sign(known) / size)
+                rows.append(each.speed / max(float(np.abs(other.speed).max()), 1e-300))
+                rows.append((own[lead].need - each.need) / size)
+        return np.array(rows).reshape(-1, self.lengths.shape[1])
+
+
+@final
+class Consumers:
+    """The lines on a pump, with the cylinders on them, of one design in one situation.
+
+    Parameters
+    ----------
+    plan, designs
+        The machine.
+    pump : ForceElement
+        The pump, as it is in the class.
+    acting : Acting
+        The situation; inertia is left out.
+
+    Raises
+    ------
+    DefinitionError
+        No line is on the pump; a batch of designs.
+    """
+
+    def __init__(self, plan: Plan, designs: Mapping[str, Any], pump: ForceElement, acting: Acting, strokes: Mapping[str, float]) -> None:
+        self.plan, self.pump, self.members = plan, pump, plan.members
+        self.lines = lines_on(pump, plan.members)
+        if not self.lines:
+            what = f"{plan.title}: no line is on {pump.name or pump}"
+            raise DefinitionError(f"{what}; put it on one, OilLine(lift.piston_side, supply) or LiftCircuit(lift, supply).")
+        if any(map(np.ndim, designs.values())):
+            raise DefinitionError(f"{plan.title}: one pump is shared in one design at a time; take one of the batch.")
+        self.rams: tuple[Ram, ...] = each_once(ram for line in self.lines for ram in line.members(plan.members))
+        self.strokes = tuple(plan.strokes)
+        acting = replace(acting, direction=AS_IT_RUNS, inertia=False, rates=None, accelerations=None)
+        asked: list[Request | Any] = []
+        for ram in self.rams:
+            asked.append(cylinder_request("line force", ram.name, acting, force_on_lines, measures="force"))
+            asked.append(distance(ram.A, ram.B))
+            asked += [ratio(distance(ram.A, ram.B), name) for name in self.strokes]
+            asked += [LawRequest(formula=partial(area_of, ram, side), text=f"{ram.name} {side} area") for side in (PISTON, ROD)]
+        there = Motion(plan, designs, {name: np.asarray(strokes[name]) for name in self.strokes}, "nan")
+        on = [(line, ram) for line in self.lines for ram in line.members(self.members)]
+        self.inlets = [self._inlet(line, ram, sense, there) for line, ram in on for sense in (1.0, -1.0)]
+        self.places = {id(ram): place for place, ram in enumerate(self.rams)}
+        self.valved = [each for each in self.inlets if each.valve is not None]
+        asked += [pilot_request(each, acting) for each in self.valved]
+        self._function = PoseFunction(plan, designs, asked, 1)
+        at = np.array([[strokes[name]] for name in self.strokes])
+        rates = np.array([[0.05 + 0.01 * number] for number in range(len(self.strokes))])
+        rest, *moving = (self.rows(at, way * rates) for way in (0.0, 1.0, -1.0))
+        size = np.abs(rest).max(axis=1, initial=1.0, keepdims=True)
+        self.follows_rates = any(bool(np.any(np.abs(each - rest) > 1e-9 * size)) for each in moving)
+        """Whether friction or dampers act, so that needs follow the rates."""
+
+    def _inlet(self, line: LiftLine, ram: Ram, sense: float, there: Motion) -> Inlet:
+        """Return how a cylinder takes oil from a line while it moves in a sense."""
+        own = [chamber.side for each, chamber in line.filling(self.members) if same(each, ram)]
+        joined = len(own) > 1 and ram.side == "regenerative"
+        sides = (1.0, 0.0) if sense > 0.0 and PISTON in own else (0.0, 1.0) if sense < 0.0 and ROD in own else None
+        if joined:
+            sides = (1.0, -1.0) if sense > 0.0 else None
+        mechanical, hydraulic = (one_design(line.efficiency(there, kind)) for kind in ("mechanical", "hydraulic"))
+        back = 0.0 if joined else one_design(line.back(there))
+        way = "extending" if sense > 0.0 else "retracting"
+        valves = of_kind(self.members, OnLines).values()
+        acting = Acting(direction=way)
+        lowering = (each for each in valves if each.pressure_lowering(line, ram, there, acting) is not None) if sides is not None else ()
+        return Inlet(line, ram, sense, sides, back, mechanical, hydraulic, next(iter(lowering), None))
+
+    # -- over instants -------------------------------------------------------------------------------------
+
+    def rows(self, strokes: Array, rates: Array) -> Array:
+        """Return all that is asked of the machine, (rows, m), at strokes (n, m) moving at rates (n, m)."""
+        return np.array([self._function(*at, *moving) for at, moving in zip(strokes.T.tolist(), rates.T.tolist(), strict=True)]).T
+
+    def taken(self, strokes: Array, ways: Sequence[Array], rates: Array, like: Taken | None = None) -> Taken:
+        """Return what consumers take whose movements are `ways`, rates of the strokes (n, m) each, while all move at `rates`.
+
+        Cylinders move as in the middle of the instants, or as in others that it is `like`.
+        """
+        return self.taken_of(self.rows(strokes, rates), ways, like)
+
+    def taken_of(self, rows: Array, ways: Sequence[Array], like: Taken | None = None) -> Taken:
+        """Return the same of what was asked of the machine."""
+        count, many = len(self.strokes), rows.shape[1]
+        each_of = rows[: len(self.rams) * (count + 4)].reshape(len(self.rams), count + 4, many)
+        pilots = dict(zip(map(id, self.valved), rows[len(self.rams) * (count + 4) :], strict=True))
+        slopes = each_of[:, 2 : count + 2]
+        known = [None if like is None else [each.inlet for each in own] for own in (like.branches if like is not None else ways)]
+        speeds = [(slopes * way).sum(axis=1) for way in ways]
+        moving = [self._moving(speed, way) if each is None else each for speed, way, each in zip(speeds, ways, known, strict=True)]
+        found = [self._branches(each_of, speed, inlets, pilots) for speed, inlets in zip(speeds, moving, strict=True)]
+        return Taken(found, each_of[:, 1], slopes)
+
+    def _moving(self, speeds: Array, way: Array) -> list[Inlet]:
+        """Return the inlets of those cylinders that move, each in its sense in the middle of the instants."""
+        middle = speeds.shape[1] // 2
+        least = STANDS * np.abs(way[:, middle]).sum()
+        moves = {id(ram): float(speed) for ram, speed in zip(self.rams, speeds[:, middle], strict=True)}
+        return [each for each in self.inlets if each.sense * moves[id(each.ram)] > least and not self._is_filled_elsewhere(each)]
+
+    def _branches(self, each_of: Array, speeds: Array, inlets: Sequence[Inlet], pilots: Mapping[int, Array]) -> list[Branch]:
+        found = list[Branch]()
+        for inlet in inlets:
+            place = self.places[id(inlet.ram)]
+            thrust, areas = each_of[place, 0], each_of[place, -2:]
+            force, speed = inlet.sense * thrust, inlet.sense * speeds[place]
+            force = np.where(force > 0.0, force / inlet.mechanical, force * inlet.mechanical)
+            if inlet.sides is None:
+                nothing = np.zeros(len(force))
+                found.append(Branch(inlet, nothing, nothing, force, force, speed))
+                continue
+            fills, empties = inlet.sides @ areas, areas[1] if inlet.sense > 0.0 else areas[0]
+            signed = (force + inlet.back * empties) / (fills * inlet.hydraulic)
+            need = signed if id(inlet) not in pilots else np.where(signed < 0.0, pilots[id(inlet)], signed)
+            found.append(Branch(inlet, fills * speed, need, signed, force, speed))
+        return found
+
+    def _is_filled_elsewhere(self, inlet: Inlet) -> bool:
+        """Return whether a cylinder that takes nothing from a line is filled by another one while it moves that way."""
+        if inlet.sides is not None:
+            return False
+        fills = PISTON if inlet.sense > 0.0 else ROD
+        others = [line for line, each in lines_of(inlet.ram, self.members) if each.side == fills and line not in self.lines]
+        held = [line for line in others if line.kind_in(self.members) == "held"]
+        mine = [each.line for each in self.inlets if each.ram is inlet.ram and each.sense == inlet.sense and each.sides is not None]
+        return bool(held or mine)
+
+
+def lines_on(pump: ForceElement, members: NamedMembers) -> list[LiftLine]:
+    """Return the lines that a pump is on."""
+    return [line for line in of_kind(members, LiftLine).values() if (found := line.pump(members)) is not None and same(found, pump)]
+
+
+def force_on_lines(motion: AnyMotion, ram: Ram, acting: Acting) -> Array:
+    """Return what a cylinder carries without what lines put on it whose pressure is given [N]."""
+    return line_thrust(ram, None, motion, acting)
+
+
+def area_of(ram: Ram, side: str, motion: AnyMotion) -> Array:
+    """Return the area of a side of a cylinder [m2]."""
+    size = ram.sized(motion)
+    return (size.push_area if side == PISTON else size.pull_area) + 0.0 * motion.distance(ram.A, ram.B)
+
+
+def pilot_request(inlet: Inlet, acting: Acting) -> LawRequest:
+    """Return the request for the pressure that opens a valve while a cylinder lowers its load over it [Pa]."""
+
+    def over(motion: AnyMotion, ram: Ram, acting: Acting) -> Array:
+        assert inlet.valve is not None
+        found = inlet.valve.pressure_lowering(inlet.line, ram, motion, Acting(acting.loads, acting.case, inlet.way))
+        return np.asarray(found)[()] + 0.0 * motion.distance(ram.A, ram.B)
+
+    return cylinder_request("pilot", inlet.ram.name, acting, over, (inlet.line.name, inlet.way), measures="pressure")
+
+
+def refuse_unpushed(branch: Branch, time: Array, pump: ForceElement) -> None:
+    """Raise DefinitionError where a cylinder is to move that neither oil nor its load pushes that way."""
+    at = np.flatnonzero((branch.force > 0.0) & (branch.speed > 0.0)) if branch.inlet.sides is None else ()
+    if len(at):
+        inlet, pump_name = branch.inlet, pump.name or "supply"
+        ram, other = inlet.ram.name, "rod" if inlet.sense < 0.0 else "piston"
+        what = f"{ram} cannot go on {inlet.way} at {show(float(time[at[0]]), 's', 4)}: its load resists, and no pump fills its {other} side"
+        raise DefinitionError(f"{what}; put that on the pump, OilLine({ram}.{other}_side, {pump_name}), or demand nothing there.")
+
+
+def cylinder_named(consumers: Consumers, name: str, what: str) -> int:
+    """Return the number of a cylinder on the pump's lines; DefinitionError for another name."""
+    names = [ram.name for ram in consumers.rams]
+    if name not in names:
+        known = of_kind(consumers.members, Ram)
+        if name in known:
+            remedy = f"put it on one, LiftCircuit({name}, {consumers.pump.name}), or ask the pump that feeds it"
+            raise DefinitionError(f"{consumers.plan.title}: {what}: {name} is on no line of {consumers.pump.name}; {remedy}.")
+        raise unknown("Cylinder", name, names, where=f"{consumers.plan.title}: {what}")
+    return names.index(name)

@@ -1,0 +1,324 @@
+"""A working cycle of one pump: flow, pressure and power over time, litres, and where the energy goes. SI, gauge pressures in Pa.
+
+A cycle is made of stretches between borders: kinks of the courses, events, a need that passes zero, another load that is the heaviest. Each
+has values at Chebyshev's places, so that all in it is a polynomial to rounding, with its integrals and its highest places.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any, final
+
+import numpy as np
+from numpy.polynomial import chebyshev
+
+from linkage.errors import DefinitionError
+from linkage.frozen import FrozenDict, immutable, read_only, refuses_changes
+from linkage.language import said
+from linkage.loads import Acting
+from linkage.loads.element import ForceElement
+from linkage.motion import Instants, Judge, Motion, require_motion
+from linkage.numeric import last_holding
+from linkage.units import show
+from linkage.verdict import Verdict
+
+from .consumers import AT_BORDER, Branch, Consumers, Taken, lines_on, refuse_unpushed
+from .inputs import Array, number_set, one_design, positive
+from .sharing import LEAST_PRESSURE, PumpLimits
+
+DEGREE = 12
+"""Of the polynomials over a stretch."""
+PLACES = -np.cos(np.pi * np.arange(DEGREE + 1) / DEGREE)
+"""Chebyshev's places, -1 to 1, ends included."""
+TO_COEFFICIENTS = np.linalg.inv(chebyshev.chebvander(PLACES, DEGREE))
+TO_INTEGRALS = (
+    np.stack([chebyshev.chebval(PLACES, chebyshev.chebint(row, lbnd=-1.0)) for row in np.eye(DEGREE + 1)], axis=1) @ TO_COEFFICIENTS
+)
+"""What makes integrals from the first place on of values at the places."""
+SMOOTH = 1e-11
+"""Of the largest value: the last coefficients of what is a polynomial to rounding."""
+SHORTEST = 1e-9
+"""s; no stretch is divided any finer."""
+
+
+def is_smooth(rows: Sequence[Array], size: float) -> bool:
+    """Return whether values at the places are polynomials, to rounding of their `size`."""
+    return not len(rows) or bool(np.all(np.abs(np.array(rows) @ TO_COEFFICIENTS.T[:, -2:]) <= SMOOTH * size))
+
+
+@final
+@immutable
+class PumpEvent:
+    """What happens in a cycle at an instant: its `time` [s], its `kind`, the `cylinder` or the line that it is of, and a sentence."""
+
+    time: float
+    kind: str
+    of: str
+    sentence: str
+
+    def __str__(self) -> str:
+        return said("at {time}: {sentence}", time=show(self.time, "s", 7), sentence=self.sentence)
+
+
+@final
+@refuses_changes
+@dataclass(frozen=True)
+class PumpEnergy:
+    """Where the energy of a cycle goes [J]: pump = useful + throttled + margin; `braked` is what loads give that is throttled away."""
+
+    pump: float
+    useful: float
+    throttled: float
+    margin: float
+    braked: float
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Stretch:
+    """What happens between two borders: instants (m,), the pump's pressure there, and of each consumer its share and its branches.
+
+    A consumer that is `blocked` takes the pump's pressure and no oil.
+    """
+
+    time: Array
+    pressure: Array
+    shares: Sequence[Array | float]
+    taken: Taken
+    blocked: tuple[int, ...] = ()
+
+
+@final
+class PumpCycle:
+    """A working cycle of one pump.
+
+    `time` (n,) are instants [s]; both sides of a border have one each. `flow` [m3/s], `pressure` [Pa gauge] and `power` [W] are arrays
+    there, by the names of the pump and of its lines: of a line what it takes, what it needs, and the product of both. `share` says by
+    cylinder which part of what it asks for it gets: below 1 it waits. `parts` are the powers [W] by which the energy goes: "pump",
+    "useful", "throttled", "margin", "braked". `litres` [l] go by the same names, `energy` [J] has the same parts as attributes.
+    `events` are those of a run, `case` the load case, `verdict` whether the pump gives what is asked for, and `stretch` how many times
+    longer it takes the pump.
+    """
+
+    def __init__(
+        self, pump: str, lines: Sequence[str], cylinders: Sequence[str], stretches: Sequence[Stretch], limits: PumpLimits, case: str = "",
+        events: Sequence[PumpEvent] = (),
+    ) -> None:  # fmt: skip
+        self.pump, self.case, self.limits, self.events = pump, case, limits, tuple(events)
+        self.time = read_only(np.concatenate([each.time for each in stretches]))
+        self._lengths = np.array([each.time[-1] - each.time[0] for each in stretches])
+        flow: dict[str, Array] = {name: np.zeros(len(self.time)) for name in (pump, *lines)}
+        need, share = {name: np.zeros(len(self.time)) for name in lines}, {name: np.ones(len(self.time)) for name in cylinders}
+        parts = {name: np.zeros(len(self.time)) for name in ("useful", "braked")}
+        for number, each in enumerate(stretches):
+            own = slice(number * (DEGREE + 1), (number + 1) * (DEGREE + 1))
+            for place, (part, branches) in enumerate(zip(each.shares, each.taken.branches, strict=True)):
+                for branch in branches:
+                    add_branch(branch, part, own, flow, need, parts, each.pressure if place in each.blocked else None)
+                if place < len(cylinders):
+                    share[cylinders[place]][own] = part
+        flow[pump] = sum((flow[name] for name in lines), flow[pump])
+        pressure = np.concatenate([each.pressure for each in stretches])
+        parts |= {"pump": pressure * flow[pump], "margin": limits.margin * flow[pump]}
+        parts["throttled"] = parts["pump"] - parts["useful"] - parts["margin"]
+        self.flow, self.share = unchanged(flow), unchanged(share)
+        self.pressure = unchanged({pump: pressure, **need})
+        self.parts = unchanged(parts)
+        self.power = unchanged({name: flow[name] * need.get(name, pressure) for name in flow})
+
+    def integral(self, values: Array) -> float:
+        """Return the integral of values over time, shape (n,)."""
+        return float(np.sum(values.reshape(-1, DEGREE + 1) @ TO_INTEGRALS[-1] * self._lengths) / 2.0)
+
+    @cached_property
+    def litres(self) -> Mapping[str, float]:
+        """The oil that the pump gives and each line takes [l]."""
+        return FrozenDict({name: 1e3 * self.integral(values) for name, values in self.flow.items()})
+
+    @cached_property
+    def energy(self) -> PumpEnergy:
+        """Where the energy goes [J]."""
+        return PumpEnergy(**{name: self.integral(values) for name, values in self.parts.items()})
+
+    @property
+    def duration(self) -> float:
+        """How long it takes [s]."""
+        return float(self.time[-1] - self.time[0])
+
+    def peak(self, values: Array) -> tuple[float, float]:
+        """Return the highest of some values over time, shape (n,), and its instant [s], between the instants too."""
+        rows, times = values.reshape(-1, DEGREE + 1), self.time.reshape(-1, DEGREE + 1)
+        number = int(np.argmax(rows.max(axis=1)))
+        own = TO_COEFFICIENTS @ rows[number]
+        own[np.abs(own) <= SMOOTH * np.abs(own).max()] = 0.0
+        flat = chebyshev.chebroots(chebyshev.chebder(chebyshev.chebtrim(own))) if np.any(own[1:]) else np.zeros(0)
+        tried = np.concatenate([PLACES, flat[np.abs(flat.imag) < 1e-9].real])
+        tried = tried[np.abs(tried) <= 1.0]
+        found = chebyshev.chebval(tried, own)
+        best = int(np.argmax(found >= found.max() - 1e-12 * abs(found.max())))
+        begin, end = times[number, [0, -1]]
+        return float(found[best]), float(begin + 0.5 * (end - begin) * (tried[best] + 1.0))
+
+    @cached_property
+    def stretch(self) -> float:
+        """How many times longer than this the pump takes for the same, 1 at the least; infinite where its pressure is not enough."""
+        flow, power = (self.peak(each[self.pump])[0] for each in (self.flow, self.power))
+        long = max(1.0, flow / self.limits.flow, power / self.limits.power)
+        return np.inf if self.peak(self.pressure[self.pump])[0] > self.limits.cut_off * (1.0 + AT_BORDER) else long
+
+    @property
+    def verdict(self) -> Verdict:
+        """Whether the pump gives what is asked for; where not, what is missing, and in which time it can be done."""
+        limits, texts = self.limits, list[str]()
+        asked = [(self.flow, limits.flow, "l/min"), (self.power, limits.power, "kW"), (self.pressure, limits.cut_off, "bar")]
+        for values, most, unit in asked:
+            value, time = self.peak(values[self.pump])
+            if np.isfinite(most) and (unit != "bar" or value > most * (1.0 + AT_BORDER)):
+                given = {"value": show(value, unit, 4), "time": show(time, "s", 4), "most": show(most, unit, 4)}
+                texts.append(said("{value} at {time} of {most}", **given))
+        text = said("needs {what}", what="; ".join(texts))
+        if self.stretch > 1.0 + AT_BORDER:
+            long, short = show(self.stretch * self.duration, "s", 4), show(self.duration, "s", 4)
+            how = said("it can be done in {long} instead of {short}", long=long, short=short)
+            text = f"{text}; {how if np.isfinite(self.stretch) else said('no longer time makes up for the pressure: take larger bores')}"
+        case = said("{text}, in the case {case}", text=text, case=self.case) if self.case else text
+        return Verdict("pump", self.stretch <= 1.0 + AT_BORDER, f"{case}.")
+
+    def __repr__(self) -> str:
+        return f"<PumpCycle of {self.pump}: {self.duration:.4g} s, {self.litres[self.pump]:.4g} l, {self.energy.pump / 1e3:.4g} kJ>"
+
+
+def add_branch(
+    branch: Branch, part: Array | float, own: slice, flow: Mapping[str, Array], need: Mapping[str, Array], parts: Mapping[str, Array],
+    cut_off: Array | None,
+) -> None:  # fmt: skip
+    """Add what a branch takes over a stretch, with the share that its consumer gets, to the values of its line and to the parts."""
+    name = branch.inlet.line.name
+    flow[name][own] += part * branch.flow
+    if branch.inlet.sides is not None:
+        need[name][own] = np.maximum(need[name][own], np.maximum(branch.need, 0.0) if cut_off is None else cut_off)
+    parts["useful"][own] += part * branch.useful
+    parts["braked"][own] += part * branch.braked
+
+
+def unchanged(arrays: Mapping[str, Array]) -> Mapping[str, Array]:
+    """Return arrays by name that do not change."""
+    return FrozenDict({name: read_only(each) for name, each in arrays.items()})
+
+
+def limits_of(pump: ForceElement, consumers: Consumers, there: Motion) -> PumpLimits:
+    """Return what a pump can give: its own numbers, and the lowest of its pressure and the relief valves on its lines."""
+    title = pump.name or "supply"
+    flow = one_design(number_set(pump, there, "flow"))
+    positive(flow, f"Flow of {title}", "give it in m3/s, such as flow=60 * litre / minute")
+    power = np.inf if pump.given("power") is None else one_design(number_set(pump, there, "power"))
+    positive(power, f"Power of {title}", "give watts, such as power=5.75 * kW, or leave it out") if np.isfinite(power) else None
+    relief = [line.supply(there) for line in consumers.lines]
+    cut_off = min(map(one_design, relief))
+    return PumpLimits(flow, power, one_design(number_set(pump, there, "margin")), cut_off, pump.given("sharing") == LEAST_PRESSURE)
+
+
+# A given motion.
+
+
+def checked(pump: ForceElement, motion: Motion, acting: Acting | None) -> PumpCycle:
+    """Return what a motion in time needs of a pump, in the load case that needs most of those that occur."""
+    motion = require_motion(motion)
+    if motion._instants is None or not motion._instants.courses:
+        what = f"{motion.plan.title}: {pump.name or 'a pump'}.check(motion): this motion has no time of its own"
+        raise DefinitionError(f"{what}; sweep the machine over a path in time, Over.path(time=[...], ...).")
+    own = motion.plan.members.get(pump.name)
+    judge, own = Judge(motion.plan, motion.designs, [motion], acting), own if isinstance(own, ForceElement) else pump
+    return max((each for place in judge.places for each in cycles_over(own, place, judge.acting)), key=lambda each: each.stretch)
+
+
+def cycles_over(pump: ForceElement, place: Any, acting: Acting) -> list[PumpCycle]:
+    """Return what is needed of a pump over a path in time, in each load case that occurs there."""
+    instants, cases = place.instants or place.motion._instants, place.cases(acting)
+    assert instants is not None
+    found = []
+    for case in cases:
+        situation = acting if acting.case is not None and len(cases) == 1 else replace(acting, case=case)
+        start = {name: float(course(instants.breaks[0])) for name, course in instants.courses.items()}
+        consumers = Consumers(place.plan, place.designs, pump, situation, start)
+        there = Motion(place.plan, place.designs, {name: np.asarray(value) for name, value in start.items()}, "nan")
+        limits, names = limits_of(pump, consumers, there), [line.name for line in consumers.lines]
+        stretches = given_stretches(consumers, instants, limits)
+        found.append(PumpCycle(pump.name or "supply", names, (), stretches, limits, case if len(cases) > 1 else ""))
+    return found
+
+
+def given_stretches(consumers: Consumers, instants: Instants, limits: PumpLimits) -> list[Stretch]:
+    """Return what is needed along given courses, between all borders."""
+    found: list[Stretch] = []
+    left = [*zip(instants.breaks[-2::-1].tolist(), instants.breaks[:0:-1].tolist(), strict=True)]
+    while left:
+        begin, end = left.pop()
+        middle = 0.5 * (begin + end)
+
+        def taken_at(time: Array, like: Taken | None = None, middle: float = middle) -> Taken:
+            there = instants.at(time, np.full(len(time), middle))
+            strokes, rates = (np.array([each[name] for name in consumers.strokes]) for each in (there.strokes, there.rates))
+            return consumers.taken(strokes, [rates], rates, like)
+
+        time = stretch_times(begin, end)
+        taken = taken_at(time)
+        border = first_border(time, taken, lambda at, taken=taken: taken_at(at, taken).borders(taken))  # type: ignore[misc]
+        need = np.maximum(taken.needs[0], 0.0)
+        smooth = is_smooth(taken.flows, limits.flow) and is_smooth([need], limits.cut_off) and is_smooth(taken.lengths, 1.0)
+        if border is None and end - begin > SHORTEST and not smooth:
+            border = middle
+        if border is not None:
+            left += [(border, end), (begin, border)]
+            continue
+        for branch in taken.branches[0]:
+            refuse_unpushed(branch, time, consumers.pump)
+        found.append(Stretch(time, need + limits.margin * (taken.flows[0] > 0.0), [1.0], taken))
+    return found
+
+
+def stretch_times(begin: float, end: float) -> Array:
+    """Return the places of a stretch [s]."""
+    found = begin + 0.5 * (end - begin) * (PLACES + 1.0)
+    found[-1] = end
+    return found
+
+
+def first_border(time: Array, taken: Taken, borders: Callable[[Array], Array]) -> float | None:
+    """Return an instant within a stretch that is a border, as what is above zero in its middle is below zero elsewhere; None for none."""
+    rows = taken.borders(taken)
+    bad = np.any(rows < -AT_BORDER, axis=0)
+    if not bad.any():
+        return None
+    middle = len(time) // 2
+    before, behind = np.flatnonzero(bad[:middle]), middle + np.flatnonzero(bad[middle:])
+    outside = int(before[-1]) if len(before) else int(behind[0])
+    inside = outside + 1 if len(before) else outside - 1
+
+    def holds(at: Array) -> Any:
+        return np.all(borders(at.ravel()) >= 0.0, axis=0).reshape(at.shape)
+
+    low, _ = last_holding(holds, time[inside], time[outside], 1e-13 * max(1.0, abs(time[-1])), 2)
+    found, width = float(low), time[-1] - time[0]
+    return found if min(found - time[0], time[-1] - found) > max(SHORTEST, 1e-12 * width) else None
+
+
+# The verdict.
+
+
+def pump_verdicts(pump: ForceElement, judge: Judge) -> list[Verdict]:
+    """Return whether a shared pump gives what is asked for over the paths in time that a judge looks at, of the one that asks most."""
+    places = [place for place in judge.places if place.instants is not None and place.motion.reached.all()]
+    if len(lines_on(pump, judge.plan.members)) < 2 or not places:
+        return []
+    if not one_design(number_set(pump, judge.motion, "flow")) > 0.0:
+        return [Verdict("pump", None, said("its flow is not given, so that nothing tells how long it takes."))]
+    try:
+        found = [(place, each) for place in places for each in cycles_over(pump, place, judge.acting)]
+    except DefinitionError as error:
+        return [Verdict.refused("pump", error)]
+    place, worst = max(found, key=lambda each: each[1].stretch)
+    title = f"{place.over.title}: " if len(places) > 1 and place.over.title else ""
+    return [Verdict("pump", worst.verdict.ok, title + worst.verdict.sentence)]

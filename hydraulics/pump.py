@@ -1,0 +1,172 @@
+"""What lies on oil lines beside chambers: pumps, relief valves and tanks. Every pressure is gauge [Pa].
+
+A pump may be on several lines. Then it is shared, and what they ask of it over a path in time is checked, `supply.check(motion)`, or
+followed as it is, `supply.run(machine, demands=...)`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
+from typing import ClassVar, Literal, final
+
+import numpy as np
+
+from linkage.errors import DefinitionError, one_word, unknown
+from linkage.frozen import immutable
+from linkage.language import noted
+from linkage.loads import Acting, Parameter
+from linkage.mechanism import Mechanism
+from linkage.motion import HasVerdicts, Judge, Motion
+from linkage.quantities import NamedMembers, Reference, name_of
+from linkage.verdict import Verdict
+
+from .consumers import lines_on
+from .cycle import PumpCycle, checked, pump_verdicts
+from .inputs import check_pressures, follows
+from .member import OnLines
+from .sharing import SHARINGS
+from .working import Demand, PumpMotion, worked
+
+
+class Supply(OnLines):
+    """The base of what lies on an oil line beside its chambers: a pressure, gauge [Pa], and what a pump has more."""
+
+    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"pressure": "bar"})
+    not_negative: ClassVar[frozenset[str]] = frozenset({"pressure"})
+    called: ClassVar[str]
+    """What it is called in words."""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        check_pressures(self, self.called, () if isinstance(self, Tank) else ("pressure",))
+
+
+@final
+@immutable
+class Pump(Supply, HasVerdicts):
+    """A pump: `supply = Pump(180 * bar, flow=60 * litre / minute)`; a line that it is on is held, and its pressure is what the pose asks.
+
+    `pressure` is its highest, gauge [Pa], `flow` in m3/s. In a class they are design variables such as `supply.pressure`. It may be on
+    several lines, `OilLine(ram.piston_side, supply)`, `LiftCircuit(ram, supply)`, which then share it. It gives the highest pressure that
+    one of them needs, and `margin` more [Pa], and no more than its `power` allows [W]. Where its flow is not enough each gets the same part
+    of what it asks for, "by demand", or those that need least get all first: `sharing="least pressure first"`. Lines, circuits or
+    cylinders that are named `first` are served before the others.
+    """
+
+    pressure: Parameter
+    flow: Parameter = 0.0
+    mechanical_efficiency: Parameter = 1.0
+    hydraulic_efficiency: Parameter = 1.0
+    power: Parameter | None = None
+    margin: Parameter = 0.0
+    sharing: Literal["by demand", "least pressure first"] = "by demand"
+    first: Sequence[Reference] = ()
+    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({
+        "pressure": "bar", "flow": "l/min", "mechanical_efficiency": "", "hydraulic_efficiency": "", "power": "kW", "margin": "bar",
+    })  # fmt: skip
+    not_negative: ClassVar[frozenset[str]] = frozenset({"pressure", "flow", "power", "margin"})
+    optional: ClassVar[frozenset[str]] = frozenset({"power"})
+    argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"first": "loads"})
+    called: ClassVar[str] = "pump"
+    headed: ClassVar[str] = noted("Pump {name}")
+
+    def __post_init__(self) -> None:
+        if isinstance(self.first, str):
+            raise DefinitionError(f"Pump(first={self.first!r}): a list of lines or cylinders is expected, first=[{self.first!r}].")
+        super().__post_init__()
+        one_word("sharing", self.sharing, SHARINGS)
+
+    @property
+    def numbers(self) -> Mapping[str, str]:
+        plain = not follows(self.margin) and not np.any(np.asarray(self.margin))
+        return {name: unit for name, unit in super().numbers.items() if not (name == "margin" and plain)}
+
+    def examine(self, members: NamedMembers, title: str) -> None:
+        lines = lines_on(self, members)
+        known = [*(each.name for each in lines), *(ram.name for line in lines for ram in line.members(members))]
+        for each in map(name_of, self.first):
+            if each not in known:
+                raise unknown("Line or cylinder on this pump", each, known, where=f"{title}.{self.name}, first")
+        super().examine(members, title)
+
+    def verdicts(self, judge: Judge) -> list[Verdict]:
+        """Return whether it gives what its lines ask for, over the paths in time that a judge looks at, where it has several lines."""
+        return pump_verdicts(self, judge)
+
+    # -- in time -------------------------------------------------------------------------------------------
+
+    def check(self, motion: Motion, *, acting: Acting | None = None) -> PumpCycle:
+        """Return what a motion in time needs of this pump, whether it can give it or not.
+
+        Parameters
+        ----------
+        motion : Motion
+            A motion over a path in time, of one design, `machine.sweep(over="cycle")`.
+        acting : Acting, optional
+            Loads and load case. Without a case all that occur over the path are looked at, and the worst one counts.
+
+        Returns
+        -------
+        PumpCycle
+            Flow, pressure and power over time, litres, energy, and the verdict.
+
+        Raises
+        ------
+        DefinitionError
+            The motion has no time, no line is on the pump, or it says no flow.
+        """
+        return checked(self, motion, acting)
+
+    def run(
+        self, machine: Mechanism, *, demands: Mapping[Reference, Demand], until: float, start: Mapping[str, float] | Motion | None = None,
+        acting: Acting | None = None,
+    ) -> PumpMotion:  # fmt: skip
+        """Return how a machine moves while its cylinders are asked to, and one pump gives what it can.
+
+        Parameters
+        ----------
+        machine : Mechanism
+            One design.
+        demands : mapping
+            How fast cylinders on this pump's lines shall move, by their names: a speed [m/s], below zero to retract, or a `Course` of
+            speeds over time. `inf` is as fast as the pump can. What is not named stands.
+        until : float
+            When it ends [s].
+        start : mapping or Motion, optional
+            The strokes at 0 s [m or rad], those of the sketch where they are not named; or a motion in time, from whose end it goes on.
+        acting : Acting, optional
+            Loads and load case.
+
+        Returns
+        -------
+        PumpMotion
+            A motion in time, with its `events` and its `cycle`.
+
+        Raises
+        ------
+        DefinitionError
+            A demand for what is on no line of this pump, for a cylinder that holds nothing, or without a bound where the load drives; a
+            pump without flow; everything at its end and no relief valve.
+        AssemblyError
+            A stroke comes to where the machine cannot be assembled.
+        """
+        return worked(self, machine, demands, until, start, acting)
+
+
+@final
+@immutable
+class Relief(Supply):
+    """A relief valve, which opens at a gauge pressure [Pa]: `valve = Relief(200 * bar)`; it may lie on any line."""
+
+    pressure: Parameter
+    called: ClassVar[str] = "relief valve"
+
+
+@final
+@immutable
+class Tank(Supply):
+    """A tank, whose line has a given gauge pressure [Pa]: `back = Tank(5 * bar)`, none where it is open."""
+
+    pressure: Parameter = 0.0
+    called: ClassVar[str] = "tank"

@@ -50,6 +50,7 @@ from .content import Block, Cell, Document, Illustration, Mark, Section, TableBl
 from .fingerprint import fingerprint, own_version
 from .forces import drives_asked, forces_section
 from .html import write_html
+from .in_time import in_time_section
 from .inputs import definition_section, inputs_section, own_paragraphs, plain_words
 from .markdown import write_markdown
 from .outcome import amount_text, column_questions, limits_section, members_sections, results_blocks, sketch_section
@@ -183,6 +184,7 @@ def composed(
         sketch_section(subject, path),
         of_source(verdicts),
         Section(said("Results"), tuple(results_blocks(subject, columns, first, bounds))),
+        in_time_section(subject),
         *members_sections(subject),
         of_source(inputs_section(subject, found.listing)),
         assumptions_section(subject),

@@ -17,11 +17,11 @@ from ..checks import require_type
 from ..disk import Place, check_name, check_place, replacing
 from ..errors import DefinitionError, known_name
 from ..mechanism import Mechanism, played_along, require_mechanism
-from ..motion import Column, Motion, columns_of, stroke_unit
+from ..motion import Column, Motion, columns_of
 from ..pictures.strokes import pose_words
 from ..plugins import Plugins
 from ..quantities import as_mapping
-from ..reports import NOTHING, Run, first_stroke, one_run, reached_motion, results, runs_of, stroke_middles, write_csv
+from ..reports import NOTHING, Run, first_stroke, one_run, rate_columns, reached_motion, results, runs_of, stroke_middles, write_csv
 from ..study import WorkingField
 from .calculation import Calculation
 from .drawing import DrawnPose, Part, dxf, path_parts, pose_parts, svg
@@ -133,10 +133,7 @@ def motion_columns(motion: Motion) -> list[Column]:
     """
     found = columns_of(motion)
     along = len(motion.strokes) + (motion.time is not None)
-    for order, what in ((1, motion.rates), (2, motion.accelerations)):
-        units = {name: f"{stroke_unit(motion.plan, name)}/s{order if order > 1 else ''}" for name in what}
-        rates = [Column(f"{('rate', 'acceleration')[order - 1]} {name}", value, units[name]) for name, value in what.items()]
-        found[along:along], along = rates, along + len(rates)
+    found[along:along] = rate_columns(motion)
     if motion.is_swept and not motion._design_shape:
         with suppress(DefinitionError):  # a class that is not there any more has no table of its own
             found += results(played_along(motion, None)[0], motion)

@@ -3,7 +3,7 @@
 from ..star import declare_public
 from .live_columns import LiveColumn, at_its_rates, column_requests, is_column
 from .ranges import closely, ranges_below_zero, reached_span, spans_in_words
-from .results import case_along, column_among, columns_about, force_columns, is_changing, is_loaded, request_in_case, results
+from .results import case_along, column_among, columns_about, force_columns, is_changing, is_loaded, rate_columns, request_in_case, results
 from .runs import (
     NOTHING,
     At,

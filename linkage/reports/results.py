@@ -111,6 +111,13 @@ def force_columns(motion: Motion, case: Case = None, direction: str | None = Non
     return [*drive_columns(whole, case, direction), *member_columns(whole, case, direction)]
 
 
+def rate_columns(motion: Motion) -> list[Column]:
+    """Return how fast the strokes of a motion in time go, and how that changes; nothing of any other motion."""
+    units = {name: stroke_unit(motion.plan, name) for name in motion.strokes}
+    rates = [Column(f"{noted('rate')} {name}", value, f"{units[name]}/s") for name, value in motion.rates.items()]
+    return rates + [Column(f"{noted('acceleration')} {name}", value, f"{units[name]}/s2") for name, value in motion.accelerations.items()]
+
+
 def is_loaded(motion: Motion) -> bool:
     """Return whether anything acts on a machine."""
     return any(element.loads(motion) for element in motion.plan.of_kind(ForceElement).values())

@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 from scipy.optimize import brentq
 
-from hydraulics import Cylinder, LiftCircuit
+from hydraulics import Cylinder, LiftCircuit, flow, power, thrust
 from linkage import (
     RIGHT,
     Acting,
@@ -61,6 +61,7 @@ from mechanisms.crane import Crane
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.for_all import for_all
+from tests.linkage.pictures.test_page_in_time import Pumped, Sudden
 
 needs_poppler = pytest.mark.skipif(shutil.which("pdftotext") is None, reason="poppler's pdftotext is not installed")
 
@@ -479,3 +480,22 @@ def test_a_long_word_breaks_inside_the_margins():
     word = "Hydraulikzylinderkolbenstangenfuehrungsbuchse" * 4
     page = words_of(replace(shown(), title=word, block=TitleBlock(number=word, client=word, prepared=word)))[0]
     assert "".join(text for text, *_ in page).count("Kolbenstange".lower()) >= 12 and not beyond_the_margins(page)
+
+
+def test_a_report_says_how_a_machine_runs(tmp_path):
+    machine = Pumped()
+    report(machine, tmp_path / "rise.md", count=5)
+    text = (tmp_path / "rise.md").read_text(encoding="utf-8")
+    section = text.partition(" As it runs")[2].partition("\n## ")[0]
+    heads = [line for line in section.splitlines() if line.startswith("| time, s")]
+    assert heads[0].startswith("| time, s | S, mm | rate S, mm/s | acceleration S") and "power lift, kW | flow pump, l/min" in heads[1]
+    motion = machine.sweep(5, over="rise")
+    rows = [[float(cell) for cell in line.strip("| ").split(" | ")] for line in section.partition(heads[1])[2].splitlines()[2:7]]
+    for place, asked, unit in ((2, power("lift", case="full"), 1e3), (3, flow("pump"), 1e-3 / 60.0)):
+        assert [row[place] for row in rows] == pytest.approx(motion[asked] / unit, abs=6e-3)
+    quick, slow = (motion[thrust("lift", acting=Acting(case="full", inertia=inertia))][0] for inertia in (None, False))
+    (row,) = [line for line in section.splitlines() if line.startswith("| thrust |")]
+    assert f"{quick / 1e3:.4g} kN" in row and f"{slow / 1e3:.4g} kN" in row and f"| {quick / slow:.3g} |" in row
+    report(Sudden(), tmp_path / "sudden.md", count=3)
+    assert "No inertia is counted, over rise, in the case full: the rate of S jumps" in (tmp_path / "sudden.md").read_text(encoding="utf-8")
+    assert " As it runs" not in (report(Pumped(), tmp_path / "box.md", over=Pumped.plan.members["box"])).read_text(encoding="utf-8")

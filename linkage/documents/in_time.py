@@ -26,7 +26,7 @@ PACES = {noted("rate"): 1, noted("power"): 3, noted("flow"): 2}
 """What members say of a machine that runs, by the words of requests, and the decimals with which it is shown."""
 FORCES = ("force", "moment")
 SEEN = 0.005
-"""Of the greatest force: curves with and without inertia that differ by less are one."""
+"""Of a force: curves with and without inertia that differ by less everywhere are one."""
 
 
 def in_time_section(subject: ReportSubject) -> Section | None:
@@ -79,9 +79,9 @@ def inertia_blocks(subject: ReportSubject, run: Run, along: Motion, beside: str)
         yield said("No inertia is counted{beside}: {jump}.", beside=beside, jump=along._rate_jump[1])
         return
     yield said(
-        "Masses have their inertia{beside}: where the centre of a mass m has the acceleration a, the force −m a acts there beside its "
-        "weight, and where its body has the angular acceleration α, the couple −J α with its moment of inertia J. The numbered "
-        "equations are without these terms.",
+        "Masses have their inertia{beside}. Where the centre of a mass m has the acceleration a, the force −m a acts beside "
+        "its weight. A body with the angular acceleration α takes the couple −J α with its moment of inertia J. The "
+        "numbered equations are without these terms.",
         beside=beside,
     )
     judge = subject.machine.judge([run.declared], Acting(case=run.case)).lost_allowed()
@@ -102,7 +102,7 @@ def inertia_blocks(subject: ReportSubject, run: Run, along: Motion, beside: str)
         for name, (request, unit) in forces.items():
             column = Column(name, along[request], unit)
             other = Column(name, along[slow[name]], unit)
-            if np.nanmax(np.abs(column.drawn - other.drawn)) > SEEN * np.nanmax(np.abs(column.drawn)):
+            if not np.allclose(column.drawn, other.drawn, rtol=SEEN, atol=0.0, equal_nan=True):
                 yield curve(run, along, column, beside, other)
 
 

@@ -211,8 +211,17 @@ function group(member, rows) {
   }
   fold.open = unfolded.has(member) || ((fails > 0 || (data.task && !member)) && !unfolded.has(`!${member}`));
   on(fold, "toggle", () => { unfolded[fold.open ? "add" : "delete"](member); unfolded[fold.open ? "delete" : "add"](`!${member}`); });
-  items.append(...rows.map(item));
+  const apart = fails > 0 && phone.matches, kept = apart ? rows.filter((each) => each.ok === true) : [];
+  items.append(...rows.filter((each) => !kept.includes(each)).map(item));
   fold.append(head, items);
+  if (kept.length) {
+    const more = make("details"), inner = make("ul"), key = `${member} kept`;
+    inner.append(...kept.map(item));
+    more.append(make("summary", { className: "ok", textContent: say("{n} kept", { n: kept.length }) }), inner);
+    more.open = unfolded.has(key);
+    on(more, "toggle", () => unfolded[more.open ? "add" : "delete"](key));
+    fold.append(more);
+  }
   return fold;
 }
 function item({ ok, rule: full, member, text, share, q }) {
@@ -328,7 +337,7 @@ function here() {
 /* Unfold a rule and go to it. */
 function showRule(q) {
   const row = byId(`rule-${q}`) || byId("verdicts");
-  if (row.closest("details")) row.closest("details").open = true;
+  for (let fold = row.closest("details"); fold; fold = fold.parentElement.closest("details")) fold.open = true;
   row.scrollIntoView({ block: "center" });
   row.classList.add("shown");
   setTimeout(() => row.classList.remove("shown"), 1500);

@@ -7,7 +7,7 @@ import subprocess
 import sys
 import threading
 import tomllib
-from functools import partial
+from functools import cache, partial
 from html.parser import HTMLParser
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
@@ -166,13 +166,16 @@ STRANGERS = {
 """By page what designers of machines, students and programmers type who do not know its words: nothing is put into a page for them."""
 
 
-ABOUT = {page: searches.weights(text) for page, text in written_pages().items()}
+@cache
+def weights_of_pages():
+    return {page: searches.weights(text) for page, text in written_pages().items()}
 
 
 def found_by(typed):
     """Return the pages that have all words, by how much they are about them: as the search of the built pages ranks them."""
     words = [word for word in searches.words(typed) if word not in SKIPPED]
-    there = {page: sum(weights[word] for word in words) for page, weights in ABOUT.items() if all(weights[word] for word in words)}
+    pages = weights_of_pages().items()
+    there = {page: sum(weights[word] for word in words) for page, weights in pages if all(weights[word] for word in words)}
     return sorted(there, key=lambda page: (-there[page], page))
 
 

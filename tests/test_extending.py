@@ -157,6 +157,7 @@ def test_javascript_says_the_same():
     assert_allclose(json.loads(said.stdout), Valve().function(ASKED)(1.3), rtol=1e-10)
 
 
+@pytest.mark.slow  # SymPy differentiates through the table; a curve's equations are looked at daily
 def test_equations_call_the_table_by_its_name():
     written = equations(Valve, ratio="R")
     values = written.values({"phi": 1.9})

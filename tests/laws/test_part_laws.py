@@ -12,11 +12,11 @@ from linkage.files import load, to_toml
 from linkage.loads import ForceElement, LoadCase
 from linkage.quantities import Dimension, Quantity
 from tests.for_all import for_all
-from tests.laws.test_laws import random_machines
+from tests.laws.test_laws import few_random, other_random
 from tests.machines.test_tipper import Tipper
 from tests.shipped import over_machines
 
-SOME = {"more": lambda: [*random_machines()[::2], Tipper], "later": lambda: random_machines()[1::2]}
+SOME = {"more": lambda: [*few_random(), Tipper], "later": other_random}
 ALL = over_machines(**SOME)
 TURN, AT = 35 * deg, (1.5, -0.7)
 

@@ -42,7 +42,7 @@ from linkage import (
 from linkage.program import Kernel
 from linkage.statics.law_requests import LawRequest
 from linkage.units import bar, deg, kN, mm
-from tests.for_all import for_all
+from tests.for_all import first_daily, for_all
 
 
 class Loader(Mechanism):
@@ -410,19 +410,20 @@ def test_a_law_is_traced_where_it_is_bound_and_for_its_kernel_and_not_a_third_ti
     assert known and max(map(known.count, known)) <= 2
 
 
-def test_an_equal_machine_is_not_searched_again(monkeypatch):
+@first_daily(1, "kind", [Loader, Rubbing])
+def test_an_equal_machine_is_not_searched_again(kind, monkeypatch):
     questions = [least(reserve("lift")) >= 1.0, most(pressure("tilt")), reachable]
-    first = answered(Rubbing(OB=0.36), questions)
+    first = answered(kind(OB=0.36), questions)
     calls = []
     run = Kernel.__call__
     monkeypatch.setattr(Kernel, "__call__", lambda self, *given, **named: calls.append(self) or run(self, *given, **named))
-    assert answered(Rubbing(OB=0.36), questions) == first
+    assert answered(kind(OB=0.36), questions) == first
     assert len(calls) <= 2
-    other = answered(Rubbing(OB=0.37), questions)
+    other = answered(kind(OB=0.37), questions)
     assert len(calls) > 10 and other[0][0] != first[0][0]
 
 
-@pytest.mark.parametrize("kind", [Loader, pytest.param(Rubbing, marks=pytest.mark.slow)])
+@first_daily(1, "kind", [Loader, Rubbing])
 def test_an_answer_does_not_hang_on_what_was_asked_before(kind):
     """Another design, other questions beside it; a class of its own has been asked nothing."""
     questions = [least(reserve("lift")) >= 1.0, most(pressure("tilt")), reachable]

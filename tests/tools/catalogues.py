@@ -25,7 +25,7 @@ ROOT = Path(__file__).parents[2]
 BELOW = {"linkage": (), "hydraulics": ("linkage",), "mechanisms": ("linkage", "hydraulics")}
 LANGUAGES = ("ru",)
 OF_PAPERS = ("mower_lift", "three_point_hitch", "header_balancer", "crane", "boom_drive", "arm_drive", "grapple")
-AT_WORK = tuple(name for name in registered() if find(name).__module__.startswith("mechanisms.at_work"))
+AT_WORK = tuple(name for name, point in registered().items() if point.value.startswith("mechanisms.at_work"))
 """The machines whose own words, names, prose and notes, belong into a catalogue; those of others may."""
 
 # -- what the source says ----------------------------------------------------------------------------------

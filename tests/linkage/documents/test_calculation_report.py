@@ -351,7 +351,13 @@ def test_curves_keep_one_stroke_and_mark_the_worst_of_the_box(grab):
     assert ax.get_ylim()[1] > answer.value / 1e3
 
 
-@pytest.mark.parametrize("machine", [CorneredOnce, pytest.param(Cornered, marks=pytest.mark.slow)])
+class CorneredBare(CorneredOnce):
+    """The same without any cylinder: its strokes drive it."""
+
+    lift = pump = work = None
+
+
+@first_daily(1, "machine", [CorneredBare, CorneredOnce, Cornered])
 def test_places_that_are_lost_leave_gaps_and_one_remark(machine):
     document = report_document(machine(), at={"T": (0.0, 0.75)})
     texts = [block for section in document.sections for block in section.blocks if isinstance(block, str)]

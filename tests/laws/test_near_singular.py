@@ -8,7 +8,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from linkage import LEFT, AssemblyError, Crank, Dyad, Ground, Mechanism, SingularError, SingularWarning, Stroke, ratio, x, y
-from tests.for_all import for_all
+from tests.for_all import first_daily, for_all
 
 from .exactly import exactly, off, off_by_parts, pins_exactly
 from .near_singular import KINDS, pose
@@ -155,7 +155,7 @@ def alike(seed):
     return outcomes
 
 
-@pytest.mark.parametrize("most", [DAILY, pytest.param(3 * DAILY, marks=pytest.mark.slow)])
+@first_daily(1, "most", [1, 3 * DAILY])
 @pytest.mark.parametrize("kind", range(len(KINDS)), ids=[each.__name__ for each in KINDS])
 def test_a_vector_is_judged_as_its_worse_component(kind, most):
     """At the first poses there are, at the most so many."""

@@ -171,6 +171,7 @@ class Tailgate(Mechanism):
 TAILGATE_ROWS = catalogue(bores=[32 * mm, 40 * mm], rods=[20 * mm], strokes=[250 * mm, 320 * mm], dead=160 * mm)
 
 
+@pytest.mark.slow
 def test_a_tailgate():
     """It hangs at the start, stands at 40 deg below level after 0.18 m, 5 deg below after 0.32 m: a stroke of 250 mm does not reach."""
     task = FunctionTask([0.0, 0.18, 0.32], [-90 * deg, -40 * deg, -5 * deg], of="swing")

@@ -152,6 +152,7 @@ def test_the_search_finds_the_strong_lift():
     assert found.start_value == pytest.approx(0.96263, abs=1e-5)
 
 
+@pytest.mark.slow
 def test_the_search_finds_the_steady_reaction():
     found = optimise(**steady_reaction(), method="local")
     assert found.value <= 1530.0

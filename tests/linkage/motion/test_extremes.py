@@ -466,7 +466,7 @@ def ends(spans, name):
     return np.ravel([(each.start[name], each.end[name]) for each in spans])
 
 
-@settings(deadline=None, max_examples=50)
+@settings(deadline=None, max_examples=25)
 @given(place=st.floats(0.0, 1.0 - WIDTH), wide=st.floats(1e-9, 0.3))
 def test_a_range_below_zero_anywhere(place, wide):
     """Even one that no sample sees, if it belongs to a dip."""

@@ -55,7 +55,7 @@ def exact(O, AB, OB):
         return [np.array([float((x * a - y * h) / base), float((y * a + x * h) / base)]) for a, h in ((p, rise), (1, bend))]
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=25, deadline=None)
 @given(st.floats(-1, 1), st.floats(-1, 1), st.floats(0.1, 2.0), st.floats(-12.5, -3.0), st.booleans())
 def test_exact_ratio_keeps_to_its_estimate_next_to_a_dead_point(x, y, OB, away, folded):
     base = math.hypot(x, y)

@@ -60,6 +60,7 @@ def test_a_four_bar_that_crosses_gives_way_to_one_that_does_not(timed):
     assert any("least(clearance()) >= 0.005 is missed" in str(miss) for miss in found.misses)
 
 
+@pytest.mark.slow
 def test_a_six_bar_keeps_its_bars_apart_over_the_whole_turn():
     six = StephensonThree()
     phi = np.linspace(0.0, 2.0 * np.pi, 13)[:-1]

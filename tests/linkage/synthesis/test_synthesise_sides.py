@@ -31,7 +31,7 @@ from mechanisms.classics.four_bar import FourBar
 from mechanisms.classics.klann import Klann
 from mechanisms.classics.stephenson_two import StephensonTwo
 from mechanisms.three_point_hitch import ThreePointHitch
-from tests.for_all import for_all
+from tests.for_all import first_daily, for_all
 from tests.linkage.synthesis import synthesis_tasks as papers
 from tests.linkage.synthesis.synthesis_tasks import Bar, OtherBar, box, places
 
@@ -93,19 +93,19 @@ def test_such_a_machine_goes_to_other_processes_and_is_one_class(kind, name):
     assert changed == {name}
 
 
-def test_both_branches_of_a_bar_are_searched():
+@first_daily(1, "timed", [True, False])
+def test_both_branches_of_a_bar_are_searched(timed):
     """The other branch has a better design for these points than the branch of the class."""
     known = OtherBar(OA=0.012, AB=0.036, CB=0.028, AP=0.022)
     at = np.linspace(0.2, 5.9, 10)
     vary = {"OA": (5 * mm, 20 * mm), "AB": (20 * mm, 60 * mm), "CB": (20 * mm, 60 * mm), "AP": (5 * mm, 40 * mm), "B.side": [LEFT, RIGHT]}
-    for timed in (True, False):
-        task = PathTask(places(known, at).T, of="P", at=at)
-        found = synthesise(Bar(), path=task, vary=vary, timed=timed, starts=16)
-        assert found.best.most <= 1e-9 and sides_of(found.machine)["B"] is RIGHT
-        assert "B.side = RIGHT" in found.best.sentence
-        twin = OtherBar(**found.machine.dimensions)
-        assert_allclose(places(twin, found.best.strokes), found.best.reached, rtol=0, atol=1e-12)
-        assert found.machine.sweep(721).reached.all()
+    task = PathTask(places(known, at).T, of="P", at=at)
+    found = synthesise(Bar(), path=task, vary=vary, timed=timed, starts=16)
+    assert found.best.most <= 1e-9 and sides_of(found.machine)["B"] is RIGHT
+    assert "B.side = RIGHT" in found.best.sentence
+    twin = OtherBar(**found.machine.dimensions)
+    assert_allclose(places(twin, found.best.strokes), found.best.reached, rtol=0, atol=1e-12)
+    assert found.machine.sweep(721).reached.all()
 
 
 def test_sides_stand_in_tables_rows_of_catalogues_and_rounded_machines(tmp_path):

@@ -55,7 +55,7 @@ from linkage.units import bar, deg, litre, mm
 from linkage.verdict import Remark
 from tests.for_all import for_all
 from tests.laws.test_oil_twins import Double
-from tests.laws.test_statics_laws import shipped
+from tests.laws.test_statics_laws import daily, shipped
 from tests.linkage.random_mechanisms import random_mechanism
 from tests.shipped import AT_WORK
 
@@ -67,18 +67,9 @@ def _near_dead_points():
         yield
 
 
-def check_all_held(machines):
-    loose = {machine.__name__: found.sentence for machine in machines if (found := looseness(machine.plan)).sentence}
-    assert not loose
-
-
-def test_shipped_machines_are_held():
-    check_all_held(shipped())
-
-
-@pytest.mark.slow
-def test_machines_at_work_are_held():
-    check_all_held(AT_WORK.values())
+@for_all("machine", daily, slow=lambda: [*shipped(), *AT_WORK.values()])
+def test_shipped_machines_are_held(machine):
+    assert not looseness(machine.plan).sentence
 
 
 def refusals(machine, point, ram=""):

@@ -16,7 +16,7 @@ from ..motion import Motion
 from .command import Command, count_option, default_name, machine_options, option, repeatable, whole_number
 from .settings import ALONG, machine_of, strokes_or_motion, tell_gaps
 
-OWN_FORMATS = ("xlsx", "csv", "dxf", "svg")
+OWN_FORMATS = ("xlsx", "csv", "dxf", "svg", "points", "linkage2", "pmks")
 
 
 def declare_format(parser: _ActionsContainer) -> None:
@@ -27,9 +27,9 @@ def declare_format(parser: _ActionsContainer) -> None:
 
 @Command(
     "export",
-    "a workbook with live formulas (.xlsx), a table (.csv), or a true-size drawing (.dxf, .svg)",
+    "a workbook with live formulas (.xlsx), a table (.csv), a true-size drawing (.dxf, .svg), or a file of Linkage or PMKS",
     *machine_options(),
-    option("-o", "--output", metavar="FILE", help=f"{', '.join(f'.{name}' for name in OWN_FORMATS)} (default: NAME.xlsx)"),
+    option("-o", "--output", metavar="FILE", help=".xlsx, .csv, .dxf, .svg, .linkage2, .txt (default: NAME.xlsx)"),
     declare_format,
     count_option(101, "poses over the stroke"),
     repeatable(

@@ -22,6 +22,7 @@ from ..pictures.strokes import pose_words
 from ..plugins import Plugins
 from ..quantities import as_mapping
 from ..reports import NOTHING, Run, first_stroke, one_run, rate_columns, reached_motion, results, runs_of, stroke_middles, write_csv
+from ..sketch import sketch_of, sketch_text
 from ..study import WorkingField
 from .calculation import Calculation
 from .drawing import DrawnPose, Part, dxf, path_parts, pose_parts, svg
@@ -153,12 +154,34 @@ class TrueSize(Exporter):
         return self.write(*drawing_of(job))
 
 
+@final
+class SketchFile(Exporter):
+    """A machine of pins, links, slides, cranks and cylinders at one pose, for a program that draws such."""
+
+    of_machines = "a sketch is of a machine, at the strokes that at= gives"
+
+    def __init__(self, suffix: str, help: str) -> None:
+        self.suffix, self.help = suffix, help
+
+    def content(self, job: ExportJob) -> bytes:
+        at = {name: float(np.ravel(value)[0]) for name, value in job.at.items()}
+        return sketch_text(sketch_of(job.machine, at), self.suffix).encode("utf-8")
+
+
 EXPORTERS = Plugins[Exporter](
     plugins.EXPORTERS,
     "The exporter",
     lambda found: found if isinstance(found, Exporter) else found() if isinstance(found, type) and issubclass(found, Exporter) else None,
     "no subclass of linkage.exports.Exporter",
-    {"xlsx": Workbook(), "csv": Csv(), "dxf": TrueSize(".dxf", "CAD", dxf), "svg": TrueSize(".svg", "browsers", svg)},
+    {
+        "xlsx": Workbook(),
+        "csv": Csv(),
+        "dxf": TrueSize(".dxf", "CAD", dxf),
+        "svg": TrueSize(".svg", "browsers", svg),
+        "points": SketchFile(".csv", "a table of points and links"),
+        "linkage2": SketchFile(".linkage2", "a file of Linkage"),
+        "pmks": SketchFile(".txt", "text of PMKS"),
+    },
 )
 """The kinds of files there are, by the names of their formats."""
 
@@ -184,7 +207,7 @@ def exporter_of(file: Path, format: str | Exporter | None = None) -> Exporter:
 def suffixes(option: str = "") -> list[str]:
     """Return the endings of the kinds of files, of those that an option goes with where one is named."""
     found, _ = EXPORTERS.loaded()
-    return [each.suffix for each in found.values() if not option or option in each.takes]
+    return [*dict.fromkeys(each.suffix for each in found.values() if not option or option in each.takes)]
 
 
 def export(
@@ -207,6 +230,7 @@ def export(
       case that occurs there, over time also the rates and the accelerations of the strokes.
     * .dxf (extra `cad`) and .svg are a drawing in millimetres, true size, by layers. Of a machine it has a pose each of the strokes that
       `at` gives (default: the start of the first stroke), of a motion all its poses. `trace` names points whose paths are drawn.
+    * .linkage2 and .txt are the machine as a drawing in Linkage and PMKS, `format="points"` a table of points and links (.csv).
     * Of a working field .csv has a row each cell, .xlsx the chart as it is printed, too.
 
     Other kinds of files come with packages that are installed; `format="mjcf"` says by its name which kind is meant, whatever the ending.

@@ -46,6 +46,8 @@ class FoundDrive:
     ends: tuple[str, str]
     reach: float | None = None
     name: str = ""
+    back: float = 0.0
+    """How far it goes back from the drawn pose, as `reach` forwards."""
 
 
 @final
@@ -141,14 +143,15 @@ class FoundMachine:
     def size(self) -> float:
         """The longer side of the box around all points, in the file's units; 1 where they stand at one place."""
         places = [each.place for each in self.points.values()]
-        return max(max(part) - min(part) for part in zip(*places, strict=True)) or 1.0
+        return max((max(part) - min(part) for part in zip(*places, strict=True)), default=0.0) or 1.0
 
     # -- the sketch --------------------------------------------------------------------------------------
 
     def sketch(self, title: str) -> MachineSketch:
         """Return the sketch; FileError where there is nothing, or no unit."""
-        ensure_file(self.points, f"{self.file}: it holds no points.")
-        ensure_file(self.unit is not None, f"{self.file}: the file has no unit of length; say what 1 of it is, --scale 1mm.")
+        ensure_file(
+            self.unit is not None, f"{self.file}: the file has no unit of length; say what 1 of it is when you import it, --scale 1mm."
+        )
         assert self.unit is not None
         self.straighten()
         used = {key for _, points in self.links for key in points} | {key for key, _ in self.slides}
@@ -156,6 +159,7 @@ class FoundMachine:
         used |= {each for drive in self.drives for each in drive.ends}
         for key in [key for key, point in self.points.items() if key not in used and not point.fixed]:
             self.left_out.append(f"the point {shortened(self.points.pop(key).name, quote=False)}, which is on no link")
+        ensure_file(self.points, f"{self.file}: it holds no points that a link joins.")
         taken = set(WORDS)
         names, labels = self.point_names(taken)
         size, unit = self.size * self.unit, self.unit
@@ -175,8 +179,11 @@ class FoundMachine:
             reach = TURN if drive.kind == "crank" else HALF * dist(places[P], places[Q])
             if drive.kind == "cylinder" and drive.reach is None:
                 self.notes.append(f"The file does not say the stroke of the cylinder {P} {Q}: it goes out by half its drawn length.")
-            end = reach if drive.reach is None else drive.reach * (1.0 if drive.kind == "crank" else unit)
-            drives[legal_name(drive.name or ("phi" if drive.kind == "crank" else "S"), taken)] = SketchDrive(drive.kind, (P, Q), 0.0, end)
+            size = 1.0 if drive.kind == "crank" else unit
+            end = reach if drive.reach is None else drive.reach * size
+            drives[legal_name(drive.name or ("phi" if drive.kind == "crank" else "S"), taken)] = SketchDrive(
+                drive.kind, (P, Q), -drive.back * size or 0.0, end
+            )
         if self.left_out:
             self.notes.append(f"Left out: {'; '.join(self.left_out)}.")
         fixed = tuple(names[key] for key, point in self.points.items() if point.fixed)

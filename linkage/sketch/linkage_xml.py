@@ -124,6 +124,8 @@ def linkage_xml(sketch: MachineSketch) -> str:
         add_element(root, {"id": str(number), "name": name, "layer": "16"}, [ids[each] for each in ends])
     for number, (name, drive) in enumerate(sketch.drives.items(), len(links)):
         if drive.kind == "cylinder":
+            what = f"{sketch.name}: Linkage draws the cylinder {name} where its stroke begins"
+            ensure(drive.drawn == drive.start, f"{what}; take the sketch there, at {name}={drive.start:g}.")
             throw = {"actuator": "true", "throw": f"{(drive.end - drive.drawn) / unit:.17g}", "cpm": "15"}
             add_element(root, {"id": str(number), "name": name, "layer": "16", **throw}, [ids[each] for each in drive.ends])
     indent(root, "\t")

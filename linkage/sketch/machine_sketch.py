@@ -178,8 +178,8 @@ class MachineSketch:
         arms = [(P, Q) for points in self.links.values() for P in points for Q in points if P in self.fixed and Q not in self.fixed]
         P, Q = arms[0] if arms else ("O", "A")
         others = f" Links on fixed pins: {', '.join(f'{P} {Q}' for P, Q in arms[:6])}." if arms else ""
-        text = f"{self.name}: nothing says what drives it. Name a fixed pin and a pin of the link that turns about it, --drive {P} {Q}; "
-        raise DefinitionError(f"{text}or the two ends of a cylinder, --cylinder P Q.{others}")
+        text = f"{self.name}: nothing says what drives it. Say it when you import it. A crank is a fixed pin and a pin of its link"
+        raise DefinitionError(f"{text}, --drive {P} {Q}; a cylinder is its two ends, --cylinder P Q.{others}")
 
     def labels(self, points: Iterable[str]) -> dict[str, float]:
         """Return the given lengths among some points [m], by their labels."""

@@ -137,7 +137,10 @@ class BodyReader:
     def slide(self, key: str, joint: Mapping[str, Any], bodies: dict[str, list[str]]) -> None:
         """Enter a slide: the point of one body on a line of the other, without turning where it is prismatic."""
         (_, carrier, angle), (mover, body, _) = self.sides(joint)
-        point = self.root(mover)
+        point = self.found.known(self.root(mover), "a slide")
+        for each in (carrier, body):
+            is_held = each in self.world or self.root(each) in bodies
+            ensure_file(is_held, f"{self.file}: the slide {joint.get('label') or key} is of a body that nothing else holds.")
         along = self.found.slot(point, angle, None if carrier in self.world else bodies[self.root(carrier)])
         if joint.get("kind") == "prismatic":
             self.found.slide_body(bodies[self.root(body)], point, angle, along)

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import atan2, pi, radians
 from typing import Any, final
-from urllib.parse import parse_qs, unquote, urlsplit
+from urllib.parse import parse_qs, unquote
 
 from ..units import parse
 from .found import FoundDrive, FoundMachine, ensure_file, json_list
@@ -82,7 +82,7 @@ def slide_plus(found: FoundMachine, joint: PlusJoint) -> None:
     """Enter a slide: of a pin, or of all links at it where these may not turn on it."""
     angle, along = joint.angle, joint.line or joint.angle
     if joint.line is not None:
-        (ax, ay), (bx, by) = (found.points[key].place for key in joint.line)
+        (ax, ay), (bx, by) = (found.points[found.known(key, "a slot")].place for key in joint.line)
         angle = atan2(by - ay, bx - ax)
     on = [points for _, points in found.links if joint.key in points]
     if joint.rigid and on:
@@ -251,5 +251,5 @@ def is_set(given: object) -> bool:
 
 def address_text(text: str) -> str:
     """Return what stands behind the ? of an address, letters unescaped where it is a short one; the text itself where it is no address."""
-    query = urlsplit(text).query if "?" in text else text
+    query = text.partition("?")[2] or text
     return query if re.search(r"(?:^|&)j=", query) else unquote(query)

@@ -23,8 +23,12 @@ def read_points_csv(found: FoundMachine, text: str) -> None:
     mark = max(",;\t", key=first.count)
     if mark == ";":  # the tables of countries that write 1,5
         text = re.sub(r"(?<=\d),(?=\d)", ".", text)
-    rows = [[cell.strip() for cell in row] for row in csv.reader(io.StringIO(text), delimiter=mark) if any(cell.strip() for cell in row)]
-    heads = [HEADER.fullmatch(cell.lower()) for cell in rows[0]]
+    reader = csv.reader(io.StringIO(text), delimiter=mark)
+    try:
+        rows = [(reader.line_num, [cell.strip() for cell in row]) for row in reader if any(cell.strip() for cell in row)]
+    except csv.Error as error:
+        raise FileError(f"{found.file}, line {reader.line_num}: it is no table: {error}.") from None
+    heads = [HEADER.fullmatch(cell.lower()) for cell in rows[0][1]]
     names = [head[1] if head else "" for head in heads]
     ensure_file(names == [*COLUMNS], f"{found.file}, line 1: a table of points begins with kind,name,x [mm],y [mm],what.")
     units = {head[2] or head[3] for head in heads[2:4] if head} - {None}
@@ -32,8 +36,8 @@ def read_points_csv(found: FoundMachine, text: str) -> None:
         ensure_file(len(units) == 1 and units <= UNITS.keys(), f"{found.file}, line 1: x and y have one unit of length, such as [mm].")
         found.unit = parse(f"1 {units.pop()}", "length")
     later: list[tuple[str, str, list[str], str]] = []
-    for number, row in enumerate(rows[1:], 2):
-        where = f"{found.file}, row {number}"
+    for number, row in rows[1:]:
+        where = f"{found.file}, line {number}"
         ensure_file(len(row) <= len(COLUMNS), f"{where}: {len(row)} cells are too many; names with a comma stand in quotes.")
         kind, name, x, y, what = [*row, *[""] * (len(COLUMNS) - len(row))]
         if kind.lower() == "point":
@@ -60,14 +64,13 @@ def read_slide(found: FoundMachine, name: str, words: list[str], where: str) -> 
 
 
 def read_drive(kind: str, found: FoundMachine, name: str, words: list[str], where: str) -> None:
-    """Read the row of a crank or a cylinder: its ends, then how far it goes."""
-    unit, example = ("angle", "O A 360deg") if kind == "crank" else ("length", "A B 250mm")
-    ensure_file(len(words) in (2, 3), f"{where}: a {kind} names its two ends and how far it goes, such as `{example}`.")
+    """Read the row of a crank or a cylinder: its ends, then how far it goes from the drawn pose, forwards, or back and forwards."""
+    measures, example = ("angle", "O A 360deg") if kind == "crank" else ("length", "A B 250mm")
+    ensure_file(len(words) in (2, 3, 4), f"{where}: a {kind} names its two ends and how far it goes, such as `{example}`.")
     P, Q = (found.known(word, where) for word in words[:2])
-    reach = None if len(words) == 2 else value_in(words[2], unit, where)
-    if reach is not None and kind == "cylinder":
-        reach /= found.unit or 1.0
-    found.drives.append(FoundDrive(kind, (P, Q), reach, name))
+    unit = 1.0 if kind == "crank" else found.unit or 1.0
+    back, *reach = [value_in(word, measures, where) / unit for word in (["0", *words[2:]] if len(words) < 4 else words[2:])]
+    found.drives.append(FoundDrive(kind, (P, Q), reach[0] if reach else None, name, -back))
 
 
 ROWS: dict[str, Callable[[FoundMachine, str, list[str], str], None]] = {
@@ -105,5 +108,6 @@ def point_rows(sketch: MachineSketch) -> Iterator[list[str]]:
         along = f"{degrees(slide.along):.17g}deg" if isinstance(slide.along, float) else " ".join(slide.along)
         yield ["slide", name, "", "", f"{slide.point} {along}"]
     for name, drive in sketch.drives.items():
-        reach = f"{degrees(drive.end - drive.drawn):.17g}deg" if drive.kind == "crank" else f"{1e3 * (drive.end - drive.drawn):.16g}mm"
-        yield [drive.kind, name, "", "", f"{' '.join(drive.ends)} {reach}"]
+        ends = [each - drive.drawn for each in (drive.start, drive.end) if each != drive.drawn]
+        reach = [f"{degrees(each):.17g}deg" if drive.kind == "crank" else f"{1e3 * each:.16g}mm" for each in ends]
+        yield [drive.kind, name, "", "", " ".join([*drive.ends, *reach])]

@@ -61,7 +61,7 @@ def test_the_command_knows_it_too(installed, tmp_path, monkeypatch, capsys):
     assert main(["export", "mechanisms.three_point_hitch:ThreePointHitch", "--format", "obj", "--at", "S=100mm"]) == 0
     assert capsys.readouterr().out == "ThreePointHitch.obj\n"
     assert main(["export", "--help"]) == 0
-    assert "xlsx, csv, dxf, svg, obj, torn" in " ".join(capsys.readouterr().out.split())
+    assert "xlsx, csv, dxf, svg, points, linkage2, pmks, obj, torn" in " ".join(capsys.readouterr().out.split())
     assert main(["export", "mechanisms.three_point_hitch:ThreePointHitch", "--format", "torn"]) == 2
     said = " ".join(capsys.readouterr().err.split())
     assert "The exporter torn (no_package:Torn) cannot be loaded: ModuleNotFoundError" in said
@@ -97,8 +97,8 @@ def test_a_back_end_is_run_by_its_name(installed):
 @pytest.mark.parametrize(
     ("asked", "said"),
     [
-        (lambda path: export(ThreePointHitch(), path / "x.doc"), r"one of \.xlsx, \.csv, \.dxf, \.svg, \.obj, which .* The exporter torn"),
-        (lambda path: export(ThreePointHitch(), path / "x.obj", format="step"), r"'step' is unknown in export.* svg, obj, torn"),
+        (lambda path: export(ThreePointHitch(), path / "x.doc"), r"one of \.xlsx, .*, \.txt, \.obj, which .* The exporter torn"),
+        (lambda path: export(ThreePointHitch(), path / "x.obj", format="step"), r"'step' is unknown in export.* pmks, obj, torn"),
         (lambda path: export(ThreePointHitch(), path / "x.csv", format="torn"), r"The exporter torn \(no_package:Torn\) cannot be loaded"),
         (lambda path: export(ThreePointHitch(), path / "x.obj", trace=["G"]), r"trace= draws the paths of points, in \.dxf and \.svg"),
         (lambda path: ThreePointHitch().source(["G"], language="rust"), 'say "c" or "javascript" or "lua" or "odd"'),
@@ -120,7 +120,8 @@ def test_a_broken_one_does_not_hide_the_others(installed, tmp_path):
 def test_nothing_is_loaded_before_it_is_asked_for(installed):
     from linkage.exports import EXPORTERS
 
-    assert list(EXPORTERS) == ["xlsx", "csv", "dxf", "svg", "obj", "torn"] and "torn" in EXPORTERS and 3 not in EXPORTERS
+    assert list(EXPORTERS) == ["xlsx", "csv", "dxf", "svg", "points", "linkage2", "pmks", "obj", "torn"]
+    assert "torn" in EXPORTERS and 3 not in EXPORTERS
 
 
 def test_a_folder_that_is_added_is_looked_in(tmp_path, monkeypatch):

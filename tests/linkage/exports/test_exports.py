@@ -487,7 +487,7 @@ def test_every_extra_is_imported_somewhere():
 
 
 def test_the_command_writes_them(tmp_path, capsys):
-    for ending in ("xlsx", "csv", "dxf", "svg"):
+    for ending in ("xlsx", "csv", "dxf", "svg", "linkage2", "txt"):
         path = tmp_path / f"machine.{ending}"
         more = ["--path", "P", "--poses", "3"] if ending in ("dxf", "svg") else ["--count", "5"]
         assert main(["export", "four_bar", "-o", str(path), *more]) == 0

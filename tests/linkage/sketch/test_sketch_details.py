@@ -1,0 +1,201 @@
+"""What files say beside pins and links: slides that may not turn, names, units, what is left out; out again; and the command."""
+
+from math import pi
+
+import numpy as np
+import pytest
+
+from linkage import DefinitionError, FileError
+from linkage.cli import main
+from linkage.sketch import MachineSketch, SketchDrive, is_foreign, read_sketch, sketch_of, sketch_text
+from tests import shipped
+from tests.linkage.sketch import emit
+from tests.linkage.sketch.plans import BY_NAME
+from tests.linkage.sketch.test_sketch_files import compare
+
+CARRIAGE = "ground,input,R,0,0,0,tfft\ninput,rod,R,40,10\nrod,ram,R,160,30\nram,R,170,60\nground,ram,P,160,20,0\n"
+
+
+def put(folder, name, text):
+    """Write a file, and return its path as text."""
+    (folder / name).write_text(text, encoding="utf-8")
+    return str(folder / name)
+
+
+# -- slides ------------------------------------------------------------------------------------------------
+
+
+def test_what_slides_without_turning_keeps_its_direction(tmp_path):
+    machine = read_sketch(put(tmp_path, "carriage.txt", CARRIAGE), scale=1e-3).to_class()()
+    motion = machine.sweep(13)
+    apart = motion["D"] - motion["C"]
+    assert np.ptp(apart, axis=1).max() < 1e-15 and np.ptp(motion["C"][1]) < 1e-15 and np.ptp(motion["C"][0]) > 0.07
+
+
+def test_a_slide_may_drive(tmp_path):
+    text = "ground,ram,P,0,0,30,ffft\nram,rod,R,0,0\nrod,arm,R,100,20\narm,ground,R,100,-60\n"
+    machine = read_sketch(put(tmp_path, "push.txt", text), scale=1e-3).to_class()()
+    (stroke,) = machine.strokes
+    moved = machine.at(**{stroke: [0.0, 0.01]})["B"]
+    assert np.allclose(moved[:, 1] - moved[:, 0], 0.01 * np.array([np.cos(pi / 6), np.sin(pi / 6)]), atol=1e-15)
+
+
+def test_a_block_that_is_welded_does_not_turn():
+    near, far, high = map(emit.packed, (1000, 3000, 500))
+    joints = f"6A,A,0,0,0.0B,B,{near},{high},0.8C,C,{far},0,0.5D,D,{far},0,0."
+    links = "YRAB,AB,Fe,Fe,0,0,c5cae9,A,B,,.YRBC,BC,Fe,Fe,0,0,c5cae9,B,C,,.YPCD,CD,Fe,0,0,0,,C,D,,."
+    body = f"2P.Ay,1E8.K,0.1011.{joints}.{links}..N_"
+    sketch = read_sketch(body + emit.DIGITS[len(body) % 62])
+    assert [slide.point for slide in sketch.slides.values()] == ["C", "C_1"]
+    assert {"B", "C", "C_1"} in [{*each} for each in sketch.links.values()]
+
+
+# -- what is told ------------------------------------------------------------------------------------------
+
+
+def test_what_is_not_had_is_left_out_by_name(tmp_path):
+    text = emit.linkage2(BY_NAME["Rocker"]).replace(
+        "</linkage2>",
+        '<Link id="8" gear="true" name="wheel"><connector id="0"/></Link><ratios><ratio type="chain"/></ratios>'
+        '<connector id="50" layer="1" x="1" y="1"/><connector id="51" x="9" y="9" name="alone"/></linkage2>',
+    )
+    text = text.replace('id="4"', 'id="4" slider="true" slideradius="20"', 1)
+    notes = " ".join(read_sketch(put(tmp_path, "told.linkage2", text)).notes)
+    for words in ("the gear wheel", "a ratio of chain", "the curved slot of T", "the point alone, which is on no link", "0.255208 mm"):
+        assert words in notes, (words, notes)
+
+
+def test_names_are_made_legal_and_told(tmp_path):
+    rows = ["kind,name,x [mm],y [mm],what", "point,1,0,0,fixed", "point,Crank,40,10,", "point,b c,150,90,", "point,lambda,160,0,fixed"]
+    text = "\n".join([*rows, 'link,,,,"1 Crank"', "crank,,,,1 Crank"]).replace("b c", "b-c")
+    sketch = read_sketch(put(tmp_path, "names.csv", text + "\nlink,,,,Crank b-c\nlink,,,,b-c lambda\n"))
+    assert list(sketch.points) == ["P1", "Crank_2", "b_c", "lambda_2"]
+    assert sketch.notes[-1] == "Named anew: 1 is P1, Crank is Crank_2, b-c is b_c, lambda is lambda_2."
+    sketch.to_class()
+    clash = text.replace("point,1,", "point,a,").replace("1 Crank", "a ab").replace("Crank", "ab")
+    clash = clash.replace("b-c", "b").replace("lambda", "aab")
+    sketch = read_sketch(put(tmp_path, "clash.csv", clash + "\nlink,,,,a ab\nlink,,,,ab b\nlink,,,,aab b\n"))
+    assert list(sketch.points) == ["P1", "P2", "P3", "P4"] and sketch.to_class()
+
+
+def test_a_file_without_a_unit_or_a_drive_says_which_option(tmp_path):
+    text = emit.csv(BY_NAME["Rocker"])
+    with pytest.raises(FileError, match="--scale 1mm"):
+        read_sketch(put(tmp_path, "plain.csv", text.replace("x [mm],y [mm]", "x,y")))
+    still = put(tmp_path, "still.csv", text.replace("crank,,,,O A", ""))
+    with pytest.raises(DefinitionError, match=r"--drive O A; .*--cylinder P Q. Links on fixed pins: O A, C B"):
+        read_sketch(still).to_class()
+    assert compare(BY_NAME["Rocker"], read_sketch(still, drives=[("O", "A")]))[1] < 1e-9
+    for P, Q, words in (("A", "O", "A is not fixed"), ("O", "B", "no link joins O and B"), ("O", "X", "Point 'X' is unknown")):
+        with pytest.raises(DefinitionError, match=words):
+            read_sketch(still, drives=[(P, Q)])
+    assert read_sketch(still, cylinders=[("O", "T")]).drives["S"].ends == ("O", "T")
+
+
+def test_a_table_may_have_other_marks_and_units(tmp_path):
+    text = emit.csv(BY_NAME["Rocker"]).replace("crank,,,,O A", "crank,psi,,,O A -20deg 40.5deg")
+    expected = read_sketch(put(tmp_path, "plain.csv", text))
+    assert np.degrees([expected.drives["psi"].start, expected.drives["psi"].end]) == pytest.approx([-20.0, 40.5])
+    for changed in (text.replace(",", "\t"), "\n" + text.replace("mm", "MM")):
+        assert read_sketch(put(tmp_path, "Plain.csv", changed)).points == expected.points
+    table = "\n".join(row.replace(",", ";") for row in text.splitlines()).replace("40.5deg", "40,5deg").replace(";40;", ";40,0;")
+    assert read_sketch(put(tmp_path, "Plain.csv", table)) == expected
+
+
+# -- out again ---------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("suffix", [".csv", ".linkage2", ".txt"])
+def test_a_sketch_goes_out_and_comes_in_again(suffix, tmp_path):
+    for name in ("four_bar", "slider_crank", "inverted_slider_crank", "three_point_hitch"):
+        sketch = sketch_of(shipped.MACHINES[name])
+        if suffix == ".txt" and name == "three_point_hitch":
+            with pytest.raises(DefinitionError, match="one crank and no other drive, the sketch a cylinder"):
+                sketch_text(sketch, suffix)
+            continue
+        again = read_sketch(put(tmp_path, f"Again{suffix}", sketch_text(sketch, suffix)), scale=1e-3 if suffix == ".txt" else None)
+        near = nearest(again, sketch.points)
+        (one, drive), (other, _) = *sketch.drives.items(), *again.drives.items()
+        values = np.linspace(drive.start, drive.end, 7)
+        first, second = sketch.to_class()().at(**{one: values}), again.to_class()().at(**{other: values - drive.drawn})
+        for point, found in near.items():
+            assert np.max(np.abs(first[point] - second[found])) < 1e-9 * sketch.size, (name, point)
+
+
+def nearest(sketch, places):
+    """Return the points of a sketch that are nearest to places, by the names of these."""
+    return {name: min(sketch.points, key=lambda each: np.hypot(*np.subtract(sketch.points[each], place))) for name, place in places.items()}
+
+
+def test_what_does_not_fit_is_refused():
+    points = dict(O=(0.0, 0.0), A=(0.1, 0.0), B=(-0.1, 0.0))
+    twins = MachineSketch("Twins", points, ("O",), dict(a=("O", "A"), b=("O", "B")), drives={
+        name: SketchDrive("crank", ("O", point), 0.0, 1.0) for name, point in (("p", "A"), ("q", "B"))
+    })  # fmt: skip
+    for suffix, words in ((".linkage2", "two cranks turn about one pin"), (".txt", "a crank, a crank"), (".doc", "says no kind of file")):
+        with pytest.raises(DefinitionError, match=words):
+            sketch_text(twins, suffix)
+    with pytest.raises(DefinitionError, match="where its stroke begins"):
+        sketch_text(sketch_of(shipped.MACHINES["three_point_hitch"], {"S": 0.1}), ".linkage2")
+
+
+# -- the command -------------------------------------------------------------------------------------------
+
+
+def test_the_command_imports_and_every_other_takes_the_file(tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    file = put(tmp_path, "rocker.csv", emit.csv(BY_NAME["Rocker"]))
+    for ending in ("toml", "py"):
+        assert main(["import", file, "-o", f"rocker.{ending}"]) == 0
+        assert main(["show", f"rocker.{ending}"]) == 0
+    assert "phi  0 to 360 deg" in capsys.readouterr().out
+    assert main(["show", file]) == 0 and main(["draw", file, "-o", "rocker.png"]) == 0 and (tmp_path / "rocker.png").stat().st_size > 1000
+    assert main(["show", emit.short_body(BY_NAME["Pump"])]) == 0
+    assert main(["import", file, "--round", "10mm", "-o", "round.toml"]) == 0
+    assert "moves most, by" in capsys.readouterr().err
+    assert main(["import", file]) == 2  # rocker.toml is there
+
+
+def test_the_command_ends_with_2_and_the_option_that_helps(tmp_path, capsys):
+    plain = put(tmp_path, "plain.txt", emit.pmks(BY_NAME["Rocker"]))
+    for arguments, words in (
+        (["import", plain, "-o", str(tmp_path / "a.toml")], "--scale 1mm"),
+        (["show", plain], "--scale 1mm"),
+        (["import", plain, "--scale", "1mm", "-o", str(tmp_path / "a.doc")], ".doc says no kind of file"),
+        (["import", plain, "--scale", "1kg"], "value of kind length"),
+        (["import", str(tmp_path / "nowhere.csv")], "there is no such file"),
+        (["import", plain, "--scale", "1mm", "--drive", "B", "A"], "is not fixed"),
+    ):
+        assert main(arguments) == 2
+        assert words in capsys.readouterr().err, arguments
+    assert not (tmp_path / "a.toml").exists()
+
+
+def test_files_of_our_own_are_not_taken_for_others(tmp_path):
+    from linkage.files import to_json
+
+    own = put(tmp_path, "own.json", to_json(shipped.MACHINES["four_bar"]))
+    assert not is_foreign(own) and not is_foreign("four_bar") and not is_foreign("x.toml")
+    assert main(["show", own]) == 0
+    assert is_foreign(put(tmp_path, "other.json", emit.plus_json(BY_NAME["Rocker"])))
+
+
+def test_layers_of_a_drawing_are_named(tmp_path):
+    import ezdxf
+
+    document = ezdxf.new(units=4)
+    space = document.modelspace()
+    for name, place in BY_NAME["Rocker"].points.items():
+        space.add_circle(place, 3.0, dxfattribs={"layer": "Bolts" if name not in "OC" else "Frame"})
+    space.add_circle((500.0, 500.0), 9.0, dxfattribs={"layer": "notes"})
+    for pair in ("OA", "AB", "BT", "TA", "BC"):
+        space.add_line(*(BY_NAME["Rocker"].points[each] for each in pair), dxfattribs={"layer": "Bars"})
+    space.add_line((0, 0), (900, 900), dxfattribs={"layer": "Bars"})
+    path = tmp_path / "layers.dxf"
+    document.saveas(path)
+    layers = dict(pins=["Bolts"], ground=["Frame"], links=["Bars"])
+    sketch = read_sketch(path, layers=layers)
+    assert len(sketch.points) == 5 and sketch.fixed == ("P4", "P5") and "a line of the layer Bars with 1 pins" in sketch.notes[-1]
+    assert compare(BY_NAME["Rocker"], read_sketch(path, layers=layers, drives=[("P4", "P1")]))[1] < 1e-9
+    with pytest.raises(DefinitionError, match="a layer is of pins, links, ground"):
+        read_sketch(path, layers=dict(bolts=["Bolts"]))

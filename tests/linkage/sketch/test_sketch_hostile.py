@@ -1,0 +1,104 @@
+"""Files that are damaged or meant to harm: every one ends in words, and none runs, fetches or fills anything."""
+
+import json
+import random
+import re
+
+import pytest
+
+from linkage.errors import LinkageError
+from linkage.sketch import read_sketch
+from tests.linkage.sketch import emit
+from tests.linkage.sketch.plans import BY_NAME
+
+BITS = ["", *"-\"\0é0P,|\n", "nan", "inf", "1e999", "null", "{}", "[]", "<a>", "&x;", "-1", "true", "9" * 30, "..", "%00"]
+LINKAGE = emit.linkage2(BY_NAME["Rocker"])
+HEAD = "kind,name,x [mm],y [mm],what\n"
+BODIES = '{"version": 2, "units": {"length": "cm"}, "bodies": [%s], "attachments": [{"id": "p", "bodyId": "a"}]}'
+WRONG = {
+    "entities.linkage2": ('<!DOCTYPE a [<!ENTITY x "y">]>' + LINKAGE.split("\n", 1)[1], "document type or entities"),
+    "outside.linkage2": ('<!DOCTYPE a SYSTEM "file:///etc/passwd"><linkage2>&x;</linkage2>', "document type or entities"),
+    "deep.linkage2": ("<linkage2>" + "<a>" * 5000 + "</a>" * 5000 + "</linkage2>", "more than 8 deep"),
+    "torn.linkage2": (LINKAGE[:200], "it is no XML"),
+    "other.linkage2": ("<svg></svg>", "begins with <svg>"),
+    "twice.linkage2": (LINKAGE.replace('id="1" x', 'id="0" x', 1), "two connectors have one id"),
+    "nan.linkage2": (LINKAGE.replace('y="0.0"', 'y="nan"', 1), "is no finite number"),
+    "lost.linkage2": (LINKAGE.replace('<connector id="2"/>', '<connector id="77"/>', 1), "names the point '77'"),
+    "big.csv": (HEAD + "#" * 1_000_001, "larger than 1 MB"),
+    "many.csv": (HEAD + "".join(f"point,P{n},{n},{n * n},\nlink,,,,P0 P{n}\n" for n in range(150)) + "crank,,,,P0 P1", "too many"),
+    "code.csv": ("kind,name,x [mm],y [mm],what\npoint,O,__import__('os').abort(),0,fixed\n", "is no finite number"),
+    "twice.csv": ("kind,name,x [mm],y [mm],what\npoint,O,0,0,fixed\npoint,O,1,0,\n", "stands twice"),
+    "head.csv": ("a,b\n1,2\n", "begins with kind,name"),
+    "kind.csv": ("kind,name,x [mm],y [mm],what\nspring,O,0,0,fixed\n", "line 2: spring is none of point, link, slide"),
+    "empty.csv": ("", "the file is empty"),
+    "binary.txt": ("\0\1\2", "no text"),
+    "words.txt": ("hello world\n", "joint 1: links, R, P, RP or G"),
+    "slide.txt": ("ground,input,P,0,0\n", "has the angle of its slide"),
+    "deep.json": ("[" * 100_000, "nested too deeply"),
+    "nan.json": ('{"joints": [{"type": "Static", "name": "A", "x": NaN, "y": 0}]}', "NaN is not a number"),
+    "keys.json": ('{"joints": [], "joints": []}', "stands twice"),
+    "other.json": ('{"a": 1}', "no machine of PMKS+"),
+    "kind.json": ('{"joints": [{"type": "Spring", "name": "A", "x": 0, "y": 0}]}', "of the kind 'Spring'"),
+    "lost.json": ('{"joints": [{"type": "Crank", "name": "A", "x": 0, "y": 1, "joint0": {"ref": "Z"}}]}', "names the point 'Z'"),
+    "pose.json": (BODIES % '{"id": "a"}', "a pose is no table"),
+    "machine.exe": ("MZ", "ends in one of .csv"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", WRONG)
+def test_it_is_refused_in_words(name, tmp_path):
+    text, words = WRONG[name]
+    (tmp_path / name).write_text(text, encoding="utf-8")
+    with pytest.raises(LinkageError, match=re.escape(words)):
+        read_sketch(tmp_path / name, scale=1e-3).to_class()
+
+
+def test_a_damaged_address_is_refused():
+    for digest in (True, False):
+        text = emit.short_body(BY_NAME["Pump"], digest)
+        with pytest.raises(LinkageError, match="the address is damaged"):
+            read_sketch(text[:40] + text[41:])
+    text = emit.short_body(BY_NAME["Pump"], True)
+    with pytest.raises(LinkageError, match="its digest does not fit"):  # one letter for another, of the same length
+        read_sketch(text.replace("A,A,", "A,B,", 1))
+
+
+def test_a_table_of_bodies_may_stand_in_an_address():
+    from base64 import urlsafe_b64encode
+    from zlib import crc32
+
+    raw = json.dumps(json.loads(emit.plus_bodies(BY_NAME["Rocker"]))).encode()
+    address = f"pmks2:{crc32(raw):08x}.{urlsafe_b64encode(raw).decode().rstrip('=')}"
+    assert read_sketch(address).links.keys() == read_sketch(address).links.keys() != set()
+    with pytest.raises(LinkageError, match="its check does not fit"):
+        read_sketch(address.replace(address[6:14], "00000000"))
+
+
+def mutated(text, chance):
+    """Return a text with a few letters, or a whole word, replaced by something else."""
+    if chance.random() < 0.5:
+        for _ in range(chance.randint(1, 3)):
+            begin = chance.randrange(len(text))
+            text = text[:begin] + chance.choice(BITS) + text[begin + chance.choice([0, 1, 1, 2, 5, 20]) :]
+        return text
+    parts = re.split(r"([-\w.]+)", text)
+    parts[chance.randrange(len(parts))] = chance.choice([chance.choice(parts), *BITS])
+    return "".join(parts)
+
+
+@pytest.mark.parametrize("seeds", [range(6), pytest.param(range(6, 150), marks=pytest.mark.slow)], ids=["daily", "all"])
+def test_whatever_is_changed_ends_in_words_or_in_a_sketch(seeds, tmp_path):
+    for how, (write, suffix, _) in emit.FORMATS.items():
+        for name in ("Pump", "Shaper", "Boom"):
+            text = write(BY_NAME[name])
+            for seed in seeds if text is not None else ():
+                chance = random.Random(f"{how} {name} {seed}")
+                changed = mutated(text, chance)
+                if suffix:
+                    (tmp_path / f"m{suffix}").write_text(changed, encoding="utf-8")
+                try:
+                    sketch = read_sketch(tmp_path / f"m{suffix}" if suffix else changed, scale=1e-3)
+                    if seed % 5 == 0:
+                        sketch.to_class()
+                except LinkageError as error:
+                    assert str(error), (how, name, seed)

@@ -106,7 +106,9 @@ SKIPPED = {"a", "be", "of"}
 """Words that the built search leaves out."""
 STRANGERS = {
     "bulk": ["numpy array", "broadcasting", "numba", "javascript", "gradient"],
+    "coming_from": ["pylinkage", "linkage2", "pmks share address", "mathcad", "sam"],
     "conventions": ["sign convention"],
+    "drawing": ["import", "coordinates", "dxf import", "dxf layers", "csv points", "round lengths"],
     "equations": ["sympy", "latex"],
     "excavator": ["excavator", "backhoe", "bucket"],
     "extending": ["plugin", "cam follower"],
@@ -128,7 +130,7 @@ STRANGERS = {
     "quickstart": ["quick start"],
     "reference": ["exception", "api"],
     "reliability": ["singular", "accuracy", "error"],
-    "sketch": ["sketch", "dxf", "autocad", "dxf import"],
+    "sketch": ["sketch", "dxf", "autocad"],
     "studies": ["tolerance", "optimise", "six-bar", "multiprocessing", "monte carlo", "sensitivity", "pareto", "genetic algorithm"],
     "theory": ["transfer ratio", "virtual work", "dynamics", "kinematics", "moment of inertia"],
     "three_point_hitch": ["three-point hitch"],

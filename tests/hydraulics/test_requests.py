@@ -31,9 +31,7 @@ CASES = [
     (ThreePointHitch, "lift", "G", ["OB", "M.x", "lift.bore", "circuit.mechanical_efficiency", "load.mass"]),
     (MowerLift, "lift", "G", ["k_m", "bore"]),
     (HeaderBalancer, "lift", "", ["charge", "L_OB"]),
-    (Crane, "fold", "T", ["QL", "fold.bore"]),
     (OnePressureTurned, "aux", "", ["aux.bore", "lift.rod"]),
-    (Mast, "tilt", "", ["aux.bore"]),
     (Plough, "turn", "G", ["turn.bore", "line.back_pressure"]),
     (Axle, "strut", "", []),
 ]
@@ -44,10 +42,12 @@ def slow_cases():
     return [
         (Excavator, "arm", "H", ["arm.bore", "boom.rod"]),
         (ByAngles, "boom", "H", ["boom.bore", "bucket.rod"]),
+        (Crane, "fold", "T", ["QL", "fold.bore"]),
         (Crane, "raise_", "T", ["OB", "raise_.rod"]),
         (Crane, "extend", "T", ["OP", "extend.rod"]),
         (table_of_links(), "lift", "H", ["lift.bore"]),
         (Fold, "lift", "", ["lift.bore"]),
+        (Mast, "tilt", "", ["aux.bore"]),
         (assisted_list(), "aux", "G", ["aux.bore"]),
     ]
 

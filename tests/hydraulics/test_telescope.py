@@ -45,6 +45,7 @@ from linkage import (
 )  # fmt: skip
 from linkage.files import load, to_toml
 from linkage.units import bar, deg, kN, litre, minute, mm
+from tests.for_all import first_daily
 from tests.hydraulics.test_oil import Levelled
 
 BORES, STROKES, CLOSED = [149 * mm, 129 * mm, 110 * mm, 91 * mm], [1.0, 1.1, 0.9, 1.05], 1.48
@@ -87,7 +88,7 @@ def tilting(bores, strokes, count=1, cylinder=None, **line):
     return Tilting
 
 
-SEEDS = pytest.mark.parametrize("seed", range(3))
+SEEDS = first_daily(2, "seed", range(3))
 
 
 @SEEDS

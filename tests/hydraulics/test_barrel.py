@@ -30,6 +30,7 @@ from linkage.loads import LoadCase
 from linkage.pictures.scene import Scene
 from linkage.units import bar, deg, g0, litre
 from mechanisms.classics.stephenson_three import StephensonThreeFar
+from tests.for_all import first_daily
 
 BLOCK = AccumulatorBlock([Accumulator(volume=4 * litre, charge=40 * bar)])
 
@@ -57,7 +58,7 @@ class OneBody(Boom):
     barrel, piston_rod = Weight(G, mass=40.0), Weight(H, mass=25.0)
 
 
-SEEDS = [0, 1, *(pytest.param(seed, marks=pytest.mark.slow) for seed in (2, 3))]
+SEEDS = first_daily(2, "seed", range(4))
 
 
 def drawn_at_random(seed):
@@ -75,7 +76,7 @@ def drawn_at_random(seed):
     return two, one
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@SEEDS
 def test_two_bodies_carry_what_one_with_weights_at_points_does(seed):
     two, one = drawn_at_random(seed)
     forces, whole = pin_forces(two.sweep(7)), pin_forces(one.sweep(7))
@@ -91,7 +92,7 @@ def test_two_bodies_carry_what_one_with_weights_at_points_does(seed):
     assert_allclose(np.hypot(*inner), np.hypot(forces.thrusts["lift"], forces.gland("lift").lateral), rtol=1e-12)
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@SEEDS
 def test_the_gland_bears_shear_and_moment_of_a_beam_on_two_pins(seed):
     machine, _ = drawn_at_random(seed)
     motion = machine.sweep(7)

@@ -26,6 +26,7 @@ from linkage import (
 )
 from linkage.pictures.load_chart import ChartText
 from linkage.units import bar, deg, g0, kN, mm
+from tests.for_all import first_daily
 
 
 class Mast(Mechanism):
@@ -99,7 +100,7 @@ def levelled(seed):
     return Level
 
 
-@pytest.mark.parametrize("seed", [0, 1, *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(2, 8))])
+@first_daily(2, "seed", range(8))
 def test_a_closed_line_stays_between_empty_and_its_relief(seed):
     kind, seen = levelled(seed), set()
     for along in ((0.0, 1.0), (0.0, -1.0), (0.6, -0.8)):

@@ -260,7 +260,7 @@ def test_strokes_to_spare_stand_where_most_is_carried(over):
     assert any("strokes run" in each for each in field.remarks) == (over is not None)
 
 
-@pytest.mark.parametrize("seed", [0, pytest.param(1, marks=pytest.mark.slow), pytest.param(2, marks=pytest.mark.slow)])
+@first_daily(1, "seed", range(3))
 def test_border_with_a_stroke_to_spare_parts_what_is_reached(seed):
     """A little to either side of the border one place is reached and the other is not, by the cosine rule; the area is that of a grid."""
     rng, crane = np.random.default_rng(seed), Crane()
@@ -350,7 +350,7 @@ def most_of_a_grid(machine, field, count):
     return found
 
 
-@pytest.mark.parametrize("seed", [0, 5, *(pytest.param(seed, marks=pytest.mark.slow) for seed in (1, 2, 3, 4, 6, 9, 18))])
+@first_daily(1, "seed", [0, 1, 2, 3, 4, 5, 6, 9, 18])
 def test_two_strokes_to_spare_are_no_worse_than_a_grid(seed):
     rng, base = np.random.default_rng(seed), Telehandler()
     machine = base.replaced(**{name: base[name] * rng.uniform(0.85, 1.15) for name in VARIED})

@@ -40,6 +40,7 @@ from linkage.study.problem import Problem
 from linkage.study.space import Space
 from linkage.units import bar, kN
 from mechanisms.mower_lift import MowerLift
+from tests.for_all import first_daily
 from tests.laws.random_machines import random_machine
 from tests.linkage.study.test_optimise import TRAVEL, VARY
 from tests.linkage.study.test_optimise import Boom as Lift
@@ -277,7 +278,7 @@ def random_problem(seed):
 
 
 @pytest.mark.filterwarnings("ignore::linkage.SingularWarning")
-@pytest.mark.parametrize("seed", [seed if seed in (1, 5, 18) else pytest.param(seed, marks=pytest.mark.slow) for seed in range(40)])
+@first_daily(3, "seed", sorted(range(40), key=lambda seed: seed not in (1, 5, 18)))
 def test_random_problems_on_random_machines(seed):
     found = random_problem(seed)
     if found is None:

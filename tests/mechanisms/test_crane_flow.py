@@ -199,7 +199,7 @@ def test_dragging_keeps_to_the_ground_and_to_the_cylinders():
 # Pictures and the command.
 
 
-@pytest.mark.parametrize("name", ["positions", *(pytest.param(name, marks=pytest.mark.slow) for name in FIGURES if name != "positions")])
+@first_daily(1, "name", ["positions", *(name for name in FIGURES if name != "positions")])
 def test_figures_are_drawn(name, tmp_path):
     crane_figure(name).savefig(tmp_path / f"{name}.png")
     assert (tmp_path / f"{name}.png").stat().st_size > 20_000

@@ -215,7 +215,7 @@ class WithBallast(HeaderBalancer):
     ballast = Weight(HeaderBalancer.G2, mass=500)
 
 
-@pytest.mark.parametrize("number", [1, *(pytest.param(number, marks=pytest.mark.slow) for number in HEADERS if number != 1)])
+@first_daily(1, "number", HEADERS)
 def test_added_weight_counts_like_a_heavier_header(number):
     """500 kg at G2 are 500 kg more of header: table, limits and verdicts are the same."""
     header = HEADERS[number]

@@ -15,6 +15,7 @@ from linkage.cli import listing, main
 from linkage.cli.machines import find
 from linkage.statics import driving_force, max_table, pin_forces
 from linkage.units import bar, inch, kN, lbf, mm, psi
+from tests.for_all import first_daily
 
 LOADER = '''
 from hydraulics import Cylinder, LiftCircuit
@@ -285,7 +286,7 @@ def test_russian_is_spoken_when_asked_and_no_longer(said):
     assert said("show", "loader.py")[1] == english
 
 
-@pytest.mark.parametrize("command", ["show", "capacity", *(pytest.param(name, marks=pytest.mark.slow) for name in ("table", "forces"))])
+@first_daily(2, "command", ["show", "capacity", "table", "forces"])
 def test_check_turns_a_failing_verdict_into_an_exit_code(said, command):
     weak = ("--set", "pump.pressure=20bar")
     assert said(command, "loader.py", "--check")[0] == 0

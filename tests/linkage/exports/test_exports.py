@@ -45,7 +45,7 @@ from mechanisms.header_balancer import HeaderBalancer
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests import shipped
-from tests.for_all import for_all
+from tests.for_all import first_daily, for_all
 from tests.linkage.exports.workbooks import by_office, needs_office, number_columns, row_of, same_numbers, stored, written
 from tests.tools.sources import sources
 
@@ -417,7 +417,7 @@ def test_a_page_has_true_size_and_words(tmp_path):
 FEW = ("three_point_hitch", "scissor_lift", "inverted_slider_crank")
 
 
-@pytest.mark.parametrize("name", [*FEW, *(pytest.param(name, marks=pytest.mark.slow) for name in SHIPPED if name not in FEW)])
+@first_daily(len(FEW), "name", [*FEW, *(name for name in SHIPPED if name not in FEW)])
 def test_every_machine_is_drawn(name, tmp_path):
     machine = SHIPPED[name]()
     document = ezdxf.readfile(export(machine, tmp_path / "machine.dxf", trace=machine.plan.moving[-1:]))

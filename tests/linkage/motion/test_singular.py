@@ -31,6 +31,7 @@ from linkage import (
 )
 from linkage.motion import conditions
 from linkage.numeric import differences as numeric
+from tests.for_all import first_daily
 
 
 class Lever(Mechanism):
@@ -198,7 +199,7 @@ def test_a_derivative_of_nothing_is_nothing():
     assert_allclose(motion.ratio(distance("O", "B"), method="central"), 0.0, atol=1e-9)
 
 
-@pytest.mark.parametrize("shift", [0.0937, *(pytest.param(shift, marks=pytest.mark.slow) for shift in (0.0, -0.2))])
+@first_daily(1, "shift", [0.0937, 0.0, -0.2])
 def test_a_singular_place_in_a_box_of_three_strokes_is_told_once(shift):
     """Two guides that turn are parallel along a whole surface of the box."""
 

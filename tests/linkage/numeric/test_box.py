@@ -5,7 +5,7 @@ import pytest
 
 from linkage.motion import highest
 from linkage.numeric.box import highest_in
-from tests.for_all import for_all
+from tests.for_all import first_daily, for_all
 from tests.linkage.numeric.box_cases import InUnitBox, case, waves
 
 ALL = range(10_200)
@@ -103,7 +103,7 @@ def test_more_strokes(k):
         np.testing.assert_array_equal(unit, slope > 0.0)
 
 
-@pytest.mark.parametrize("first", [0, *(pytest.param(first, marks=SLOW) for first in (10, 20, 30))])
+@first_daily(1, "first", [0, 10, 20, 30])
 @pytest.mark.parametrize("k", [2, 3])
 def test_an_answer_does_not_follow_from_what_else_is_asked(k, first):
     cases = [case(seed, k) for seed in range(first, first + 10)]

@@ -1620,7 +1620,7 @@ def opens(chromium, machine, file):
         assert shown("document.documentElement.scrollWidth") <= LAPTOP[0]
 
 
-@pytest.mark.parametrize("name", [pytest.param(name, marks=() if name == "jansen" else pytest.mark.slow) for name in registered()])
+@first_daily(1, "name", ["jansen", *(name for name in registered() if name != "jansen")])
 def test_every_shipped_machine_opens(chromium, name, tmp_path):
     opens(chromium, find(name)(), tmp_path / "machine.html")
 

@@ -127,7 +127,7 @@ def check_random(seed):
     agree(first.values[: len(steps), 0], steps, good)
 
 
-@pytest.mark.parametrize("start", [0, *(pytest.param(n, marks=pytest.mark.slow) for n in range(20, 200, 20))])
+@first_daily(1, "start", range(0, 200, 20))
 def test_all_ways_agree_over_random_mechanisms(start):
     for seed in range(start, start + 20):
         check_random(seed)

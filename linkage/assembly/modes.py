@@ -10,7 +10,7 @@ from typing import final
 
 import numpy as np
 
-from ..errors import AssemblyError, DefinitionError
+from ..errors import AssemblyError, ensure
 from ..plan import ArrayReading, Plan, as_written
 from ..program import FloatArray
 from ..quantities import Member, joined_names, name_of, of_kind
@@ -67,8 +67,7 @@ def assemblies(plan: Plan, inputs: Mapping[str, Numbers], declared: Mapping[str,
     """
     before = plan.reaches(*(pin for group in plan.groups.values() for pin in group.pins)) if plan.groups else frozenset()
     dyads = {name: step for name, step in plan.of_kind(Step).items() if step.closes and step.modes() and name not in before}
-    if len(dyads) > MOST:
-        raise DefinitionError(f"{plan.title} has {len(dyads)} dyads: assembly modes are listed for up to {MOST}.")
+    ensure(len(dyads) <= MOST, f"{plan.title} has {len(dyads)} dyads: assembly modes are listed for up to {MOST}.")
     found = []
     for pins, members, solved in group_modes(plan, inputs):
         for sides, places in _modes(plan, {**inputs, **solved}, dict(members), list(dyads)):

@@ -91,8 +91,7 @@ def measure_said(text: object, machine: Mechanism, over: Mapping[str, object] | 
     What depends on no stroke is one too: `mass`.
     """
     found = criterion_of(text, machine)
-    if isinstance(found, Condition):
-        raise DefinitionError(f"{text!r} is a condition; a measure is expected, such as least(...), with no <=, >= or ==.")
+    ensure(not isinstance(found, Condition), f"{text!r} is a condition; a measure is expected, such as least(...), with no <=, >= or ==.")
     if is_number(found) or isinstance(found, Given):
         raise DefinitionError(f"{text!r} is the same for every design; write a measure of the machine, such as least(...), or an output.")
     measure = measure_or_constant(found, machine)
@@ -160,8 +159,7 @@ class CriterionParser(Grammar):
             raise DefinitionError(f"a search meets its conditions exactly; write >=, <= or == for {wrong}.")
         ensure(len(node.ops) <= 1, "one comparison makes a condition; write two conditions for a value between two limits.")
         left, right = self.meaning(node.left), self.meaning(node.comparators[0])
-        if is_number(left) and is_number(right):
-            raise DefinitionError("two numbers are compared; one side is a measure such as least(...).")
+        ensure(not (is_number(left) and is_number(right)), "two numbers are compared; one side is a measure such as least(...).")
         one, other = (measure_or_constant(each, self.machine) for each in (left, right))
         found: Condition = sign(one, other)
         return found
@@ -194,8 +192,7 @@ class CriterionParser(Grammar):
         return kind_of_quantity(self.plan, part) if isinstance(part, (Quantity, Request)) else None
 
     def negative(self, part: Any) -> Any:
-        if isinstance(part, str):
-            raise DefinitionError(f"-{part} cannot be calculated; a dimension stands by itself, at({part}).")
+        ensure(not isinstance(part, str), f"-{part} cannot be calculated; a dimension stands by itself, at({part}).")
         return -part
 
     @staticmethod

@@ -77,8 +77,7 @@ class Design:
 
     def checked(self, text: str, says: object, read: Callable[[str, Names], Any]) -> str:
         """Return a text; DefinitionError unless it is read as what it says."""
-        if own_form(read(text, self.names)) != says:
-            raise DefinitionError(f"{text} does not read back as it is; give its parts names of their own.")
+        ensure(own_form(read(text, self.names)) == says, f"{text} does not read back as it is; give its parts names of their own.")
         return text
 
 

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import AssemblyError, DefinitionError, FileError, about
+from ..errors import AssemblyError, DefinitionError, FileError, about, ensure
 from ..mechanism import Mechanism
 from ..motion import Featured
 from ..plan import Table
@@ -115,8 +115,7 @@ def head_read(data: FileTable, faults: Faults) -> tuple[str, str | None, Feature
     """Return the class's name, its docstring and what it is about; anything else is noted."""
     title, doc, featured, given = data.get("name"), data.get("doc"), Featured(), data.get("featured", {})
     with faults.at("name"):
-        if title is None:
-            raise DefinitionError('the name of the mechanism is missing; begin with name = "ThreePointHitch".')
+        ensure(title is not None, 'the name of the mechanism is missing; begin with name = "ThreePointHitch".')
         member_name(title)
     if doc is not None and not (isinstance(doc, str) and all(each.isprintable() or each in "\n\t" for each in doc)):
         faults.add(("doc",), f"{shortened(doc)} is not a text of printable characters.")

@@ -461,11 +461,9 @@ def points_of_file(path: Path, columns: Sequence[PointColumn], units: Mapping[st
         places, rows = headings_read(path, first, columns, units), rows[1:]
     found: dict[str, list[float]] = {name: [] for name in places}
     for line, row in rows:
-        if len(row) != len(first):
-            raise DefinitionError(f"{path.name}, line {line}: {len(row)} fields where the first line has {len(first)}.")
+        ensure(len(row) == len(first), f"{path.name}, line {line}: {len(row)} fields where the first line has {len(first)}.")
         for name, (place, by) in places.items():
-            if not is_numeral(row[place]):
-                raise DefinitionError(f"{path.name}, line {line}, {name}: {shortened(row[place])} is no finite number.")
+            ensure(is_numeral(row[place]), f"{path.name}, line {line}, {name}: {shortened(row[place])} is no finite number.")
             found[name].append(float(row[place]) * by)
     ensure(rows, f"{path.name} has headings and no row; write a row for each point.")
     return {name: np.array(values) for name, values in found.items()}
@@ -502,8 +500,7 @@ def known_unit(what: str, unit: str, measures: str) -> str:
 def csv_rows(path: Path) -> Iterator[tuple[int, list[str]]]:
     """Yield the rows of a CSV file with their lines, without empty ones and those that begin with #; decimal commas as points."""
     try:
-        if path.stat().st_size > MOST_BYTES:
-            raise DefinitionError(f"{path.name} is larger than {MOST_BYTES // 1_000_000} MB; give fewer points.")
+        ensure(path.stat().st_size <= MOST_BYTES, f"{path.name} is larger than {MOST_BYTES // 1_000_000} MB; give fewer points.")
         text = path.read_text(encoding="utf-8-sig")
     except OSError as error:
         raise DefinitionError(f"{path.name} cannot be read: {error.strerror}; paths start from the file's own folder.") from None

@@ -17,7 +17,7 @@ from sympy.matrices.expressions.matadd import MatAdd
 from sympy.matrices.expressions.matexpr import MatrixElement, MatrixSymbol
 from sympy.matrices.expressions.matmul import MatMul
 
-from ..errors import DefinitionError
+from ..errors import DefinitionError, ensure
 from ..frozen import immutable
 from ..loads import AT_REST, Acting, ForceElement, Rate, Rates, Support, TwoPinned, TwoPoint
 from ..mechanism import Mechanism
@@ -421,8 +421,7 @@ class ForceLines:
 
     def ratio(self, target: Reference, *, wrt: str | None = None, order: int = 1) -> Any:
         """Return the derivative of a loaded point, shape (2,), or of a member's length; DefinitionError for what no line gives."""
-        if order != 1:
-            raise DefinitionError(f"{self.plan.title}: no equation gives a ratio of order {order}.")
+        ensure(order == 1, f"{self.plan.title}: no equation gives a ratio of order {order}.")
         chain = self._chains.get(stroke_of(self.plan, wrt))
         if chain is not None and isinstance(target, Distance):
             ends = name_of(target.P), name_of(target.Q)

@@ -15,7 +15,7 @@ import numpy as np
 import sympy
 
 from ..checks import require, require_type, require_whole
-from ..errors import DefinitionError, known_name
+from ..errors import DefinitionError, ensure, known_name
 from ..frozen import immutable
 from ..language import translated
 from ..mechanism import Mechanism, declared, require_mechanism
@@ -351,8 +351,7 @@ class Equations(Sequence[Equation], Shown):
         """Return the plain symbols of everything given, with their values [SI]."""
         pose, names = self._pose(at), self._listing.names
         motion = self.machine.at(unreachable=unreachable, **pose)
-        if motion._design_shape:
-            raise DefinitionError(f"{self.machine.plan.title}: its equations take one design, each dimension a single number.")
+        ensure(not motion._design_shape, f"{self.machine.plan.title}: its equations take one design, each dimension a single number.")
         pose = {name: value if np.ndim(value) == 0 else np.asarray(value, float) for name, value in pose.items()}
         given = {names.quantity(name): value for name, value in {**self.machine.dimensions, **pose}.items()}
         for point in (*self.machine.plan.ground, *self._listing.unknowns):

@@ -11,7 +11,7 @@ from typing import Any, final
 import numpy as np
 
 from ..checks import two_of
-from ..errors import DefinitionError, about, cited, is_yes, unknown
+from ..errors import DefinitionError, about, cited, ensure, is_yes, unknown
 from ..frozen import FrozenDict
 from ..quantities import FRAME_AXES, Axes, Coordinate, Dimension, Operand, Quantity, Ref, Stroke, Variable, is_number, label, quantity
 from ..quantities import spelled as written
@@ -57,8 +57,7 @@ class Part(Member):
         self.plan = plan
         values = {} if isinstance(machine, type) else getattr(machine, "dimensions", {})
         set_in = {name: value for name, value in values.items() if np.ndim(value) or value != plan.defaults[name]}
-        if any(map(np.ndim, set_in.values())):
-            raise DefinitionError(f"Part({plan.title}(...)): this is a batch of designs; a part is one of them.")
+        ensure(not any(map(np.ndim, set_in.values())), f"Part({plan.title}(...)): this is a batch of designs; a part is one of them.")
         self.given: dict[str, Any] = {**set_in, **given}
         carriers: object = () if on is None else on.split() if isinstance(on, str) else [on] if isinstance(on, Member) else on
         self.on: tuple[Reference, ...] = tuple(carriers) if isinstance(carriers, (list, tuple)) else ()
@@ -86,8 +85,7 @@ class Part(Member):
 
     def __getitem__(self, name: str) -> Any:
         """Return the reference to a member of the part, `lower["name"]`."""
-        if not self.name:
-            raise DefinitionError(f"Part({self.plan.title}) has no name yet; bind it in the class first, lower = Part(...), then lower.B.")
+        ensure(self.name, f"Part({self.plan.title}) has no name yet; bind it in the class first, lower = Part(...), then lower.B.")
         called, member = f"{self.name}.{name}", self.plan.members.get(name)
         if member is None and name not in self.plan.table.spellings:
             known = sorted({each.partition(".")[0] for each in self.plan.members} | set(self.plan.aliases))
@@ -126,8 +124,7 @@ class Part(Member):
             else:
                 remedy = f"leave it out by {name}=None, or exchange it in a subclass of {plan.title}"
                 fault = f"{name} is a {member.kind} and takes no value; {remedy}"
-            if fault:
-                raise DefinitionError(f"{title}: {fault}.")
+            ensure(not fault, f"{title}: {fault}.")
 
     def parts(self) -> tuple[Reference, ...]:
         found: list[Reference] = [self.angle, *self.at]
@@ -245,8 +242,7 @@ def given_text(value: object) -> str:
 def pair_of(given: object, what: str) -> tuple[Operand, Operand]:
     """Return two coordinates; DefinitionError for anything else."""
     pair = two_of(given)
-    if not pair:
-        raise DefinitionError(f"{what}: {cited(given)} is no place; write (x, y) in m, or name a point of the machine.")
+    ensure(pair, f"{what}: {cited(given)} is no place; write (x, y) in m, or name a point of the machine.")
     for each in pair:
         quantity(each)
     require_measure(pair, "length", what)
@@ -459,8 +455,7 @@ def with_parts(members: Mapping[str, Member], title: str) -> dict[str, Member]:
     found: dict[str, Member] = {}
     for name, member in members.items():
         found |= brought.get(name, {name: member})
-    if len(found) > MOST_MEMBERS:
-        raise DefinitionError(f"{title} has {len(found)} members with those of its parts; up to {MOST_MEMBERS} are taken.")
+    ensure(len(found) <= MOST_MEMBERS, f"{title} has {len(found)} members with those of its parts; up to {MOST_MEMBERS} are taken.")
     aliases = aliases_among(found)
     if not aliases:
         return dict(found)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Protocol, final
 
-from ..errors import DefinitionError
+from ..errors import ensure
 from ..frozen import immutable, refuses_changes
 from ..quantities import Operand, Quantity, joined_names, quantity, spelled
 
@@ -86,8 +86,7 @@ def match(labels: Mapping[str, Operand], slots: Iterable[Slot], what: str) -> di
             fault = f"the label {spelling!r} can be read two ways; rename a point"
         elif fitting[0].attribute in found:
             fault = f"{found[fitting[0].attribute][1]} and {spelling} are the same dimension; give it once"
-        if fault:
-            raise DefinitionError(f"{what}: {fault}.")
+        ensure(not fault, f"{what}: {fault}.")
         slot = fitting[0]
         found[slot.attribute] = (slot, spelling, slot.spellings[spelling], value)
     return found

@@ -7,7 +7,7 @@ from itertools import combinations
 from types import MappingProxyType
 from typing import Self
 
-from ..errors import DefinitionError
+from ..errors import DefinitionError, ensure
 from ..quantities import Axes, Member, Operand, Reference, name_of, quantity
 from .labels import DimensionTable, Slot, Spoken, match, relabelled, written_labels
 
@@ -59,8 +59,7 @@ class Link(Member):
     def point_names(self) -> tuple[str, ...]:
         """The names of its points; DefinitionError where one stands twice."""
         names = tuple(name_of(point) for point in self.points)
-        if len(set(names)) < len(names):
-            raise DefinitionError(f"{self.name} = {self}: a point stands in it twice.")
+        ensure(len(set(names)) == len(names), f"{self.name} = {self}: a point stands in it twice.")
         return names
 
     def __str__(self) -> str:

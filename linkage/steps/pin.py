@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 from ..checks import require_number
-from ..errors import DefinitionError, cited
+from ..errors import DefinitionError, cited, ensure
 from ..quantities import Member, Quantity, Reference, Stroke, Where, joined_names, name_of, of_kind, quantity
 from ..vectors import Scalar, Vec
 from .guide import Guide, Slide
@@ -27,10 +27,8 @@ class Pin(Point):
 
     def __init__(self, *place: object, near: Position | None = None, at: Position | None = None) -> None:
         self.near, self.drawn_at = position(near, "Pin(near=...)"), position(at, "Pin(at=...)")
-        if place:
-            raise DefinitionError(f"Pin({', '.join(map(repr, place))}): say near=(x, y) for a place in a sketch or at=(x, y) in a drawing.")
-        if (near is None) == (at is None):
-            raise DefinitionError("Pin: give its place, near=(x, y) in a sketch or at=(x, y) in a drawing.")
+        ensure(not place, f"Pin({', '.join(map(repr, place))}): say near=(x, y) for a place in a sketch or at=(x, y) in a drawing.")
+        ensure((near is None) != (at is None), "Pin: give its place, near=(x, y) in a sketch or at=(x, y) in a drawing.")
         self.group: Group | None = None
 
     @property

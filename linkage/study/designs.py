@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..checks import require_type
-from ..errors import DefinitionError, StudyError, cited
+from ..errors import DefinitionError, StudyError, cited, ensure
 from ..frozen import immutable, unmasked
 from ..mechanism import Mechanism
 from ..program import fixed_backend
@@ -229,5 +229,4 @@ def result_arrays(title: str, found: object, size: int, where: str) -> dict[str,
 def check_same_results(task: StudyWork, known: Mapping[str, Array], found: Mapping[str, Array], where: str) -> None:
     """Raise DefinitionError where results have not the names and kinds that others have."""
     here, there = (", ".join(f"{name} ({each[name].dtype})" for name in sorted(each)) for each in (found, known))
-    if here != there:
-        raise DefinitionError(f"{task.machine.plan.title}: measure returned {here} for {where}, elsewhere {there}; return the same.")
+    ensure(here == there, f"{task.machine.plan.title}: measure returned {here} for {where}, elsewhere {there}; return the same.")

@@ -12,7 +12,7 @@ from typing import Any, TypeAlias, final
 
 import numpy as np
 
-from ..errors import AssemblyError, DefinitionError, UntracedError, cited, told, unwarned
+from ..errors import AssemblyError, DefinitionError, UntracedError, cited, ensure, told, unwarned
 from ..frozen import immutable
 from ..mechanism import Mechanism
 from ..motion import Grid, Motion, Request, at_values, each_at_its_stroke, evaluate_grid, stroke_display_unit
@@ -81,8 +81,7 @@ class StudyPoses:
         check_one_design(machine)
         every = {name: np.linspace(each.start, each.end, count) for name, each in machine.strokes.items()}
         base = machine.at(**(strokes or (every if len(every) == 1 else {})))
-        if not base.reached.size:
-            raise DefinitionError(f"{machine.plan.title}: there are no strokes to look at; give at least one value of each.")
+        ensure(base.reached.size, f"{machine.plan.title}: there are no strokes to look at; give at least one value of each.")
         return cls(base)
 
     @property

@@ -16,7 +16,7 @@ import numpy as np
 
 from ..checks import require, require_number, require_whole
 from ..disk import check_name, in_words, replacing_text
-from ..errors import AssemblyError, DefinitionError, LinkageError, StudyError, known_name, one_word
+from ..errors import AssemblyError, DefinitionError, LinkageError, StudyError, ensure, known_name, one_word
 from ..loads import PLAIN_CASE, Case, LoadCase
 from ..mechanism import Mechanism
 from ..motion import Judge, Over, Request
@@ -275,8 +275,7 @@ def objectives_of(machine: Mechanism, minimise: object, maximise: object) -> tup
                 raise DefinitionError(f"{title}: {words_of(quantity)} has a value at every pose: {remedy}.")
             group.append(At(quantity, {}))
     least, most = groups
-    if not least and not most:
-        raise DefinitionError(f"{title}: say minimise= or maximise=, one measure such as least(...), or a list of several.")
+    ensure(least or most, f"{title}: say minimise= or maximise=, one measure such as least(...), or a list of several.")
     if len(least) + len(most) == 1:
         return least or most, 1.0 if least else -1.0
     return [*least, *(-each for each in most)], 1.0

@@ -13,7 +13,7 @@ from typing import Any, final
 
 import numpy as np
 
-from ..errors import DefinitionError, LinkageError
+from ..errors import LinkageError, ensure
 from ..frozen import immutable
 from ..mechanism import Mechanism
 from ..motion.measures import CombinedMeasure, Constraint, Given, Measure
@@ -71,8 +71,7 @@ class Front(Shown):
 
 def front(problem: Problem, seed: int, tell: Progress) -> Front:
     """Return the front of a problem's objectives, each to be least; those whose sign was changed are shown with their own."""
-    if find_spec("pymoo") is None:
-        raise DefinitionError('Several objectives need pymoo: pip install "hydrolinkage[pareto]".')
+    ensure(find_spec("pymoo") is not None, 'Several objectives need pymoo: pip install "hydrolinkage[pareto]".')
     coarse, found = problem.changed(counts=COARSE), []
     combinations = [*problem.space.combinations()]
     tell(0, len(combinations))

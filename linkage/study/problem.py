@@ -17,7 +17,7 @@ from typing import Any, TypeAlias, final
 import numpy as np
 
 from ..checks import require_type
-from ..errors import DefinitionError, StudyError, cited
+from ..errors import DefinitionError, StudyError, cited, ensure
 from ..frozen import FrozenDict, immutable
 from ..mechanism import Mechanism
 from ..motion import Grid, Motion, Request, greatest
@@ -391,11 +391,9 @@ class Problem:
             return self._single(leaf, depends, inner)
         if isinstance(leaf, Integral):
             by = leaf.by or (axes[0] if len(axes) == 1 else "")
-            if by not in self.plan.strokes:
-                raise DefinitionError(f"{title}: {leaf}: say by which stroke, by= one of {strokes}.")
+            ensure(by in self.plan.strokes, f"{title}: {leaf}: say by which stroke, by= one of {strokes}.")
             others = [name for name in axes if name != by]
-            if others:
-                raise DefinitionError(f"{title}: {leaf} depends on {', '.join(others)} too: hold it by over={{...}}, or take worst(...).")
+            ensure(not others, f"{title}: {leaf} depends on {', '.join(others)} too: hold it by over={{...}}, or take worst(...).")
             return self._set((by,), inner, integral=True), -1
         if not axes and not inner:
             return self._single(At(leaf.quantity, {}), (), inner)
@@ -414,8 +412,7 @@ class Problem:
             check_magnitude(name, (float(value), float(value)), self.plan)
         held = {name: float(one.low) for name, one in self.ranges.items() if is_still(one)}
         missing = [name for name in depends if name not in leaf.strokes and name not in held and name != inner]
-        if missing:
-            raise DefinitionError(f"{self.plan.title}: {leaf}: say the pose, {', '.join(f'{name}=...' for name in missing)}.")
+        ensure(not missing, f"{self.plan.title}: {leaf}: say the pose, {', '.join(f'{name}=...' for name in missing)}.")
         fixed = held | {name: float(value) for name, value in leaf.strokes.items()}
         alone = bool(inner) or traced(self.plan, leaf.quantity) is None
         for each in self.sets:
@@ -524,8 +521,7 @@ class Problem:
         for end, sampling in self._samplings_of_ends.items():
             samples = sampling.at(Grid(self.plan, designs, strokes), slopes=slopes)
             values = samples.values[0, :, 0]
-            if not np.isfinite(values).all():
-                raise DefinitionError(f"{self.plan.title}: over=: {words_of(end)} has no value of some designs.")
+            ensure(np.isfinite(values).all(), f"{self.plan.title}: over=: {words_of(end)} has no value of some designs.")
             known[end] = values, (None if samples.value_slopes is None else samples.value_slopes[0, :, 0])
         return {
             name: [(np.asarray(end, float), None) if is_number(end) else known[end] for end in (one.low, one.high)]

@@ -13,7 +13,7 @@ from typing import NamedTuple, final
 
 import numpy as np
 
-from ..errors import DefinitionError, StudyError
+from ..errors import StudyError, ensure
 from ..frozen import immutable
 from ..motion.measures import CombinedMeasure, Constraint, Given, Integral, Leaf, Measure
 from ..program import FloatArray
@@ -159,8 +159,7 @@ class Local:
         self._watch: Watch | None = None
         self._needed = {leaf for each in (*problem.objectives, *equations) for leaf in each.leaves}
         first = self.evaluated_at(start)
-        if not bool(first.whole[0]):
-            raise DefinitionError("A local search starts from a design that can be assembled.")
+        ensure(bool(first.whole[0]), "A local search starts from a design that can be assembled.")
         if not self._usable(first):
             lost = [leaf for leaf in self.problem.leaves if leaf in self._needed and first.rows[leaf].lost[0]]
             why = " and ".join(no_value(self.problem.plan, leaf) for leaf in lost) or "the objective has no value"

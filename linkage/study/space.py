@@ -13,7 +13,7 @@ from typing import Any, final
 import numpy as np
 
 from ..checks import require, require_type
-from ..errors import DefinitionError, cited, known_name, unknown
+from ..errors import DefinitionError, cited, ensure, known_name, unknown
 from ..frozen import immutable
 from ..loads import ForceElement
 from ..mechanism import Mechanism
@@ -188,8 +188,7 @@ def places_inside(title: str, each: PointRegion, variables: Sequence[Varied], co
         if len(found) >= count:
             return np.asarray(found[:count])
         tried *= 2
-    if not len(found):
-        raise DefinitionError(f"{title}: regions={{{each.point!r}: ...}}: nothing of it lies in the ranges of vary=; widen one of them.")
+    ensure(len(found), f"{title}: regions={{{each.point!r}: ...}}: nothing of it lies in the ranges of vary=; widen one of them.")
     return found
 
 
@@ -221,8 +220,7 @@ class Space:
             about += coordinates(machine.plan, parts) if isinstance(given, Around) else []
             for part in parts if isinstance(given, Around) and given.is_round else ():
                 expected = f"{part} is no fixed point that varies; write around(60 * mm) of a dimension"
-                if f"{part}.x" not in spellings:
-                    raise DefinitionError(f"{title}: {part}=around(radius=...): {expected}.")
+                ensure(f"{part}.x" in spellings, f"{title}: {part}=around(radius=...): {expected}.")
                 circles[part] = given.by
             if not any(sided) and (isinstance(given, Around) or (isinstance(given, tuple) and len(parts) == 1 and len(given) in (2, 3))):
                 variables += ranged(machine, parts, given)
@@ -412,8 +410,7 @@ def rows_of(title: str, names: Sequence[str], given: object, owners: Sequence[tu
         for place, (owner, _) in enumerate(owners if len(row) == width else ()):
             if is_side(owner):
                 side = Side.said(row[place])
-                if side is None:
-                    raise DefinitionError(f"{owner}: {cited(row[place])} is no side; write a list of them, [LEFT, RIGHT].")
+                ensure(side is not None, f"{owner}: {cited(row[place])} is no side; write a list of them, [LEFT, RIGHT].")
                 row[place] = side
         if len(row) != width or not all(is_number(value) for value in row):
             many = f"{width} numbers are" if width > 1 else "a number is"

@@ -12,7 +12,7 @@ from typing import Any, TypeAlias, final
 import numpy as np
 
 from ..checks import require, require_type, require_whole
-from ..errors import DefinitionError, cited, one_word, unknown, unwarned
+from ..errors import DefinitionError, cited, ensure, one_word, unknown, unwarned
 from ..frozen import FrozenDict, immutable, refuses_changes
 from ..mechanism import Mechanism
 from ..motion import NodeRequest, Request, RequestLike, require_motion
@@ -301,8 +301,7 @@ class Tornado:
     def __getitem__(self, name: str) -> Effect:
         """Return the bar of a dimension."""
         found = {bar.name: bar for bar in self.bars}
-        if name not in found:
-            raise DefinitionError(f"{self.plan.title}: {name!r} has no bar; there are {', '.join(found)}.")
+        ensure(name in found, f"{self.plan.title}: {name!r} has no bar; there are {', '.join(found)}.")
         return found[name]
 
     def __str__(self) -> str:
@@ -334,8 +333,7 @@ def tornado(
     if values.shape[1] != 1:
         remedy = "say one pose, or give a measure such as most(...)"
         raise DefinitionError(f"{plan.title}: {title} at {poses.pose_count} poses; {remedy}.")
-    if not np.isfinite(nominal):
-        raise DefinitionError(f"{plan.title}: {title} has no value at {poses.words()}; ask where it has one.")
+    ensure(np.isfinite(nominal), f"{plan.title}: {title} has no value at {poses.words()}; ask where it has one.")
     low, high = values[1 : 1 + k, 0] - nominal, values[1 + k :, 0] - nominal
     slopes = gradient_at(machine, poses, quantity, named)
     with np.errstate(all="ignore"):
@@ -432,8 +430,7 @@ def sobol(
     laws: Any = [SimpleNamespace(ppf=each.deviations) for each in named.values()]
     with unwarned(), np.errstate(all="ignore"):
         found = sobol_indices(func=values, n=int(count), dists=laws, rng=np.random.default_rng(int(seed)))
-    if not np.all(sigmas[0] > 0.0):
-        raise DefinitionError(f"{plan.title}: {title} does not vary with {', '.join(named)} at some of the strokes; leave these out.")
+    ensure(np.all(sigmas[0] > 0.0), f"{plan.title}: {title} does not vary with {', '.join(named)} at some of the strokes; leave these out.")
     shares = []
     for indices in (found.first_order, found.total_order):
         rows = np.reshape(indices, (2, -1, len(named)))[0].T  # twice the poses times the dimensions

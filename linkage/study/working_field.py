@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..checks import require, require_type
-from ..errors import DefinitionError, cited, known_name, unwarned
+from ..errors import DefinitionError, cited, ensure, known_name, unwarned
 from ..frozen import FrozenDict, frozen, immutable, read_only
 from ..language import heading_of, noted, said
 from ..loads import Case, ForceElement, Weight
@@ -447,8 +447,7 @@ class FieldSearch:
         asked = machine, point, x_given, y_given, along, hold, over, keep, lifts, rule, case, without, limits
         plan, title = machine.plan, f"{machine.plan.title}: working_field"
         name = known_name("Point", name_of(point), plan.points, where=title)
-        if name not in plan.moving:
-            raise DefinitionError(f"{title}: {name} stands still, so that nothing is lifted there; name a point that moves.")
+        ensure(name in plan.moving, f"{title}: {name} stands still, so that nothing is lifted there; name a point that moves.")
         axes = [axis_values(each, axis, title) for axis, each in (("x", x_given), ("y", y_given))]
         across, up = axes[0].size, axes[1].size
         if across * up > MOST_CELLS:

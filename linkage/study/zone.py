@@ -10,7 +10,7 @@ from typing import Any, TypeAlias, final
 
 import numpy as np
 
-from ..errors import DefinitionError, SingularWarning
+from ..errors import DefinitionError, SingularWarning, ensure
 from ..frozen import immutable
 from ..mechanism import Mechanism
 from ..motion import Motion, at_values, highest, out_of_reach
@@ -73,8 +73,7 @@ def zone(machine: Mechanism, quantity: QuantityLike, vary: Any = None, *, over: 
     given = strokes or {name: np.linspace(each.start, each.end, POSES) for name, each in machine.strokes.items()}
     poses = at_values(given, machine.plan)
     shape = next(iter(poses.values())).shape
-    if 0 in shape:
-        raise DefinitionError(f"{machine.plan.title}: there are no strokes to look at; give at least one value of {', '.join(poses)}.")
+    ensure(0 not in shape, f"{machine.plan.title}: there are no strokes to look at; give at least one value of {', '.join(poses)}.")
     flat = {name: value.ravel() for name, value in poses.items()}
     looked_at = StudyPoses(machine.at(unreachable="nan", **flat))
 

@@ -13,7 +13,7 @@ from typing import Self, TypeAlias, final
 import numpy as np
 import numpy.typing as npt
 
-from ..errors import DefinitionError
+from ..errors import ensure
 from ..frozen import immutable
 from ..plan import Mask
 from ..program import FloatArray
@@ -194,8 +194,7 @@ def drawn_curve(points: FloatArray) -> tuple[ClosedCurves, FloatArray]:
     every = np.append(points @ [1.0, 1.0j], points[0] @ [1.0, 1.0j])
     chords = np.abs(np.diff(every))
     kept = chords > SAME_POINT * np.abs(every - every.mean()).max()
-    if kept.sum() < 3:
-        raise DefinitionError("A closed curve has at least three different points; give more of it.")
+    ensure(kept.sum() >= 3, "A closed curve has at least three different points; give more of it.")
     passed = np.concatenate([[0.0], np.cumsum(np.where(kept, chords, 0.0))])
     passed /= passed[-1]
     knots = np.append(np.flatnonzero(kept), len(every) - 1)

@@ -239,8 +239,7 @@ class Burmester(Told, Shown):
 
     def four_bar(self, one: GuidingLink, other: GuidingLink) -> ExactMachine:
         """Return the machine of two links, judged; the one that takes it through all poses drives it, else the first."""
-        if one.slides and other.slides:
-            raise DefinitionError("four_bar(...): two sliders have no link that could be driven; give one that turns.")
+        ensure(not (one.slides and other.slides), "four_bar(...): two sliders have no link that could be driven; give one that turns.")
         if is_without_links(one.pivoted, other.pivoted, self.body.size):
             raise DefinitionError("four_bar(...): the two links share a pin; give two that differ.")
         return machine_of_links(self.body, one, other, in_order=self.in_order)

@@ -340,8 +340,7 @@ def synthesised_classes(
     """
     starts, limit, folder = options["starts"], options["limit"], options["folder"]
     given = shipped_machines() if machines is None else machines
-    if not given:
-        raise DefinitionError(f"synthesise({cited(machines)}): a design or a list of classes is expected, such as [FourBar, SliderCrank].")
+    ensure(given, f"synthesise({cited(machines)}): a design or a list of classes is expected, such as [FourBar, SliderCrank].")
     designs: list[Any] = [each() if isinstance(each, type) and issubclass(each, Mechanism) else each for each in given]
     for each in designs:
         check_one_design(each)

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
-from typing import TypeGuard, TypeVar, cast
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, TypeGuard, TypeVar, cast
 
 import numpy as np
 
@@ -29,9 +29,14 @@ def is_whole(value: object) -> TypeGuard[int]:
     return isinstance(value, (int, np.integer)) and not isinstance(value, bool)
 
 
+def is_listed(given: object) -> TypeGuard[Sequence[Any]]:
+    """Return whether a value is a list or a tuple."""
+    return isinstance(given, (list, tuple))
+
+
 def two_of(given: object) -> tuple[Scalar, ...]:
     """Return both parts of a list, a tuple or an array of two, such as the coordinates of a place; nothing for anything else."""
-    parts = tuple(given) if isinstance(given, (list, tuple)) or (isinstance(given, np.ndarray) and given.ndim) else ()
+    parts = tuple(given) if is_listed(given) or (isinstance(given, np.ndarray) and given.ndim) else ()
     return parts if len(parts) == 2 else ()
 
 

@@ -10,7 +10,7 @@ from typing import Any, final
 
 import numpy as np
 
-from ..errors import DefinitionError, about, ensure, unknown
+from ..errors import DefinitionError, about, unknown
 from ..loads import ForceElement
 from ..plan import needed_names, with_inner
 from ..quantities import Member, Number, Quantity, Reference, Stroke, Variable, joined_names, name_of, needs, of_kind, quantity
@@ -179,7 +179,8 @@ def check_names(members: Mapping[str, Member], title: str) -> None:
     for name, member in members.items():
         joined: list[tuple[Reference, str]] = [(member.point, "point"), (member.guide, "guide")] if isinstance(member, Slide) else []
         for reference, kind in [(point, "point") for point in member.points] if isinstance(member, Link) else joined:
-            ensure(members[name_of(reference)].kind == kind, f"{title}: {name} = {member}: {name_of(reference)} is not a {kind}.")
+            if members[name_of(reference)].kind != kind:
+                raise DefinitionError(f"{title}: {name} = {member}: {name_of(reference)} is not a {kind}.", member=name)
         if isinstance(member, Link):
             with about(name):
                 member.fitted()

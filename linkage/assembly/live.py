@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from itertools import accumulate
 from typing import Any
 
+from ..checks import is_listed
 from ..plan import Plan
 from ..program import Graph, Inputs, Level, Node, arrow_function, function_body, number, short_names
 from ..steps import Group
@@ -86,4 +87,4 @@ def constants_text(constants: Mapping[str, str]) -> str:
 
 def json_of(value: Any) -> str:
     """Return numbers, also in lists, as JavaScript."""
-    return f"[{','.join(map(json_of, value))}]" if isinstance(value, (list, tuple)) else number(float(value))
+    return f"[{','.join(map(json_of, value))}]" if is_listed(value) else number(float(value))

@@ -29,7 +29,7 @@ from ..statics import acceleration, axle_load, drive_force, dynamic_factor, pin_
 from ..steps import Point
 from ..study.problem import NOWHERE, Problem
 from ..units import UNITS, Amount
-from .expression import BINARY, Grammar, Token, constant, finite
+from .expression import BINARY, NUMERIC, Grammar, Token, constant, finite
 from .names import Keywords
 
 # What a study file may ask for: the requests and conditions of this package, and those that others bring.
@@ -76,11 +76,6 @@ MEASURES: Mapping[str, Callable[..., Any]] = MappingProxyType(
 """What makes measures of quantities, and `worst`, which makes a quantity."""
 PLACED: Mapping[str, Callable[..., Quantity]] = MappingProxyType({"angle": angle, "distance": distance, "x": x, "y": y})
 """What makes quantities of points."""
-NUMERIC: Mapping[str, str] = MappingProxyType(
-    {each: each for each in ("absolute", "sqrt", "sin", "cos", "tan", "exp", "log", "arctan2", "minimum", "maximum", "hypot")}
-    | {"abs": "absolute", "atan2": "arctan2", "min": "minimum", "max": "maximum"}
-)
-"""NumPy's functions by the names that a file may give them."""
 CONDITIONS: Mapping[str, Condition] = MappingProxyType({"reachable": reachable})
 AXES = {"_x": x, "_y": y, ".x": x, ".y": y}
 
@@ -108,9 +103,8 @@ def measure_or_constant(found: Any, machine: Mechanism) -> Measure:
 def condition_said(text: object, machine: Mechanism, over: Mapping[str, object] | None = None) -> Condition:
     """Return the condition on this machine that a text says; DefinitionError for anything else."""
     found = criterion_of(text, machine)
-    if not isinstance(found, Condition):
-        what = words_of(found) if isinstance(found, (Request, Quantity, Worst)) else str(found)
-        raise DefinitionError(f"{text!r}: {what} says no limit; write one such as most(...) <= 8 deg.")
+    what = words_of(found) if isinstance(found, (Request, Quantity, Worst)) else str(found)
+    ensure(isinstance(found, Condition), f"{text!r}: {what} says no limit; write one such as most(...) <= 8 deg.")
     Problem(machine, [], [*found.constraints(machine)], NOWHERE, over=over)
     return found
 
@@ -207,9 +201,8 @@ class CriterionParser(Grammar):
         member = plan.members.get(name)
         if isinstance(member, Quantity):
             return member
-        if member is not None:
-            remedy = f"x({name}) or y({name})" if isinstance(member, Point) else f"a request of it, such as thrust({name})"
-            raise DefinitionError(f"{name} = {member} is no number; write {remedy}.")
+        remedy = f"x({name}) or y({name})" if isinstance(member, Point) else f"a request of it, such as thrust({name})"
+        ensure(member is None, f"{name} = {member} is no number; write {remedy}.")
         if name in CONDITIONS:
             return CONDITIONS[name]
         if name in plan.table.spellings:

@@ -12,6 +12,7 @@ from dataclasses import MISSING, dataclass, fields, is_dataclass, replace
 from inspect import Parameter, ismethod, signature
 from typing import Any, final
 
+from ..checks import is_listed
 from ..errors import DefinitionError, ensure, told
 from ..frozen import immutable
 from ..loads import ForceElement
@@ -20,7 +21,7 @@ from ..quantities.member import KEPT_AS, annotated_kind, kinds_said
 from ..steps import Point, Step
 from ..units import SI
 from .design import Design
-from .names import NAME_LENGTH, FileTable, Keywords, Names, entry_as, is_list, require_entry, shortened
+from .names import NAME_LENGTH, FileTable, Keywords, Names, entry_as, require_entry, shortened
 from .source import Mistakes, each_of
 from .validators import KINDS, Kind, amount, fixed_number, quantity_of
 
@@ -186,7 +187,7 @@ def list_of(part: type[Any]) -> Kind:
     arguments = arguments_of(part)
 
     def read(given: object, names: Names) -> list[Keywords]:
-        if not isinstance(given, (list, tuple)):
+        if not is_listed(given):
             raise DefinitionError("is not a list [...].")
         ensure(len(given) <= VALUES, f"{len(given)} are too many; at most {VALUES} items are read.")
 
@@ -312,7 +313,7 @@ class FileEntry:
         """Return what a member is built from, of a list."""
         words = self._kind_words()
         what = f"two {words[0]}s" if words in (["point"] * 2, ["guide"] * 2) else " and ".join(f"a {word}" for word in words)
-        fits = is_list(given) and len(given) == len(self.built_from)
+        fits = is_listed(given) and len(given) == len(self.built_from)
         require_entry(fits, given, f"is not {what}, such as {self._parents()}")
         return tuple(argument.kind.read(each, names) for argument, each in zip(self.built_from, given, strict=True))
 

@@ -111,15 +111,16 @@ def length_or_size(argument: Arrow | str | Quantity) -> Quantity:
 
 
 PAIR = ("point", "point")
-ONE, TWO = ("quantity",), ("quantity", "quantity")
-
+NUMERIC: Mapping[str, str] = MappingProxyType(
+    {each: each for each in ("absolute", "sqrt", "sin", "cos", "tan", "exp", "log", "arctan2", "minimum", "maximum")}
+    | {"abs": "absolute", "atan2": "arctan2", "min": "minimum", "max": "maximum"}
+)
+"""NumPy's functions by the names that a file may give them."""
 CALLS: Mapping[str, tuple[tuple[str, ...], Callable[..., Member]]] = MappingProxyType({
     "angle": (PAIR, angle), "distance": (PAIR, distance), "x": (("point",), x), "y": (("point",), y),
     "CosineAngle": (("quantity",) * 3, CosineAngle), "abs": (("any",), length_or_size), "absolute": (("any",), length_or_size),
     "Vector": (PAIR, Vector), "Turn": (("vector", "quantity"), Turn),
-    **{name: (ONE, applied(name)) for name in ("sqrt", "sin", "cos", "tan", "exp", "log")},
-    **{name: (TWO, applied(name)) for name in ("arctan2", "minimum", "maximum")},
-    **{short: (TWO, applied(name)) for short, name in (("atan2", "arctan2"), ("min", "minimum"), ("max", "maximum"))},
+    **{name: (("quantity",) * getattr(np, own).nin, applied(own)) for name, own in NUMERIC.items() if own != "absolute"},
 })  # fmt: skip
 """The functions by name: the kinds of their arguments, and what each makes of them."""
 VECTORS: Mapping[str, tuple[str, ...]] = MappingProxyType({"Vector": (), "Turn": ("length",)})

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar, cast, final
 from unicodedata import normalize
 
+from ..checks import is_listed
 from ..errors import DefinitionError, ensure, unknown
 from ..quantities import Member, Quantity, Ref, is_name
 
@@ -93,14 +94,9 @@ def member_name(name: object) -> str:
     return name
 
 
-def is_list(given: object) -> bool:
-    """Return whether this is a list, not a text."""
-    return isinstance(given, Sequence) and not isinstance(given, str)
-
-
 def listed(given: Any) -> Sequence[Any]:
     """Return the items of a list, or anything but a list as the only one."""
-    return given if isinstance(given, (list, tuple)) else [given]
+    return given if is_listed(given) else [given]
 
 
 def entry_as(given: object, kind: type[Kind] | tuple[type[Kind], ...], expected: str) -> Kind:

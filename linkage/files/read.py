@@ -167,9 +167,8 @@ def names_of(sections: Mapping[str, Mapping[str, object]], faults: Faults) -> di
         for name in entries:
             with faults.at(section, str(name)):
                 member_name(name)
-                if name in found or name in vars(Mechanism):
-                    taken = f"stands in [{found[name]}] too" if name in found else "is a word of the framework"
-                    raise DefinitionError(f"{name} {taken}; give it another name.")
+                taken = f"stands in [{found[name]}] too" if name in found else "is a word of the framework"
+                ensure(name not in found and name not in vars(Mechanism), f"{name} {taken}; give it another name.")
                 found[name] = section
     return found
 

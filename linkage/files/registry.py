@@ -98,9 +98,8 @@ def over_written(member: Over, design: Design) -> Keywords:
     only = []
     for condition in member.only:
         for side in (condition.left, condition.right):
-            if not is_number(side) and not isinstance(side, (str, Quantity)):
-                what = f"only=[{condition}]: a file holds conditions of quantities such as x(T) or a named output, and {side} is a request"
-                raise DefinitionError(f"{what}; take the condition out, or keep the class in Python.")
+            what = f"only=[{condition}]: a file holds conditions of quantities such as x(T) or a named output, and {side} is a request"
+            ensure(is_number(side) or isinstance(side, (str, Quantity)), f"{what}; take the condition out, or keep the class in Python.")
         left, right = (design.scalar(quantity(side)) for side in (condition.left, condition.right))
         only.append(f"{left} {condition.symbol} {right}")
     options = {"only": only, "cases": list(member.cases or ()), "lost": member.lost}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import json
 import os
 import re
@@ -10,11 +11,13 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
+from io import StringIO
+from math import isfinite
 from pathlib import Path
 from typing import Any, NoReturn, final
 
 from ..disk import read
-from ..errors import DefinitionError, FileError
+from ..errors import DefinitionError, FileError, ensure
 from .names import NAME_LENGTH, Keywords, shortened
 
 Key = tuple[str, ...]
@@ -138,6 +141,39 @@ def key_lines(text: str) -> Mapping[Key, int]:
         for mark in _LONG.findall(line):
             inside = "" if inside == mark else inside or mark
     return found
+
+
+# -- tables of rows ------------------------------------------------------------------------------------------
+
+MOST_BYTES = 10_000_000
+DELIMITERS = (";", "\t", ",")
+
+
+def csv_rows(path: Path) -> Iterator[tuple[int, list[str]]]:
+    """Yield the rows of a CSV file with their lines, without empty ones and those that begin with #; decimal commas as points."""
+    try:
+        ensure(path.stat().st_size <= MOST_BYTES, f"{path.name} is larger than {MOST_BYTES // 1_000_000} MB; give fewer points.")
+        text = path.read_text(encoding="utf-8-sig")
+    except OSError as error:
+        raise DefinitionError(f"{path.name} cannot be read: {error.strerror}; paths start from the file's own folder.") from None
+    except UnicodeDecodeError:
+        raise DefinitionError(f"{path.name} is no text in UTF-8; save it as CSV UTF-8.") from None
+    first = next((line for line in text.splitlines() if line.strip() and not line.startswith("#")), "")
+    delimiter = next((each for each in DELIMITERS if each in first), ",")
+    reader = csv.reader(StringIO(text), delimiter=delimiter, skipinitialspace=True)
+    for row in reader:
+        cells = [cell.strip() for cell in row]
+        if not any(cells) or cells[0].startswith("#"):
+            continue
+        yield reader.line_num, [re.sub(r"^([-+]?\d*),(\d+)$", r"\1.\2", cell) for cell in cells] if delimiter != "," else cells
+
+
+def is_numeral(cell: str) -> bool:
+    """Return whether a text is a finite number."""
+    try:
+        return isfinite(float(cell))
+    except ValueError:
+        return False
 
 
 # -- what is wrong -----------------------------------------------------------------------------------------

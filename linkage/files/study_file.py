@@ -19,6 +19,7 @@ from inspect import Parameter, signature
 from pathlib import Path
 from typing import Any, TypeAlias, final, get_type_hints
 
+from ..checks import is_listed
 from ..disk import check_place
 from ..errors import DefinitionError, FileError, ensure, known_name, one_word, unknown
 from ..frozen import immutable
@@ -183,7 +184,7 @@ def amount_said(given: Any, measures: str) -> float:
 def value_said(plan: Plan, name: str, given: object) -> Any:
     """Return the value of a dimension [SI], of a point a pair."""
     measures, spellings = measure_of_name(plan, name), plan.table.spellings
-    if isinstance(given, (list, tuple)):
+    if is_listed(given):
         expected = "one value expected" if name in spellings else "two coordinates expected"
         require_entry(name not in spellings and len(given) == 2, given, expected)
         return tuple(amount_said(each, measures) for each in given)
@@ -214,9 +215,8 @@ def vary_said(head: StudyHead, given: object) -> dict[Any, Any]:
         return found
 
     found = by_dimensions(given, "vary", varied, RANGE_KEYS)
-    if not found:
-        where = f"{head.section}.vary" if head.section else "vary"
-        raise DefinitionError(f'nothing varies; write [{where}] OB = "270 to 330 mm": {RANGE_WORDS}.')
+    where = f"{head.section}.vary" if head.section else "vary"
+    ensure(found, f'nothing varies; write [{where}] OB = "270 to 330 mm": {RANGE_WORDS}.')
     return {name: said for part in found.values() for name, said in part.items()}
 
 

@@ -13,14 +13,11 @@
 
 from __future__ import annotations
 
-import csv
 import os
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from io import StringIO
-from math import isfinite
 from pathlib import Path
 from typing import Annotated, Any, TypeAlias, final
 
@@ -46,7 +43,7 @@ from ..units import UNITS, factor, units_of
 from . import study_file
 from .criterion import condition_said, measure_said, quantity_said
 from .names import Keywords, entry_as, require_entry, shortened
-from .source import Mistakes, each_of
+from .source import Mistakes, csv_rows, each_of, is_numeral
 from .study_file import FindMachine, Read, Settings, StudyHead, amount_said
 
 # A search as a file: what is least or greatest, what may vary, and what must be kept.
@@ -397,8 +394,6 @@ SYNTHESIS: Mapping[str, Read] = {
 #     30.0, 60.0, 12
 
 
-MOST_BYTES = 10_000_000
-DELIMITERS = (";", "\t", ",")
 _HEADING = re.compile(r"(?P<name>[^\[(,/]*?)\s*(?:[\[(,/]\s*(?P<unit>[^\])]*?)\s*[\])]?)?\Z")
 
 
@@ -495,30 +490,3 @@ def known_unit(what: str, unit: str, measures: str) -> str:
     if measures and UNITS[unit][1] != measures:
         raise DefinitionError(f"{what}: {unit} measures {UNITS[unit][1]}; use one of {', '.join(units_of(measures))}.")
     return unit
-
-
-def csv_rows(path: Path) -> Iterator[tuple[int, list[str]]]:
-    """Yield the rows of a CSV file with their lines, without empty ones and those that begin with #; decimal commas as points."""
-    try:
-        ensure(path.stat().st_size <= MOST_BYTES, f"{path.name} is larger than {MOST_BYTES // 1_000_000} MB; give fewer points.")
-        text = path.read_text(encoding="utf-8-sig")
-    except OSError as error:
-        raise DefinitionError(f"{path.name} cannot be read: {error.strerror}; paths start from the file's own folder.") from None
-    except UnicodeDecodeError:
-        raise DefinitionError(f"{path.name} is no text in UTF-8; save it as CSV UTF-8.") from None
-    first = next((line for line in text.splitlines() if line.strip() and not line.startswith("#")), "")
-    delimiter = next((each for each in DELIMITERS if each in first), ",")
-    reader = csv.reader(StringIO(text), delimiter=delimiter, skipinitialspace=True)
-    for row in reader:
-        cells = [cell.strip() for cell in row]
-        if not any(cells) or cells[0].startswith("#"):
-            continue
-        yield reader.line_num, [re.sub(r"^([-+]?\d*),(\d+)$", r"\1.\2", cell) for cell in cells] if delimiter != "," else cells
-
-
-def is_numeral(cell: str) -> bool:
-    """Return whether a text is a finite number."""
-    try:
-        return isfinite(float(cell))
-    except ValueError:
-        return False

@@ -10,6 +10,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from ..checks import is_listed
 from ..errors import DefinitionError, ensure, known_name, unknown
 from ..quantities import Number, Quantity, is_number, label, name_of, quantity
 from ..steps import Arrow
@@ -17,7 +18,7 @@ from ..units import UNITS, Amount, parse
 from ..vectors import Side
 from .design import Design, degrees_text, option_said
 from .expression import arrow_in, expression, one_unit
-from .names import Names, by_whole_names, entry_as, is_list, listed, require_entry, shortened
+from .names import Names, by_whole_names, entry_as, listed, require_entry, shortened
 from .source import each_of
 
 Read: TypeAlias = Callable[[Any, Names], Any]
@@ -104,7 +105,7 @@ def several(what: str, one: Read) -> Read:
     """Return the check of a list of two, each by itself."""
 
     def read(given: Any, names: Names) -> tuple[Any, Any]:
-        require_entry(is_list(given) and len(given) == 2, given, f"is not {what}")
+        require_entry(is_listed(given) and len(given) == 2, given, f"is not {what}")
         return one(given[0], names), one(given[1], names)
 
     return read
@@ -114,7 +115,7 @@ def list_reader(one: Read, wrong: str, most: float = inf) -> Read:
     """Return what reads a list, each item by itself; `wrong` says what anything else, {given}, is not."""
 
     def read(given: object, names: Names) -> tuple[Any, ...]:
-        if not isinstance(given, (list, tuple)) or len(given) > most:
+        if not is_listed(given) or len(given) > most:
             raise DefinitionError(wrong.format(given=shortened(given)))
         return tuple(each_of(enumerate(given), lambda place, each: one(each, names)))
 
@@ -128,7 +129,7 @@ def point_or(place: Read) -> Read:
 
 def lists_of(given: object, names: Names, depth: int = 0) -> Any:
     """Return a number or a word, or a list of them, or lists of lists as tuples."""
-    if not isinstance(given, (list, tuple)):
+    if not is_listed(given):
         return word_of(given) if isinstance(given, str) else number_of(given, names)
     require_entry(depth != DEEPEST, given, f"lists stand in each other more than {DEEPEST} deep")
     return tuple(lists_of(each, names, depth + 1) for each in given)
@@ -146,7 +147,7 @@ def arrow_of(given: object, names: Names) -> Arrow | str:
 def words_in(given: Any, what: str) -> Sequence[Any]:
     """Return the words of a text such as `O B C`, or of a list; DefinitionError where there is none."""
     words: Sequence[Any] = given.split() if isinstance(given, str) else given
-    require_entry(is_list(words) and words, given, f"is not {what}")
+    require_entry(is_listed(words) and words, given, f"is not {what}")
     return words
 
 
@@ -166,7 +167,7 @@ def body_of(given: object, names: Names) -> str:
 
 def loads_of(given: Any, names: Names) -> Any:
     """Return the name of a load, or a list of such."""
-    return [names.checked(each, "load") for each in given] if is_list(given) else names.checked(given, "load")
+    return [names.checked(each, "load") for each in given] if is_listed(given) else names.checked(given, "load")
 
 
 def factors_of(given: Any, names: Names) -> dict[str, float]:

@@ -296,9 +296,8 @@ class ForceLines:
     ) -> list[sympy.Expr]:
         """Return the thrusts on a unit of area of lines that hold some strokes together, by Cramer's rule."""
         matrix = sympy.Matrix([[levers[line][stroke] for line in block] for stroke in rows])
-        if len(block) > MOST:
-            names = ", ".join(each.name for line in block for each in line.cylinders)
-            raise DefinitionError(f"{self.plan.title}: {names} hold their strokes together, too many for equations; take thrust(motion).")
+        names = ", ".join(each.name for line in block for each in line.cylinders)
+        ensure(len(block) <= MOST, f"{self.plan.title}: {names} hold their strokes together, too many for equations; take thrust(motion).")
         right, found = sympy.Matrix([needs[stroke] for stroke in rows]), []
         for place in range(len(block)):
             changed = matrix.copy()
@@ -308,9 +307,8 @@ class ForceLines:
 
     def _levers(self, line: PressureLine, strokes: Sequence[str]) -> dict[str, sympy.Expr]:
         """Return what a unit of pressure in a line does on a unit of each stroke."""
-        if line.changes_shares:
-            names = " and ".join(each.name for each in line.cylinders)
-            raise DefinitionError(f"{self.plan.title}: {names} share their load by the sides that work; take thrust(motion) of each.")
+        names = " and ".join(each.name for each in line.cylinders)
+        ensure(not line.changes_shares, f"{self.plan.title}: {names} share their load by the sides that work; take thrust(motion) of each.")
         parts = {name: [self._area(line, each) * self._chains[name].growths[each.ends] for each in line.cylinders] for name in strokes}
         return {name: sympy.Add(*each) for name, each in parts.items()}
 

@@ -25,7 +25,8 @@ from ..numeric.line import SAMPLES
 from ..numeric.quadrature import quadrature
 from ..plan import Mask, Plan
 from ..program import FloatArray, Kernel
-from ..quantities import PoseCondition, Quantity, Ref, is_whole, keywords
+from ..quantities import PoseCondition, Quantity, is_whole, keywords
+from ..quantities.quantity import stands_for
 from ..vectors import Numbers
 from .answer import LOST, LOST_SHARE, NONE_LOST, NOTHING_LEFT, OF_VALUE, PER_DESIGN, UNBOUNDED, Answer, Lost, PerDesign
 from .evaluation import Evaluation
@@ -1030,8 +1031,7 @@ def measures_of(plan: Plan, question: object) -> str:
     measure = question.left if isinstance(question, Constraint) else question
     if not isinstance(measure, Leaf) or isinstance(measure, Integral):
         return ""
-    known = plan.members.get(measure.quantity) if isinstance(measure.quantity, str) else measure.quantity
-    known = plan.members.get(known.target) if isinstance(known, Ref) else known
+    known = stands_for(plan.members, measure.quantity)
     return str(getattr(known, "measures", "")) if isinstance(known, (Quantity, Request)) else ""
 
 

@@ -26,8 +26,8 @@ from ..errors import DefinitionError, LawError, UntracedError, article, cited
 from ..loads import Acting, Case, LoadCase
 from ..plan import Plan, plan_measure, require_kind
 from ..program import FloatArray
-from ..quantities import Arithmetic, PoseCondition, Quantity, Ref, is_number, name_of, x, y
-from ..quantities.quantity import Function, Negative, Number, Operation, Sum
+from ..quantities import Arithmetic, PoseCondition, Quantity, is_number, name_of, x, y
+from ..quantities.quantity import Function, Negative, Number, Operation, Sum, stands_for
 from ..steps import Point
 from ..units import IN_TIME, Amount, require_measure
 from .limits import stroke_unit
@@ -572,9 +572,7 @@ def measure_of(plan: Plan, quantity: object) -> str:
     """Return what a quantity measures: "length", "angle", "force", "pressure", or "" where that is not known."""
     if isinstance(quantity, Leaf) and not isinstance(quantity, Integral):
         return measure_of(plan, quantity.quantity)
-    known = plan.members.get(quantity) if isinstance(quantity, str) else quantity
-    if isinstance(known, Ref):
-        return measure_of(plan, known.target)
+    known = stands_for(plan.members, quantity)
     found = known.measured(plan) if isinstance(known, Request) else known.measures if isinstance(known, Quantity) else ""
     if found:
         return "" if found == "moment" else str(found)
@@ -612,18 +610,15 @@ def kind_of_measure(plan: Plan, measure: Measure) -> MeasureKind | None:
 
 def kind_of_quantity(plan: Plan, quantity: object) -> MeasureKind | None:
     """Return the kind of a quantity or request; None where it is not known, and of a number. DefinitionError as for a measure."""
-    known = plan.members.get(quantity) if isinstance(quantity, str) else quantity
+    known = stands_for(plan.members, quantity)
     if isinstance(known, Worst):
         return kind_of_quantity(plan, known.quantity)
-    if isinstance(known, Ref):
-        return kind_of_quantity(plan, known.target)
-    if known is None and isinstance(quantity, str):
-        owner = plan.table.spellings.get(quantity)
+    if isinstance(known, str):
+        owner = plan.table.spellings.get(known)
         return kind_called(plan_measure(plan, owner[0]) if owner else "")
     sign, parts = operation(known)
     if not sign and isinstance(known, Value) and known.along:
-        target = plan.members.get(known.target) if isinstance(known.target, str) else known.target
-        inner = kind_called("length") if isinstance(target, Point) else kind_of_quantity(plan, known.target)
+        inner = kind_called("length") if isinstance(stands_for(plan.members, known.target), Point) else kind_of_quantity(plan, known.target)
         by = kind_of_stroke(plan, stroke_of(plan, known.along[0]))
         return None if inner is None else inner.times(by.to_the(float(known.order)), -1.0)
     if not sign:  # of a moment it is told here, which is shown as a plain number

@@ -10,7 +10,7 @@ from typing import Any, final
 
 import numpy as np
 
-from ..checks import two_of
+from ..checks import is_listed, two_of
 from ..errors import DefinitionError, about, cited, ensure, is_yes, unknown
 from ..frozen import FrozenDict
 from ..quantities import FRAME_AXES, Axes, Coordinate, Dimension, Operand, Quantity, Ref, Stroke, Variable, is_number, label, quantity
@@ -60,7 +60,7 @@ class Part(Member):
         ensure(not any(map(np.ndim, set_in.values())), f"Part({plan.title}(...)): this is a batch of designs; a part is one of them.")
         self.given: dict[str, Any] = {**set_in, **given}
         carriers: object = () if on is None else on.split() if isinstance(on, str) else [on] if isinstance(on, Member) else on
-        self.on: tuple[Reference, ...] = tuple(carriers) if isinstance(carriers, (list, tuple)) else ()
+        self.on: tuple[Reference, ...] = tuple(carriers) if is_listed(carriers) else ()
         if on is not None and (not 0 < len(self.on) < 3 or not all(isinstance(each, (str, Member)) for each in self.on)):
             raise DefinitionError(f"Part(on={cited(on)}): name two points of the body that carries it, a link, or nothing for the frame.")
         x, y = (0.0, 0.0) if at is None else pair_of(at, "Part(at=...)")

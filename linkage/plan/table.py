@@ -10,7 +10,7 @@ from typing import TypeAlias, cast, final
 import numpy as np
 import numpy.typing as npt
 
-from ..checks import require
+from ..checks import is_listed, require
 from ..errors import DefinitionError, unknown
 from ..frozen import read_only
 from ..quantities import Number, Operand, Quantity, Variable, quantity, real, spelled
@@ -119,7 +119,7 @@ class Table:
         if name in self.spellings:
             return [(name, value)]
         if f"{name}.x" in self.spellings or f"{name}.y" in self.spellings:
-            pair = list(cast(Iterable[npt.ArrayLike], value)) if isinstance(value, (list, tuple)) or np.ndim(value) else []
+            pair = list(cast(Iterable[npt.ArrayLike], value)) if is_listed(value) or np.ndim(value) else []
             require(len(pair) == 2, f"{self.title}({name}", value, f"a point takes two coordinates, {name}=(x, y) in m")
             return [part for axis, each in zip("xy", pair, strict=True) for part in self._pairs(f"{name}.{axis}", each)]
         if name in self.following:

@@ -331,6 +331,16 @@ class Ref(Quantity):
         return self.target
 
 
+def stands_for(members: Mapping[str, Any], given: object) -> Any:
+    """Return what a name or a reference stands for among some members, in the end; a name that is none of them as it is."""
+    while isinstance(given, (str, Ref)):
+        name = given.target if isinstance(given, Ref) else given
+        if name not in members:
+            return name
+        given = members[name]
+    return given
+
+
 def ref(name: str) -> Quantity:
     """Return the quantity of that name, to be bound anywhere in the class: `ref("L0") + S`."""
     if not is_reference(name):

@@ -26,9 +26,8 @@ class Link(Member):
         if len(points) == 1 and isinstance(points[0], str):
             points = tuple(points[0].replace(",", " ").split())
         self.points, self.labels = points, labels
-        if len(points) < 2:
-            words = " ".join(map(str, points))
-            raise DefinitionError(f'Link("{words}"): a link joins at least two points; write them apart, Link("O B").')
+        words = " ".join(map(str, points))
+        ensure(len(points) >= 2, f'Link("{words}"): a link joins at least two points; write them apart, Link("O B").')
 
     def in_axes(self, axes: Axes) -> Self:
         return self.renewed(is_mirrored=not self.is_mirrored) if axes.mirrored else self
@@ -59,7 +58,8 @@ class Link(Member):
     def point_names(self) -> tuple[str, ...]:
         """The names of its points; DefinitionError where one stands twice."""
         names = tuple(name_of(point) for point in self.points)
-        ensure(len(set(names)) == len(names), f"{self.name} = {self}: a point stands in it twice.")
+        if len(set(names)) < len(names):
+            raise DefinitionError(f"{self.name} = {self}: a point stands in it twice.")
         return names
 
     def __str__(self) -> str:

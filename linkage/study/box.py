@@ -8,7 +8,7 @@ from typing import Any, TypeGuard, final
 
 import numpy as np
 
-from ..checks import require, require_whole, unfit
+from ..checks import is_listed, require, require_whole, unfit
 from ..errors import DefinitionError, cited, one_word, unknown
 from ..frozen import immutable
 from ..mechanism import Mechanism
@@ -97,7 +97,7 @@ def range_of(name: str, given: object) -> tuple[float, float]:
 
 def is_pair(given: object) -> TypeGuard[Sequence[float]]:
     """Return whether something is two numbers."""
-    return isinstance(given, (tuple, list)) and len(given) == 2 and all(map(is_number, given))
+    return is_listed(given) and len(given) == 2 and all(map(is_number, given))
 
 
 MOST_SETTINGS = 1 << 30

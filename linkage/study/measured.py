@@ -128,9 +128,8 @@ class StudyPoses:
         result = real_numbers(function_value(quantity, motion), f"{title}: {what}", "a number for each pose or each design is expected")
         if result.shape == motion.shape:
             return np.where(motion.reached & np.isfinite(result), result, np.nan).reshape(prod(designs), -1)
-        if result.shape != designs:
-            text = f"{title}: {what} has the shape {result.shape} where {motion.shape} or {designs} is expected"
-            raise DefinitionError(f"{text}; return a number for each pose, or one for each design.")
+        text = f"{title}: {what} has the shape {result.shape} where {motion.shape} or {designs} is expected"
+        ensure(result.shape == designs, f"{text}; return a number for each pose, or one for each design.")
         lost = ~motion.reached.reshape(prod(designs), -1).all(axis=1)
         return np.where(lost | ~np.isfinite(result.ravel()), np.nan, result.ravel())[:, None]
 
@@ -248,9 +247,8 @@ def quantity_values(motion: Motion, quantity: QuantityLike, *, endless: bool = F
             found = motion[quantity]
     what = f"{title}: {words_of(quantity)}"
     result = real_numbers(found, what, "a number for each pose is expected")
-    if result.shape != motion.shape:
-        remedy = "ask for a number such as an output, or lambda motion: motion.y('G')"
-        raise DefinitionError(f"{what} has the shape {result.shape} where {motion.shape} is expected; {remedy}.")
+    remedy = "ask for a number such as an output, or lambda motion: motion.y('G')"
+    ensure(result.shape == motion.shape, f"{what} has the shape {result.shape} where {motion.shape} is expected; {remedy}.")
     return np.where((~np.isnan(result) if endless else np.isfinite(result)) & motion.reached, result, np.nan)
 
 

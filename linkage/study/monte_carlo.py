@@ -8,7 +8,7 @@ from typing import TypeVar, final
 
 import numpy as np
 
-from ..checks import require
+from ..checks import is_listed, require
 from ..errors import DefinitionError, cited, known_name, one_word, unwarned
 from ..frozen import FrozenDict, immutable
 from ..mechanism import Mechanism
@@ -142,7 +142,7 @@ def monte_carlo(
     poses, plan = StudyPoses.of(machine, strokes, POSES), machine.plan
     named = tolerances_of(plan, tolerances)
     asked, conditions = quantities_listed(plan, of), limits_listed(machine, subject_to)
-    fits = isinstance(percentiles, (list, tuple)) and all(is_number(each) and 0.0 <= each <= 100.0 for each in percentiles)
+    fits = is_listed(percentiles) and all(is_number(each) and 0.0 <= each <= 100.0 for each in percentiles)
     require(fits, "percentiles", percentiles, "percentages from 0 to 100 are expected, such as (5, 50, 95)")
     order = tuple(sorted({float(each) for each in percentiles}))
     way = RunOptions(one_word("backend", backend, ("numpy", "numba")), threads)
@@ -171,7 +171,7 @@ def quantities_listed(plan: Plan, of: object) -> dict[str, Measured]:
     if isinstance(of, Mapping) and of and all(isinstance(name, str) for name in of):
         _ = [measured_title(plan, quantity) for quantity in of.values()]  # raises for what is none
         return dict(of)
-    if not isinstance(of, (list, tuple)) or not of:
+    if not is_listed(of) or not of:
         raise DefinitionError(f'{plan.title}: {cited(of)}: a list of quantities is expected, such as ["tilt"], or a dictionary by name.')
     found = {measured_title(plan, quantity): quantity for quantity in of}
     if len(found) < len(of):

@@ -7,14 +7,14 @@ import os
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias, TypedDict, TypeVar, Unpack, final, overload
 
 import numpy as np
 
-from ..checks import require, require_number, require_whole
+from ..checks import is_listed, require, require_number, require_whole
 from ..disk import check_name, in_words, replacing_text
 from ..errors import AssemblyError, DefinitionError, LinkageError, StudyError, ensure, known_name, one_word
 from ..loads import PLAIN_CASE, Case, LoadCase
@@ -185,7 +185,7 @@ def optimise(
     cases, shares = cases_searched(machine, case, occurring)
     judge = machine.judge(over)
     held = pieces_in_cases(constraints, cases, judge)
-    plan = SearchPlan(method, starts or STARTS, seed)
+    how = method, starts or STARTS, seed
     if len(objectives) > 1:
         if (len(cases) > 1 and not shares) or robust is not None or folder is not None:
             raise DefinitionError(f"{title}: several objectives are sought in one load case, without robust= and without folder=.")
@@ -196,7 +196,7 @@ def optimise(
         problem.count.limit = limit or default_limit(problem, FRONT_DESIGNS)
         check_objectives_move(problem)
         with progress_told(progress, machine.plan.heading) as tell:
-            return front(problem, plan.seed, tell)
+            return front(problem, seed, tell)
     sought = [mean_in_cases(objectives[0], shares)] if shares else [in_case(objectives[0], each) for each in cases]
     if all(each is objectives[0] for each in sought):
         sought = [objectives[0]]  # it names its load cases itself
@@ -206,7 +206,7 @@ def optimise(
     check_objectives_move(problem)
     problem.count.limit = limit or default_limit(problem)
     with progress_told(progress, machine.plan.heading) as tell, fixed_backend("numpy"):  # the same to the last bit whatever ran before
-        return DesignSearch(problem, plan, Journal.of(folder, problem, plan), tell).run()
+        return DesignSearch(problem, *how, Journal.of(folder, problem, how), tell).run()
 
 
 def where_searched(machine: Mechanism, over: Any, travels: Mapping[str, Range]) -> tuple[Any, list[Case]]:
@@ -224,9 +224,8 @@ def where_searched(machine: Mechanism, over: Any, travels: Mapping[str, Range]) 
         ranges_of(machine, over)  # which refuses what is none
         return {**travels, **(over or {})} or over, occurring
     over.check(title, plan.strokes, plan.of_kind(LoadCase))
-    if over.shape != "box" or over.only:
-        remedy = "give a box, over={...}, and ask the design that is found machine.answers([...], over=...)"
-        raise DefinitionError(f"{title}: over={over.name or over}: a search runs over a box of strokes; {remedy}.")
+    remedy = "give a box, over={...}, and ask the design that is found machine.answers([...], over=...)"
+    ensure(over.shape == "box" and not over.only, f"{title}: over={over.name or over}: a search runs over a box of strokes; {remedy}.")
     if over.cases is not None:
         occurring = [None if name == PLAIN_CASE else name for name in over.cases]
     return {**travels, **over.strokes}, occurring
@@ -238,7 +237,7 @@ def cases_searched(machine: Mechanism, case: Any, occurring: Sequence[Case]) -> 
     DefinitionError for one that is unknown, and for none.
     """
     shares = shares_of(case, f"{machine.plan.title}: case") if isinstance(case, Mapping) else {}
-    listed = list(case) if isinstance(case, (list, tuple)) else occurring if case is None else [case]
+    listed = list(case) if is_listed(case) else occurring if case is None else [case]
     given: Sequence[Case] = [*shares] if shares else listed
     cases = [None if isinstance(each, str) and each == PLAIN_CASE else each for each in given]
     require(cases, f"{machine.plan.title}: case", case, "a load case or several are expected; leave it out for the own loads")
@@ -265,7 +264,7 @@ def objectives_of(machine: Mechanism, minimise: object, maximise: object) -> tup
     title = machine.plan.title
     groups: tuple[list[Measure], list[Measure]] = ([], [])
     for given, group in zip((minimise, maximise), groups, strict=True):
-        for each in [] if given is None else given if isinstance(given, (list, tuple)) else [given]:
+        for each in [] if given is None else given if is_listed(given) else [given]:
             if isinstance(each, Measure):
                 group.append(each)
                 continue
@@ -357,9 +356,8 @@ def with_spread(problem: Problem, tolerances: Mapping[str, ToleranceLike], sigma
         found = expression
         for leaf in expression.leaves:
             quantity: Any = leaf.quantity
-            if not isinstance(quantity, (str, Quantity, Request)):
-                what = f"{title}: robust= needs exact derivatives, and {words_of(quantity)} has none"
-                raise DefinitionError(f"{what}; take a quantity or a request.")
+            what = f"{title}: robust= needs exact derivatives, and {words_of(quantity)} has none"
+            ensure(isinstance(quantity, (str, Quantity, Request)), f"{what}; take a quantity or a request.")
             by = sense * float(np.sign(grows(expression, leaf, values))) * sigmas
             if by != 0.0:
                 moved = (ref(quantity) if isinstance(quantity, str) else quantity) + by * sigma(quantity, tolerances)
@@ -393,13 +391,13 @@ class Journal:
         self.path, self.known = path, known
 
     @classmethod
-    def of(cls, folder: str | os.PathLike[str] | None, problem: Problem, plan: SearchPlan) -> Journal:
+    def of(cls, folder: str | os.PathLike[str] | None, problem: Problem, how: tuple[object, ...]) -> Journal:
         """Return the journal of a search; DefinitionError where the folder holds that of another one."""
         if folder is None:
             return cls(None, {})
         path = folder_given(folder) / "search.jsonl"
         check_name(path)
-        facts = {"search": digest(f"{problem.facts} {problem.function_texts()} {plan}")}
+        facts = {"search": digest(f"{problem.facts} {problem.function_texts()} {how}")}
         with in_words(path):
             path.parent.mkdir(parents=True, exist_ok=True)
             text = path.read_text(encoding="utf-8", errors="replace") if path.exists() else ""
@@ -445,21 +443,11 @@ class Journal:
 
 
 @final
-@dataclass(frozen=True)
-class SearchPlan:
-    """How is searched."""
-
-    method: str
-    starts: int
-    seed: int
-
-
-@final
 class DesignSearch:
     """One search under way."""
 
-    def __init__(self, problem: Problem, plan: SearchPlan, journal: Journal, tell: Progress) -> None:
-        self.problem, self.plan, self.journal, self.tell = problem, plan, journal, tell
+    def __init__(self, problem: Problem, method: str, starts: int, seed: int, journal: Journal, tell: Progress) -> None:
+        self.problem, self.method, self.many, self.seed, self.journal, self.tell = problem, method, starts, seed, journal, tell
         self.coarse = problem.changed(counts=COARSE)
         self.cut: list[str] = []
         self.spread_words = ""
@@ -527,7 +515,7 @@ class DesignSearch:
         problem, found = self.problem, []
         if not problem.space.variables or len(screened) > HOPES or any(each.best[0] == 0.0 for each in screened):
             return []
-        if self.plan.method == "local" or not problem.constraints:
+        if self.method == "local" or not problem.constraints:
             return []
         for each in screened:
             for unit in self.starts(each, len(screened))[:HOPES]:
@@ -573,21 +561,21 @@ class DesignSearch:
             fewer = min(count, 1 << max(0, (limit // (2 * space.count) or 1).bit_length() - 1))
             self.spread_words = "" if fewer == count else f" of {fewer}"  # of other designs other searches begin
             count = fewer
-        unit = unit_points(count, len(space.variables), "sobol", self.plan.seed)
+        unit = unit_points(count, len(space.variables), "sobol", self.seed)
         present = space.unit(self.present)
-        if self.plan.method == "local":
+        if self.method == "local":
             unit = present[None]
         elif np.allclose(space.values(present), self.present, rtol=0.0, atol=1e-9 * np.array([each.span for each in space.variables])):
             unit = np.concatenate([present[None], unit])
-        if self.plan.method != "local":
-            unit = space.drawn(unit, self.problem.plan.title, self.plan.seed)
+        if self.method != "local":
+            unit = space.drawn(unit, self.problem.plan.title, self.seed)
         seen = self.coarse.merits(combination, unit)
         self.looked.append(EvaluatedDesigns("looked at", space, combination, unit, *seen, self.problem.sense))
         return self.looked[-1]
 
     def starts(self, screened: EvaluatedDesigns, combinations: int) -> list[FloatArray]:
         """Return where the local searches of a combination begin: the best designs that stand apart, that of today always."""
-        many = 1 if self.plan.method == "local" else max(self.plan.starts if combinations == 1 else self.plan.starts // 2, 1)
+        many = 1 if self.method == "local" else max(self.many if combinations == 1 else self.many // 2, 1)
         chosen: list[FloatArray] = []
         apart = NEAR * np.sqrt(screened.unit.shape[1])
         for place in screened.order:

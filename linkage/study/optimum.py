@@ -17,7 +17,7 @@ import numpy as np
 
 from ..checks import require_number
 from ..disk import Place, replacing_text
-from ..errors import AssemblyError, DefinitionError, LinkageError
+from ..errors import AssemblyError, DefinitionError, LinkageError, ensure
 from ..frozen import immutable
 from ..mechanism import Mechanism
 from ..motion.measures import Constraint, Given, Integral, Leaf, Measure, measure_of, measure_unit
@@ -582,9 +582,8 @@ def steps_about(value: float, step: float, variable: Varied) -> list[float]:
     DefinitionError where no step lies in the range.
     """
     low, high = np.ceil(variable.low / step - 1e-6), np.floor(variable.high / step + 1e-6)
-    if low > high:
-        ends = f"{variable.show(variable.low)} to {variable.show(variable.high)}"
-        raise DefinitionError(f"rounded: no step of {variable.show(step)} lies in {variable.name}'s range, {ends}; take finer steps.")
+    ends = f"{variable.show(variable.low)} to {variable.show(variable.high)}"
+    ensure(low <= high, f"rounded: no step of {variable.show(step)} lies in {variable.name}'s range, {ends}; take finer steps.")
     place = value / step
     if abs(place - round(place)) < 1e-6:
         return [round(place) * step]

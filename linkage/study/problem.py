@@ -16,7 +16,7 @@ from typing import Any, TypeAlias, final
 
 import numpy as np
 
-from ..checks import require_type
+from ..checks import is_listed, require_type
 from ..errors import DefinitionError, StudyError, cited, ensure
 from ..frozen import FrozenDict, immutable
 from ..mechanism import Mechanism
@@ -100,7 +100,7 @@ def ranges_of(machine: Mechanism, over: object) -> dict[str, Range]:
         require_kind(plan, name, ends, f"{title}: over: {name}")
         if is_number(ends):
             continue
-        if not isinstance(ends, (tuple, list)) or len(ends) != 2:
+        if not is_listed(ends) or len(ends) != 2:
             raise DefinitionError(f"{title}: over={{{name!r}: {cited(ends)}}}: (low, high) or one value is expected, in SI.")
         for end in ends:
             if not is_number(end) and strokes_behind(plan, end):
@@ -406,9 +406,8 @@ class Problem:
         with several what it will.
         """
         for name, value in leaf.strokes.items():
-            if name not in self.plan.strokes:
-                known = ", ".join(self.plan.strokes) or "none"
-                raise DefinitionError(f"{self.plan.title}: {leaf}: there is no stroke {name!r}; its strokes are {known}.")
+            known = ", ".join(self.plan.strokes) or "none"
+            ensure(name in self.plan.strokes, f"{self.plan.title}: {leaf}: there is no stroke {name!r}; its strokes are {known}.")
             check_magnitude(name, (float(value), float(value)), self.plan)
         held = {name: float(one.low) for name, one in self.ranges.items() if is_still(one)}
         missing = [name for name in depends if name not in leaf.strokes and name not in held and name != inner]

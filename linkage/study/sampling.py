@@ -18,7 +18,8 @@ from ..motion.measures import Leaf, constant_part, operation, traced, words_of
 from ..motion.requests import Trait, slope
 from ..plan import Mask, Plan
 from ..program import FloatArray, Kernel, Level, Node
-from ..quantities import Quantity, Ref
+from ..quantities import Quantity
+from ..quantities.quantity import stands_for
 from ..vectors import Numbers
 from .measured import eager, motion_of, nothing_limits
 
@@ -197,10 +198,7 @@ GOES_THROUGH = ("add", "subtract", "multiply", "divide", "negative", "absolute",
 
 def divisors_of(plan: Plan, quantity: object) -> tuple[Any, ...]:
     """Return what a quantity is divided by, directly or in its parts: where one of these passes zero it has no bounds."""
-    known = plan.members.get(quantity) if isinstance(quantity, str) else quantity
-    if isinstance(known, Ref):
-        return divisors_of(plan, known.target)
-    sign, parts = operation(known)
+    sign, parts = operation(stands_for(plan.members, quantity))
     if sign not in GOES_THROUGH:
         return ()
     found = [each for part in (parts if sign != "power" else parts[:1]) for each in divisors_of(plan, part)]
@@ -213,10 +211,7 @@ def divisors_of(plan: Plan, quantity: object) -> tuple[Any, ...]:
 
 def zero_factors(plan: Plan, divisor: object) -> list[Any]:
     """Return the factors of a divisor, each of which makes it zero, without the sizes and powers about them."""
-    known = plan.members.get(divisor) if isinstance(divisor, str) else divisor
-    if isinstance(known, Ref):
-        return zero_factors(plan, known.target)
-    sign, parts = operation(known)
+    sign, parts = operation(stands_for(plan.members, divisor))
     if sign in ("absolute", "power", "sqrt", "negative"):
         return zero_factors(plan, parts[0])
     if sign == "multiply":

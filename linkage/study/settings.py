@@ -8,7 +8,7 @@ from typing import Any, final, overload
 import numpy as np
 
 from ..checks import require, require_whole
-from ..errors import DefinitionError, cited, known_name, unwarned
+from ..errors import DefinitionError, cited, ensure, known_name, unwarned
 from ..frozen import FrozenDict, immutable
 from ..language import said
 from ..mechanism import Mechanism
@@ -97,9 +97,8 @@ def settings_for(
     low, high = range_of("between", between)
     if set(strokes) != set(machine.strokes):
         raise DefinitionError(f"{machine.plan.title}: say the pose, {', '.join(f'{each}=...' for each in machine.strokes)}.")
-    if not is_one(target) or not all(map(is_one, strokes.values())):
-        given = ", ".join(f"{each}={cited(value)}" for each, value in {"target": target, **strokes}.items())
-        raise DefinitionError(f"{machine.plan.title}: {given}: one number is expected for each, in SI.")
+    given = ", ".join(f"{each}={cited(value)}" for each, value in {"target": target, **strokes}.items())
+    ensure(is_one(target) and all(map(is_one, strokes.values())), f"{machine.plan.title}: {given}: one number is expected for each, in SI.")
     require_kind(machine.plan, name, between, f"{machine.plan.title}: between")
     Target(quantity, target).check(machine.plan)
 
@@ -226,9 +225,8 @@ def solutions_for(machine: Mechanism, vary: Mapping[str, object], targets: Seque
     box, k, plan = search.box, len(search.box.ranges), machine.plan
     if not k and len(box.choices) < 2:
         raise DefinitionError(f'{plan.title}: nothing may vary; give a range such as {{"MK": (0.5, 1.3)}} or a list of choices.')
-    if k > len(targets):
-        what = f"{len(targets)} target{'s' * (len(targets) > 1)} leave{'s' * (len(targets) == 1)} {k} ranges a family of settings"
-        raise DefinitionError(f"{plan.title}: {what}; hold {k - len(targets)} of {', '.join(box.ranges)}, or give as many targets more.")
+    what = f"{len(targets)} target{'s' * (len(targets) > 1)} leave{'s' * (len(targets) == 1)} {k} ranges a family of settings"
+    ensure(k <= len(targets), f"{plan.title}: {what}; hold {k - len(targets)} of {', '.join(box.ranges)}, or give as many targets more.")
     with unwarned(), np.errstate(all="ignore"):
         size = (1 << min(8 + 2 * k, 14) if k else 1) if points is None else points
         require_whole("points", size, "a whole number of points of the box is expected, such as 4096", least=1, most=1 << 20)
@@ -278,9 +276,8 @@ class Search:
         """Return targets bound to a machine; DefinitionError for anything else, and for a pose that is not said."""
         plan, box = machine.plan, Box.of(machine, vary)
         for each in targets_given(targets, plan.title, 'such as [Target("tilt", 0.0, S=0.1)]'):
-            if each.is_path:
-                expected = "one number is expected for the value, in SI. An array is a path, of follow(...)"
-                raise DefinitionError(f"{plan.title}: {each!r}: {expected}.")
+            expected = "one number is expected for the value, in SI. An array is a path, of follow(...)"
+            ensure(not each.is_path, f"{plan.title}: {each!r}: {expected}.")
             if set(each.strokes) != set(machine.strokes):
                 raise DefinitionError(f"{plan.title}: {each!r}: say the pose, {', '.join(f'{name}=...' for name in machine.strokes)}.")
             each.check(plan)

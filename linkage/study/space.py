@@ -412,8 +412,7 @@ def rows_of(title: str, names: Sequence[str], given: object, owners: Sequence[tu
                 side = Side.said(row[place])
                 ensure(side is not None, f"{owner}: {cited(row[place])} is no side; write a list of them, [LEFT, RIGHT].")
                 row[place] = side
-        if len(row) != width or not all(is_number(value) for value in row):
-            many = f"{width} numbers are" if width > 1 else "a number is"
-            raise DefinitionError(f"{what}: {cited(each)} is no choice; {many} expected.")
+        many = f"{width} numbers are" if width > 1 else "a number is"
+        ensure(len(row) == width and all(is_number(value) for value in row), f"{what}: {cited(each)} is no choice; {many} expected.")
         rows.append(tuple(row))
     return tuple(rows)

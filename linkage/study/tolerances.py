@@ -330,9 +330,8 @@ def tornado(
     levels = np.concatenate([np.zeros((1, k)), -np.eye(k), np.eye(k)])
     values = values_shifted(machine, poses, quantity, named, levels)
     title, nominal = measured_title(plan, quantity), float(values[0, 0])
-    if values.shape[1] != 1:
-        remedy = "say one pose, or give a measure such as most(...)"
-        raise DefinitionError(f"{plan.title}: {title} at {poses.pose_count} poses; {remedy}.")
+    remedy = "say one pose, or give a measure such as most(...)"
+    ensure(values.shape[1] == 1, f"{plan.title}: {title} at {poses.pose_count} poses; {remedy}.")
     ensure(np.isfinite(nominal), f"{plan.title}: {title} has no value at {poses.words()}; ask where it has one.")
     low, high = values[1 : 1 + k, 0] - nominal, values[1 + k :, 0] - nominal
     slopes = gradient_at(machine, poses, quantity, named)
@@ -419,9 +418,8 @@ def sobol(
         designs = {name: machine[name] + row for name, row in zip(named, x, strict=True)}
         found = poses.values(machine.replaced(**designs), quantity, way).T
         lost = int(np.isnan(found).any(axis=0).sum())
-        if lost:
-            what = f"{plan.title}: {lost} of {x.shape[1]} designs have no value of {title} at some stroke"
-            raise DefinitionError(f"{what}, so that its variance is not known; make the tolerances smaller, or leave the stroke out.")
+        what = f"{plan.title}: {lost} of {x.shape[1]} designs have no value of {title} at some stroke"
+        ensure(not lost, f"{what}, so that its variance is not known; make the tolerances smaller, or leave the stroke out.")
         sigmas.append(np.std(found, axis=1))
         return np.concatenate([found, found])  # SciPy 1.17 stops at a lone index, that of one dimension at one pose
 

@@ -6,8 +6,8 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple, TypeAlias
 
 from ..assembly import members_on_sides
-from ..checks import require
-from ..errors import DefinitionError
+from ..checks import is_listed, require
+from ..errors import DefinitionError, ensure
 from ..loads import TwoPoint
 from ..mechanism import Mechanism, declared
 from ..plan import Part, Plan, Reading
@@ -160,7 +160,7 @@ def fitted_rows(machine: Mechanism, vary: Any) -> tuple[Mechanism, Any, dict[str
 
 def fields_of(plan: Plan, name: str, rows: object) -> tuple[str, ...]:
     """Return what the rows for an element say of it; DefinitionError for rows that say nothing, or what it does not have."""
-    listed = list(rows) if isinstance(rows, (list, tuple)) else []
+    listed = list(rows) if is_listed(rows) else []
     fields = {getattr(type(row), "_fields", ()) for row in listed}
     known = plan.of_kind(TwoPoint)[name].parameters
     (own,) = fields if len(fields) == 1 else ((),)
@@ -243,9 +243,8 @@ def made_with(kind: type[Mechanism], lengths: Pairs, travels: Pairs) -> type[Mec
     """Return a subclass with closed lengths and strokes of cylinders, and ranges of strokes."""
     plan, written = kind.plan, declared(kind)
     for name in (*lengths, *travels):
-        if name not in written:
-            what = f"{plan.title}: {name} is a part's own; rows of a catalogue set what the class itself declares"
-            raise DefinitionError(f"{what}: vary them in the part, or vary the dimensions by name.")
+        what = f"{plan.title}: {name} is a part's own; rows of a catalogue set what the class itself declares"
+        ensure(name in written, f"{what}: vary them in the part, or vary the dimensions by name.")
     own: dict[str, Any] = {name: written[name].renewed(**dict(zip(LENGTHS, ends, strict=True))) for name, ends in lengths.items()}
     own |= {name: Stroke(*ends) for name, ends in travels.items()}
     if travels and not any(isinstance(each, Drawn) for each in written.values()):

@@ -17,7 +17,7 @@ from typing import Any, TypeAlias, final
 import numpy as np
 from numpy.typing import NDArray
 
-from ..checks import require, require_type
+from ..checks import is_listed, require, require_type
 from ..errors import DefinitionError, cited, ensure, known_name, unwarned
 from ..frozen import FrozenDict, frozen, immutable, read_only
 from ..language import heading_of, noted, said
@@ -344,9 +344,8 @@ def ranges_over(machine: Mechanism, over: object, title: str) -> StrokeRanges:
     what, expected = f"{title}: over", "ranges of strokes are expected, such as over=Over(S=(0.0, 0.2))"
     found = require_type(what, given, Over, expected)
     require(found.shape == "box", what, found, expected)
-    if found.only or found.cases:
-        what, remedy = ("only=", 'limits={"front": x("T") <= 4}') if found.only else ("cases=", 'case="full"')
-        raise DefinitionError(f"{title}: over={found}: {what} is not looked at here; give {remedy}.")
+    what, remedy = ("only=", 'limits={"front": x("T") <= 4}') if found.only else ("cases=", 'case="full"')
+    ensure(not (found.only or found.cases), f"{title}: over={found}: {what} is not looked at here; give {remedy}.")
     found.check(machine.plan.title, machine.plan.strokes, ())
     strokes = Domain(machine.plan, machine.dimensions, found).motion.strokes
     return {name: (float(np.min(strokes[name])), float(np.max(strokes[name]))) for name in found.strokes}
@@ -370,9 +369,8 @@ def further_limit(name: str, given: object, title: str) -> FurtherLimit:
     """Return a limit as it was given; DefinitionError for anything else."""
     if isinstance(given, PoseCondition):
         return partial(load_by_margin, given.margin)
-    if is_number(given) and float(given) < 0.0:
-        what = f"{title}: limits: {name} = {cited(given)} is below zero"
-        raise DefinitionError(f"{what}; a load that may not be exceeded is expected [N].")
+    what = f"{title}: limits: {name} = {cited(given)} is below zero"
+    ensure(not (is_number(given) and float(given) < 0.0), f"{what}; a load that may not be exceeded is expected [N].")
     if is_number(given) or isinstance(given, (str, Quantity)):
         most = quantity(given)
         return lambda motion, loads: np.broadcast_to(np.asarray(motion.value(most), float), motion.shape)
@@ -452,7 +450,7 @@ class FieldSearch:
         across, up = axes[0].size, axes[1].size
         if across * up > MOST_CELLS:
             raise DefinitionError(f"{title}: {across} by {up} are {across * up} cells, up to {MOST_CELLS} are looked at; give fewer.")
-        fits = isinstance(keep, (list, tuple)) and all(isinstance(each, Target) and not each.is_path for each in keep)
+        fits = is_listed(keep) and all(isinstance(each, Target) and not each.is_path for each in keep)
         require(fits, f"{title}: keep", keep, 'a list of targets is expected, such as keep=[Target("tilt", 0.0)]')
         targets = [Target(x_of(name), float(axes[0][0])), Target(y_of(name), float(axes[1][0])), *keep]
         ranges = ranges_over(machine, over, title)

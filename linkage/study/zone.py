@@ -10,7 +10,7 @@ from typing import Any, TypeAlias, final
 
 import numpy as np
 
-from ..errors import DefinitionError, SingularWarning, ensure
+from ..errors import SingularWarning, ensure
 from ..frozen import immutable
 from ..mechanism import Mechanism
 from ..motion import Motion, at_values, highest, out_of_reach
@@ -67,9 +67,8 @@ def zone(machine: Mechanism, quantity: QuantityLike, vary: Any = None, *, over: 
     check_one_design(machine)
     check_vary(machine, "zone", over)
     box = Box.of(machine, vary)
-    if len(box.ranges) > MOST_RANGES:
-        what = f"{len(box.ranges)} ranges are too many for a zone"
-        raise DefinitionError(f"{machine.plan.title}: {what}; hold some, {MOST_RANGES} are the most.")
+    what = f"{len(box.ranges)} ranges are too many for a zone"
+    ensure(len(box.ranges) <= MOST_RANGES, f"{machine.plan.title}: {what}; hold some, {MOST_RANGES} are the most.")
     given = strokes or {name: np.linspace(each.start, each.end, POSES) for name, each in machine.strokes.items()}
     poses = at_values(given, machine.plan)
     shape = next(iter(poses.values())).shape

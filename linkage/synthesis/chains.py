@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias, final
 import numpy as np
 
 from ..assembly import chain_parts
-from ..errors import DefinitionError, cited, unwarned
+from ..errors import DefinitionError, cited, ensure, unwarned
 from ..frozen import immutable
 from ..mechanism import Mechanism
 from ..mobility import MOST_LINKS, Form, canonical, chain_forms, joined
@@ -187,9 +187,8 @@ class Inversion(Shown):
         """
         form, on_frame = self.chain.form, self._on(self.frame - 1)
         driven = next((each for each in self.cranks if self.has_dyads_only(each)), self.cranks[0]) if crank is None else crank
-        if driven - 1 not in on_frame:
-            known = ", ".join(str(each + 1) for each in on_frame)
-            raise DefinitionError(f"{self.name}: crank={cited(crank)}: a link on the frame is expected, one of {known}.")
+        known = ", ".join(str(each + 1) for each in on_frame)
+        ensure(driven - 1 in on_frame, f"{self.name}: crank={cited(crank)}: a link on the frame is expected, one of {known}.")
         carrying = farthest(form, driven - 1, self.floating) + 1 if coupler is None else coupler
         if carrying - 1 not in self.floating:
             known = ", ".join(str(each + 1) for each in self.floating)

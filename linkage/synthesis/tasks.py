@@ -12,7 +12,7 @@ from typing import Any, TypeAlias, final
 
 import numpy as np
 
-from ..checks import require, require_number, require_type
+from ..checks import is_listed, require, require_number, require_type
 from ..errors import DefinitionError, cited, ensure, is_yes
 from ..frozen import frozen, immutable, read_only, refuses_changes
 from ..mechanism import Mechanism
@@ -137,7 +137,7 @@ class FunctionTask:
     in_order: bool
 
     def __init__(self, strokes: Any, values: Any, of: Any, *, within: Any = None) -> None:
-        several = isinstance(of, (list, tuple))
+        several = is_listed(of)
         quantities = list(of) if several else [of]
         what = f"FunctionTask(of={cited(of)})"
         rows = rows_of_values(what, values, len(quantities)) if several else [table_of(what, "values", values, 0)]
@@ -182,9 +182,8 @@ class PoseTask:
         for name, each, measures in (("x", x, "length"), ("y", y, "length"), ("angle", angle, "angle"), ("length", length, "length")):
             require_measure(each, measures, f"{what}: {name}")
         parts = {name: table_of(what, name, each, 0) for name, each in (("x", x), ("y", y), ("angle", angle))}
-        if len({len(each) for each in parts.values()}) > 1:
-            sizes = ", ".join(f"{name} {len(each)}" for name, each in parts.items())
-            raise DefinitionError(f"{what}: x, y and angle are to have one length; theirs are {sizes}.")
+        sizes = ", ".join(f"{name} {len(each)}" for name, each in parts.items())
+        ensure(len({len(each) for each in parts.values()}) <= 1, f"{what}: x, y and angle are to have one length; theirs are {sizes}.")
         check_radians(what, "angle", parts["angle"])
         if length is not None:
             require_number(f"{what}: length", length, "a length above zero is expected, in m", above=0.0)
@@ -206,9 +205,8 @@ class PoseTask:
         if length is None:
             pose = machine.at(unreachable="nan", **machine.plan.sketch_strokes)
             far = pose.distance(first, second)
-            if np.isnan(far).all():
-                told = f"the distance of {first} and {second} is unknown where the machine is drawn, as it cannot be assembled there"
-                raise DefinitionError(f"{machine.plan.title}: {told}; say PoseTask(..., length=...), in m.")
+            told = f"the distance of {first} and {second} is unknown where the machine is drawn, as it cannot be assembled there"
+            ensure(not np.isnan(far).all(), f"{machine.plan.title}: {told}; say PoseTask(..., length=...), in m.")
             length = float(np.nanmax(far))
         weights = np.array([1.0, 1.0, length if length > 0.0 else 1.0])
         wanted = np.array([self.x, self.y, self.angle])
@@ -223,9 +221,8 @@ def task_named_in(machine: Mechanism, task: Task) -> Task:
     of, title = of_class(task.of, type(machine)), machine.plan.title
     if of is None and isinstance(task, PathTask):
         of = machine.featured().coupler or None
-    if of is None:
-        known = f"one of {', '.join(machine.plan.moving)}" if isinstance(task, PathTask) else "such as {FourBar: ...}"
-        raise DefinitionError(f"{title}: say what of this class the task is of, of=..., {known}.")
+    known = f"one of {', '.join(machine.plan.moving)}" if isinstance(task, PathTask) else "such as {FourBar: ...}"
+    ensure(of is not None, f"{title}: say what of this class the task is of, of=..., {known}.")
     if of is task.of:
         return task
     found = copy(task)
@@ -262,9 +259,8 @@ def table_of(what: str, name: str, given: Any, width: int, row: str = "pairs (x,
 def check_radians(what: str, name: str, angles: FloatArray) -> None:
     """Raise DefinitionError for an angle of so many turns that degrees were meant."""
     for value in angles.tolist():
-        if is_in_degrees(value, abs(value)):
-            text = f"{what}: {name}: {value:.6g} is an angle in radians, {value / TURN:.3g} turns"
-            raise DefinitionError(f"{text}; write {value:.6g} * deg if these are degrees, or take whole turns off.")
+        text = f"{what}: {name}: {value:.6g} is an angle in radians, {value / TURN:.3g} turns"
+        ensure(not is_in_degrees(value, abs(value)), f"{text}; write {value:.6g} * deg if these are degrees, or take whole turns off.")
 
 
 def rows_of_values(what: str, given: Any, count: int) -> list[FloatArray]:
@@ -361,9 +357,8 @@ def point_errors(
 def moving_stroke(plan: Plan, ranges: Mapping[str, Range]) -> str:
     """Return the one stroke that moves, of the ranges of all; DefinitionError where several move."""
     moving = [name for name, one in ranges.items() if not is_still(one)]
-    if not moving:
-        known = ", ".join(ranges)
-        raise DefinitionError(f"{plan.title}: a task runs along one stroke, and over={{...}} holds all of them; leave one of {known} out.")
+    known = ", ".join(ranges)
+    ensure(moving, f"{plan.title}: a task runs along one stroke, and over={{...}} holds all of them; leave one of {known} out.")
     held = ", ".join(f'"{name}": value' for name in moving[1:])
     ensure(len(moving) == 1, f"{plan.title}: a task runs along one stroke; hold the others, over={{{held}}}.")
     return moving[0]

@@ -102,9 +102,8 @@ def measure_or_constant(found: Any, machine: Mechanism) -> Measure:
 
 def condition_said(text: object, machine: Mechanism, over: Mapping[str, object] | None = None) -> Condition:
     """Return the condition on this machine that a text says; DefinitionError for anything else."""
-    found = criterion_of(text, machine)
-    what = words_of(found) if isinstance(found, (Request, Quantity, Worst)) else str(found)
-    ensure(isinstance(found, Condition), f"{text!r}: {what} says no limit; write one such as most(...) <= 8 deg.")
+    found: Condition = criterion_of(text, machine)
+    ensure(isinstance(found, Condition), f"{text!r}: {CriterionParser.words(found)} says no limit; write one such as most(...) <= 8 deg.")
     Problem(machine, [], [*found.constraints(machine)], NOWHERE, over=over)
     return found
 

@@ -94,7 +94,7 @@ def member_name(name: object) -> str:
     return name
 
 
-def listed(given: Any) -> Sequence[Any]:
+def listed(given: object) -> Sequence[Any]:
     """Return the items of a list, or anything but a list as the only one."""
     return given if is_listed(given) else [given]
 

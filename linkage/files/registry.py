@@ -146,7 +146,7 @@ def stroke_value(value: float, stroke: str, design: Design) -> float | str:
     return degrees_text(value) if stroke_unit(design.plan, stroke) == "rad" else value
 
 
-def dimension_of(given: Any, names: Names) -> Dimension:
+def dimension_of(given: object, names: Names) -> Dimension:
     """Return a dimension with the unit it is shown in: a number [SI], `500 mm`, or { value = 0.5, unit = "mm" }."""
     match given:
         case {"value": value, **others} if not others.keys() - {"unit"} and isinstance(others.get("unit", ""), str):

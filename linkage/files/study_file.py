@@ -316,7 +316,7 @@ def over_said(head: StudyHead, given: object) -> Keywords:
     return dict(each_of(by_whole_names(given), part))
 
 
-def part_said(head: StudyHead, stroke: str, given: Any) -> Any:
+def part_said(head: StudyHead, stroke: str, given: object) -> Any:
     """Return a part of a stroke: one value, or two ends, which may be quantities that follow the design."""
     measures = stroke_measure(head.plan, stroke)
     match given:

@@ -303,7 +303,7 @@ def survey_task(
     return TaskResult("\n".join(lines), tuple(columns), found)
 
 
-def setting_parts(name: str, value: Any) -> list[tuple[str, Any]]:
+def setting_parts(name: str, value: object) -> list[tuple[str, Any]]:
     """Return a dimension and its values by name, a point as its two coordinates."""
     return [*zip((f"{name}.x", f"{name}.y"), value, strict=True)] if isinstance(value, tuple) else [(name, value)]
 

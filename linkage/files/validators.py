@@ -165,7 +165,7 @@ def body_of(given: object, names: Names) -> str:
     return " ".join(names.checked(word, kind) for word in words)
 
 
-def loads_of(given: Any, names: Names) -> Any:
+def loads_of(given: object, names: Names) -> Any:
     """Return the name of a load, or a list of such."""
     return [names.checked(each, "load") for each in given] if is_listed(given) else names.checked(given, "load")
 

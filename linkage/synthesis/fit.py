@@ -81,7 +81,7 @@ class Timing:
     moves: FloatArray
 
     @classmethod
-    def of(cls, problem: Problem, stroke: str, timed: Any, count: int) -> Timing:
+    def of(cls, problem: Problem, stroke: str, timed: object, count: int) -> Timing:
         """Return how the points of a task are timed on the one stroke of a machine that moves."""
         low, high = ends_of_stroke(problem, stroke, [0] * len(problem.space.choices))
         is_turn = stroke_display_unit(problem.plan, stroke, "mm") == "deg" and abs(abs(high - low) - TURN) < 1e-9

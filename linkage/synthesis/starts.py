@@ -180,7 +180,7 @@ class Starts:
         return self.fit.combination, {"at": self.at, "base": self.base}
 
 
-def laid_designs(fit: Fit, likeness: Likeness, unit: FloatArray, timed: Any, *, runs: bool) -> tuple[FloatArray, FloatArray]:
+def laid_designs(fit: Fit, likeness: Likeness, unit: FloatArray, timed: object, *, runs: bool) -> tuple[FloatArray, FloatArray]:
     """Return designs (m, n) laid onto the task by the best shift, turn and size, with their points' own unknowns, and the strokes' base.
 
     `runs` says that all of them run over the whole stroke.
@@ -224,14 +224,14 @@ def standing_apart(unit: FloatArray, error: FloatArray, many: int) -> Index:
     return np.array([*chosen, *(place for place in order if place not in taken)][:many], int)
 
 
-def poses_of(fit: Fit, timed: Any) -> int:
+def poses_of(fit: Fit, timed: object) -> int:
     """Return at how many poses of the stroke a population is looked at: of equal steps so many for each."""
     if timed == "steps" and fit.timing.turn:
         return fit.rows.steps_round * max(1, round(96 / fit.rows.steps_round))
     return 97 if not fit.timing.turn else 96
 
 
-def patterns(fit: Fit, timed: Any, count: int) -> tuple[Index, FloatArray, FloatArray]:
+def patterns(fit: Fit, timed: object, count: int) -> tuple[Index, FloatArray, FloatArray]:
     """Return how the points may lie on the poses of a sweep: their poses (k, n), and what bases (k, n) and unknowns (k, w) that means."""
     timing, n = fit.timing, fit.rows.count
     if timed == "steps" and timing.turn:

@@ -492,7 +492,7 @@ def misses_of(fit: Fit, at: FloatArray, base: FloatArray) -> tuple[FloatArray, F
     return fit.timing.within(strokes[0]), values[0], far
 
 
-def poorest_transmission(machine: Mechanism, over: Any) -> tuple[float, str]:
+def poorest_transmission(machine: Mechanism, over: object) -> tuple[float, str]:
     """Return the least transmission angle of a machine's joints [rad], and of which; NaN without one."""
     judge = machine.judge(over)
     asked = transmissions(judge)

@@ -97,7 +97,7 @@ class PathTask:
     in_order: bool
     closed: bool
 
-    def __init__(self, points: Any, of: Any = None, at: Any = None, *, in_order: bool = True, closed: bool | None = None) -> None:
+    def __init__(self, points: object, of: object = None, at: object = None, *, in_order: bool = True, closed: bool | None = None) -> None:
         what = f"PathTask(of={cited(of)})"
         require_measure(points, "length", f"{what}: points")
         found = table_of(what, "points", points, 2)
@@ -240,7 +240,7 @@ def of_class(given: Any, kind: type[Mechanism]) -> Any:
     return next((given[each] for each in kind.__mro__ if each in given), None) if is_by_class(given) else given
 
 
-def table_of(what: str, name: str, given: Any, width: int, row: str = "pairs (x, y)") -> FloatArray:
+def table_of(what: str, name: str, given: object, width: int, row: str = "pairs (x, y)") -> FloatArray:
     """Return finite numbers (n,), or (n, width) where there is a width, a copy; DefinitionError for anything else."""
     found = numbers_in(given)
     shape = (found.shape[0] if found.ndim else 0, *((width,) if width else ()))
@@ -263,7 +263,7 @@ def check_radians(what: str, name: str, angles: FloatArray) -> None:
         ensure(not is_in_degrees(value, abs(value)), f"{text}; write {value:.6g} * deg if these are degrees, or take whole turns off.")
 
 
-def rows_of_values(what: str, given: Any, count: int) -> list[FloatArray]:
+def rows_of_values(what: str, given: object, count: int) -> list[FloatArray]:
     """Return a row of values (n,) for each of some quantities, the first without NaN; DefinitionError for anything else."""
     rows = list(given) if isinstance(given, (list, tuple, np.ndarray)) else []
     ensure(count and len(rows) == count, f"{what}: {len(rows)} rows of values for {count} quantities; give a row for each.")
@@ -278,7 +278,7 @@ def rows_of_values(what: str, given: Any, count: int) -> list[FloatArray]:
     return found
 
 
-def timed_strokes(what: str, given: Any, count: int) -> FloatArray | None:
+def timed_strokes(what: str, given: object, count: int) -> FloatArray | None:
     """Return the strokes of timed points (n,); DefinitionError where they are not as many as the points."""
     if given is None and what != "FunctionTask":
         return None
@@ -287,7 +287,7 @@ def timed_strokes(what: str, given: Any, count: int) -> FloatArray | None:
     return found
 
 
-def check_point(machine: Mechanism, name: Any) -> None:
+def check_point(machine: Mechanism, name: object) -> None:
     """Raise DefinitionError for anything but a point of a machine that moves."""
     if not isinstance(name, str) or name not in machine.plan.points or name not in machine.plan.moving:
         known = ", ".join(machine.plan.moving)
@@ -303,7 +303,7 @@ def task_of(title: str, given: Sequence[tuple[str, Any, type]]) -> Task:
     return found
 
 
-def timed_as(title: str, task: Task, timed: Any) -> Any:
+def timed_as(title: str, task: Task, timed: object) -> Any:
     """Return how the points of a task are timed: True, False or "steps"; by default True where their strokes are said."""
     if timed is None:
         return task.at is not None

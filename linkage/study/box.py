@@ -18,7 +18,7 @@ from ..program import FloatArray
 from ..quantities import is_number
 from ..units import amount_or_float, show, shown_number, unit_sign
 from .checks import check_mechanism, unit_of
-from .designs import check_once
+from .designs import DesignValues, check_once
 
 
 @final
@@ -55,17 +55,17 @@ class Box:
         check_once(machine, vary)
         return box
 
-    def settings(self, unit: FloatArray, choice: Index) -> dict[str, Any]:
+    def settings(self, unit: FloatArray, choice: Index) -> DesignValues:
         """Return settings (m,) by name, from coordinates (m, k) between 0 and 1 and the number of the choice (m,)."""
         low, high = np.array([*self.ranges.values()], float).reshape(-1, 2).T
         values = np.where(unit == 1.0, high, low + unit * (high - low))  # the far end to its last digit
-        found: dict[str, Any] = dict(zip(self.ranges, values.T, strict=True))
+        found: DesignValues = dict(zip(self.ranges, values.T, strict=True))
         for name in self.choices[0]:
             table = np.array([each[name] for each in self.choices], float)[np.asarray(choice)]
             found[name] = tuple(table.T) if table.ndim == 2 else table
         return found
 
-    def sample(self, count: int, *, method: str = "sobol", seed: int = 0) -> dict[str, Any]:
+    def sample(self, count: int, *, method: str = "sobol", seed: int = 0) -> DesignValues:
         """Return settings (count,) by name, spread evenly over the ranges and choices: the designs of a survey.
 
         By a scrambled Sobol sequence, evenest where count is a power of two, a Latin hypercube, `method="latin"`, or pseudo-random

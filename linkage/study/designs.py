@@ -18,8 +18,8 @@ from ..mechanism import Mechanism
 from ..program import fixed_backend
 
 Array: TypeAlias = npt.NDArray[Any]
-Rows: TypeAlias = dict[str, Any]
-"""Dimensions by name, as Mechanism.replaced takes them."""
+DesignValues: TypeAlias = dict[str, Any]
+"""Values of dimensions by name, of one design or of several, as Mechanism.replaced takes them."""
 LOOKED_AT = 1 << 17
 """Designs that are checked at a time."""
 
@@ -70,7 +70,7 @@ class Designs:
         for start in range(0, self.count, size):
             yield start, min(start + size, self.count)
 
-    def dimensions(self, start: int, stop: int) -> Rows:
+    def dimensions(self, start: int, stop: int) -> DesignValues:
         """Return the dimensions of the designs from start to before stop."""
         found = {name: tuple(array_part(part, start, stop) for part in parts) for name, parts in self.columns.items()}
         return {name: parts if len(parts) > 1 else parts[0] for name, parts in found.items()}
@@ -153,7 +153,7 @@ class StudyWork(Protocol):
     def what(self) -> str:
         """What has to be sent to a worker, in words."""
 
-    def done(self, rows: Rows, start: int, stop: int) -> list[dict[str, Array]]:
+    def done(self, rows: DesignValues, start: int, stop: int) -> list[dict[str, Array]]:
         """Return the results of the designs from start to before stop, of each piece: arrays whose first axis is that of the designs."""
 
 
@@ -168,7 +168,7 @@ class Task:
     backend: str
     what: str = "measure or the mechanism's class"
 
-    def done(self, rows: Rows, start: int, stop: int) -> list[dict[str, Array]]:
+    def done(self, rows: DesignValues, start: int, stop: int) -> list[dict[str, Array]]:
         """Return what is measured of the designs from start to before stop, of each piece."""
         whole, title, done = self.machine.replaced(**rows), self.machine.plan.title, []
         for first in range(start, stop, self.piece):
@@ -196,7 +196,7 @@ class Batch:
     values: Mapping[str, Array] | None = None
 
 
-def measure_batch(task: StudyWork, start: int, stop: int, rows: Rows, attempt: int) -> Batch:
+def measure_batch(task: StudyWork, start: int, stop: int, rows: DesignValues, attempt: int) -> Batch:
     """Return a batch, measured; raises StudyError where `measure` fails, DefinitionError where it returns what it should not.
 
     `attempt` sets a second try apart from the first for executors that know a call by its arguments.

@@ -45,6 +45,7 @@ from ..program import Enclosure, FloatArray, Node, enclosures
 from ..quantities import Quantity, is_number
 from ..vectors import Numbers
 from .checkpoint import measure_text
+from .designs import DesignValues
 from .measured import eager, motion_of, nothing_limits
 from .sampling import Samples, Sampling, divisors_of, rows_of_motion, with_values
 from .space import Space
@@ -435,7 +436,7 @@ class Problem:
 
     # -- looking -----------------------------------------------------------------------------------------
 
-    def dimensions_at(self, unit: FloatArray, combination: Sequence[int]) -> dict[str, Any]:
+    def dimensions_at(self, unit: FloatArray, combination: Sequence[int]) -> DesignValues:
         """Return all dimensions of designs by unit coordinates (n,) or (m, n) and a combination of choices."""
         return with_values(self.machine.dimensions, self.space.chosen(combination) | self.space.dimensions_at(unit))
 

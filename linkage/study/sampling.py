@@ -21,6 +21,7 @@ from ..program import FloatArray, Kernel, Level, Node
 from ..quantities import Quantity
 from ..quantities.quantity import stands_for
 from ..vectors import Numbers
+from .designs import DesignValues
 from .measured import eager, motion_of, nothing_limits
 
 DIFFERENCE = 6e-6
@@ -260,6 +261,6 @@ def all_placed() -> NodeRequest:
     return NodeRequest(text="all places", key="placed", nodes_of=nodes, names_of=lambda plan: plan.reaches(*plan.moving))
 
 
-def with_values(designs: Mapping[str, Numbers], changed: Mapping[str, Any]) -> dict[str, Any]:
+def with_values(designs: Mapping[str, Numbers], changed: Mapping[str, Any]) -> DesignValues:
     """Return dimensions with some of them changed; numbers as floats, and arrays of one number as such."""
     return dict(designs) | {name: float(value) if np.ndim(value) == 0 else np.asarray(value, float) for name, value in changed.items()}

@@ -189,16 +189,12 @@ class Local:
     def _auxiliaries(self, look: Evaluated) -> list[tuple[Constraint | Measure, Leaf]]:
         """Return the leaves that become variables, each with the constraint or objective in which it does."""
         found: list[tuple[Constraint | Measure, Leaf]] = []
-        owners: tuple[Constraint | Measure, ...] = (*self.problem.objectives, *self.problem.constraints)
-        for owner in owners:
-            if isinstance(owner, Constraint) and (owner.symbol == "==" or single_extreme(owner) is not None):
-                continue
-            expression = owner.margin if isinstance(owner, Constraint) else owner
+        owners: list[tuple[Constraint | Measure, Measure, float]] = [(one, one, -self.problem.sense) for one in self.problem.objectives]
+        held = (each for each in self.problem.constraints if each.symbol != "==" and single_extreme(each) is None)
+        for owner, expression, sense in [*owners, *((each, each.margin, 1.0) for each in held)]:
             for leaf in expression.leaves:
-                if not leaf.sense or look.rows[leaf].values.shape[1] < 2:
-                    continue
-                way = grows(expression, leaf, look.of_one) * (1.0 if isinstance(owner, Constraint) else -self.problem.sense)
-                if way * leaf.sense < 0.0:
+                is_extreme = leaf.sense and look.rows[leaf].values.shape[1] > 1
+                if is_extreme and grows(expression, leaf, look.of_one) * sense * leaf.sense < 0.0:
                     found.append((owner, leaf))
         return found
 

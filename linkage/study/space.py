@@ -28,7 +28,7 @@ from ..units import show
 from ..vectors import Side
 from .box import unit_points
 from .checks import unit_of
-from .designs import check_once
+from .designs import DesignValues, check_once
 from .variants import ENDING, is_side, sided_step
 
 MOST_COMBINATIONS = 100_000
@@ -318,7 +318,7 @@ class Space:
         low, span = self._lows_and_spans
         return np.asarray(np.clip((np.asarray(values) - low) / np.where(span > 0.0, span, 1.0), 0.0, 1.0))
 
-    def dimensions_at(self, unit: FloatArray) -> dict[str, Any]:
+    def dimensions_at(self, unit: FloatArray) -> DesignValues:
         """Return dimensions by owner from unit coordinates, (n,) or (m, n)."""
         values = self.values(unit)
         return {each.owner: each.sign * values[..., place] for place, each in enumerate(self.variables)}

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias, final
 import numpy as np
 
 from ..assembly import chain_parts
+from ..checks import is_whole
 from ..errors import DefinitionError, cited, ensure, unwarned
 from ..frozen import immutable
 from ..mechanism import Mechanism
@@ -39,7 +40,7 @@ def chains(links: int) -> tuple[PlanarChain, ...]:
     Of four links there is 1, of six 2, of eight 16, of ten 230; `chains(6)[0].inversions[1].machine()` is a machine of one of them.
     Chains with a part that is rigid by itself are none. DefinitionError for a number of links for which there are none.
     """
-    if isinstance(links, bool) or not isinstance(links, int) or not 4 <= links <= MOST_LINKS or links % 2:
+    if not is_whole(links) or not 4 <= links <= MOST_LINKS or links % 2:
         said = f"chains of one degree of freedom have an even number of links, from 4 on; up to {MOST_LINKS} are worked out"
         raise DefinitionError(f"chains({cited(links)}): {said}.")
     found, numbers = [], Counter[tuple[int, ...]]()

@@ -26,6 +26,7 @@ from ..quantities import is_whole, x, y
 from ..shown import Shown
 from ..study.checkpoint import digest
 from ..study.checks import check_one_design
+from ..study.designs import DesignValues
 from ..study.measured import traced_number
 from ..study.problem import Problem
 from ..study.sampling import all_placed
@@ -162,7 +163,7 @@ class CurveClass:
         """Return whether a variable is a length, an angle or a coordinate."""
         return self.machine.plan.table.entries[variable.owner].kind
 
-    def designs(self, values: FloatArray) -> dict[str, Any]:
+    def designs(self, values: FloatArray) -> DesignValues:
         """Return the dimensions that vary, of values (m, k), by owner."""
         return {each.owner: values[:, place] for place, each in enumerate(self.variables)}
 

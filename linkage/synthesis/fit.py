@@ -16,6 +16,7 @@ from ..numeric.descent import BEGIN, descended
 from ..numeric.line import Index
 from ..plan import Mask, Plan
 from ..program import FloatArray, Kernel, RunOptions
+from ..study.designs import DesignValues
 from ..study.measured import traced_number
 from ..study.problem import Problem, is_still
 from ..study.sampling import all_placed
@@ -164,7 +165,7 @@ class Fit:
         counted = rows.weights[:, None] * rows.asked
         self._counted = None if (counted == 1.0).all() else counted
 
-    def dimensions(self, unit: FloatArray) -> dict[str, Any]:
+    def dimensions(self, unit: FloatArray) -> DesignValues:
         """Return the dimensions of designs (m, n)."""
         return self._fixed | self.space.dimensions_at(unit[..., : self.n])
 

@@ -17,6 +17,7 @@ from ..frozen import immutable
 from ..numeric.line import Index
 from ..plan import plan_measure
 from ..program import FloatArray
+from ..study.designs import DesignValues
 from .closed_curves import ClosedCurves, drawn_curve, laid_onto
 from .fit import TURN, Fit
 
@@ -153,7 +154,7 @@ def as_complex(values: FloatArray) -> Any:
     return values[:, 0] + 1j * values[:, 1]
 
 
-def by_owner(fit: Fit, values: FloatArray) -> dict[str, Any]:
+def by_owner(fit: Fit, values: FloatArray) -> DesignValues:
     """Return the dimensions of variables (m, n) [SI], beyond their ranges too."""
     chosen: Mapping[str, Any] = fit.space.chosen(fit.combination)
     own = {each.owner: each.sign * values[:, place] for place, each in enumerate(fit.space.variables)}

@@ -10,8 +10,9 @@ from typing import Any, final
 
 import numpy as np
 
+from ..checks import is_whole
 from ..disk import Place, replacing_text
-from ..errors import DefinitionError, StudyError, cited, ensure
+from ..errors import StudyError, cited, ensure
 from ..frozen import immutable
 from ..language import said, said_of
 from ..mechanism import Mechanism
@@ -237,8 +238,8 @@ class Synthesis(Told, Shown):
         """Return the answer of a place, from 0 on; StudyError where there is none, DefinitionError for a place that is not there."""
         if not self.solutions:
             raise StudyError(str(self))
-        if isinstance(place, bool) or not isinstance(place, int) or not 0 <= place < len(self.solutions):
-            raise DefinitionError(f"{asked}(place={cited(place)}): there are {len(self.solutions)} answers, from 0 on.")
+        fits = is_whole(place) and 0 <= place < len(self.solutions)
+        ensure(fits, f"{asked}(place={cited(place)}): there are {len(self.solutions)} answers, from 0 on.")
         return self.solutions[place]
 
     def csv(self, path: Place) -> None:

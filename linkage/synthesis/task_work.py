@@ -17,7 +17,7 @@ from ..numeric.descent import BEGIN
 from ..plan import Mask
 from ..program import FloatArray
 from ..study.checkpoint import Checkpoint
-from ..study.designs import Array, Designs, Rows
+from ..study.designs import Array, Designs, DesignValues
 from ..study.problem import Problem
 from ..study.solver import Local
 from ..study.survey import Executor, Progress, SurveyRun
@@ -72,7 +72,7 @@ class FitWork(ABC):
         """How many designs are looked at at a time."""
 
     @abstractmethod
-    def found(self, fit: Fit, rows: Rows) -> dict[str, Array]:
+    def found(self, fit: Fit, rows: DesignValues) -> dict[str, Array]:
         """Return what is found of designs of one combination, arrays (m, ...)."""
 
     @property
@@ -95,11 +95,11 @@ class FitWork(ABC):
         """Return a fit with a problem of its own: its samples and its count are of nobody else."""
         return Fit(self.problem.on_branch(combination).changed(count=None), self.rows, self.timing, combination, self.known)
 
-    def done(self, rows: Rows, start: int, stop: int) -> list[dict[str, Array]]:
+    def done(self, rows: DesignValues, start: int, stop: int) -> list[dict[str, Array]]:
         """Return what is found of the designs from start to before stop, of each piece, with how many designs were `looked` at."""
         return [self._of_piece(rows, first, min(first + self.piece, stop - start)) for first in range(0, stop - start, self.piece)]
 
-    def _of_piece(self, rows: Rows, first: int, stop: int) -> dict[str, Array]:
+    def _of_piece(self, rows: DesignValues, first: int, stop: int) -> dict[str, Array]:
         parts = []
         for combination, group in groupby(map(tuple, rows["combination"][first:stop].astype(int).tolist())):  # those in a row
             begin, first = first, first + len(list(group))
@@ -119,7 +119,7 @@ class LookWork(FitWork):
     timed: Any
     piece: ClassVar[int] = 1024
 
-    def found(self, fit: Fit, rows: Rows) -> dict[str, Array]:
+    def found(self, fit: Fit, rows: DesignValues) -> dict[str, Array]:
         _, reached = fit.swept(rows["unit"], poses_of(fit, self.timed))
         return {"whole": np.asarray(reached.all(axis=1)), "somewhere": np.asarray(reached.any(axis=1))}
 
@@ -134,7 +134,7 @@ class LayWork(FitWork):
     running: frozenset[Combination]
     piece: ClassVar[int] = 256
 
-    def found(self, fit: Fit, rows: Rows) -> dict[str, Array]:
+    def found(self, fit: Fit, rows: DesignValues) -> dict[str, Array]:
         combination = fit.combination
         at, base = laid_designs(fit, self.likeness[combination], rows["unit"], self.timed, runs=combination in self.running)
         return {"at": at, "base": base, "error": fit.errors(at, base)}
@@ -153,7 +153,7 @@ class DescentWork(FitWork):
     def facts(self) -> str:
         return f"{super().facts} {self.through} {self.most}"
 
-    def found(self, fit: Fit, rows: Rows) -> dict[str, Array]:
+    def found(self, fit: Fit, rows: DesignValues) -> dict[str, Array]:
         at, base = np.array(rows["at"]), rows["base"]
         error, going = fit.errors(at, base), np.arange(len(at))
         through = {"free": None, "running": fit.whole, "keeping": fit.keeping}[self.through]
@@ -194,7 +194,7 @@ class RaceWork(FitWork):
     def facts(self) -> str:
         return f"{super().facts} {RACE}"
 
-    def found(self, fit: Fit, rows: Rows) -> dict[str, Array]:
+    def found(self, fit: Fit, rows: DesignValues) -> dict[str, Array]:
         at, base = rows["at"], rows["base"]
         raced, error = fit.descend(at, base, RACE)
         runs = fit.whole(raced) & np.isfinite(error)
@@ -214,7 +214,7 @@ class PolishWork(FitWork):
     def facts(self) -> str:
         return f"{super().facts} {self.in_order} {self.most}"
 
-    def found(self, fit: Fit, rows: Rows) -> dict[str, Array]:
+    def found(self, fit: Fit, rows: DesignValues) -> dict[str, Array]:
         ((at, first, base),) = zip(rows["at"], rows["first"], rows["base"], strict=True)
         fit.problem.count.limit = int(min(self.most, LOOKS))
         for start in (at, first):

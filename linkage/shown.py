@@ -2,10 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Sequence
 from typing import TYPE_CHECKING, TypeVar
 
 Item = TypeVar("Item")
+
+
+def aligned(rows: Sequence[Sequence[str]], left: Collection[int]) -> str:
+    """Return rows of cells as text in columns: those whose numbers are in `left` begin below each other, the others end so."""
+    sides = ["<" if number in left else ">" for number in range(len(rows[0]))]
+    sizes = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    lines = ("  ".join(f"{cell:{side}{size}}" for cell, side, size in zip(row, sides, sizes, strict=True)) for row in rows)
+    return "\n".join(line.rstrip() for line in lines)
 
 
 load_writer: Callable[[], Callable[[object], str]] | None = None

@@ -24,7 +24,7 @@ from ..motion.measures import Constraint, Given, Integral, Leaf, Measure, measur
 from ..numeric.line import Index
 from ..plan import Mask, Plan
 from ..program import FloatArray
-from ..shown import Shown, Told
+from ..shown import Shown, Told, aligned
 from ..units import deg, display_unit, factor, mm, require_measure, show, shown_in
 from .box import unit_points
 from .checks import unit_of
@@ -743,10 +743,5 @@ def result_text(rows: Sequence[ResultRow]) -> str:
     """Return rows as aligned text; columns that hold nothing are left out."""
     cells = result_cells(rows, ".6g", ".2g")
     kept = [place for place in range(len(RESULT_HEADINGS)) if any(line[place] for line in cells[1:])]
-    sizes = {place: max(len(line[place]) for line in cells) for place in kept}
-    words = {0, 1, 2, 9}
-    lines = (
-        "  ".join(line[place].ljust(sizes[place]) if place in words else line[place].rjust(sizes[place]) for place in kept)
-        for line in cells
-    )
-    return "\n".join(line.rstrip() for line in lines)
+    words = {number for number, place in enumerate(kept) if RESULT_HEADINGS[place] in ("what", "name", "unit", "for")}
+    return aligned([[line[place] for place in kept] for line in cells], words)

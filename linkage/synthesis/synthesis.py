@@ -21,7 +21,7 @@ from ..motion.judging import transmissions
 from ..motion.measures import Measure, measure_of
 from ..plan import Mask
 from ..program import FloatArray
-from ..shown import Shown, Told
+from ..shown import Shown, Told, aligned
 from ..study.checks import check_one_design, unit_of
 from ..study.optimise import check_counts
 from ..study.optimum import heading_with_unit, rounded_values, tried_names
@@ -195,9 +195,7 @@ class Synthesis(Told, Shown):
                 by = factor(shown_in(unit)) if unit else 1.0
                 numbers = [f"{best.error:.3g}", f"{best.rms / by:.4g}", f"{size / mm:.4g}", f"{best.transmission / deg:.3g}"]
             cells.append([each.problem.plan.title, str(links_of(each.start)), *numbers, str(len(each.solutions)), str(each.starts)])
-        sizes = [max(len(row[place]) for row in cells) for place in range(len(headings))]
-        aligned = ([row[0].ljust(sizes[0]), *(each.rjust(size) for each, size in zip(row[1:], sizes[1:], strict=True))] for row in cells)
-        return "\n".join("  ".join(row) for row in aligned)
+        return aligned(cells, {0})
 
     @property
     def exact(self) -> float:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, TypeVar
 Item = TypeVar("Item")
 
 
-def aligned(rows: Sequence[Sequence[str]], left: Collection[int]) -> str:
+def text_columns(rows: Sequence[Sequence[str]], left: Collection[int]) -> str:
     """Return rows of cells as text in columns: those whose numbers are in `left` begin below each other, the others end so."""
     sides = ["<" if number in left else ">" for number in range(len(rows[0]))]
     sizes = [max(map(len, column)) for column in zip(*rows, strict=True)]

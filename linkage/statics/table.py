@@ -15,7 +15,7 @@ from ..loads import FRICTIONLESS, Acting
 from ..motion import Answer, Judge, Motion, Over, greatest, most, stroke_unit
 from ..motion.limits import place_text
 from ..quantities import body_name
-from ..shown import aligned
+from ..shown import text_columns
 from ..units import shown_number, unit_sign
 from .force_requests import pin_force
 from .joint_forces import JointForce, PinForces, joint_forces
@@ -214,4 +214,4 @@ def pin_load(result: PinForces, joint: JointForce, force: float, place: Place, d
 def table_text(rows: Iterable[PinLoad]) -> str:
     """Return the table as aligned text."""
     cells = [max_headings(), *(row.cells for row in rows)]
-    return aligned(cells, range(len(cells[0])))
+    return text_columns(cells, range(len(cells[0])))

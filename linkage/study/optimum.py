@@ -24,7 +24,7 @@ from ..motion.measures import Constraint, Given, Integral, Leaf, Measure, measur
 from ..numeric.line import Index
 from ..plan import Mask, Plan
 from ..program import FloatArray
-from ..shown import Shown, Told, aligned
+from ..shown import Shown, Told, text_columns
 from ..units import deg, display_unit, factor, mm, require_measure, show, shown_in
 from .box import unit_points
 from .checks import unit_of
@@ -744,4 +744,4 @@ def result_text(rows: Sequence[ResultRow]) -> str:
     cells = result_cells(rows, ".6g", ".2g")
     kept = [place for place in range(len(RESULT_HEADINGS)) if any(line[place] for line in cells[1:])]
     words = {number for number, place in enumerate(kept) if RESULT_HEADINGS[place] in ("what", "name", "unit", "for")}
-    return aligned([[line[place] for place in kept] for line in cells], words)
+    return text_columns([[line[place] for place in kept] for line in cells], words)

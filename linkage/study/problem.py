@@ -49,7 +49,7 @@ from .designs import DesignValues
 from .measured import eager, motion_of, nothing_limits
 from .sampling import Samples, Sampling, divisors_of, rows_of_motion, with_values
 from .space import Space
-from .variants import Range, class_with, on_sides
+from .variants import Range, on_sides, variant
 
 SAMPLES = {0: 1, 1: 49, 2: 17, 3: 9, 4: 5}
 COARSE = {0: 1, 1: 17, 2: 7, 3: 5, 4: 3}
@@ -663,7 +663,7 @@ class Problem:
         if not driven:
             return machine
         ends = self.ends(machine.dimensions)
-        return class_with(type(machine), {}, {name: ends[name] for name in driven})(**machine.dimensions)
+        return variant(type(machine), travels={name: ends[name] for name in driven})(**machine.dimensions)
 
     def assembled(self, machine: Mechanism) -> Motion:
         """Return a machine's motion over the strokes' ranges; AssemblyError where it cannot be assembled, between the poses too."""

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple, TypeAlias
 from ..assembly import members_on_sides
 from ..checks import is_listed, require
 from ..errors import DefinitionError, ensure
+from ..frozen import FrozenDict
 from ..loads import TwoPoint
 from ..mechanism import Mechanism, declared
 from ..plan import Part, Plan, Reading
@@ -16,7 +17,6 @@ from ..steps import Drawn, Point, Step
 from ..vectors import Numbers, Side
 
 ENDING = ".side"
-BEFORE_SIDES = "_class_before_sides"
 
 
 def is_side(name: str) -> bool:
@@ -47,48 +47,13 @@ def sided_step(machine: Mechanism, name: object) -> str:
 
 def on_sides(machine: Mechanism, sides: Mapping[str, Side]) -> Mechanism:
     """Return a design with some steps on these sides; itself where they are."""
-    found = class_on_sides(type(machine), sides)
+    found = variant(type(machine), sides)
     return machine if found is type(machine) else found(**machine.dimensions)
 
 
 def sided_now(member: Member) -> Side | None:
     """Return the side of a step; None for what has none."""
     return member.side if isinstance(member, Step) else None
-
-
-def class_on_sides(kind: type[Mechanism], sides: Mapping[str, Side]) -> type[Mechanism]:
-    """Return a class like another one but for the sides of some steps, each kind once."""
-    base, before = vars(kind).get(BEFORE_SIDES, (kind, {}))
-    wanted = {name: side for name, side in {**before, **sides}.items() if sided_now(base.plan.members[name]) is not side}
-    if not wanted:
-        return base  # type: ignore[no-any-return]
-    found: type[Mechanism] = base.plan.made(("sides", *sorted(wanted.items())), lambda _: made_on_sides(base, wanted))
-    return found
-
-
-def made_on_sides(kind: type[Mechanism], sides: Mapping[str, Side]) -> type[Mechanism]:
-    """Return a subclass with some steps on these sides, of its parts too."""
-    plan, written = kind.plan, declared(kind)
-    own = members_on_sides(plan, written, sides)
-    parts: dict[str, dict[str, Side]] = {}
-    for name, side in sides.items():
-        if name not in written:
-            part = next(each for each in written if name.startswith(f"{each}.") and isinstance(written[each], Part))
-            parts.setdefault(part, {})[name.removeprefix(f"{part}.")] = side
-    for name, inner in parts.items():  # these sides are those in the whole: of a mirrored part each is the other one in itself
-        inside: Any = written[name]
-        seen = {each: sided_now(inside.plan.members[each]) is sided_now(plan.members[f"{name}.{each}"]) for each in inner}
-        other = class_on_sides(inside.machine, {each: side if seen[each] else Side(-side) for each, side in inner.items()})
-        own[name] = inside.renewed(machine=other, plan=other.plan)
-
-    def sent(machine: Mechanism) -> tuple[object, ...]:
-        return on_sides, (kind(**machine.dimensions), dict(sides))
-
-    made = class_like(kind, {**own, BEFORE_SIDES: (kind, dict(sides))}, sent)
-    lost = [name for name, side in sides.items() if sided_now(made.plan.members[name]) is not side]
-    if lost:
-        raise DefinitionError(f"{plan.title}: {lost[0]} cannot be put on the side {sides[lost[0]]} from here; write a class for it.")
-    return made
 
 
 def class_like(kind: type[Mechanism], own: Mapping[str, object], sent: Callable[[Mechanism], tuple[object, ...]]) -> type[Mechanism]:
@@ -106,7 +71,6 @@ def class_like(kind: type[Mechanism], own: Mapping[str, object], sent: Callable[
 #
 # A machine of a row is of a subclass whose stroke has that range, so that whatever is asked of it holds over the cylinder's whole way.
 
-BEFORE_ROWS = "_class_before_rows"
 LENGTHS = ("closed", "stroke")
 Pairs: TypeAlias = Mapping[str, tuple[float, float]]
 
@@ -148,7 +112,7 @@ def fitted_rows(machine: Mechanism, vary: Any) -> tuple[Mechanism, Any, dict[str
         if set(LENGTHS) <= set(fields) and None in given:
             lengths[name] = (float(rows[0].closed), float(rows[0].stroke))
     if lengths:
-        machine = class_with(type(machine), lengths, {})(**machine.dimensions)
+        machine = variant(type(machine), lengths=lengths)(**machine.dimensions)
     found: dict[Any, Any] = {name: each for name, each in vary.items() if name not in named}
     travels: dict[str, Range] = {}
     for name, rows in named.items():
@@ -227,36 +191,60 @@ def length_of(machine: Mechanism, name: str) -> tuple[str, list[tuple[str, float
     return strokes[0][1], others
 
 
-# Classes of rows.
+# Classes of variants.
+
+BEFORE = "_class_before"
+NOTHING: Mapping[str, Any] = FrozenDict()
 
 
-def class_with(kind: type[Mechanism], lengths: Pairs, travels: Pairs) -> type[Mechanism]:
-    """Return a class like another one but for closed lengths and strokes of cylinders, and ranges of strokes, each kind once."""
-    base, known, before = vars(kind).get(BEFORE_ROWS, (kind, {}, {}))
-    every, ranges = {**known, **lengths}, {**before, **travels}
-    key = ("rows", *sorted(every.items()), "strokes", *sorted(ranges.items()))
-    found: type[Mechanism] = base.plan.made(key, lambda _: made_with(base, every, ranges))
+def variant(
+    kind: type[Mechanism], sides: Mapping[str, Side] = NOTHING, lengths: Pairs = NOTHING, travels: Pairs = NOTHING
+) -> type[Mechanism]:
+    """Return a class like another one, each kind once: itself where nothing is different.
+
+    Some steps are on these `sides`, cylinders have these closed lengths and strokes, strokes these ranges.
+    """
+    base, before = vars(kind).get(BEFORE, (kind, (NOTHING, NOTHING, NOTHING)))
+    different = [{**old, **new} for old, new in zip(before, (sides, lengths, travels), strict=True)]
+    different[0] = {name: side for name, side in different[0].items() if sided_now(base.plan.members[name]) is not side}
+    key = ("variant", *(tuple(sorted(each.items())) for each in different))
+    found: type[Mechanism] = base.plan.made(key, lambda _: made_variant(base, *different)) if any(different) else base
     return found
 
 
-def made_with(kind: type[Mechanism], lengths: Pairs, travels: Pairs) -> type[Mechanism]:
-    """Return a subclass with closed lengths and strokes of cylinders, and ranges of strokes."""
+def made_variant(kind: type[Mechanism], sides: Mapping[str, Side], lengths: Pairs, travels: Pairs) -> type[Mechanism]:
+    """Return a subclass that is different in this, its steps of parts too."""
     plan, written = kind.plan, declared(kind)
+    own: dict[str, Any] = {**members_on_sides(plan, written, sides)} if sides else {}
+    parts: dict[str, dict[str, Side]] = {}
+    for name, side in sides.items():
+        if name not in written:
+            part = next(each for each in written if name.startswith(f"{each}.") and isinstance(written[each], Part))
+            parts.setdefault(part, {})[name.removeprefix(f"{part}.")] = side
+    for name, inner in parts.items():  # these sides are those in the whole: of a mirrored part each is the other one in itself
+        inside: Any = written[name]
+        seen = {each: sided_now(inside.plan.members[each]) is sided_now(plan.members[f"{name}.{each}"]) for each in inner}
+        other = variant(inside.machine, {each: side if seen[each] else Side(-side) for each, side in inner.items()})
+        own[name] = inside.renewed(machine=other, plan=other.plan)
     for name in (*lengths, *travels):
         what = f"{plan.title}: {name} is a part's own; rows of a catalogue set what the class itself declares"
         ensure(name in written, f"{what}: vary them in the part, or vary the dimensions by name.")
-    own: dict[str, Any] = {name: written[name].renewed(**dict(zip(LENGTHS, ends, strict=True))) for name, ends in lengths.items()}
+    own |= {name: written[name].renewed(**dict(zip(LENGTHS, ends, strict=True))) for name, ends in lengths.items()}
     own |= {name: Stroke(*ends) for name, ends in travels.items()}
     if travels and not any(isinstance(each, Drawn) for each in written.values()):
         own["sketch"] = Drawn(plan.sketch_strokes)
-    base = kind, dict(lengths), dict(travels)
+    different = dict(sides), dict(lengths), dict(travels)
 
     def sent(machine: Mechanism) -> tuple[object, ...]:
-        return made_again, (*base, machine.dimensions)
+        return remade, (kind(**{name: machine.dimensions[name] for name in plan.defaults}), different, machine.dimensions)
 
-    return class_like(kind, {**own, BEFORE_ROWS: base}, sent)
+    made = class_like(kind, {**own, BEFORE: (kind, different)}, sent)
+    lost = [name for name, side in sides.items() if sided_now(made.plan.members[name]) is not side]
+    if lost:
+        raise DefinitionError(f"{plan.title}: {lost[0]} cannot be put on the side {sides[lost[0]]} from here; write a class for it.")
+    return made
 
 
-def made_again(kind: type[Mechanism], lengths: Pairs, travels: Pairs, dimensions: Mapping[str, Numbers]) -> Mechanism:
-    """Return the design that was sent."""
-    return class_with(kind, lengths, travels)(**dimensions)
+def remade(base: Mechanism, different: tuple[Mapping[str, Any], ...], dimensions: Mapping[str, Numbers]) -> Mechanism:
+    """Return the design of a variant that was sent."""
+    return variant(type(base), *different)(**dimensions)

@@ -30,7 +30,7 @@ from ..quantities import Dimension, Member, Stroke, angle, ref
 from ..shown import Shown, ShownList, Told
 from ..steps import Guide
 from ..study.checks import check_one_design
-from ..study.variants import class_like, class_on_sides
+from ..study.variants import class_like, variant
 from ..units import show
 from ..vectors import LEFT, RIGHT, Side
 from .defects import TOLD, point_ranges, points_on_circuits
@@ -148,7 +148,7 @@ class ExactMachine(Told, Shown):
 
 def exact_variant(name: str, side: int, members: Mapping[str, Member], dimensions: Mapping[str, Any]) -> Mechanism:
     """Return a design of the shipped class of a name, its dyad on a side, with some members of its own; one that goes through pickle."""
-    base = class_on_sides(shipped(name), {"B": Side(side)})
+    base = variant(shipped(name), {"B": Side(side)})
 
     def reduce(machine: Mechanism) -> tuple[Any, ...]:
         return exact_variant, (name, side, dict(members), machine.dimensions)

@@ -21,7 +21,7 @@ from ..motion.judging import transmissions
 from ..motion.measures import Measure, measure_of
 from ..plan import Mask
 from ..program import FloatArray
-from ..shown import Shown, Told, aligned
+from ..shown import Shown, Told, text_columns
 from ..study.checks import check_one_design, unit_of
 from ..study.optimise import check_counts
 from ..study.optimum import heading_with_unit, rounded_values, tried_names
@@ -195,7 +195,7 @@ class Synthesis(Told, Shown):
                 by = factor(shown_in(unit)) if unit else 1.0
                 numbers = [f"{best.error:.3g}", f"{best.rms / by:.4g}", f"{size / mm:.4g}", f"{best.transmission / deg:.3g}"]
             cells.append([each.problem.plan.title, str(links_of(each.start)), *numbers, str(len(each.solutions)), str(each.starts)])
-        return aligned(cells, {0})
+        return text_columns(cells, {0})
 
     @property
     def exact(self) -> float:

@@ -242,7 +242,8 @@ def given_text(value: object) -> str:
 def pair_of(given: object, what: str) -> tuple[Operand, Operand]:
     """Return two coordinates; DefinitionError for anything else."""
     pair = two_of(given)
-    ensure(pair, f"{what}: {cited(given)} is no place; write (x, y) in m, or name a point of the machine.")
+    if not pair:
+        raise DefinitionError(f"{what}: {cited(given)} is no place; write (x, y) in m, or name a point of the machine.")
     for each in pair:
         quantity(each)
     require_measure(pair, "length", what)

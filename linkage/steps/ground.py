@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from ..errors import DefinitionError, cited, ensure
+from ..errors import DefinitionError, cited
 from ..quantities import FRAME_AXES, Axes, Number, Operand, Quantity, Reference, Where, label, quantity, spelled
 from ..vectors import Vec
 from .step import Point
@@ -65,7 +65,8 @@ class Carried(Ground):
 
     def __init__(self, P: Reference, Q: Reference, x: Operand, y: Operand) -> None:
         super().__init__(x, y)
-        ensure(not (P is Q or (isinstance(P, str) and P == Q)), f"Carried({label(P)}, {label(Q)}): name two different points of the body.")
+        if P is Q or (isinstance(P, str) and P == Q):
+            raise DefinitionError(f"Carried({label(P)}, {label(Q)}): name two different points of the body.")
         self.axes = Axes(P, Q)
 
     @property

@@ -7,7 +7,7 @@ from itertools import combinations
 from types import MappingProxyType
 from typing import Self
 
-from ..errors import DefinitionError, ensure
+from ..errors import DefinitionError
 from ..quantities import Axes, Member, Operand, Reference, name_of, quantity
 from .labels import DimensionTable, Slot, Spoken, match, relabelled, written_labels
 
@@ -26,8 +26,9 @@ class Link(Member):
         if len(points) == 1 and isinstance(points[0], str):
             points = tuple(points[0].replace(",", " ").split())
         self.points, self.labels = points, labels
-        words = " ".join(map(str, points))
-        ensure(len(points) >= 2, f'Link("{words}"): a link joins at least two points; write them apart, Link("O B").')
+        if len(points) < 2:
+            words = " ".join(map(str, points))
+            raise DefinitionError(f'Link("{words}"): a link joins at least two points; write them apart, Link("O B").')
 
     def in_axes(self, axes: Axes) -> Self:
         return self.renewed(is_mirrored=not self.is_mirrored) if axes.mirrored else self

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Collection, Mapping
-from itertools import zip_longest
 from pathlib import Path
 from typing import Any
 
-from ..errors import DefinitionError, FileError, ensure, known_name, unknown
+from ..errors import DefinitionError, ensure, known_name, unknown
 from ..quantities import Course, Curve, is_number, ramp
 from ..units import UNITS, Amount
 from .design import degrees_text
 from .expression import one_unit
 from .names import FileTable, Keywords, Names, require_entry, shortened
+from .source import csv_rows, is_numeral
 from .validators import amount_of
 
 STEPS: Mapping[str, Collection[str]] = {
@@ -36,15 +35,14 @@ def is_course(given: object) -> bool:
     return isinstance(given, Mapping) or (isinstance(given, list) and any(isinstance(each, Mapping) for each in given))
 
 
-def course_read(given: Any, names: Names) -> Course | Curve:
+def course_read(given: object, names: Names) -> Course | Curve:
     """Return the course that a table says, or several one after the other; DefinitionError, with the key, for anything else."""
     tables = given if isinstance(given, list) else [given]
     found: Course | None = None
     for table in tables:
         step = step_read(table, names)
         if isinstance(step, Curve):
-            if len(tables) > 1:
-                raise DefinitionError("a curve with a period stands alone: it goes on over the whole path.")
+            ensure(len(tables) <= 1, "a curve with a period stands alone: it goes on over the whole path.")
             return step
         if isinstance(step, float):
             if found is None:
@@ -57,7 +55,7 @@ def course_read(given: Any, names: Names) -> Course | Curve:
     return found
 
 
-def step_read(table: Any, names: Names) -> Course | Curve | float:
+def step_read(table: object, names: Names) -> Course | Curve | float:
     """Return one step of a course; the seconds of a hold."""
     if not isinstance(table, Mapping):
         raise DefinitionError(f'{shortened(table)} is no step of a course; write {{ ramp = ["100 mm", "300 mm"], speed = "150 mm/s" }}.')
@@ -76,8 +74,7 @@ def step_read(table: Any, names: Names) -> Course | Curve | float:
             raise DefinitionError('a ramp has two ends and a speed, { ramp = ["100 mm", "300 mm"], speed = "150 mm/s" }.')
         return ramp(*ends, **numbers)
     wanted = "phases" if kind == "phases" else "values"
-    if not {"times", wanted} <= numbers.keys():
-        raise DefinitionError(f"times and {wanted} stand beside each other, as many of each.")
+    ensure({"times", wanted} <= numbers.keys(), f"times and {wanted} stand beside each other, as many of each.")
     if kind == "phases":
         return Course.of_phases(numbers["times"], numbers["phases"], numbers.get("end"))
     if "period" in numbers:
@@ -85,7 +82,7 @@ def step_read(table: Any, names: Names) -> Course | Curve | float:
     return Course(numbers["times"], numbers["values"], numbers.get("kind", "smooth"))
 
 
-def numbers_read(key: str, given: Any, names: Names) -> Any:
+def numbers_read(key: str, given: object, names: Names) -> Any:
     """Return a number of a step [SI], or a list of such; DefinitionError for a unit that measures something else.
 
     One with a unit knows whether it is of a length or of an angle, so that a course knows what it moves.
@@ -97,8 +94,7 @@ def numbers_read(key: str, given: Any, names: Names) -> Any:
         fits = [each for each, (_, what) in UNITS.items() if what in measures]
         raise DefinitionError(f"{key} = {shortened(given)}: use one of {', '.join(fits)}." if fits else f"{key} has no units.")
     found = amount_of(given, names, "")
-    if not is_number(found):
-        raise DefinitionError(f"{key} = {shortened(given)}: a number is expected; a course follows no dimension.")
+    ensure(is_number(found), f"{key} = {shortened(given)}: a number is expected; a course follows no dimension.")
     if not unit or "time" in measures:
         return float(found)
     return Amount(found, "angle" if UNITS[unit][1].startswith("ang") else "length")
@@ -119,7 +115,7 @@ def course_written(course: Course | Curve, is_angle: bool) -> Keywords | list[Ke
     return tables[0] if len(tables) == 1 else tables
 
 
-def listed_all(value: Any) -> Any:
+def listed_all(value: object) -> Any:
     """Return tuples as lists, through all depths."""
     return [listed_all(each) for each in value] if isinstance(value, tuple) else value
 
@@ -127,28 +123,23 @@ def listed_all(value: Any) -> Any:
 def rows_read(name: object, folder: Path | None, strokes: Collection[str]) -> FileTable:
     """Return the time and the strokes of a table of rows, as `export` writes a motion in time: the first line says names and units.
 
-    What is neither is passed over. FileError for a file that cannot be read, DefinitionError for one that says no time or no stroke.
+    What is neither is passed over. DefinitionError for a file that cannot be read, or that says no time or no stroke.
     """
     if folder is None or not isinstance(name, str) or Path(name).name != name:
         raise DefinitionError(f"csv = {shortened(name)}: a table stands in the folder of the file that names it; give its name alone.")
-    try:
-        with (folder / name).open(newline="", encoding="utf-8-sig") as stream:
-            headings, *rows = [row for row in csv.reader(stream) if row]
-    except (OSError, ValueError, csv.Error) as error:
-        raise FileError(f"{shortened(name)}: it cannot be read as a table of rows: {error}.") from error
+    (_, headings), *rows = [*csv_rows(folder / name)] or [(0, list[str]())]
     found: dict[str, list[float]] = {}
-    for heading, values in zip(headings, zip_longest(*rows, fillvalue=""), strict=False):
+    for place, heading in enumerate(headings):
         column, _, unit = heading.rpartition(", ")
         if column not in ("time", *strokes):
             continue
         known_name("Unit", unit, UNITS, where=f"csv = {name}: {heading}")
         measures = MEASURES["times" if column == "time" else "values"]
         ensure(UNITS[unit][1] in measures, f"csv = {name}: {heading}: a unit of {' or '.join(measures)} is expected.")
-        for row, text in enumerate(values, 2):
-            try:
-                found.setdefault(column, []).append(Amount(float(text) * float(UNITS[unit][0]), UNITS[unit][1]))
-            except ValueError:
-                raise DefinitionError(f"csv = {name}: {heading}: in line {row} {shortened(text)} is no number.") from None
+        for line, row in rows:
+            text = row[place] if place < len(row) else ""
+            ensure(is_numeral(text), f"csv = {name}: {heading}: in line {line} {shortened(text)} is no number.")
+            found.setdefault(column, []).append(Amount(float(text) * float(UNITS[unit][0]), UNITS[unit][1]))
     if "time" not in found or len(found) < 2:
         raise DefinitionError(f'csv = {name}: columns "time, s" and of a stroke are expected, such as "{next(iter(strokes), "S")}, m".')
     return found

@@ -82,6 +82,16 @@ def test_a_table_of_rows_is_what_export_writes(tmp_path):
     assert again.rates["b"][5:14] == pytest.approx(motion.rates["b"][5:14])
 
 
+def test_a_table_of_rows_is_read_as_a_spreadsheet_writes_it(tmp_path):
+    (tmp_path / "cycle.csv").write_text('# of the log\n"time, s";"a, mm";note\n0;100,5;x\n\n1,5;300;\n')
+    (tmp_path / "machine.toml").write_text(f'{HEAD}csv = "cycle.csv"\nb = 0.2')
+    legs = load(tmp_path / "machine.toml")().sweep(3, over="go")
+    assert legs.time.tolist() == [0.0, 0.75, 1.5] and legs.strokes["a"].tolist() == pytest.approx([0.1005, 0.20025, 0.3])
+    (tmp_path / "cycle.csv").write_text('# of the log\n"time, s";"a, mm"\n0;100,5\n\n1,5;inf\n')
+    with pytest.raises(FileError, match="line 5 'inf' is no number"):
+        load(tmp_path / "machine.toml")
+
+
 def test_what_a_file_gets_wrong_is_refused_in_words(tmp_path):
     for go, words in [
         ("a = { hold = 0.5 }\nb = 0.1", "begin with a ramp"),

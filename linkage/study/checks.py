@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from ..checks import require_one_design, unfit
-from ..errors import AssemblyError, DefinitionError
+from ..checks import is_whole, require_one_design, unfit
+from ..errors import AssemblyError, DefinitionError, cited, ensure
 from ..mechanism import Mechanism
 from ..plan import Plan
 from .variants import is_side
@@ -34,6 +34,12 @@ def check_one_design(machine: Mechanism) -> None:
     """Raise DefinitionError for a batch of designs, and for anything but a mechanism."""
     check_mechanism(machine)
     require_one_design(machine.dimensions, f"{type(machine).__name__}: a study starts from one design")
+
+
+def check_in_count(title: str, what: str, number: object, count: int) -> None:
+    """Raise DefinitionError for anything but the number of one of some designs or curves, from 0 on."""
+    fits = is_whole(number) and 0 <= number < count
+    ensure(fits, f"{title}: there is no {what} {cited(number)}; numbers go from 0 to {count - 1}.")
 
 
 def check_vary(machine: Mechanism, what: str, over: object) -> None:

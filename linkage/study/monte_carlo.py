@@ -20,6 +20,7 @@ from ..program import FloatArray, RunOptions
 from ..quantities import is_number
 from ..units import display_unit
 from ..vectors import Numbers
+from .checks import check_in_count
 from .measured import Measured, StudyPoses, fold, fold_start, measured_title, nothing_limits, number_bound
 from .tolerances import Tolerance, ToleranceLike, sampled_designs, tolerance_words, tolerances_of, values_shifted
 
@@ -93,7 +94,8 @@ class MonteCarlo:
         return self.bands[name]
 
     def design(self, place: int) -> Mechanism:
-        """Return the machine of one of the designs."""
+        """Return the machine of one of the designs, by its number."""
+        check_in_count(self.machine.plan.title, "design", place, self.count)
         return self.machine.replaced(**{name: float(value[place]) for name, value in self.designs.items()})
 
     def __str__(self) -> str:

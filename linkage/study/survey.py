@@ -24,10 +24,9 @@ from ..checks import require, require_whole
 from ..errors import DefinitionError, LinkageError, StudyError, cited, known_name, one_word
 from ..frozen import FrozenDict, immutable, read_only
 from ..mechanism import Mechanism
-from ..quantities import is_whole
 from ..shown import Shown
 from .checkpoint import Checkpoint, facts_of, how_far
-from .checks import check_one_design, check_vary
+from .checks import check_one_design, check_in_count, check_vary
 from .designs import Array, Batch, Designs, StudyWork, Task, check_same_results, measure_batch
 
 TRIES = 3
@@ -312,9 +311,7 @@ class Survey(Mapping[str, Array], Shown):
 
     def design(self, number: int) -> Mechanism:
         """Return the machine of one design, by its number: `found.design(found["travel"].argmax())`."""
-        if not is_whole(number) or not 0 <= number < self.designs.count:
-            last = self.designs.count - 1
-            raise DefinitionError(f"{self.machine.plan.title}: there is no design {number!r}; numbers go from 0 to {last}.")
+        check_in_count(self.machine.plan.title, "design", number, self.designs.count)
         rows = self.designs.dimensions(int(number), int(number) + 1)
         one = {name: tuple(float(part.flat[0]) for part in value) if isinstance(value, tuple) else value[0] for name, value in rows.items()}
         return self.machine.replaced(**one)

@@ -25,7 +25,7 @@ from ..program import FloatArray, Kernel, Level, RunOptions
 from ..quantities import is_whole, x, y
 from ..shown import Shown
 from ..study.checkpoint import digest
-from ..study.checks import check_one_design
+from ..study.checks import check_one_design, check_in_count
 from ..study.designs import DesignValues
 from ..study.measured import traced_number
 from ..study.problem import Problem
@@ -280,8 +280,7 @@ class CurveCatalogue(Shown):
 
     def design(self, number: int) -> Mechanism:
         """Return the machine of a curve, by its number; its first two fixed points stand 1 m apart."""
-        if not is_whole(number) or not 0 <= number < len(self):
-            raise DefinitionError(f"{self.kind.title}: there is no curve {cited(number)}; numbers go from 0 to {len(self) - 1}.")
+        check_in_count(self.kind.title, "curve", number, len(self))
         values = self.kind.values(self.units[int(number)][None])
         return self.kind.machine.replaced(**{name: float(value[0]) for name, value in self.kind.designs(values).items()})
 

@@ -182,6 +182,9 @@ def test_bands_are_those_of_the_same_designs_one_motion():
             assert_allclose(cut, np.percentile(values, percentage, axis=0), rtol=1e-12)
     assert_allclose(found["tilt"].nominal, ThreePointHitch().at(S=S)["tilt"], rtol=1e-14)
     assert found.design(7)["OB"] == found.designs["OB"][7]
+    for wrong in (found.count, -1, 1.5, True):
+        with pytest.raises(DefinitionError, match="there is no design .*; numbers go from 0 to"):
+            found.design(wrong)
 
 
 @first_daily(2, "quantity", ["tilt", drive_force(), pin_force("O")])

@@ -198,7 +198,7 @@ class Grammar(ABC):
         """Return what a function makes of its arguments."""
 
     @abstractmethod
-    def joined(self, sign: str, a: object, b: object) -> Any:
+    def joined(self, sign: str, a: Any, b: Any) -> Any:
         """Return two parts joined; of numbers alone it is a number."""
 
     def negative(self, part: Any) -> Any:

@@ -205,7 +205,8 @@ def side_named(given: object, names: Names) -> Side | None:
 
 def word_of(given: Any, names: Names | None = None) -> str:
     """Return a word that stands for itself."""
-    ensure(isinstance(given, str) and given.isprintable(), f"{shortened(given)} stands where a word in quotes is expected.")
+    if not isinstance(given, str) or not given.isprintable():
+        raise DefinitionError(f"{shortened(given)} stands where a word in quotes is expected.")
     return given
 
 

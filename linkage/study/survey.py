@@ -26,7 +26,7 @@ from ..frozen import FrozenDict, immutable, read_only
 from ..mechanism import Mechanism
 from ..shown import Shown
 from .checkpoint import Checkpoint, facts_of, how_far
-from .checks import check_one_design, check_in_count, check_vary
+from .checks import check_in_count, check_one_design, check_vary
 from .designs import Array, Batch, Designs, StudyWork, Task, check_same_results, measure_batch
 
 TRIES = 3

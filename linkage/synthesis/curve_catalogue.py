@@ -25,7 +25,7 @@ from ..program import FloatArray, Kernel, Level, RunOptions
 from ..quantities import is_whole, x, y
 from ..shown import Shown
 from ..study.checkpoint import digest
-from ..study.checks import check_one_design, check_in_count
+from ..study.checks import check_in_count, check_one_design
 from ..study.designs import DesignValues
 from ..study.measured import traced_number
 from ..study.problem import Problem

@@ -183,7 +183,7 @@ def test_bands_are_those_of_the_same_designs_one_motion():
     assert_allclose(found["tilt"].nominal, ThreePointHitch().at(S=S)["tilt"], rtol=1e-14)
     assert found.design(7)["OB"] == found.designs["OB"][7]
     for wrong in (found.count, -1, 1.5, True):
-        with pytest.raises(DefinitionError, match="there is no design .*; numbers go from 0 to"):
+        with pytest.raises(DefinitionError, match=r"there is no design .*; numbers go from 0 to"):
             found.design(wrong)
 
 

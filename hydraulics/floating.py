@@ -296,7 +296,7 @@ class FloatCircuit(GasLine):
 
     def __str__(self) -> str:
         block = str(self.block) if isinstance(self.block, AccumulatorBlock) else getattr(self.block, "__name__", "block")
-        return f"FloatCircuit({', '.join([self.named, block, *self.words()])})"
+        return f"FloatCircuit({', '.join([self.cylinder_names, block, *self.words()])})"
 
     def feeds(self, members: NamedMembers) -> tuple[ForceElement, ...]:
         return () if self._is_shut else self.members(members)

@@ -190,7 +190,7 @@ class LiftCircuit(PumpLine):
 
     def __str__(self) -> str:
         on = [label(self.pressure)] if isinstance(self.pressure, Pump) else []
-        return f"LiftCircuit({', '.join([self.named, *on, *self.words()])})"
+        return f"LiftCircuit({', '.join([self.cylinder_names, *on, *self.words()])})"
 
     def says(self, name: str, members: NamedMembers) -> tuple[ForceElement, str] | None:
         pump = self.pump(members)

@@ -1085,7 +1085,7 @@ class Circuit(OnLines, HasVerdicts):
         return tuple(given) if isinstance(given, (list, tuple)) else (cast(Reference, given),)
 
     @property
-    def named(self) -> str:
+    def cylinder_names(self) -> str:
         """Its cylinders as they are written: a name, or a list of names."""
         names = ", ".join(map(label, self.references))
         return f"[{names}]" if len(self.references) > 1 else names

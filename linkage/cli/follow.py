@@ -8,7 +8,7 @@ import re
 from argparse import Namespace
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -18,11 +18,15 @@ from ..files.criterion import quantity_said
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, RequestLike, Target, stroke_measure
 from ..motion.measures import measure_of
+from ..program import FloatArray
 from ..quantities import x, y
 from ..units import UNITS, parse, parse_span, units_of
 from .command import COLUMNS, CSV, PICTURES, Command, lined_up, machine_options, option, picture, progress_bar, repeatable
 from .settings import FORCES, acting_of, columns_picked, machine_of, pair, parsed_over, plain_value, si_value
 from .table import write_table
+
+if TYPE_CHECKING:
+    from ..study import WorkingField
 
 FILMS = (".gif", ".mp4")
 PAGE = ".html"
@@ -221,7 +225,7 @@ def chart_command(options: Namespace) -> int:
     return 0
 
 
-def axis_said(option: str, text: str) -> Any:
+def axis_said(option: str, text: str) -> FloatArray:
     """Return the places along an axis [m]; DefinitionError for what says none."""
     span = parse_span(text, "length")
     parts = [part.strip() for part in text.split(":")]
@@ -237,10 +241,10 @@ def axis_said(option: str, text: str) -> Any:
     count = (last - first) / step[0]
     if count > 1e6:
         raise DefinitionError(f"{option} {text}: these are {count:.3g} places; give a longer step.")
-    return first + step[0] * np.arange(int(count + 1e-9) + 1)
+    return np.asarray(first + step[0] * np.arange(int(count + 1e-9) + 1))
 
 
-def print_chart(field: Any) -> None:
+def print_chart(field: WorkingField) -> None:
     """Print a chart as text: heights from above, radii across, a letter for each limiter."""
     from ..pictures.load_chart import ChartText
 

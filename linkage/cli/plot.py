@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from argparse import Namespace
 from collections.abc import Sequence
-from typing import Any
 
 from ..errors import DefinitionError, ensure
 from ..mechanism import Mechanism
@@ -101,7 +100,7 @@ def plot_command(options: Namespace) -> int:
         names = options.columns or columns_about(machine, results(machine, over, case))
         columns = settings.columns_picked(machine, over, names, [], acting, None if options.case else case)
         names = [column.name for column in columns]
-        limits: dict[str, Sequence[Any]] = {name: limit for name, limit in machine.featured().limits.items() if name in names}
+        limits: dict[str, Sequence[object]] = {name: limit for name, limit in machine.featured().limits.items() if name in names}
         limits |= dict(settings.parse_limit(text, columns) for text in options.limits)
         figure = plot(over, columns, limits=limits)
     else:
@@ -138,7 +137,7 @@ def animate_command(options: Namespace) -> int:
     at, trace = settings.strokes_or_motion(machine, options), traced_points(machine, options.path)
     columns = results(machine, *settings.motion_along(machine, options.count, at))
     column: str | None = options.column
-    limit: Sequence[Any] | None = None
+    limit: Sequence[object] | None = None
     ensure(len(options.limits) <= 1, "one curve runs along an animation, with one limit; give one --limit.")
     for text in options.limits:
         column, limit = settings.parse_limit(text, columns)

@@ -228,7 +228,7 @@ def stroke_steps(machine: Mechanism, run: Run, count: int, every: str | None) ->
     return values if abs(values[-1] - end) < 1e-6 * step else np.append(values, end)
 
 
-def poses_at(machine: Mechanism, options: Namespace, count: int) -> dict[str, Any]:
+def poses_at(machine: Mechanism, options: Namespace, count: int) -> dict[str, FloatArray]:
     """Return the strokes of all that `--at` leaves open, arrays of one shape: what is not given goes over its range."""
     given = strokes_given(machine, options)
     return stroke_grid(machine, given | {
@@ -236,7 +236,7 @@ def poses_at(machine: Mechanism, options: Namespace, count: int) -> dict[str, An
     })  # fmt: skip
 
 
-def stroke_grid(machine: Mechanism, axes: Mapping[str, FloatArray]) -> dict[str, Any]:
+def stroke_grid(machine: Mechanism, axes: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
     """Return the strokes of a grid, arrays of one shape: an axis for each stroke that has more than one value."""
     axes = {name: axes[name] for name in machine.strokes}
     many = {name: axis for name, axis in axes.items() if len(axis) > 1}
@@ -244,7 +244,7 @@ def stroke_grid(machine: Mechanism, axes: Mapping[str, FloatArray]) -> dict[str,
     return {name: grids.get(name, axis[0]) for name, axis in axes.items()}
 
 
-def with_gaps(machine: Mechanism, strokes: Mapping[str, Any]) -> Motion:
+def with_gaps(machine: Mechanism, strokes: At) -> Motion:
     """Return the motion at strokes, NaN where it cannot be assembled, of which one remark says where, what is missing and the remedy.
 
     Raises AssemblyError where nothing can be assembled, SingularError at a change point.
@@ -302,7 +302,7 @@ def motion_along(machine: Mechanism, count: int, at: At | Motion = NOTHING) -> t
     return with_gaps(machine, run.over(np.linspace(0.0, 1.0, count))), run.case
 
 
-def strokes_given(machine: Mechanism, options: Namespace) -> dict[str, Any]:
+def strokes_given(machine: Mechanism, options: Namespace) -> dict[str, FloatArray]:
     """Return the strokes that `--at` gives, each an array of values, shape (n,) [m or rad]."""
     found, plan = {}, machine.plan
     for text in options.strokes:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations, product
-from typing import Any, final
+from typing import final
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -22,7 +22,7 @@ from . import style
 from .labels import distance_to_box
 from .scene import Bounds
 from .shapes import left_of, lines_cross, polar, segment
-from .sheet import figure_of, haloed, points_a_metre, renderer_of
+from .sheet import Keywords, figure_of, haloed, points_a_metre, renderer_of
 
 SHARE = 0.17
 """The largest arrow's length over the longer side of what is drawn."""
@@ -315,7 +315,7 @@ def place_wordings(ax: Axes, texts: Sequence[Wording], covered: FloatArray) -> N
     chosen: list[PlacedWording] = []
     near = [np.count_nonzero(np.hypot(*(points - ax.transData.transform(each.at)).T) < 40.0) for each in texts]
     for each in (texts[place] for place in np.argsort(-np.array(near, int), kind="stable")):  # the most crowded places first
-        look: dict[str, Any] = {"ha": "center", "va": "center", "zorder": 20.0, "clip_on": False, "gid": f"{each.name} value"}
+        look: Keywords = {"ha": "center", "va": "center", "zorder": 20.0, "clip_on": False, "gid": f"{each.name} value"}
         text = haloed(ax, each.text, np.zeros(2), style.SMALL, each.colour, **look)
         size = np.asarray(text.get_window_extent(renderer).size)
         mark = each.at[None] if each.mark is None else each.mark
@@ -395,8 +395,8 @@ def scale_bar(ax: Axes, layer: ArrowLayer, scale: float, covered: FloatArray) ->
     outline = np.array([[x, x, x, x + length, x + length, x + length], [y + half, y - half, y, y, y - half, y + half]])
     name, middle = f"scale {layer.unit}", np.array([x + 0.5 * length, y + 0.25 * pad])
     ax.plot(*outline, color=colour, linewidth=1.6, zorder=19.0, solid_joinstyle="miter", gid=name)
-    look: dict[str, Any] = {"ha": "center", "va": "bottom", "zorder": 20.0, "gid": f"{name} value"}
-    haloed(ax, f"{value:g} {layer.sign}", middle, style.SMALL, style.INK, **look)
+    length_said = f"{value:g} {layer.sign}"
+    haloed(ax, length_said, middle, style.SMALL, style.INK, ha="center", va="bottom", zorder=20.0, gid=f"{name} value")
     return np.array([x, y]) + np.linspace(-0.3 * pad, length + 0.3 * pad, 60)[:, None] * [1.0, 0.0]
 
 

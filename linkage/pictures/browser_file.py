@@ -42,7 +42,7 @@ def page_text(title: str, data: PageData, parts: Sequence[str], *, language: str
     filled_in = {
         "LANGUAGE": language,
         "TITLE": escape(title),
-        "BODY": filled(body, {"TITLE": escape(title)}),
+        "BODY": fill_template(body, {"TITLE": escape(title)}),
         "STYLE": packed(styles),
         "STYLE_HASH": source_hash(styles),
         "LOADER": loader,
@@ -51,7 +51,7 @@ def page_text(title: str, data: PageData, parts: Sequence[str], *, language: str
         "PROGRAM_HASH": source_hash(program),
         "DATA": packed(json.dumps(data, ensure_ascii=False, separators=(",", ":"), allow_nan=False)),
     }
-    return filled(page_part("page.html"), filled_in)
+    return fill_template(page_part("page.html"), filled_in)
 
 
 def said_in(text: str) -> list[str]:
@@ -92,7 +92,7 @@ def packed(text: str) -> str:
     return b85encode(compress(text.encode(), 9)).decode().replace("<", ",")
 
 
-def filled(template: str, parts: dict[str, str]) -> str:
+def fill_template(template: str, parts: dict[str, str]) -> str:
     """Return a template with each `{{NAME}}` replaced once; what is put in is not looked at again."""
     pieces = template.split("{{")
     done = [pieces[0]]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -18,6 +17,7 @@ from . import style
 from .paper import empty_page, legend_row, write_title
 from .scene import Bounds
 from .shapes import left_of, polar
+from .sheet import Keywords
 
 ROOM = 1.6
 """Of the extent of poses and region: how much of the plane is shown, where the curves go on."""
@@ -123,5 +123,5 @@ def draw_corners(ax: Axes, poses: FloatArray, arm: float) -> None:
         corner = np.array([[x, y] + arm * along, [x, y], [x, y] + 0.5 * arm * across])
         ax.plot(*corner.T, color=style.INK, linewidth=2.2, solid_joinstyle="round", zorder=7.0)
         beside = np.array([x, y]) - 0.28 * arm * (along + across)
-        look: dict[str, Any] = {"fontsize": style.LABEL, "color": style.INK, "ha": "center", "va": "center"}
+        look: Keywords = {"fontsize": style.LABEL, "color": style.INK, "ha": "center", "va": "center"}
         ax.text(float(beside[0]), float(beside[1]), str(number), zorder=8.0, **look)

@@ -26,7 +26,7 @@ from ..reports import At, case_along, columns_about, in_case_words, motion_over,
 from ..statics import LawRequest
 from ..units import factor, require_measure
 from . import style
-from .sheet import panels, quiet
+from .sheet import Keywords, panels, quiet
 from .strokes import StrokeAxis, frame_count
 
 PANEL = (4.6, 3.0)
@@ -282,7 +282,7 @@ def note(
 ) -> None:
     """Write a small text at an offset [points] from a place, on the side to which that leads."""
     across, up = ("left" if offset[0] > 0.0 else "right"), ("bottom" if offset[1] > 0.0 else "top" if offset[1] < 0.0 else "center")
-    look: dict[str, Any] = {"fontsize": style.SMALL, "color": colour, "zorder": 6.0}
+    look: Keywords = {"fontsize": style.SMALL, "color": colour, "zorder": 6.0}
     ax.annotate(text, at, xytext=offset, xycoords=coords, textcoords="offset points", ha=across, va=up, **look)
 
 

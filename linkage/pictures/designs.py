@@ -64,7 +64,7 @@ def draw_designs(machines: Sequence[Mechanism], at: object, path: Sequence[str],
         for pose in scene.reached:
             drawing = Drawing(ax, scene, look)
             if design == len(looks) - 1 and pose == scene.reached[-1]:
-                drawing.label([scene.at(pose)], [each[np.isfinite(each).all(axis=1)] for each in covered])
+                drawing.label_points([scene.at(pose)], [each[np.isfinite(each).all(axis=1)] for each in covered])
             drawing.update(pose)
             if look.tint:
                 let_through(drawing)

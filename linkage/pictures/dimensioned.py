@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, final
+from typing import final
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -22,13 +22,13 @@ from .drawing import draw_scene
 from .layout import cloud
 from .scene import Bounds, Places, Scene
 from .shapes import left_of, polar, segment
-from .sheet import haloed, points_a_metre, sheet
+from .sheet import Keywords, haloed, points_a_metre, sheet
 
 AWAY = (1.7, 2.7, 3.8, 5.0, 6.4, 8.0)
 """The distances from the link that a dimension line tries, in heights of its letters."""
 LETTERS = 8.0
 """Their size [points]."""
-NUMBER: dict[str, Any] = {"rotation_mode": "anchor", "ha": "center", "va": "center", "zorder": 21.0}
+NUMBER: Keywords = {"rotation_mode": "anchor", "ha": "center", "va": "center", "zorder": 21.0}
 """How a dimension stands over its line."""
 RADII = (3.4, 4.6, 6.0, 7.6)
 """The radii that an arc tries, in heights of letters."""

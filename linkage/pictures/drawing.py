@@ -25,7 +25,7 @@ from .labels import LabelPart, offsets
 from .layout import label_free, props
 from .scene import DrawnMark, Places, Plate, Pose, Scene
 from .shapes import SLOT, rounded_outline
-from .sheet import MOST_PIXELS, pixels_text, points_a_metre, sheet
+from .sheet import MOST_PIXELS, Keywords, pixels_text, points_a_metre, sheet
 from .style import FAINT, STRONG, Look
 from .symbols import MovingPart, ground, polygon, rails
 
@@ -48,13 +48,13 @@ def mechanism(ax: Axes, motion: Motion, pose: Pose = 0, *, faint: bool = False) 
 def draw_scene(ax: Axes, scene: Scene, pose: int, keep_clear: Sequence[FloatArray] | None, look: Look = STRONG, **names: Any) -> Drawing:
     """Return a mechanism drawn at a pose, a flat index, with its ground and the names of its points.
 
-    These keep clear of points, shape (n, 2) each [m], and `names` says more of them, as `Drawing.label` takes it; without points to keep
+    These keep clear of points, shape (n, 2) each [m], and `names` says more of them, as `Drawing.label_points` takes it; without points to keep
     clear of, None, there are no names.
     """
     drawing = Drawing(ax, scene, look)
     drawing.ground()
     if keep_clear is not None:
-        drawing.label([scene.at(pose)] if pose in scene.reached else [], keep_clear, **names)
+        drawing.label_points([scene.at(pose)] if pose in scene.reached else [], keep_clear, **names)
     drawing.update(pose)
     return drawing
 
@@ -89,7 +89,7 @@ class Drawing:
         for name, way in props(self.scene).items():
             ground(self.ax, at[name], way, self.scene.size, self.look)
 
-    def label(
+    def label_points(
         self, poses: Sequence[Places], keep_clear: Sequence[FloatArray] = (), *, all_points: bool = True, font: float = style.LABEL
     ) -> None:
         """Name the points, or those alone that are no construction; names keep clear of the mechanism at all `poses` and of points [m]."""
@@ -105,7 +105,7 @@ class Drawing:
             self.parts.append(LabelPart(self.ax, name, spot, gap, self.look, name in minor, font, letters.get(name, name)))
         if letters:
             text = "   ".join(self.scene.letter_legend)
-            place: dict[str, Any] = {"transform": self.ax.transAxes, "fontsize": style.SMALL, "color": style.MUTED, "zorder": UNDER}
+            place: Keywords = {"transform": self.ax.transAxes, "fontsize": style.SMALL, "color": style.MUTED, "zorder": UNDER}
             self.ax.text(0.008, 0.02, text, **place, ha="left", va="bottom")
 
     def update(self, pose: int) -> None:

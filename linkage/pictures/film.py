@@ -153,7 +153,7 @@ class Stage:
             trace(ax, self.scene.places[name])
         drawing = Drawing(ax, self.scene)
         drawing.ground()
-        drawing.label(self.scene.some(9))
+        drawing.label_points(self.scene.some(9))
         self._title(SHEET[0], self.scene.motion.plan.heading)
         return drawing
 

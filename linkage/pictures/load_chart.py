@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from string import ascii_uppercase
 from textwrap import TextWrapper
-from typing import Any, final
+from typing import final
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -21,7 +21,7 @@ from ..study.load_rule import FACTORS, PLAIN_RULE
 from ..study.working_field import NOT_LIMITED, OUT_OF_REACH
 from ..units import decimals, factor, g0, shown_in, unit_sign
 from . import style
-from .sheet import panels
+from .sheet import Keywords, panels
 
 CELL = 0.62, 0.30
 """The size of a cell [inch]."""
@@ -107,7 +107,7 @@ def plot_field(field: WorkingField) -> Figure:
     ax.text(LEFT + 0.5 * wide, 0.56, radius, fontsize=style.SMALL, color=style.MUTED, ha="center", va="center")
     ax.text(LEFT - 0.1, 0.56, rise, fontsize=style.SMALL, color=style.MUTED, ha="right", va="center")
     colours = {name: style.mixed(style.BODIES[place % len(style.BODIES)], style.PAPER, 0.45) for place, name in enumerate(text.letters)}
-    bold: dict[str, Any] = {"fontsize": style.SMALL, "fontweight": "bold", "color": style.INK, "va": "center"}
+    bold: Keywords = {"fontsize": style.SMALL, "fontweight": "bold", "color": style.INK, "va": "center"}
     for column, n in enumerate(across):
         at = LEFT + (column + 0.5) * CELL[0]
         ax.text(at, TOP - 0.14, text.length_text(float(field.x[n])), ha="center", **bold)
@@ -127,6 +127,6 @@ def draw_cell(ax: Axes, text: ChartText, colours: Mapping[str, str], corner: tup
     ax.add_patch(Rectangle(corner, *CELL, facecolor=colour, edgecolor=style.PAPER, linewidth=1.2, zorder=2.0))
     x, y = corner[0], corner[1] + 0.5 * CELL[1]
     letter = text.letters.get(limiter, "")
-    ink: dict[str, Any] = {"color": style.INK, "va": "center", "zorder": 6.0}
+    ink: Keywords = {"color": style.INK, "va": "center", "zorder": 6.0}
     ax.text(x + (0.40 if letter else 0.5) * CELL[0], y, text.load_text(load), fontsize=style.SMALL, ha="center", **ink)
     ax.text(x + 0.93 * CELL[0], y - 0.02, letter, fontsize=style.SMALL - 1.5, ha="right", **ink)

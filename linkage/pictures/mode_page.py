@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -19,7 +18,7 @@ from . import style
 from .drawing import draw_scene
 from .paper import footnote, write_title
 from .scene import Scene
-from .sheet import empty_figure, fitted_to
+from .sheet import Keywords, empty_figure, fitted_to
 from .strokes import pose_words
 
 MOST_MODES = 24
@@ -55,7 +54,7 @@ def draw_modes(modes: Sequence[Assembly]) -> Figure:
         ax = figure.add_axes((left / width, (top - high) / height, PANEL / width, high / height))
         draw_mode(ax, mode, scene, extent)
         colour = style.CURVE if mode.is_declared else style.INK
-        look: dict[str, Any] = {"family": "monospace", "color": colour, "va": "top", "linespacing": 1.25, "gid": f"code {place}"}
+        look: Keywords = {"family": "monospace", "color": colour, "va": "top", "linespacing": 1.25, "gid": f"code {place}"}
         figure.text(left / width, (top - high - 0.06) / height, "\n".join(text), fontsize=CODE, **look)
     plan, motion = motions[0].plan, motions[0]
     count = said_of(len(modes), "{n} assembly mode", "{n} assembly modes")

@@ -19,12 +19,12 @@ from ..steps import Link
 from ..units import factor, mm, show, shown_in
 from . import arrows, style
 from .arrows import ArrowLayer, VectorArrow, Wording
-from .force_arrows import ForceQuestion, force_layer, forces_at_pose, one_pose, why_no_forces
+from .force_arrows import ForceQuestion, Rates, force_layer, forces_at_pose, one_pose, why_no_forces
 from .gap_marks import GapMark, Pairs, asked_pair, assumed_pairs, body_pair, draw_gap, gap_mark, own_bodies, worst_pose
 from .lever_arms import LeverArm, lever_arms
 from .scene import Bounds, Scene
 from .shapes import segment
-from .sheet import figure_of, grown
+from .sheet import Keywords, figure_of, grown
 from .strokes import pose_words
 
 VELOCITY, POLE = "#9a3a86", "#8a5a00"
@@ -48,7 +48,7 @@ class Overlays:
     """What to lay over a mechanism: forces, velocities at stroke rates, poles of bodies, what comes nearest, what can move while locked."""
 
     forces: ForceQuestion | None = None
-    rates: Mapping[str, Any] | None = None
+    rates: Rates = None
     pole: object = None
     clearance: object = None
     freedom: bool = False
@@ -75,7 +75,7 @@ class Overlays:
         found = worst_pose(motion, self.clearance, pairs, pose) if self.has_gap and motion.reached.size > 1 else pose
         return None if found == pose else found
 
-    def over(self, motion: Motion, pose: int, box: Bounds) -> Overlay:
+    def laid_over(self, motion: Motion, pose: int, box: Bounds) -> Overlay:
         """Return what is laid over a motion's pose, a flat index, on a sheet that shows a box [m]."""
         layers, notes, arms = list[ArrowLayer](), list[str](), list[LeverArm]()
         if self.rates is not None:
@@ -180,7 +180,7 @@ class Overlay:
         """How to read its arrows, in words."""
         return " ".join(layer.sense for layer in self.layers if layer.sense)
 
-    def covered(self, size: float) -> FloatArray:
+    def points_covered(self, size: float) -> FloatArray:
         """Return points along the arrows, where no name should stand, shape (n, 2) [m]; `size` is that of a pin [m]."""
         lines = [np.empty((0, 2)), *(arrows.arrow_points(layer, layer.scale(self.sheet), size) for layer in self.layers)]
         lines += [gap.outer(0.0) for gap in self.gaps] + [arm.line.covered for arm in self.arms]
@@ -217,7 +217,7 @@ def sheet_note(ax: Axes, sentences: Sequence[str]) -> None:
     if sentences:
         across = int(ax.get_position(original=True).width * figure_of(ax).get_figwidth() * 72.0 / (0.5 * style.SMALL))
         lines = [line for sentence in sentences for line in textwrap.wrap(sentence, across)]
-        look: dict[str, Any] = {"fontsize": style.SMALL, "color": style.ACCENT, "ha": "left", "va": "top", "zorder": 21.0, "gid": "note"}
+        look: Keywords = {"fontsize": style.SMALL, "color": style.ACCENT, "ha": "left", "va": "top", "zorder": 21.0, "gid": "note"}
         box = {"facecolor": style.PAPER, "edgecolor": "none", "alpha": 0.85, "pad": 1.5}
         ax.text(0.012, 0.985, "\n".join(lines), transform=ax.transAxes, bbox=box, **look)
 
@@ -272,7 +272,7 @@ def velocity_layer(motion: Motion, pose: int, rates: Mapping[str, Any]) -> Arrow
 # Poles of bodies.
 
 
-def pole_marks(motion: Motion, pose: int, asked: object, rates: Mapping[str, Any] | None) -> list[PoleMark]:
+def pole_marks(motion: Motion, pose: int, asked: object, rates: Rates) -> list[PoleMark]:
     """Return the poles that `draw(pole=...)` asks for at a pose."""
     at = one_pose(motion, pose)
     if rates is not None and any(np.ndim(rate) for rate in rates.values()):
@@ -305,7 +305,7 @@ def poles_of_frame(at: Motion, bodies: Sequence[str], rates: Mapping[str, object
     return found
 
 
-def pole_rates(motion: Motion, pose: int, rates: Mapping[str, Any] | None) -> tuple[Mapping[str, Any] | None, list[str]]:
+def pole_rates(motion: Motion, pose: int, rates: Rates) -> tuple[Rates, list[str]]:
     """Return the stroke rates for poles, and words for them where they are not given.
 
     Of several strokes it is the one that runs along the motion, else the first; of several that run together their way at the pose.
@@ -364,12 +364,12 @@ def draw_pole(ax: Axes, mark: PoleMark, sheet: Bounds, key: str = "") -> list[Wo
     """Draw a pole, with thin lines to its body's points, and return the name to write beside it; `key` is what the legend says of it."""
     if mark.words:
         return []
-    ray: dict[str, Any] = {"color": POLE, "linewidth": style.THIN, "dashes": (7, 3, 1.5, 3), "zorder": 15.0, "gid": f"{mark.name} ray"}
+    ray: Keywords = {"color": POLE, "linewidth": style.THIN, "dashes": (7, 3, 1.5, 3), "zorder": 15.0, "gid": f"{mark.name} ray"}
     for end in mark.ends:
         ax.plot(*np.array([mark.at, end]).T, **ray)
     if not mark.is_near(sheet):
         return []
-    ring: dict[str, Any] = {"marker": "o", "markersize": 8.5, "markerfacecolor": style.PAPER, "markeredgewidth": 1.6, "gid": mark.name}
+    ring: Keywords = {"marker": "o", "markersize": 8.5, "markerfacecolor": style.PAPER, "markeredgewidth": 1.6, "gid": mark.name}
     ax.plot(*mark.at[:, None], color=POLE, linestyle="none", markeredgecolor=POLE, zorder=17.0, label=key or None, **ring)
     ax.plot(*mark.at[:, None], marker="+", markersize=12.0, markeredgecolor=POLE, markeredgewidth=1.2, zorder=17.1)
     return [Wording(textwrap.fill(mark.name, POLE_WIDTH), mark.at, np.array([0.7, 0.7]), POLE, mark.name)]

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from itertools import combinations
-from typing import Any
 
 import numpy as np
 
@@ -12,7 +11,7 @@ from ..errors import LinkageError, unwarned
 from ..mechanism import Mechanism
 from ..motion import Motion
 from ..program import FloatArray
-from ..reports import column_among, is_changing, results
+from ..reports import At, column_among, is_changing, results
 from .scene import Scene
 
 STEP, FINE = 10, 10
@@ -27,7 +26,7 @@ FEW = 4
 """Of more moving bodies one faint pose is drawn, not two."""
 
 
-def telling_angles(machine: Mechanism, stroke: str, values: Mapping[str, Any]) -> FloatArray:
+def telling_angles(machine: Mechanism, stroke: str, values: At) -> FloatArray:
     """Return the angles of a stroke that goes round at which the machine is drawn, the bold pose last [rad].
 
     That one is the most open of those a step apart that keep clear of dead points. The others are where what the machine is about is

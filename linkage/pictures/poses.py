@@ -87,7 +87,7 @@ def draw_pose(motion: Motion, pose: Pose, overlays: Overlays, faint: bool) -> Fi
     index = scene.index(pose)
     if overlays.forces is not None and overlays.is_free_body(scene):
         return draw_free_body(motion, index, overlays.forces)
-    laid = overlays.over(motion, index, scene.box()) if overlays else None
+    laid = overlays.laid_over(motion, index, scene.box()) if overlays else None
     figure, ax = empty_page(laid.box(scene.size) if laid else scene.box())
     if laid is None:
         draw_scene(ax, scene, index, None if faint else (), FAINT if faint else STRONG)
@@ -103,7 +103,7 @@ def draw_pose(motion: Motion, pose: Pose, overlays: Overlays, faint: bool) -> Fi
 def draw_over(ax: Axes, motion: Motion, pose: Pose, overlays: Overlays) -> str:
     """Draw a motion at a pose, with what is laid over it, on empty axes; return how to read that."""
     scene = Scene(motion)
-    laid = overlays.over(motion, scene.index(pose), scene.box())
+    laid = overlays.laid_over(motion, scene.index(pose), scene.box())
     sheet(ax, laid.box(scene.size))
     draw_laid(ax, scene, scene.index(pose), overlays, laid)
     return laid.sense
@@ -113,7 +113,7 @@ def draw_laid(ax: Axes, scene: Scene, index: int, overlays: Overlays, laid: Over
     """Draw a pose, a flat index, on a sheet with what is laid over it."""
     if laid.worst is not None:
         Drawing(ax, scene, FAINT).update(laid.worst)
-    draw_scene(ax, scene, index, [laid.covered(scene.size)])
+    draw_scene(ax, scene, index, [laid.points_covered(scene.size)])
     overlays.centrodes(ax, scene.motion)
     at = scene.at(index)
     laid.draw(ax, scene.size, np.concatenate([cloud(scene, at), surrounding_points(scene, at)]))
@@ -136,12 +136,12 @@ def draw_strokes(machine: Mechanism, at: object, path: Sequence[str], count: int
     (left, right, bottom, top), (x0, x1, y0, y1) = drawn, whole.box()
     is_filled = min((right - left) / (x1 - x0), (top - bottom) / (y1 - y0)) >= FILLED
     box = whole.box() if is_filled else drawn
-    laid = overlays.over(shown, last, box) if overlays else None
+    laid = overlays.laid_over(shown, last, box) if overlays else None
     figure, ax = empty_page(laid.box(whole.size) if laid else box)
     words = said_of(len(path), "path of {points}", "paths of {points}", points=", ".join(path))
     for name in path:
         trace(ax, whole.places[name], words if name == path[0] else "")
-    clear = [whole.places[name].T for name in path] + ([laid.covered(whole.size)] if laid else [])
+    clear = [whole.places[name].T for name in path] + ([laid.points_covered(whole.size)] if laid else [])
     draw_poses(ax, shown, swept, clear)
     if laid:
         overlays.centrodes(ax, swept)

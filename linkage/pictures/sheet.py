@@ -6,7 +6,7 @@ import os
 from collections.abc import Sequence
 from io import BytesIO
 from pathlib import Path
-from typing import Any, final
+from typing import Any, TypeAlias, final
 
 import numpy as np
 from matplotlib import rcParams
@@ -26,6 +26,8 @@ from ..units import factor, shown_in
 from . import style
 from .scene import Bounds
 
+Keywords: TypeAlias = dict[str, Any]
+"""How something is drawn, as matplotlib's functions take it by name."""
 MOST_TICKS, EACH_TICK = 11, 0.36
 """Ticks of an axis at the most, and the room of each along it [inch]."""
 

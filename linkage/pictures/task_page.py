@@ -12,7 +12,7 @@ from ..motion import live_text
 from ..motion.measures import measure_of, words_of
 from ..plan import Plan
 from ..quantities import Quantity
-from ..reports import results
+from ..reports import At, results
 from ..synthesis import FunctionTask, PathTask, PoseTask, Synthesis
 from ..synthesis.synthesis import miss_unit
 from ..synthesis.tasks import Task
@@ -22,7 +22,7 @@ from .sheet import grown
 from .strokes import frame_count
 
 
-def task_page(found: Synthesis, *, count: int, language: str, at: Mapping[str, Any], **given: Any) -> str:
+def task_page(found: Synthesis, *, count: int, language: str, at: At, **given: Any) -> str:
     """Return the HTML of the page of a synthesis: the best machine, with the others of its class to choose; `given` as `page` takes it.
 
     Without `vary` the sliders are those dimensions that were searched, over their ranges. Raises StudyError where nothing was found.

@@ -15,7 +15,7 @@ from linkage.frozen import immutable
 from linkage.language import noted
 from linkage.loads import Glyph, Halves, Load, Parameter, Poses, Rates, TwoPoint
 from linkage.loads.point import DOWN, on_slope, shared_mass
-from linkage.quantities import Axes, Member, NamedMembers, Number, Operand, Quantity, Reference, Where, label, name_of, quantity, spelled
+from linkage.quantities import Axes, Member, NamedMembers, Operand, Quantity, Reference, Where, label, name_of, quantity, spelled
 from linkage.steps import Link, Point
 from linkage.units import mm
 from linkage.vectors import Vec
@@ -146,7 +146,7 @@ class OnCylinder(Point):
         self.cylinder, self.along = cylinder, quantity(along)
         self.across = None if across is None else quantity(across)
         for value in (self.along, self.across):
-            if isinstance(value, Number) and not abs(value.number) < float("inf"):
+            if value is not None and value.number is not None and not abs(value.number) < float("inf"):
                 raise DefinitionError(f"{self}: along and across are finite numbers [m].")
 
     def among(self, members: NamedMembers) -> Self:
@@ -171,7 +171,7 @@ class OnCylinder(Point):
         return (*self.ends, *numbers, *owner)
 
     def variables(self) -> tuple[tuple[str, float, str, str], ...]:
-        return tuple((name, value.number, "coordinate", "") for name, value in self.numbers() if isinstance(value, Number))
+        return tuple((name, value.number, "coordinate", "") for name, value in self.numbers() if value.number is not None)
 
     def having(self, values: Mapping[str, float]) -> Self:
         given = {name.rpartition(".")[2]: quantity(values[name]) for name, _ in self.numbers() if name in values}
@@ -180,7 +180,7 @@ class OnCylinder(Point):
     def faults(self, members: NamedMembers) -> Iterator[str]:
         """Yield that it is beyond the ends of its body."""
         closed: Any = getattr(members[name_of(self.cylinder)], "closed", None)
-        if not isinstance(self.along, Number) or not isinstance(quantity(closed), Number):
+        if self.along.number is None or not quantity(closed).is_constant:
             return
         along, long = self.along.number, float(closed)
         if along > long or along < (-long if self.is_on_A else 0.0):

@@ -8,7 +8,7 @@ from typing import Any
 
 from linkage.checks import require
 from linkage.errors import DefinitionError, cited, ensure, known_name, unknown
-from linkage.quantities import Number, is_number
+from linkage.quantities import is_number
 from linkage.quantities.quantity import plain
 
 from .gas import ROOM, Gas, Polytropic, RealNitrogen, adiabatic, isothermal, polytropic, real_nitrogen
@@ -110,7 +110,7 @@ def filled_kind() -> Any:
 
     def one(given: Any, names: Any) -> Any:
         found = quantity_of(given, names)
-        return found.number if isinstance(found, Number) and not found.name else found
+        return found if found.number is None or found.name else found.number
 
     def read(given: Any, names: Any) -> Any:
         if isinstance(given, Mapping):

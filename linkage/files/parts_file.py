@@ -15,7 +15,7 @@ from .. import plugins
 from ..errors import DefinitionError, unknown
 from ..mechanism import Mechanism
 from ..plan import Part
-from ..quantities import Member, Number, label, name_of, quantity
+from ..quantities import Member, is_nothing, label, name_of, quantity
 from ..steps import Point
 from .design import Design, degrees_text
 from .names import Keywords, Names, by_whole_names, entry_as, require_entry, shortened
@@ -77,9 +77,9 @@ def part_written(member: Part, design: Design) -> Keywords:
     if member.on:
         names = [name_of(each) for each in member.on]
         found["on"] = names[0] if len(names) == 1 else names
-    if not all(isinstance(each, Number) and each.number == 0.0 for each in member.at):
+    if not all(map(is_nothing, member.at)):
         found["at"] = [design.scalar(each) for each in member.at]
-    if not (isinstance(member.angle, Number) and member.angle.number == 0.0):
+    if not is_nothing(member.angle):
         found["angle"] = degrees_text(design.scalar(member.angle))
     return found | ({"mirrored": True} if member.mirrored else {})
 

@@ -20,7 +20,7 @@ from .. import loads, plugins, steps, surroundings
 from ..errors import DefinitionError, ensure, unknown
 from ..motion import OPTIONS, Over, Planes, stroke_unit
 from ..plan import Part
-from ..quantities import Course, Curve, Dimension, Member, Number, PoseCondition, Quantity, Stroke, is_number, quantity, ref
+from ..quantities import Course, Curve, Dimension, Member, PoseCondition, Quantity, Stroke, is_number, quantity, ref
 from ..quantities.quantity import plain
 from ..statics import Rope
 from ..units import UNITS, parse
@@ -74,11 +74,11 @@ def condition_of(text: object, names: Names) -> PoseCondition:
     if found is None:
         raise DefinitionError(f'{shortened(text)} is no condition on poses; write a comparison in quotes, "x(T) <= 4", with <= or >=.')
     left, right = (expression(found.group(side).strip(), names) for side in (1, 3))
-    if isinstance(left, Number) and isinstance(right, Number):
+    if left.is_constant and right.is_constant:
         raise DefinitionError(f"{shortened(text)} compares two numbers; one side is a quantity such as x(T).")
-    if isinstance(left, Number):
+    if left.number is not None:
         return PoseCondition(right, {"<=": ">=", ">=": "<="}[found.group(2)], left.number)
-    return PoseCondition(left, found.group(2), right.number if isinstance(right, Number) else right)
+    return PoseCondition(left, found.group(2), right if right.number is None else right.number)
 
 
 def over_written(member: Over, design: Design) -> Keywords:

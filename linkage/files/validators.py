@@ -97,8 +97,9 @@ def amount_of(given: object, names: Names, measures: str) -> Any:
     if unit and measures and UNITS[unit][1] != measures:
         parse(given.strip("+-() \t\n"), measures)  # which tells the units that do
     found = expression(given, names)
-    number = found.number if isinstance(found, Number) else found
-    return Amount(number, UNITS[unit][1]) if unit and not measures and isinstance(found, Number) else number
+    if found.number is None:
+        return found
+    return Amount(found.number, UNITS[unit][1]) if unit and not measures else found.number
 
 
 def several(what: str, one: Read) -> Read:

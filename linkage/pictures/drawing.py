@@ -48,7 +48,7 @@ def mechanism(ax: Axes, motion: Motion, pose: Pose = 0, *, faint: bool = False) 
 def draw_scene(ax: Axes, scene: Scene, pose: int, keep_clear: Sequence[FloatArray] | None, look: Look = STRONG, **names: Any) -> Drawing:
     """Return a mechanism drawn at a pose, a flat index, with its ground and the names of its points.
 
-    These keep clear of points, shape (n, 2) each [m], and `names` says more of them, as `Drawing.label_points` takes it; without points to keep
+    These keep clear of points, shape (n, 2) each [m], and `names` says more of them, as `label_points` takes it; without points to keep
     clear of, None, there are no names.
     """
     drawing = Drawing(ax, scene, look)

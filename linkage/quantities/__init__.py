@@ -1,7 +1,7 @@
 """Scalars of a mechanism: strokes, dimensions, outputs, and arithmetic of them."""
 
 from ..star import declare_public
-from .axes import FRAME_AXES, Axes
+from .axes import FRAME_AXES, Axes, is_nothing
 from .course import Course, course_of, ramp
 from .curve import Curve, CurveValue
 from .inputs import Dimension, Stroke, Variable

@@ -18,7 +18,7 @@ NOTHING = Number(0.0)
 
 def is_nothing(given: Quantity) -> bool:
     """Return whether a quantity is the number zero."""
-    return isinstance(given, Number) and given.number == 0.0
+    return given.number == 0.0
 
 
 @final
@@ -87,7 +87,7 @@ class Axes:
         """Return the coordinates of a place of the part in the axes of what carries it."""
         x = x.opposite() if self.mirrored else x
         if not is_nothing(self.angle):
-            angle = self.angle.number if isinstance(self.angle, Number) and not self.angle.name else self.angle
+            angle = self.angle if self.angle.number is None or self.angle.name else self.angle.number
             cos, sin = np.cos(angle), np.sin(angle)
             x, y = plus(multiplied(x, cos), multiplied(y, sin).opposite()), plus(multiplied(x, sin), multiplied(y, cos))
         return plus(self.at[0], x), plus(self.at[1], y)
@@ -159,7 +159,7 @@ FRAME_AXES = Axes()
 
 def multiplied(a: Quantity, factor: Quantity | float) -> Quantity:
     """Return a product; of numbers as a number."""
-    if isinstance(a, Number) and (not a.number or not (a.name or isinstance(factor, Quantity))):
+    if a.number is not None and (not a.number or not (a.name or isinstance(factor, Quantity))):
         return a if not a.number else Number(a.number * float(factor))
     return a * factor
 
@@ -168,6 +168,6 @@ def plus(a: Quantity, b: Quantity) -> Quantity:
     """Return the sum of two quantities; of numbers as a number, nothing left out."""
     if is_nothing(a) or is_nothing(b):
         return b if is_nothing(a) else a
-    if isinstance(a, Number) and isinstance(b, Number) and not a.name and not b.name:
+    if a.number is not None and b.number is not None and not a.name and not b.name:
         return Number(a.number + b.number)
     return a + b

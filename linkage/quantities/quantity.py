@@ -8,7 +8,7 @@ from __future__ import annotations
 import operator
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Hashable, Iterator, Mapping
-from typing import Any, ClassVar, NoReturn, TypeAlias, cast, final
+from typing import Any, NoReturn, TypeAlias, cast, final
 
 import numpy as np
 
@@ -191,8 +191,13 @@ class Quantity(Operators["Quantity | float | str", "Quantity"], Member):
         """The name of the member that it is, or stands for; "" where it has none."""
         return self.name
 
-    is_constant: ClassVar[bool] = False
-    """Whether this is a plain number."""
+    number: float | None = None
+    """The number [SI] that this is; None for all else."""
+
+    @property
+    def is_constant(self) -> bool:
+        """Whether this is a plain number."""
+        return self.number is not None
 
     def opposite(self) -> Quantity:
         """Return it with its sign changed; a number as a number."""
@@ -286,8 +291,6 @@ class Number(Quantity):
     @property
     def identity(self) -> Hashable:
         return self.name or repr(self.number)
-
-    is_constant = True
 
     def rule(self, where: Where) -> Scalar:
         return float(self.number)

@@ -7,7 +7,7 @@ from types import MappingProxyType
 from typing import Self
 
 from ..errors import DefinitionError
-from ..quantities import FRAME_AXES, Axes, Member, Number, Operand, Quantity, Reference, Variable, Where, label, name_of, quantity, spelled
+from ..quantities import FRAME_AXES, Axes, Member, Operand, Quantity, Reference, Variable, Where, label, name_of, quantity, spelled
 from ..quantities.joint import Driven, Joint, Jointed, JointSide, guided
 from ..vectors import Line, Scalar, Vec
 from .step import Point, position
@@ -52,7 +52,7 @@ class Guide(Jointed):
 
     def variables(self) -> tuple[tuple[str, float, str, str], ...]:
         place = () if self.fixed_at is None else tuple(zip(("x", "y"), self.fixed_at, ("coordinate",) * 2, strict=True))
-        turn = (("angle", self.angle.number, "angle"),) if isinstance(self.angle, Number) else ()
+        turn = (("angle", self.angle.number, "angle"),) if self.angle is not None and self.angle.number is not None else ()
         return tuple((f"{self.name}.{part}", value, kind, "") for part, value, kind in (*place, *turn))
 
     def having(self, values: Mapping[str, float]) -> Guide:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..quantities import Joint, JointSide, Number, Operand, Quantity, Reference, Where, guided, quantity, spelled
+from ..quantities import Joint, JointSide, Operand, Quantity, Reference, Where, guided, quantity, spelled
 from ..vectors import Line, Scalar, Side, Vec
 from .step import UNBOUND, Position, Step, angle_given
 
@@ -96,7 +96,7 @@ class PinSlotDyad(Step):
         return f"the slot's offset is larger than the distance {self.P}{self.Q}", gap
 
     def arguments(self) -> list[str]:
-        given = [] if isinstance(self.offset, Number) and self.offset.number == 0.0 else [f"offset={spelled(self.offset)}"]
+        given = [] if self.offset.number == 0.0 else [f"offset={spelled(self.offset)}"]
         return [*super().arguments(), *given]
 
     def joints(self) -> tuple[Joint, ...]:

@@ -18,8 +18,8 @@ import numpy.typing as npt
 
 from ..checks import require_number, require_type, two_of
 from ..errors import DefinitionError, FileError, cited, is_yes
-from ..quantities import Axes, Member, Number, Operand, Reference, Stroke, is_number, label, name_of, needed_behind, needs, of_kind, spelled
-from ..quantities.axes import NOTHING, plus
+from ..quantities import Axes, Member, Operand, Reference, Stroke, is_number, label, name_of, needed_behind, needs, of_kind, spelled
+from ..quantities.axes import NOTHING, is_nothing, plus
 from ..quantities.quantity import Quantity, plain, quantity
 from ..steps import Link
 from ..units import require_measure
@@ -227,9 +227,8 @@ class PlacedFile(Outline):
 
     def _placing(self) -> list[str]:
         """Return how it is placed, in so far as it is not the usual."""
-        at = [] if all(isinstance(each, Number) and each.number == 0.0 for each in self.at) else [f"at={corner_text(self.at)}"]
-        turned = not (isinstance(self.angle, Number) and self.angle.number == 0.0)
-        return at + ([f"angle={spelled(self.angle, measures='angle')}"] if turned else [])
+        at = [] if all(map(is_nothing, self.at)) else [f"at={corner_text(self.at)}"]
+        return at + ([] if is_nothing(self.angle) else [f"angle={spelled(self.angle, measures='angle')}"])
 
 
 @final

@@ -5,12 +5,15 @@ from __future__ import annotations
 from argparse import Namespace
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import fields
+from functools import partial
 from typing import TYPE_CHECKING, TypeVar
 
+from hydraulics.inputs import not_negative, one_number, positive
 from linkage import Mechanism, Motion
 from linkage.checks import require_one_design
 from linkage.cli.command import CSV, Option, option, picture_option, pose_options
-from linkage.cli.settings import CHECK, OVER, pair, si_value
+from linkage.cli.machines import find_like
+from linkage.cli.settings import CHECK, OVER, machine_of, pair, si_value
 from linkage.errors import known_name
 from linkage.motion import Answer, Judge, Question
 
@@ -25,6 +28,23 @@ def figure_options(figures: Sequence[str], default: str) -> tuple[Option, ...]:
     """Return what a command on one machine takes that prints its table and its verdicts and draws one of its figures."""
     figure = option("--figure", choices=figures, help=f"which figure (default: {default})")
     return CSV, picture_option("the figure"), figure, *pose_options(11), OVER, CHECK
+
+
+def machine_like(options: Namespace, base: type[Machine], what: str, **instead: object) -> Machine:
+    """Return the machine that the options mean, with their settings; DefinitionError unless it is one of a kind, or has all that it has."""
+    machine = machine_of(options, partial(find_like, base=base, what=what, **instead))
+    assert isinstance(machine, base)
+    return machine
+
+
+def hold_numbers(duty: object, above_zero: Sequence[str], not_below_zero: Sequence[str] = ()) -> None:
+    """Hold the numbers of a frozen duty as floats; DefinitionError for one that is none, or not above or below zero as it is said."""
+    for each in fields(duty):  # type: ignore[arg-type]
+        if isinstance(each.default, float):
+            object.__setattr__(duty, each.name, one_number(getattr(duty, each.name), each.name))
+    for check, names in ((positive, above_zero), (not_negative, not_below_zero)):
+        for name in names:
+            check(getattr(duty, name), name)
 
 
 def duty_set(duty: type[Duty], options: Namespace, example: str, kinds: Mapping[str, str]) -> Duty:

@@ -24,7 +24,7 @@ from ..steps import Point
 from ..units import UNITS, parse, parse_span
 from ..verdict import Verdict
 from .command import MOST, option, repeatable, say_remark
-from .machines import design_of_file, find
+from .machines import Kind, design_of_file, find
 
 FAILED = 1
 """The exit code of `--check` where a verdict fails."""
@@ -137,12 +137,12 @@ def print_verdicts(verdicts: Sequence[Verdict], options: Namespace) -> int:
     return judged_code(verdicts, options)
 
 
-def design(machine: type[Mechanism], texts: Sequence[str]) -> Mechanism:
+def design(machine: type[Kind], texts: Sequence[str]) -> Kind:
     """Return a design of a machine under settings such as `OB=180mm`; DefinitionError for what is unknown or unfit."""
     return made(machine, dict(parsed_setting(machine.plan, text) for text in texts))
 
 
-def made(machine: type[Mechanism], given: Mapping[str, Any]) -> Mechanism:
+def made(machine: type[Kind], given: Mapping[str, Any]) -> Kind:
     """Return a design of a machine with these dimensions; DefinitionError for what is unknown or unfit."""
     try:
         signature(machine.__init__).bind(None, **given)

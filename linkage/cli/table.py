@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import io
 import json
 import re
@@ -166,20 +165,14 @@ def write_columns(columns: Sequence[Column], path: Path, labels: Sequence[str] =
 
     `labels` are the first field of each row, its name.
     """
-    is_json = path.suffix.lower() == ".jsonl"
-    names = ["name"][: len(labels)] + [column.name if is_json else column.heading for column in columns]
-    values = [(np.asarray(column.values, float) if is_json else column.shown).tolist() for column in columns]
     with replacing_text(path) as stream:
-        rows = csv.writer(stream)
-        if not is_json:
-            rows.writerow(names)
-        for number, row in enumerate(zip(*values, strict=True)):
-            label = labels[number : number + 1]
-            if is_json:
-                known = (value if np.isfinite(value) else None for value in row)
-                stream.write(json.dumps(dict(zip(names, [*label, *known], strict=True))) + "\n")
-            else:
-                rows.writerow([*label, *("" if value != value else repr(value) for value in row)])
+        if path.suffix.lower() != ".jsonl":
+            write_csv(columns, stream, labels=labels, labelled="name")
+            return
+        names = [*["name"][: len(labels)], *(column.name for column in columns)]
+        for number, row in enumerate(zip(*(np.asarray(column.values, float).tolist() for column in columns), strict=True)):
+            known = (value if np.isfinite(value) else None for value in row)
+            stream.write(json.dumps(dict(zip(names, [*labels[number : number + 1], *known], strict=True))) + "\n")
 
 
 # What drives, cylinders and pins carry.

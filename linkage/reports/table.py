@@ -127,19 +127,20 @@ FORMULA_STARTS = ("=", "+", "-", "@", "\t", "\r")
 
 
 def write_csv(
-    columns: Sequence[Column], stream: TextIO, progress: Callable[[int, int], None] | None = None, labels: Sequence[str] = ()
-) -> None:
+    columns: Sequence[Column], stream: TextIO, progress: Callable[[int, int], None] | None = None, labels: Sequence[str] = (),
+    labelled: str = "run",
+) -> None:  # fmt: skip
     """Write columns as CSV: a header with units, one row a pose, full precision, an empty field for NaN.
 
     Lines end with CR LF, so a file is to be opened with newline="". `progress(done, total)` hears of the rows written. `labels` are the
-    first field of each row, under the heading `run`.
+    first field of each row, under the heading `labelled`.
     """
     values = flat(columns)
     is_open = callable(getattr(stream, "write", None)) and not isinstance(stream, type)
     require(is_open, "", stream, 'is no open file; write into open("table.csv", "w", newline="")')
     total = len(values[0])
     writer = csv.writer(stream)
-    headings = [*(["run"] if labels else []), *(column.heading for column in columns)]
+    headings = [*([labelled] if labels else []), *(column.heading for column in columns)]
     writer.writerow(f"'{each}" if each.startswith(FORMULA_STARTS) else each for each in headings)
     for start in range(0, total, CHUNK):
         rows = zip(*(each[start : start + CHUNK].tolist() for each in values), strict=True)

@@ -7,7 +7,7 @@ synthesis (2.5) to (2.18), and (2.19) to (2.27), (2.36), (2.39) to (2.43).
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from math import pi
 from typing import final
 
@@ -20,6 +20,7 @@ from linkage.errors import ensure
 from linkage.quantities import Function, Operand, Quantity, quantity
 from linkage.units import MPa, deg, kN, mm
 
+from ..paper import hold_numbers
 from .moments import LIFTING, boom_bound, moments
 from .skeleton import AT_ARM, AT_BOOM, AT_DRIVE, GRAVITY, JOINT, OF_DRIVE, CraneSkeleton
 
@@ -59,12 +60,7 @@ class Duty:
     psi_0: float = 0.0
 
     def __post_init__(self) -> None:
-        for each in fields(self):
-            object.__setattr__(self, each.name, one_number(getattr(self, each.name), each.name))
-        for name in ("L", "M", "H_k", "H_max", "A", "B", "rho_w"):
-            positive(getattr(self, name), name)
-        for name in ("H_p", "H_w", "payload", "c", "psi_0"):
-            not_negative(getattr(self, name), name)
+        hold_numbers(self, ("L", "M", "H_k", "H_max", "A", "B", "rho_w"), ("H_p", "H_w", "payload", "c", "psi_0"))
         check_metres({name: getattr(self, name) for name in METRES})
         if self.psi_0 >= 180.0 * deg:
             least = f"psi_0 = {self.psi_0 / deg:.4g} deg is 180 deg or more, and the arm would never fold"
@@ -135,11 +131,7 @@ class DriveDuty:
     K_A1: float = 39947.317327789475
 
     def __post_init__(self) -> None:
-        for each in fields(self):
-            object.__setattr__(self, each.name, one_number(getattr(self, each.name), each.name))
-        for name in ("l_c", "l_p", "h_0", "b_0", "b_c", "K_B", "K_A", "K_A1"):
-            positive(getattr(self, name), name)
-        not_negative(self.l_t, "l_t")
+        hold_numbers(self, ("l_c", "l_p", "h_0", "b_0", "b_c", "K_B", "K_A", "K_A1"), ("l_t",))
         check_metres({name: getattr(self, name) for name in ("l_c", "l_p", "l_t", "h_0", "b_0", "b_c")})
         for low, high, most in (("phi_0", "phi_k", pi), ("psi_0", "psi_k", 2.0 * pi)):
             first, last = getattr(self, low), getattr(self, high)

@@ -3,20 +3,17 @@
 from __future__ import annotations
 
 from argparse import Namespace
-from functools import partial
 
 import numpy as np
 
-from linkage import Mechanism
 from linkage.cli.command import Command, figure_path, machine_options, option
-from linkage.cli.machines import find_like
-from linkage.cli.settings import judged_over, machine_of, motions_at, print_verdicts
+from linkage.cli.settings import judged_over, motions_at, print_verdicts
 from linkage.cli.table import heading_words, write_tables
 from linkage.errors import ensure
 from linkage.language import said
 from linkage.units import show, shown_number, unit_sign
 
-from ..paper import duty_set, figure_options
+from ..paper import duty_set, figure_options, machine_like
 from . import FIGURES, figure
 from .design import OBJECTIVES, Duty
 from .design import design as design_for
@@ -46,10 +43,8 @@ Gripping = Command(
 @Gripping
 def print_grapple(options: Namespace) -> int:
     """Print what a grapple's lever gives and what its stems need."""
-    found = partial(find_like, base=Grapple, what="grapple")
-    machine = machine_of(options, found) if options.design is None else designed(options)
+    machine = machine_like(options, Grapple, "grapple") if options.design is None else designed(options)
     path = figure_path(options, machine, "grapple")
-    assert isinstance(machine, Grapple)
     by_angle = {tuple(each.strokes["theta"].ravel()): (run, each) for run, each in reversed(motions_at(machine, options))}
     motions = [*reversed(by_angle.values())]  # its columns hang on the lever's angle alone, whatever the load case
     motion = motions[0][1]
@@ -68,12 +63,13 @@ def print_grapple(options: Namespace) -> int:
     return code
 
 
-def designed(options: Namespace) -> Mechanism:
+def designed(options: Namespace) -> Grapple:
     """Return the grapple designed for the duty of the options, and report its search."""
     ensure(options.machine == "grapple", f"{options.machine} is designed already; leave --design out, or the name.")
     ensure(not options.own, f"--machine {options.own} is of a file that holds a design; leave it out, or --design.")
     found = design_for(duty_set(Duty, options, "D_0=600mm", KINDS), options.design)
     print(f"{found}\n")
+    assert isinstance(found.machine, Grapple)
     return found.machine
 
 

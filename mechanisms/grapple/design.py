@@ -11,7 +11,7 @@ stems of 100 to 550 mm, 4 bores from 50 mm, 10 strokes from 100 mm
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from itertools import product
 from math import inf
 from typing import Any, ClassVar, TypeAlias, final
@@ -31,6 +31,7 @@ from linkage.quantities import Quantity, quantity
 from linkage.study import Optimum
 from linkage.units import MPa, deg, mm
 
+from ..paper import hold_numbers
 from .machine import Grapple, InnerGrapple
 
 Moment: TypeAlias = "Callable[[Quantity, Quantity], Quantity | float]"
@@ -74,11 +75,7 @@ class Duty:
     in_machine: ClassVar[tuple[str, ...]] = ("D_0", "d_0", "alpha", "beta", "hinge_gap", "opening", "bush", "dead", "dead_bores")
 
     def __post_init__(self) -> None:
-        numbers = [each.name for each in fields(self) if isinstance(each.default, float)]
-        for name in numbers:
-            object.__setattr__(self, name, one_number(getattr(self, name), name))
-        for name in LENGTHS:
-            positive(getattr(self, name), name)
+        hold_numbers(self, LENGTHS)
         self._check_stems()
         in_pascals(positive(self.pressure, "pressure"), "pressure")
         efficient(self.efficiency, "efficiency")

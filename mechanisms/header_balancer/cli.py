@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from argparse import Namespace
-from functools import partial
 
 from linkage import DefinitionError, Motion
 from linkage.cli.command import CSV, Command, count_option, figure_path, machine_options, option, picture_option
-from linkage.cli.machines import find_like
-from linkage.cli.settings import CHECK, OVER, machine_of, overs_of, parsed_setting, print_verdicts
+from linkage.cli.settings import CHECK, OVER, overs_of, parsed_setting, print_verdicts
 from linkage.cli.table import write_table
 from linkage.errors import ensure
 from linkage.plan import Plan
 from linkage.units import kgf, parse, show
 
+from ..paper import machine_like
 from . import FIGURES, figure
 from .criteria import HEADERS, charge_for
 from .following import kgf_cm2_text, over_following, reaction_columns
@@ -85,8 +84,7 @@ def print_header(motion: Motion, options: Namespace) -> None:
 
 def header_of(options: Namespace) -> HeaderBalancer:
     """Return the machine that the options mean."""
-    machine = machine_of(options, partial(find_like, base=HeaderBalancer, what="balanced header"))
-    assert isinstance(machine, HeaderBalancer)
+    machine = machine_like(options, HeaderBalancer, "balanced header")
     changed = changes(machine.plan, options)
     is_shipped = type(machine) is HeaderBalancer and machine.dimensions == HeaderBalancer(**changed).dimensions
     if options.table and not is_shipped:

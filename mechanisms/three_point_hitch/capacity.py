@@ -13,7 +13,7 @@ import numpy as np
 
 from hydraulics import LiftCircuit
 from hydraulics.member import found_in
-from linkage import Column, DefinitionError, Force, ForceElement, Mechanism, Motion, angle, least, most
+from linkage import Column, Force, ForceElement, Mechanism, Motion, angle, least, most
 from linkage.checks import require_number
 from linkage.errors import ensure, unwarned
 from linkage.language import noted, said, translated
@@ -41,10 +41,7 @@ NOT_OWN = ("load", "lift", "circuit")
 def circuit_of(motion: Motion) -> LiftCircuit:
     """Return the motion's lift circuit."""
     require_motion(motion)
-    found = motion.plan.members.get("circuit")
-    if not isinstance(found, LiftCircuit):
-        raise DefinitionError(f"{motion.plan.title} has no lift circuit of the name circuit; give the motion of a three-point hitch.")
-    return found
+    return lifting_circuit(motion.plan)
 
 
 def own_loads(motion: AnyMotion) -> list[str]:
@@ -73,7 +70,7 @@ def lifted(point: str = "G", share: float = 1.0) -> LawRequest:
 def lifting_circuit(plan: Plan) -> LiftCircuit:
     """Return the circuit of a hitch that lifts; DefinitionError where there is none."""
     circuits = plan.of_kind(LiftCircuit)
-    ensure("circuit" in circuits, f"{plan.title} has no lift circuit of the name circuit, whose pump lifts.")
+    ensure("circuit" in circuits, f"{plan.title} has no lift circuit of the name circuit; give a three-point hitch.")
     return circuits["circuit"]
 
 

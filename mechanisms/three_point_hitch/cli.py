@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 from argparse import Namespace
-from functools import partial
 
 from linkage import DefinitionError, max_table, pin_forces
 from linkage.cli.command import Command, figure_path, machine_options, option
-from linkage.cli.machines import find_like
-from linkage.cli.settings import design, judged_over, machine_of, motions_at, print_verdicts
+from linkage.cli.settings import design, judged_over, motions_at, print_verdicts
 from linkage.cli.table import Table, heading_words, write_tables
 from linkage.statics import table_text
 
-from ..paper import figure_options
+from ..paper import figure_options, machine_like
 from . import FIGURES, figure
 from .capacity import capacity_zone, mast_words, tilt_zone, zone_columns
 from .machine import CATEGORIES, ThreePointHitch
@@ -69,8 +67,7 @@ def print_hitch(options: Namespace) -> int:
 
 def hitch_of(options: Namespace) -> ThreePointHitch:
     """Return the hitch that the options mean."""
-    machine = machine_of(options, partial(find_like, base=ThreePointHitch, what="three-point hitch", admissible={}))
-    assert isinstance(machine, ThreePointHitch)
+    machine = machine_like(options, ThreePointHitch, "three-point hitch", admissible={})
     if not type(machine).admissible and (options.zones or options.figure == "zones"):
         raise DefinitionError(f"{options.machine}: a file holds no admissible settings, over which the zones go; take them of a class.")
     if not options.category:
@@ -78,6 +75,4 @@ def hitch_of(options: Namespace) -> ThreePointHitch:
     shipped = design(ThreePointHitch, options.settings)
     if type(machine) is not ThreePointHitch or machine.dimensions != shipped.dimensions:
         raise DefinitionError(f"--category {options.category} goes with three_point_hitch; {options.machine} has dimensions of its own.")
-    machine = design(CATEGORIES[options.category].machine, options.settings)
-    assert isinstance(machine, ThreePointHitch)
-    return machine
+    return design(CATEGORIES[options.category].machine, options.settings)

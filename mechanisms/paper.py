@@ -6,7 +6,7 @@ from argparse import Namespace
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import fields
 from functools import partial
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from hydraulics.inputs import not_negative, one_number, positive
 from linkage import Mechanism, Motion
@@ -30,7 +30,7 @@ def figure_options(figures: Sequence[str], default: str) -> tuple[Option, ...]:
     return CSV, picture_option("the figure"), figure, *pose_options(11), OVER, CHECK
 
 
-def machine_like(options: Namespace, base: type[Machine], what: str, **instead: object) -> Machine:
+def machine_like(options: Namespace, base: type[Machine], what: str, **instead: Any) -> Machine:
     """Return the machine that the options mean, with their settings; DefinitionError unless it is one of a kind, or has all that it has."""
     machine = machine_of(options, partial(find_like, base=base, what=what, **instead))
     assert isinstance(machine, base)

@@ -6,7 +6,6 @@ from .curves import Limit
 from .draw import draw, plot
 from .drawing import Drawing, mechanism
 from .film import animate
-from .tolerances import plot_bands, plot_tornado
-from .zone import plot_zone
+from .tolerances import plot_bands, plot_tornado, plot_zone
 
 declare_public(globals())

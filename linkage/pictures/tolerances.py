@@ -1,4 +1,4 @@
-"""Tolerances as pictures: bands of quantities over the stroke, and the bars of a tornado."""
+"""Studies as pictures: bands of quantities over the stroke, of tolerances or of settings, and the bars of a tornado."""
 
 from __future__ import annotations
 
@@ -12,15 +12,19 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
+from ..checks import require_type
 from ..errors import DefinitionError, cited, known_name
+from ..mechanism import Mechanism
+from ..motion import Column
 from ..motion.measures import Leaf
 from ..program import FloatArray
+from ..study import Zone
 from ..study.measured import number_bound
 from ..study.monte_carlo import Band, MonteCarlo, share_words
 from ..study.tolerances import Tornado, tolerance_words
 from ..units import factor, show, shown_in, unit_or_none, unit_sign
 from . import style
-from .curves import WIDEST, Limit, limit_on, note, panel_grid, stroke_panel, typeset
+from .curves import WIDEST, Limit, axis_range, limit_on, note, panel_grid, stroke_panel, typeset
 from .sheet import panels
 from .strokes import StrokeAxis
 
@@ -102,6 +106,30 @@ def band_panel(ax: Axes, along: StrokeAxis, band: Band, unit: str, limits: Seque
             beyond, where = (top, line < top) if limit.fails == "above" else (bottom, line > bottom)
             ax.fill_between(at, line, beyond, where=where, color=style.ACCENT, alpha=0.10, linewidth=0, zorder=1.0, interpolate=True)
             ax.plot(at, line, color=style.ACCENT, linewidth=1.3, linestyle=(0, (5, 2.5)), zorder=4.0)
+
+
+# A zone: between which values a quantity lies over the stroke, over a box of settings.
+
+
+def plot_zone(machine: Mechanism, found: Zone, unit: str = "") -> Figure:
+    """Return a figure of a zone of a machine over the stroke, with the curve of the machine as it is set in it where it is an output.
+
+    `unit` is the one that the quantity is shown in. Raises DefinitionError for strokes that are no row.
+    """
+    require_type("", found, Zone, "is no zone; give the result of zone(...)")
+    motion = machine.at(unreachable="nan", **found.strokes)
+    along = StrokeAxis.of(motion)
+    figure, (ax,) = panel_grid(1, machine.plan.heading, along.held)
+    low, high = (Column(found.quantity, each, unit) for each in (found.low, found.high))
+    ax.fill_between(along.values, low.drawn, high.drawn, color=style.CURVE, alpha=0.22, linewidth=0, zorder=3.0)
+    for each in (low, high):
+        ax.plot(along.values, each.drawn, color=style.CURVE, linewidth=style.BOLD, zorder=5.0)
+    if found.quantity in machine.plan.members:
+        now = Column(found.quantity, motion[found.quantity], unit)
+        ax.plot(along.values, now.drawn, color=style.INK, linewidth=1.0, linestyle=(0, (4, 3)), zorder=5.5, label="as it is set")
+        ax.legend(loc="best", frameon=False, fontsize=style.SMALL, labelcolor=style.INK)
+    stroke_panel(ax, along, low.heading, axis_range(Column(found.quantity, np.concatenate([found.low, found.high]), unit)))
+    return figure
 
 
 # A tornado: a bar for each dimension, the longest at the top.

@@ -192,7 +192,7 @@ class Members:
     def _check_terms(self, given: Quantity, measures: str, what: str) -> None:
         """Raise DefinitionError where a number or a dimension that a length or an angle is a sum of measures something else."""
         for _, term in signed_terms(given, self.members):
-            amount = term.default if isinstance(term, Dimension) else term.number
+            amount = term.number if isinstance(term, Number) else term.default if isinstance(term, Dimension) else None
             if isinstance(amount, Amount):
                 require_measure(amount, measures, f"{self.title}: {term.name}" if term.name else f"{what}: a term of the {measures}")
 

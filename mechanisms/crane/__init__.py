@@ -22,11 +22,10 @@ from .drives import (
     DirectArmDriveAbove,
     DrivenArm,
 )
-from .duty import DriveCylinders, DriveDuty, Duty, duty_of
+from .duty import DriveCylinders, DriveDuty, Duty, arm_bound, boom_bound, duty_of
 from .flow import CraneDesign, arm_drive_of, boom_drive_of, design_crane, design_skeleton, with_drives
 from .load_map import arm_moment, boom_moment, drive_limits, envelope, load_map, strength
 from .machine import BellCrankCrane, ChainCrane, Crane, DirectCrane, DirectCraneAbove
-from .moments import arm_bound, boom_bound
 from .skeleton import BackBrokenSkeleton, CraneSkeleton
 
 if TYPE_CHECKING:

@@ -22,11 +22,10 @@ from ..paper import duty_set
 from . import DRIVE_FIGURES, FIGURES, crane_figure, drive_figure
 from .drive_design import SCHEMES
 from .drives import BoomDrive, DrivenArm
-from .duty import Duty
+from .duty import Duty, arm_bound, boom_bound
 from .flow import arm_drive_of, boom_drive_of, design_crane, design_skeleton
 from .load_map import arm_moment, boom_moment, envelope, load_map, strength
 from .machine import Crane
-from .moments import arm_bound, boom_bound
 from .skeleton import CraneSkeleton
 
 KINDS = {"M": "moment", "payload": "mass", "psi_0": "angle", "k_d": "", "rho_w": ""}

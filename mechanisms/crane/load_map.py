@@ -33,8 +33,8 @@ from linkage.study.checks import check_one_design
 from linkage.study.reach import Reach
 from linkage.units import mm
 
+from .duty import LIFTING
 from .machine import DRIVEN, Crane
-from .moments import LIFTING
 
 PLAY = 1e-6
 """m: a length that a cylinder misses by no more is within its stroke."""

@@ -13,9 +13,8 @@ from linkage.star import declare_public
 
 from .criteria import HEADERS, WAYS, Way, charge_for, criteria, largest_charge
 from .following import over_following, relief
-from .machine import HeaderBalancer, ImprovedBalancer
+from .machine import HeaderBalancer, ImprovedBalancer, setting_table, with_header
 from .measured import Deviation, deviations, read_measured
-from .settings import setting_table, with_header
 from .side_by_side import ThreeHeaders
 
 if TYPE_CHECKING:

@@ -16,9 +16,8 @@ from ..paper import machine_like
 from . import FIGURES, figure
 from .criteria import HEADERS, charge_for
 from .following import kgf_cm2_text, over_following, reaction_columns
-from .machine import HeaderBalancer
+from .machine import HeaderBalancer, setting_table, with_header
 from .measured import deviations, read_measured
-from .settings import setting_table, with_header
 
 REACTION = {1: "2", 2: "4", 3: "5"}
 """The figure that shows the reaction of each header; without one it is drawn like header 2's."""

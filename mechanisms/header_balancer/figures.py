@@ -34,10 +34,9 @@ from linkage.units import kgf, kgf_cm2, litre, mm
 from ..sheets import WORDS, beside, headed
 from .criteria import HEADERS
 from .following import BEARING, PLAIN, SHOE, HeaderState, dry_frictions, over_following, own_loads
-from .machine import HeaderBalancer, ImprovedBalancer
+from .machine import HeaderBalancer, ImprovedBalancer, with_header
 from .measured import ALLOWED, Deviation
 from .scheme import scheme
-from .settings import with_header
 
 SIZE, PAIR = (7.6, 5.0), (14.6, 5.2)
 COLOURS: Mapping[str, str] = MappingProxyType({"moving up": style.CURVE, "without friction": style.MUTED, "moving down": style.ACCENT})

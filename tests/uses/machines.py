@@ -47,8 +47,8 @@ from linkage.units import bar, litre, parse, show  # noqa: F401
 from mechanisms.header_balancer import HeaderBalancer
 from mechanisms.header_balancer.criteria import charge_for, largest_charge  # noqa: F401
 from mechanisms.header_balancer.following import over_following, stroke_of  # noqa: F401
+from mechanisms.header_balancer.machine import setting_table, with_header  # noqa: F401
 from mechanisms.header_balancer.measured import deviations, read_measured  # noqa: F401
-from mechanisms.header_balancer.settings import setting_table, with_header  # noqa: F401
 from mechanisms.mower_lift import MowerLift  # noqa: F401
 from mechanisms.three_point_hitch import ThreePointHitch
 from mechanisms.three_point_hitch.capacity import (  # noqa: F401

@@ -22,7 +22,7 @@ def test_the_demo_prints_the_worksheet_and_writes_its_pictures(folder, capsys):
     assert "least reserve is 0.963, at S = 0.5500 m; too weak from S = 0.5500 to 0.5660 m" in printed
     assert "or a bore of 90 mm, with a reserve of 1.22" in printed
     for name in ("mower_lift_curves.png", "mower_lift_poses.png", "mower_lift.gif"):
-        assert f"wrote {folder / name}" in printed
+        assert f"\n{folder / name}\n" in printed
         with Image.open(folder / name) as picture:
             assert min(picture.size) >= 480
             assert len(picture.convert("RGB").resize((200, 100)).getcolors(20_000)) > 20

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from linkage import ISO_10567, LoadRule, Target, animate, deg, draw, plot, working_field
-from mechanisms import demo, grapple, header_balancer
+from mechanisms import grapple, header_balancer
 from mechanisms import three_point_hitch as hitch
 from mechanisms.at_work.excavator import HookExcavator
 from mechanisms.at_work.telehandler import Telehandler
@@ -23,7 +23,7 @@ IMAGES = Path(__file__).parents[1] / "images"
 
 def lift_film(path: Path) -> None:
     """Write the mower's lift in motion."""
-    animate(MowerLift(), path, column="kz", trace=["G"], limit=demo.RESERVE)
+    animate(MowerLift(), path, column="kz", trace=["G"], limit=(1.0, "kz = 1", "below"))
 
 
 def excavator_chart() -> Figure:

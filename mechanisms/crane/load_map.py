@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from hydraulics import Cylinder, LiftCircuit
+from hydraulics import Cylinder
 from hydraulics.inputs import one_number, positive
 from linkage import (
     DefinitionError,
@@ -28,6 +28,7 @@ from linkage import (
 )
 from linkage.errors import known_name
 from linkage.loads.point import on_slope
+from linkage.motion import last_holding
 from linkage.program import FloatArray
 from linkage.study.checks import check_one_design
 from linkage.study.reach import Reach
@@ -43,23 +44,15 @@ PLAY = 1e-6
 def sides(motion: Motion, stroke: str) -> tuple[float, float]:
     """Return what the cylinder of a stroke pushes and pulls with at the pump's pressure [N], both positive, of one design.
 
-    It is p n times the area, less the back pressure's share.
-
-    The side that a cylinder does not work with gives nothing.
+    It is p n times the area, less the back pressure's share. The side that a cylinder does not work with gives nothing.
     """
-    ram, line = DRIVEN[stroke]
-    cylinder, circuit = motion.plan.of_kind(Cylinder)[ram], motion.plan.of_kind(LiftCircuit)[line]
-    size, back = cylinder.sized(motion), float(circuit.back(motion))
-    k_m, k_h = (float(circuit.efficiency(motion, kind)) for kind in ("mechanical", "hydraulic"))
-    pressure = k_h * float(circuit.supply(motion))
-    out = k_m * (pressure * float(size.push_area) - back * float(size.pull_area))
-    inwards = k_m * (pressure * float(size.pull_area) - back * float(size.push_area))
-    return (max(out, 0.0) if size.works != "rod" else 0.0, max(inwards, 0.0) if size.works != "piston" else 0.0)
+    low, high = motion.plan.of_kind(Cylinder)[DRIVEN[stroke]].bounds(motion, lifting=True)
+    return max(float(high), 0.0), max(-float(low), 0.0)
 
 
 def lever(crane: Crane, stroke: str, at: ArrayLike) -> FloatArray:
     """Return the rate of a cylinder's length by its stroke, the shape of `at`: its lever about the joint [m], positive where it grows."""
-    ends = crane.plan.of_kind(Cylinder)[DRIVEN[stroke][0]].ends
+    ends = crane.plan.of_kind(Cylinder)[DRIVEN[stroke]].ends
     (found,) = crane.evaluate([ratio(distance(*ends), wrt=stroke)], **along_stroke(crane, stroke, at))
     return found.reshape(np.shape(at))
 
@@ -97,7 +90,7 @@ def drive_limits(crane: Crane) -> dict[str, tuple[float, float]]:
 
 def within(crane: Crane, stroke: str, start: float, end: float) -> tuple[float, float]:
     """Return the part of start..end of a stroke in which its cylinder's length lies between closed and open."""
-    cylinder = crane.plan.of_kind(Cylinder)[DRIVEN[stroke][0]]
+    cylinder = crane.plan.of_kind(Cylinder)[DRIVEN[stroke]]
     closed, way = cylinder.closed_and_stroke(crane.position(1))
     if closed is None or end <= start:
         return start, end
@@ -106,7 +99,7 @@ def within(crane: Crane, stroke: str, start: float, end: float) -> tuple[float, 
     def slack(at: FloatArray) -> FloatArray:
         """Return by how much its length lies within its own [m], of strokes."""
         (length,) = crane.evaluate([distance(*cylinder.ends)], **along_stroke(crane, stroke, at))
-        return np.minimum(length - least, most - length)
+        return np.minimum(length - least, most - length).reshape(at.shape)
 
     grid = np.linspace(start, end, 65)
     inside = slack(grid) >= 0.0
@@ -119,10 +112,7 @@ def within(crane: Crane, stroke: str, start: float, end: float) -> tuple[float, 
     first, last = int(np.argmax(inside)), inside.size - 1 - int(np.argmax(inside[::-1]))
     ends = [(grid[max(first - 1, 0)], grid[first]), (grid[min(last + 1, grid.size - 1)], grid[last])]
     outside, good = np.array(ends).T
-    for _ in range(50):
-        middle = 0.5 * (outside + good)
-        fits = slack(middle) >= 0.0
-        good, outside = np.where(fits, middle, good), np.where(fits, outside, middle)
+    good, _ = last_holding(lambda at: slack(at) >= 0.0, good, outside)
     return float(good[0]) if first else start, float(good[1]) if last < grid.size - 1 else end
 
 

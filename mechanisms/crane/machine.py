@@ -19,10 +19,8 @@ from linkage.units import MPa, deg, mm
 
 from .skeleton import CraneSkeleton
 
-DRIVEN: Mapping[str, tuple[str, str]] = MappingProxyType(
-    {"phi": ("lift", "lift_line"), "psi": ("fold", "fold_line"), "t": ("extend", "extend_line")}
-)
-"""Which cylinder moves with which stroke, and its circuit."""
+DRIVEN: Mapping[str, str] = MappingProxyType({"phi": "lift", "psi": "fold", "t": "extend"})
+"""Which cylinder moves with which stroke."""
 
 
 class Crane(CraneSkeleton):

@@ -207,7 +207,7 @@ def capacities(crane, x, y, t):
     found = np.full(ok.shape, np.nan)
     if ok.any():
         motion = crane.at(phi=phi[ok], psi=psi[ok], t=np.broadcast_to(t, ok.shape)[ok])
-        circuits = [motion.plan.members[line] for _, line in DRIVEN.values()]
+        circuits = [motion.plan.members[f"{ram}_line"] for ram in DRIVEN.values()]
         loads = np.array([circuit.capacity(motion, "T", own, case="lifting") for circuit in circuits])
         found[ok] = np.min(np.where(np.isnan(loads), np.inf, loads), axis=0)
     return found.reshape(2, -1)
@@ -252,14 +252,14 @@ def test_the_pose_of_a_cell_is_at_its_limit():
     """At every cell's pose the tip is there, and the limiting cylinder, with the load by its own thrust, is at what it gives."""
     crane, found = Crane(), load_map(Crane(), HEIGHTS, RADII)
     own = [name for name in crane.plan.of_kind(ForceElement) if name != "load"]
-    strokes = {ram: stroke for stroke, (ram, _) in DRIVEN.items()}
+    strokes = {ram: stroke for stroke, ram in DRIVEN.items()}
     assert set(np.unique(found.limiter)) == {*strokes, "out of reach"}
     for k, n in np.argwhere(np.isfinite(found.load))[::4]:
         motion = crane.at(**{name: values[k, n] for name, values in found.strokes.items()})
         assert_allclose(motion["T"], (RADII[n], HEIGHTS[k]), atol=1e-7)
         uses = {}
         for limiter, stroke in strokes.items():
-            cylinder, size = motion.plan.members[DRIVEN[stroke][0]], motion.plan.members[DRIVEN[stroke][0]].size
+            cylinder, size = motion.plan.members[DRIVEN[stroke]], motion.plan.members[DRIVEN[stroke]].size
             thrust = float(cylinder.thrust(motion, [*own, Force("T", (0.0, -found.load[k, n]))], case="lifting"))
             uses[limiter] = thrust / (22e6 * 0.95 * (size.push_area if thrust > 0.0 else -size.pull_area))
         assert uses[found.limiter[k, n]] == pytest.approx(1.0, rel=1e-9)

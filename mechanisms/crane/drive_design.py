@@ -18,6 +18,8 @@ from linkage.checks import require_number
 from linkage.errors import cited, ensure, one_word
 from linkage.frozen import immutable
 from linkage.motion.measures import Measure
+from linkage.numeric.quadrature import quadrature
+from linkage.program import FloatArray
 from linkage.quantities import is_number
 from linkage.study import InfeasibleError, Optimum
 from linkage.units import deg, kN, mm
@@ -118,17 +120,9 @@ OBJECTIVES: Mapping[str, Callable[[float], str]] = MappingProxyType(
 """What a drive may be chosen by, and how its value is said."""
 
 
-GAUSS = 16
-PIECES = 64
-
-
-def work_of(moment: Callable[[np.ndarray[Any, Any]], Any], start: float, end: float) -> float:
-    """Return the work of a moment over an angle [J]: Gauss's rule in pieces."""
-    nodes, weights = np.polynomial.legendre.leggauss(GAUSS)
-    edges = np.linspace(start, end, PIECES + 1)
-    half = 0.5 * (edges[1] - edges[0])
-    at_nodes = (edges[:-1, None] + half * (nodes + 1.0)).ravel()
-    return float(np.sum(moment(at_nodes) * np.tile(weights, PIECES)) * half)
+def work_of(moment: Callable[[FloatArray], FloatArray], start: float, end: float) -> float:
+    """Return the work of a moment over an angle [J]."""
+    return float((end - start) * quadrature(lambda share: moment(start + (end - start) * share)).value)
 
 
 def judged(

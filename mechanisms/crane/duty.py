@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from math import pi
-from typing import TypeAlias, final
+from typing import final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -19,6 +19,8 @@ from hydraulics import CylinderSize
 from hydraulics.inputs import efficient, in_pascals, not_negative, one_number, positive
 from linkage import DefinitionError, drive_force
 from linkage.errors import ensure
+from linkage.numeric.line import Index, highest
+from linkage.plan import Mask
 from linkage.program import FloatArray
 from linkage.quantities import Function, Operand, Quantity, quantity
 from linkage.units import MPa, deg, kN, mm
@@ -107,28 +109,18 @@ def check_metres(lengths: Mapping[str, float]) -> None:
 
 LIFTING = "lifting"
 
-Curve: TypeAlias = Callable[[FloatArray], FloatArray]
-
-FIRST, ROUNDS, NEAR = 65, 8, 4
-"""Samples of the first look, rounds of looking closer, samples on either side of the best one in each."""
+SAMPLES = 64
+"""Parts of a range that are looked at first: a peak that is broader is met to rounding."""
 
 
-def worst_over(of: Curve, start: float, end: float, count: int) -> FloatArray:
-    """Return the greatest value over start..end of `count` functions at once: `of` takes and gives shape (samples, count).
+def worst_over(of: Callable[[FloatArray], FloatArray], start: float, end: float, count: int) -> FloatArray:
+    """Return the greatest value over start..end of `count` functions at once: `of` takes and gives shape (samples, count)."""
 
-    It looks at a grid, and ever closer about the best sample of each: a peak broader than 1/64 of the range is met to rounding.
-    """
-    x = np.linspace(start, end, FIRST)[:, None] + np.zeros(count)
-    step, best = abs(end - start) / (FIRST - 1), np.full(count, -np.inf)
-    low, high = min(start, end), max(start, end)
-    for _ in range(ROUNDS):
-        values = of(x)
-        place = np.argmax(values, axis=0)
-        best = np.maximum(best, np.take_along_axis(values, place[None], 0)[0])
-        centre = np.take_along_axis(x, place[None], 0)[0]
-        x = np.clip(centre + np.linspace(-step, step, 2 * NEAR + 1)[:, None], low, high)
-        step /= NEAR
-    return best
+    def look(_: Index, t: FloatArray) -> tuple[FloatArray, Mask]:
+        values = of(start + (end - start) * np.broadcast_to(t, (count, t.shape[-1])).T).T
+        return values[None], np.isfinite(values)
+
+    return np.asarray(highest(look, [SAMPLES]).value[0])
 
 
 def moments(crane: CraneSkeleton, drive: str, phi: ArrayLike, psi: ArrayLike, t: float, case: str) -> FloatArray:

@@ -87,11 +87,6 @@ def worst_pins(machine: Mechanism, over: Sequence[Over | Motion] | None, acting:
     return table_text(max_table(machine, over, acting))
 
 
-def pins_of(motion: Motion, acting: Acting) -> PinForces:
-    """Return the joint forces of a motion in a load case and a direction."""
-    return pin_forces(motion, case=acting.case, direction=acting.direction, drive=acting.drive)
-
-
 Table: TypeAlias = tuple[str, Sequence[Column], Sequence[bool]]
 """What stands over a table, "" for nothing, its columns, and which of its rows are outside what is judged."""
 
@@ -202,7 +197,7 @@ def forces_command(options: Namespace) -> int:
     tables, found, signs = list[Table](), list[PinForces](), "Drive forces are positive the way the stroke grows, thrusts in a push."
     for run, motion in motions:
         there = plain if run is None or options.case is not None else replace(plain, case=run.case)
-        pins = pins_of(motion, there)
+        pins = pin_forces(motion, case=there.case, direction=there.direction, drive=there.drive)
         columns = [column for column in columns_of(motion) if column.name in ("time", *motion.strokes)]
         if options.on is None:
             columns += force_columns(motion, there.case, there.direction)

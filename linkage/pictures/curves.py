@@ -209,15 +209,10 @@ def limit_crossings(along: FloatArray, values: FloatArray, at: float) -> list[fl
 RESERVE, PUMP_LOAD, WHOLE = "reserve", noted("pump load in %"), 100.0
 
 
-def is_reserve(column: Column) -> bool:
-    """Return whether a column is a cylinder's reserve, and no output of the machine's own or a calculation with it."""
-    is_law = column.request is None or (isinstance(column.request, LawRequest) and may_be_unlimited(column.request))
-    return not column.unit and is_law and re.match(rf"{RESERVE}\b", column.name) is not None
-
-
 def as_curve(column: Column, bound: Sequence[object] | None = None) -> tuple[Column, Sequence[object] | None]:
-    """Return a column and its limit as curves show them. Of a reserve that is 100 % over it."""
-    if not is_reserve(column):
+    """Return a column and its limit as curves show them. Of a cylinder's reserve, no output of the machine's own, that is 100 % over it."""
+    is_law = column.request is None or (isinstance(column.request, LawRequest) and may_be_unlimited(column.request))
+    if column.unit or not is_law or not re.match(rf"{RESERVE}\b", column.name):
         return column, bound
     with np.errstate(divide="ignore"):
         share = Column(column.name.replace(RESERVE, PUMP_LOAD, 1), WHOLE / np.asarray(column.values, float), "", 1)

@@ -1093,7 +1093,7 @@ class Circuit(OnLines, HasVerdicts):
     def tie(self, members: NamedMembers) -> Tie | None:
         """Return how its pressure acts where it is given by itself, and a load case shuts it."""
         is_kept = self._is_shut and self.kind_open(members) == "given"
-        return Tie(self.name, self.shares(members), held=True) if is_kept else None
+        return Tie(self.name, self.pressure_shares(members), held=True) if is_kept else None
 
     def rams(self, motion: Poses) -> tuple[Ram, ...]:
         """Return its cylinders, as the motion's class has them."""
@@ -1160,7 +1160,7 @@ class Circuit(OnLines, HasVerdicts):
         sides = [(ram, SIDES if ram.side not in SIDES else (ram.side,)) for ram in self.members(members)]
         return [(ram, Chamber(ram, side)) for ram, own in sides for side in own]
 
-    def shares(self, members: NamedMembers) -> tuple[Share, ...]:
+    def pressure_shares(self, members: NamedMembers) -> tuple[Share, ...]:
         """Return what one unit of its line's pressure is in each cylinder."""
         return tuple(Share(ram, partial(chamber_area, chamber, ram)) for ram, chamber in self.filling(members))
 

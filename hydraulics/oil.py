@@ -370,7 +370,7 @@ class OilLine(PumpLine, GasLine):
         asked = (f"{ram.name}.length" for ram, _ in self.filling(members) if ram.name in giving)
         gives = next((name for name in asked if isinstance(members.get(name), LineLength)), "")
         added = None if self.oil_given.is_constant else self.oil_given
-        return Tie(self.name, self.shares(members), held=False, cut=self.cut if gives else "", gives=gives, added=added)
+        return Tie(self.name, self.pressure_shares(members), held=False, cut=self.cut if gives else "", gives=gives, added=added)
 
     @property
     def oil_given(self) -> Quantity:

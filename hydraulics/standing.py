@@ -58,7 +58,7 @@ def standing_pressure(line: Circuit, motion: AnyMotion, acting: Acting) -> Array
             thrust = np.where(ram.growth(motion, rates) * own[0].growth(motion, rates) < 0.0, back, ahead)
         return thrust - by_other_lines(ram, None, motion, None)
 
-    ties = [Tie(each.name, each.shares(members), held=False) for each in lines]
+    ties = [Tie(each.name, each.pressure_shares(members), held=False) for each in lines]
     found = tied_forces(motion, ties, thrust_of, [each.least(motion) for each in lines])
     return np.asarray(found[0] + np.zeros(motion.shape))[()] if motion.shape else found[0]
 

@@ -13,7 +13,7 @@ FLAT = 1e-12
 """A turn whose sine is smaller is no turn."""
 
 
-def turn(corners: Corners, a: int, b: int, c: int) -> float:
+def corner_turn(corners: Corners, a: int, b: int, c: int) -> float:
     """Return twice the area of three corners, above zero where they go round counter-clockwise [m2]."""
     (ax, ay), (bx, by), (cx, cy) = corners[a], corners[b], corners[c]
     return float((bx - ax) * (cy - ay) - (by - ay) * (cx - ax))
@@ -42,10 +42,10 @@ def convex_pieces(corners: Corners) -> tuple[tuple[int, ...], ...]:
             return ()
         ear = min(ears, key=lambda place: squared_length(corners, order[place - 1], order[(place + 1) % len(order)]))
         a, b, c = (order[(ear + step) % len(order)] for step in (-1, 0, 1))
-        if turn(corners, a, b, c) > FLAT * squared_extent(corners):
+        if corner_turn(corners, a, b, c) > FLAT * squared_extent(corners):
             triangles.append((a, b, c))
         del order[ear]
-    if len(order) == 3 and turn(corners, *order) > FLAT * squared_extent(corners):
+    if len(order) == 3 and corner_turn(corners, *order) > FLAT * squared_extent(corners):
         triangles.append((order[0], order[1], order[2]))
     found = list(triangles)
     while True:  # neighbours are joined across an edge where both together are convex
@@ -71,7 +71,7 @@ def squared_extent(corners: Corners) -> float:
 def is_ear(corners: Corners, order: Sequence[int], place: int) -> bool:
     """Return whether a corner can be cut off: nothing else of the line lies in its triangle."""
     a, b, c = (order[(place + step) % len(order)] for step in (-1, 0, 1))
-    if turn(corners, a, b, c) < -FLAT * squared_extent(corners):
+    if corner_turn(corners, a, b, c) < -FLAT * squared_extent(corners):
         return False
     others = [each for each in order if each not in (a, b, c)]
     return not any(within(corners, each, (a, b, c)) for each in others)
@@ -82,7 +82,7 @@ def within(corners: Corners, place: int, triangle: tuple[int, int, int]) -> bool
     a, b, c = triangle
     if any(np.array_equal(corners[place], corners[each]) for each in triangle):
         return False
-    return all(turn(corners, start, end, place) >= 0.0 for start, end in ((a, b), (b, c), (c, a)))
+    return all(corner_turn(corners, start, end, place) >= 0.0 for start, end in ((a, b), (b, c), (c, a)))
 
 
 def across_edge(one: tuple[int, ...], other: tuple[int, ...]) -> tuple[tuple[int, ...], tuple[int, int]]:
@@ -100,7 +100,7 @@ def is_convex(corners: Corners, piece: tuple[int, ...]) -> bool:
     """Return whether a piece turns to the left at all its corners, or goes straight on."""
     count = len(piece)
     least = -FLAT * squared_extent(corners)
-    return all(turn(corners, piece[k - 2], piece[k - 1], piece[k]) >= least for k in range(count)) and count == len(set(piece))
+    return all(corner_turn(corners, piece[k - 2], piece[k - 1], piece[k]) >= least for k in range(count)) and count == len(set(piece))
 
 
 def crosses_itself(corners: Corners) -> bool:
@@ -110,6 +110,6 @@ def crosses_itself(corners: Corners) -> bool:
         for c, d in edges[k + 1 :]:
             if {a, b} & {c, d}:
                 continue
-            if turn(corners, a, b, c) * turn(corners, a, b, d) < 0.0 and turn(corners, c, d, a) * turn(corners, c, d, b) < 0.0:
+            if corner_turn(corners, a, b, c) * corner_turn(corners, a, b, d) < 0.0 and corner_turn(corners, c, d, a) * corner_turn(corners, c, d, b) < 0.0:
                 return True
     return False

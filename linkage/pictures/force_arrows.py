@@ -52,7 +52,7 @@ class ForceQuestion:
         """Return the strokes at a pose and the load case, in words."""
         return ", ".join(filter(None, (pose_words(motion, pose), in_case_words(motion.plan, self.along(motion).case))))
 
-    def asked(self, motion: Motion) -> PinForces:
+    def pin_forces(self, motion: Motion) -> PinForces:
         """Return the forces of a motion."""
         return pin_forces(motion, self.loads, case=self.case, direction=self.direction, drive=self.drive, rates=self.rates)
 
@@ -101,9 +101,9 @@ def forces_at_pose(motion: Motion, pose: int, question: ForceQuestion) -> Forces
     question = question.along(motion)
     with unwarned():
         try:
-            found = ForcesAt(question.asked(motion), pose)
+            found = ForcesAt(question.pin_forces(motion), pose)
         except SingularError:
-            found = ForcesAt(question.asked(one_pose(motion, pose, "nan")), 0)
+            found = ForcesAt(question.pin_forces(one_pose(motion, pose, "nan")), 0)
     if all(np.isfinite(found.one(joint.force)).all() for joint in found.found.joints):
         return found
     words = why_no_forces(motion, pose, question) or next(iter(found.found.remarks), said("the forces are not known here"))
@@ -115,7 +115,7 @@ def forces_at_pose(motion: Motion, pose: int, question: ForceQuestion) -> Forces
 def why_no_forces(motion: Motion, pose: int, question: ForceQuestion) -> str:
     """Return why a pose has no forces, in words; empty where nothing refuses them."""
     try:
-        question.asked(one_pose(motion, pose))
+        question.pin_forces(one_pose(motion, pose))
     except AssemblyError as error:
         return str(error)
     return ""

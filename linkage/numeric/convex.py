@@ -110,6 +110,7 @@ def crosses_itself(corners: Corners) -> bool:
         for c, d in edges[k + 1 :]:
             if {a, b} & {c, d}:
                 continue
-            if corner_turn(corners, a, b, c) * corner_turn(corners, a, b, d) < 0.0 and corner_turn(corners, c, d, a) * corner_turn(corners, c, d, b) < 0.0:
+            is_between = corner_turn(corners, a, b, c) * corner_turn(corners, a, b, d) < 0.0
+            if is_between and corner_turn(corners, c, d, a) * corner_turn(corners, c, d, b) < 0.0:
                 return True
     return False

@@ -18,7 +18,7 @@ from ..errors import DefinitionError
 from ..plan import NEAR, ArrayReading, Mask, Plan, failures, negative
 from ..program import LAST, QUICKEST, FloatArray, Kernel, Node, Result, RunOptions, disturbed
 from .conditions import DOUBTFUL, ROUGH, Conditioning, PrecisionLeft, Rounding, conditioning, iterated
-from .grid import Angles, Grid, Made, angles_of, to_rounding
+from .grid import Angles, Grid, Made, angles_behind, angles_of, to_rounding
 from .over import Over
 from .requests import Request, Trait
 
@@ -28,14 +28,14 @@ PIECE = 1 << 18
 
 @dataclass(frozen=True)
 class BulkProgram:
-    """The kernel of some requests: `parts`, the first row and the rows of each; `angles` of those that follow them, by their place.
+    """The kernel of some requests: `parts`, the first row and the rows of each; `angles`: rows, and the angles that they follow.
 
     `may_fail`: there may be poses without a value that no guard reports.
     """
 
     kernel: Kernel
     parts: tuple[tuple[int, int], ...]
-    angles: Mapping[int, Angles]
+    angles: tuple[tuple[list[int], Angles], ...]
     may_fail: bool
 
     @classmethod
@@ -49,12 +49,17 @@ class BulkProgram:
         nodes = [each.nodes(plan) for each in requests]
         guards = [*assumed_of(plan, requests), *(node for each in requests for node in each.gaps(plan))]
         guards += plan.trace.watched(members_behind(plan, requests), max((each.regular for each in requests), default=0.0))
-        followed = {k: angles_of(plan, nodes[k]) for k, each in enumerate(requests) if Trait.FOLLOWS_ANGLES in each.traits}
-        angles = {k: found for k, found in followed.items() if found is not None and found.angles}
         lengths = [each.rows for each in requests]
         parts = tuple(zip(accumulate(lengths[:-1], initial=0), lengths, strict=True)) if lengths else ()
+        followed: dict[tuple[Node, ...], list[int]] = {}
+        for (first, rows), own, each in zip(parts, nodes, requests, strict=True):
+            behind = angles_behind(plan, own) if Trait.FOLLOWS_ANGLES in each.traits else ()
+            if behind:
+                followed.setdefault(behind, []).extend(range(first, first + rows))
+        flat = [node for each in nodes for node in each]
+        angles = tuple((rows, angles_of(plan, [flat[row] for row in rows])) for rows in followed.values())
         may_fail = plan.may_overflow or any(Trait.MAY_FAIL in each.traits for each in requests)
-        return cls(Kernel([node for each in nodes for node in each], guards), parts, angles, may_fail)
+        return cls(Kernel(flat, guards), parts, angles, may_fail)
 
     def split(self, values: FloatArray) -> list[FloatArray]:
         """Return one array a request of values, shape (rows, ...): (...), of a point (2, ...)."""
@@ -205,13 +210,11 @@ class Evaluation:
 
     def _unwrap(self, found: FloatArray) -> None:
         """Make the angles in requests continuous along the stroke, in place."""
-        for k, angles in self.program.angles.items():
-            first, rows = self.program.parts[k]
-            values = found[first : first + rows]
-            reached = np.isfinite(values).all(axis=0)
-            continued = angles.continued(self.grid, np.asarray(reached), self.way)
+        for rows, angles in self.program.angles:
+            reached = np.isfinite(found[rows])
+            continued = angles.continued(self.grid, np.asarray(reached.any(axis=0)), self.way)
             if continued is not None:
-                values[...] = np.where(reached, continued, np.nan)
+                found[rows] = np.where(reached, continued, np.nan)
 
 
 def watch_of(plan: Plan, requests: Sequence[Request]) -> tuple[int, list[int], Kernel]:

@@ -333,10 +333,15 @@ def to_rounding(
     return found
 
 
+def angles_behind(plan: Plan, nodes: Sequence[Node]) -> tuple[Node, ...]:
+    """Return the moving angles behind nodes of a plan's program."""
+    behind = set(ancestors(nodes))
+    return tuple(angle for angle in dict.fromkeys(plan.trace.angles) if angle in behind and angle.level is Level.POSE)
+
+
 def angles_of(plan: Plan, nodes: Sequence[Node]) -> Angles:
     """Return nodes of a plan's program with the moving angles behind them."""
-    behind = set(ancestors(nodes))
-    angles = tuple(angle for angle in dict.fromkeys(plan.trace.angles) if angle in behind and angle.level is Level.POSE)
+    angles = angles_behind(plan, nodes)
     return Angles(tuple(nodes), angles, Kernel(angles))
 
 

@@ -685,7 +685,7 @@ class Motion(Shown):
                 at_end = self.reached & ~np.isfinite(found).all(axis=0)
                 found = to_rounding(found, at_end, kernel.plan.outputs, self._grid.inputs_at(at_end)) if at_end.any() else found
             if program is not None and program.angles:  # angles in it are continued along the stroke
-                continued = program.angles[0].continued(self._grid, self.reached)
+                continued = program.angles[0][1].continued(self._grid, self.reached)
                 found = found if continued is None else continued
             self._values[key] = found
             self._values[key].flags.writeable = False

@@ -608,7 +608,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
     def rod_push(self, motion: AnyMotion, acting: Acting) -> Array:
         """Return what one of its rods is pushed with [N]: T / k_m while a pump pushes it out, as it is taken to do without a direction."""
         push = member_thrust(motion, self, acting) / self.count
-        if acting.direction not in (None, "extending"):
+        if acting.direction not in (None, AS_IT_RUNS, "extending"):
             return push
         motion = held_in_case(motion, acting)
         share: Array | float = 1.0

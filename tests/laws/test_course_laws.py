@@ -5,7 +5,12 @@ import pytest
 from numpy.testing import assert_allclose
 
 from linkage import Course, Over, driving_force, most, pin_forces, ramp
+from linkage.cli.listing import registered
+from linkage.cli.machines import find
 from linkage.loads import Acting
+from linkage.motion.judge import Asked, leaves_of
+from linkage.motion.judging import HasVerdicts, speakers
+from linkage.motion.measures import At
 from tests.for_all import for_all
 from tests.laws.random_machines import random_machine
 from tests.laws.test_time_laws import asked, heavy
@@ -92,18 +97,57 @@ def test_forces_as_it_runs_are_those_at_its_rates(seed):
         assert_allclose(own, given, rtol=0, atol=1e-9 * max(np.abs(given).max(), 1.0))
 
 
+# -- the judge asks programs ------------------------------------------------------------------------------------------------------------
+
+
+def check_programs(machine, over, questions):
+    """Check that what the judge asks a program over a path in time is what the motion gives instant by instant; return how many it asks."""
+    judge = machine.judge(machine.sweep(5, over=over, unreachable="nan")).lost_allowed()
+    (place,) = judge.places
+    listed = questions or [each for member in speakers(machine.plan, HasVerdicts).values() for each in member.questions(judge)]
+    leaves = [leaf for leaf in dict.fromkeys(leaf for each in listed for leaf in leaves_of(each)) if not isinstance(leaf, At)]
+    rows = [row for leaf in leaves for row in judge.sought(leaf, place)]
+    motion, (traced, plain) = place.timed(place.instants.shares(np.linspace(0.0, 1.0, 41)), "nan"), (Asked(place, rows) for _ in range(2))
+    count = len(traced._bound)
+    plain._bound.clear()
+    for row, *own in zip(rows, *traced.values(motion), *plain.values(motion), strict=True):
+        values, unlimited, wanted, without = own
+        scale = np.max(np.abs(np.nan_to_num(wanted)))
+        assert_allclose(values, wanted, rtol=0, atol=1e-9 * scale, err_msg=f"{machine.plan.title}: {row.request}")
+        assert np.array_equal(unlimited, without), f"{machine.plan.title}: {row.request}"
+    return count
+
+
+def there_and_back(spans, seed=1):
+    """Return a path in time that goes through the middle of what strokes are driven over, holds and comes back; rates jump nowhere."""
+    random, found = np.random.default_rng(seed), {}
+    for name, (low, high) in spans.items():
+        span, (a, b) = abs(high - low), random.permutation([low + 0.3 * (high - low), low + 0.65 * (high - low)])
+        back = ramp(b, a, speed=0.4 * span, acceleration=2.0 * span)
+        found[name] = ramp(a, b, speed=0.5 * span, acceleration=random.uniform(1.0, 3.0) * span).hold(0.1).then(back)
+    return Over.path(**found)
+
+
 @EACH
-def test_the_judge_asks_a_program_what_it_would_ask_instant_by_instant(seed):
-    """With inertia, and where rates jump without; a plain function of a motion has no program."""
+def test_programs_of_the_judge_give_what_the_motion_gives(seed):
+    """With inertia, and where rates jump without."""
     draft = random_machine(seed)
     machine = heavy(draft)()
     pose = machine.at(**draft.strokes())
     requests, _ = asked(pose, pin_forces(pose))
-    there = {name: (float(np.min(each)), float(np.max(each))) for name, each in draft.strokes().items()}
-    smooth = {name: ramp(*ends, speed=np.ptp(ends), acceleration=4.0 * np.ptp(ends)) for name, ends in there.items()}
-    pairs = [most(each) for request in (requests[0], requests[-1]) for each in (request, request.of)]
-    for over in (Over.path(**smooth), Over.path(**courses(draft))):
-        found = machine.answers(pairs, over=over)
-        scale = max(abs(each.value) for each in found)
-        for traced, plain in zip(found[::2], found[1::2], strict=True):
-            assert traced.value == pytest.approx(plain.value, rel=0, abs=1e-9 * scale), (str(traced), str(plain))
+    spans = {name: (float(np.min(each)), float(np.max(each))) for name, each in draft.strokes().items()}
+    for over in (there_and_back(spans), Over.path(**courses(draft))):
+        check_programs(machine, over, [most(request) for request in requests])
+
+
+DAILY_MACHINES = ("hoist_tipper", "suspension", "wheel_loader")
+
+
+@for_all("name", DAILY_MACHINES, slow=[name for name in registered() if name not in DAILY_MACHINES])
+def test_programs_of_verdicts_give_what_the_motion_gives(name):
+    """Cylinders that work one way and both, telescopes, closed lines, gas, ropes, supports, parts: whatever is judged."""
+    machine = find(name)
+    if machine.plan.strokes:
+        over = there_and_back({stroke: (each.start, each.end) for stroke, each in machine.plan.strokes.items()})
+        count = check_programs(machine(), over, [])
+        assert count or name not in DAILY_MACHINES

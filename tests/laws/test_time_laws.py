@@ -10,6 +10,7 @@ from tests.for_all import for_all
 from tests.laws.by_hand import FRAME, ByHand, full
 from tests.laws.plane import PLAIN, cross, size
 from tests.laws.random_machines import random_machine
+from tests.laws.random_oil import random_oil
 
 DAILY, MANY = 3, 60
 EACH = for_all("seed", range(DAILY), slow=range(DAILY, MANY))
@@ -110,10 +111,10 @@ def changing(values):
     return (np.broadcast_to(values, (*np.shape(values)[:-1], 9)) * WEIGHTS).sum(axis=-1) / STEP
 
 
-@EACH
+@for_all("seed", [*range(DAILY), MANY, MANY + 1], slow=[*range(DAILY, MANY), *range(MANY + 2, MANY + 14)])  # the last on closed oil lines
 def test_energy_and_momentum_change_as_the_forces_say(seed):
     """The drives' power is what energy takes up and dampers lose; the frame bears all loads less the change of momentum."""
-    draft = random_machine(seed)
+    draft = random_machine(seed) if seed < MANY else random_oil(seed - MANY)
     strokes, rates, accelerations = path_in_time(draft)
     motion = heavy(draft)().at(**strokes)
     hand = ByHand(draft, motion, rates)

@@ -90,13 +90,12 @@ def for_all(names, daily, ids=None, slow=()):
 
 def first_daily(count, names, cases, ids=None):
     """Return a `pytest.mark.parametrize` whose first `count` cases run every day, and the others under the mark `slow`."""
-    listed, ids = [name.strip() for name in names.split(",")] if isinstance(names, str) else names, ids or (lambda value: None)
-    told = [*ids] if not callable(ids) else None
+    listed = [name.strip() for name in names.split(",")] if isinstance(names, str) else names
     rows = []
     for place, case in enumerate(cases):
-        marks = [*(case.marks if isinstance(case, PARAM) else ()), *([pytest.mark.slow] if place >= count else ())]
-        rows.append(pytest.param(*row(case, listed), marks=marks, id=told[place] if told else case.id if isinstance(case, PARAM) else None))
-    return pytest.mark.parametrize(names, rows, ids=None if told else ids)
+        marks, name = (case.marks, case.id) if isinstance(case, PARAM) else ((), None)
+        rows.append(pytest.param(*row(case, listed), marks=[*marks, *[pytest.mark.slow] * (place >= count)], id=name))
+    return pytest.mark.parametrize(names, rows, ids=ids)
 
 
 def row(case, names):

@@ -79,5 +79,5 @@ def test_cases_after_the_first_ones_are_slow_and_keep_their_marks_and_names():
     assert [each.values for each in (one, two, three, four)] == [(1,), (2,), ((3, 4),), (5,)]
     assert [[mark.name for mark in each.marks] for each in (one, two, three, four)] == [[], ["xfail"], ["slow"], ["xfail", "slow"]]
     assert (one.id, two.id) == (None, "two")
-    (named,) = first_daily(1, ("first", "second"), [(1, 2)], ids=["pair"]).args[1]
-    assert (named.values, named.id) == ((1, 2), "pair")
+    pair = first_daily(1, ("first", "second"), [(1, 2)], ids=["pair"])
+    assert pair.args[1][0].values == (1, 2) and pair.kwargs["ids"] == ["pair"]

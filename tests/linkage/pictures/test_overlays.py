@@ -2,6 +2,7 @@
 
 from importlib.metadata import entry_points
 from itertools import combinations, product
+from operator import attrgetter
 
 import numpy as np
 import pytest
@@ -115,11 +116,7 @@ def scale_of(figure, unit):
 # -- forces ------------------------------------------------------------------------------------------------
 
 
-QUICK = ("ThreePointHitch", "HeaderBalancer", "Press")
-EVERY = [pytest.param(each, marks=() if each.__name__ in QUICK else pytest.mark.slow) for each in (*LOADED, Press, Tipper)]
-
-
-@first_daily(2, "machine", EVERY, ids=[each.values[0].__name__ for each in EVERY])
+@first_daily(2, "machine", [Press, *sorted([*LOADED, Tipper], key=lambda each: each is not ThreePointHitch)], ids=attrgetter("__name__"))
 def test_arrows_are_the_pin_forces_and_loads_in_one_scale(machine):
     motion = pose_of(machine())
     found = pin_forces(motion)

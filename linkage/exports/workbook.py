@@ -9,6 +9,7 @@ from datetime import datetime
 from functools import cached_property
 from inspect import cleandoc
 from string import ascii_uppercase
+from textwrap import shorten
 from typing import TYPE_CHECKING, Any, final
 
 import numpy as np
@@ -18,6 +19,7 @@ from ..checks import require_whole
 from ..errors import DefinitionError
 from ..formulas.numbered import CONVENTION, DEFINITIONS, uses
 from ..language import heading_of
+from ..loads import PLAIN_CASE, LoadCase
 from ..motion import stroke_display_unit, stroke_unit
 from ..pictures.load_chart import ChartText
 from ..reports import column_among, dimension_unit
@@ -90,6 +92,7 @@ class Sheets:
             sheet.set_landscape()
             sheet.set_paper(9)
             sheet.fit_to_pages(1, 0)
+            sheet.set_header(f"&L{shorten(self._situation, 200, placeholder=' …').replace('&', '&&')}&R&A")
         middle.set_print_scale(45)
         middle.repeat_rows(0, self.above - 1)
         middle.repeat_columns(0, len(self.strokes))
@@ -122,6 +125,7 @@ class Sheets:
         about = cleandoc(type(design).__doc__ or "").splitlines()
         sheet.write_string(1, 0, about[0] if about else "", self.muted)
         sheet.write_string(2, 0, "Type over a number on yellow; all sheets follow. SI and radians in the calculation.", self.muted)
+        sheet.write_string(3, 0, self._situation, self.muted)
         row = 4
         sheet.write_row(row, 0, ("Dimension", "Value", "Unit", "SI value", "Name in formulas", "Note"), self.head)
         owner, titles = None, self.calculation.equations.part_titles
@@ -146,6 +150,16 @@ class Sheets:
         self._agreement(sheet, row + 2)
         for place, text in enumerate(self._remarks()):
             sheet.write_string(row + 3 + place, 0, text, self.text)
+
+    @property
+    def _situation(self) -> str:
+        """Where the sheets run, and under which loads."""
+        run, plan = self.calculation.run, self.design.plan
+        text = f"Along {run.title or ', '.join(run.ways)}"
+        cases = list(plan.of_kind(LoadCase))
+        if cases:
+            text = f"{text}, under the machine's own loads, load case {PLAIN_CASE}; {', '.join(cases)} not in these sheets"
+        return f"{text}."
 
     def _note(self, name: str, where: str) -> str:
         read = {str(symbol) for result in self.results if result.expr is not None for symbol in result.expr.free_symbols}

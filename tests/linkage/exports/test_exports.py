@@ -25,6 +25,7 @@ from linkage import (
     Dyad,
     FileError,
     Ground,
+    LoadCase,
     Mechanism,
     Part,
     PinFriction,
@@ -286,6 +287,16 @@ def test_a_formula_gives_its_column_at_every_pose_or_is_none():
     )
     assert all(whole[name] is not None for name in ("PI/k_m", "F", "pd", "kz"))
     assert [name for name in whole if whole[name] is not None and beyond[name] is None] == ["PI/k_m", "F", "pd", "kz"]
+
+
+def test_sheets_say_where_they_run_and_under_which_loads(tmp_path):
+    class Cased(Turned):
+        heavy = LoadCase("heavy")
+
+    book = openpyxl.load_workbook(export(Cased(), tmp_path / "cased.xlsx", count=5))
+    said = "Along phi, under the machine's own loads, load case plain; heavy not in these sheets."
+    assert book["Dimensions"]["A4"].value == said
+    assert {sheet.oddHeader.left.text for sheet in book} == {said} and {sheet.oddHeader.right.text for sheet in book} == {"&A"}
 
 
 def test_texts_are_no_formulas(tmp_path):

@@ -116,7 +116,8 @@ class PageRequests:
         self.motion = reached_motion(machine, timed or (run.divided(count) if run.is_path else evenly))
         self.count = self.motion.shape[0]
         self.scene = Scene(self.motion)
-        self.situations, self.situation_of = page_situations(machine.judge(along if over is None else over), self.run)
+        self.judge = machine.judge(along if over is None else over)
+        self.situations, self.situation_of = page_situations(self.judge, self.run)
         self.arrows = force_arrows(machine, self.motion, self.situations)
         with language("en"):  # what is said otherwise in Russian is asked for apart
             self.featured = machine.featured()
@@ -134,7 +135,7 @@ class PageRequests:
             self.columns[name if is_same else curve.name] = curve, request if is_same or why else WHOLE / asked, why
         self.column = self._column(column)
         self.judged, self.limits = self._limits(limit)
-        self.questions = LiveQuestions(machine, self.judged, self.columns, along if over is None else over)
+        self.questions = LiveQuestions(machine, self.judge, self.judged, self.columns)
         self.by_name: dict[str, RequestLike] = {}
         self._ask()
 
@@ -655,8 +656,7 @@ def verdict_data(machine: Mechanism, judge: Judge, along: Motion | None) -> list
 
 def verdicts_shown(requests: PageRequests) -> PageData:
     """Return the verdicts of the page, and what they say in each system of units, in English and Russian; 0 where it is as delivered."""
-    machine, along = requests.machine, requests.along
-    judge = machine.judge(requests.over if along is None else along)
+    machine, judge, along = requests.machine, requests.judge, requests.along
     plain, found = verdict_data(machine, judge, along), {}
     for name in SYSTEMS:
         with unit_system(name):

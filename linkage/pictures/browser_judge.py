@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Hashable, Mapping, Sequence
+from contextlib import suppress
 from functools import reduce
 from typing import Any, TypeAlias, final
 
@@ -15,8 +16,8 @@ from ..loads import FRICTIONLESS, PLAIN_CASE, Acting
 from ..mechanism import Mechanism
 from ..motion import Column, Condition, HasVerdicts, LiveText, PageWords, Request, RequestLike, least, most, speakers
 from ..motion.instants import Instants
-from ..motion.judge import Domain, Sought, leaf_key, measures_of
-from ..motion.judging import NEAR
+from ..motion.judge import Domain, Judge, Sought, leaf_key, measures_of
+from ..motion.judging import NEAR, verdict_questions
 from ..motion.measures import At, CombinedMeasure, Constraint, Given, Integral, Leaf, Measure, conditions_of, dimension_value
 from ..motion.over import ALLOWED
 from ..motion.requests import NodeRequest, bound, is_of_force
@@ -59,9 +60,9 @@ class LiveQuestions:
     """The questions of a page, and the rows that they ask the program for, by names of their own."""
 
     def __init__(
-        self, machine: Mechanism, limits: Mapping[str, Sequence[object]], columns: Mapping[str, tuple[Column, Any, str]], over: object
+        self, machine: Mechanism, judge: Judge, limits: Mapping[str, Sequence[object]], columns: Mapping[str, tuple[Column, Any, str]]
     ) -> None:
-        self.machine, self.judge = machine, machine.judge(over)
+        self.machine, self.judge = machine, judge
         self.by_name: dict[str, RequestLike] = {}
         self.only = [[self.new_row(each.margin, " only") for each in place.over.only] for place in self.judge.places]
         self.ends = [self.rows_of_ends(place.over.strokes if place.instants is None else {}) for place in self.judge.places]
@@ -69,6 +70,8 @@ class LiveQuestions:
         self.said: dict[str, tuple[str, PageWords]] = {}
         self.units, self.untraced = dict[str, str](), False
         self.delivered = dict[str, list[list[float | None]]]()
+        with unwarned(), suppress(LinkageError):  # what verdicts ask is looked for in one pass
+            judge.answers(verdict_questions(judge))
         with unwarned():
             for rule, (member, condition, words) in self.rules().items():
                 self.ask(rule, member, condition, words)

@@ -465,7 +465,7 @@ class Parts:
                 raise DefinitionError(f"{self.title}: nothing holds the pin {pin}; say Link(...) or Slide(...) with it.", member=pin)
         while True:
             while ready := [name for name, member in self.pending.items() if set(needs(member)) <= self.known and not self.waits(member)]:
-                for name in ready:
+                for name in sorted(ready, key=lambda each: not isinstance(self.pending[each], Guide)):  # a group may slide on it
                     self.settle(name, self.pending.pop(name))
             loose = [pin for pin in self.pins if pin not in self.settled]
             if not loose:

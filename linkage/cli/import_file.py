@@ -35,6 +35,8 @@ def import_command(options: Namespace) -> int:
     found = read_sketch(options.file, scale=scale, drives=options.drive or (), cylinders=options.cylinder or (), layers=layers)
     if options.round is not None:
         found = found.rounded(parse(options.round, "length"))
+    for note in found.notes:
+        say_remark(note)
     path = Path(f"{found.name.lower()}.toml" if options.output is None else options.output)
     check_place(path)
     ensure(options.output is not None or not path.exists(), f"{path} is there already and stays as it is; choose another name, -o FILE.")
@@ -42,7 +44,5 @@ def import_command(options: Namespace) -> int:
     text = sketch_text(found, path.suffix.lower())
     with replacing_text(path) as stream:
         stream.write(text)
-    for note in found.notes:
-        say_remark(note)
     print(f"{path}: {machine.__name__}, points: {len(found.points)}, links: {len(found.links)}. Look at it by: hydrolinkage show {path}")
     return 0

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import combinations, permutations
-from math import cos, dist, hypot, inf, isfinite, pi, sin
+from math import cos, dist, hypot, inf, isfinite, pi, remainder, sin
 from typing import Any, final
 from unicodedata import normalize
 
@@ -129,12 +129,12 @@ class FoundMachine:
             foot = self.helper(key, (-self.size * cos(angle), -self.size * sin(angle)), None)
         self.drives.append(FoundDrive("cylinder", (foot, key)))
 
-    def turn(self, pivot: str) -> None:
-        """Let the link on a fixed pivot be the crank; left out where there is not exactly one."""
+    def turn(self, pivot: str, backwards: bool = False) -> None:
+        """Let the link on a fixed pivot be the crank, one turn; left out where there is not exactly one."""
         arms = [points for _, points in self.links if pivot in points and not all(self.points[each].fixed for each in points)]
         if len(arms) == 1 and self.points[pivot].fixed:
             other = next(each for each in arms[0] if each != pivot and not self.points[each].fixed)
-            self.drives.append(FoundDrive("crank", (pivot, other)))
+            self.drives.append(FoundDrive("crank", (pivot, other), -TURN if backwards else TURN))
         else:
             why = f"{len(arms)} links" if self.points[pivot].fixed else "no fixed pin"
             self.left_out.append(f"the drive at {self.points[pivot].name}, which turns {why}")
@@ -171,25 +171,28 @@ class FoundMachine:
             links[legal_name(own, taken)] = tuple(names[key] for key in points)
         slides = {}
         for key, along in self.slides:
-            line = along if isinstance(along, float) else (names[along[0]], names[along[1]])
+            line = remainder(along, TURN) if isinstance(along, float) else (names[along[0]], names[along[1]])
             slides[legal_name(f"slide_{names[key]}", taken)] = SketchSlide(names[key], line)
-        drives = {}
-        for drive in self.drives:
-            P, Q = (names[key] for key in drive.ends)
-            reach = TURN if drive.kind == "crank" else HALF * dist(places[P], places[Q])
-            if drive.kind == "cylinder" and drive.reach is None:
-                self.notes.append(f"The file does not say the stroke of the cylinder {P} {Q}: it goes out by half its drawn length.")
-            size = 1.0 if drive.kind == "crank" else unit
-            end = reach if drive.reach is None else drive.reach * size
-            drives[legal_name(drive.name or ("phi" if drive.kind == "crank" else "S"), taken)] = SketchDrive(
-                drive.kind, (P, Q), -drive.back * size or 0.0, end
-            )
+        drives = dict(self.named_drives(names, places, taken))
         if self.left_out:
             self.notes.append(f"Left out: {'; '.join(self.left_out)}.")
         fixed = tuple(names[key] for key, point in self.points.items() if point.fixed)
         return MachineSketch(
             legal_name(title, {"Mechanism"}), places, fixed, links, slides, drives, notes=tuple(map(printable, self.notes))
         )
+
+    def named_drives(self, names: Mapping[str, str], places: Mapping[str, Place], taken: set[str]) -> Iterator[tuple[str, SketchDrive]]:
+        """Yield the drives [SI] by their names; a note on a cylinder of which the file says no stroke."""
+        for drive in self.drives:
+            P, Q = (names[key] for key in drive.ends)
+            if drive.kind == "crank":
+                size, reach, name = 1.0, TURN, "phi"
+            else:
+                size, reach, name = self.unit or 1.0, HALF * dist(places[P], places[Q]), "S"
+                if drive.reach is None:
+                    self.notes.append(f"The file does not say the stroke of the cylinder {P} {Q}: it goes out by half its drawn length.")
+            end = reach if drive.reach is None else drive.reach * size
+            yield legal_name(drive.name or name, taken), SketchDrive(drive.kind, (P, Q), -drive.back * size or 0.0, end)
 
     def straighten(self) -> None:
         """Put each point that slides between two others onto their line; FileError for one that is not near it."""

@@ -9,7 +9,7 @@ from xml.etree.ElementTree import Element, ParseError, SubElement, XMLPullParser
 
 from ..errors import FileError, ensure
 from ..units import inch, mm
-from .found import TURN, FoundDrive, FoundMachine, ensure_file
+from .found import FoundDrive, FoundMachine, ensure_file
 from .machine_sketch import MachineSketch
 
 DEEPEST = 8
@@ -49,11 +49,7 @@ def read_linkage_xml(found: FoundMachine, text: str) -> None:
                 found.slides.append((key, (limits[0], limits[1])))
     for key, each in connectors.items():
         if each.get("input") == "true":
-            count = len(found.drives)
-            found.turn(key)
-            backwards = found.number(each.get("rpm") or 0.0, "rpm") < 0.0
-            for drive in found.drives[count:]:
-                drive.reach = -TURN if backwards else TURN
+            found.turn(key, backwards=found.number(each.get("rpm") or 0.0, "rpm") < 0.0)
     for ratio in root.iter("ratio"):
         found.left_out.append(f"a ratio of {ratio.get('type') or 'gears'}")
 
@@ -67,8 +63,8 @@ def read_element(found: FoundMachine, element: Element) -> None:
     if element.get("actuator") == "true" and len(keys) == 2:
         P, Q = (found.known(key, f"the actuator {name}") for key in keys)
         throw = found.number(element.get("throw") or 0.0, f"the throw of {name}")
-        found.drives.append(FoundDrive("cylinder", (P, Q), throw or None, name))
-    else:
+        found.drives.append(FoundDrive("cylinder", (P, Q), throw or None, element.get("name", "")))
+    elif len(keys) > 1:  # Linkage also has links of one connector, an anchor by itself
         found.add_link(name, keys)
 
 

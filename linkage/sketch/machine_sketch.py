@@ -178,6 +178,7 @@ class MachineSketch:
         arms = [(P, Q) for points in self.links.values() for P in points for Q in points if P in self.fixed and Q not in self.fixed]
         P, Q = arms[0] if arms else ("O", "A")
         others = f" Links on fixed pins: {', '.join(f'{P} {Q}' for P, Q in arms[:6])}." if arms else ""
+        others = " ".join([others, *(note for note in self.notes if note.startswith("Left out"))]).rstrip()
         text = f"{self.name}: nothing says what drives it. Say it when you import it. A crank is a fixed pin and a pin of its link"
         raise DefinitionError(f"{text}, --drive {P} {Q}; a cylinder is its two ends, --cylinder P Q.{others}")
 

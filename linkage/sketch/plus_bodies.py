@@ -11,7 +11,7 @@ from zlib import crc32
 
 from ..errors import FileError
 from ..units import parse
-from .found import TURN, FoundDrive, FoundMachine, ensure_file, json_list, json_table
+from .found import FoundDrive, FoundMachine, ensure_file, json_list, json_table
 
 ENVELOPE = "pmks2:"
 SLIDES = "prismatic", "pin-in-slot"
@@ -94,8 +94,11 @@ class BodyReader:
         return attachment, body, self.pose(body)[2] + self.found.number(given.get("angle", 0.0), "the angle of a frame")
 
     def sides(self, joint: Mapping[str, Any]) -> list[tuple[str, str, float]]:
-        """Return both sides of a joint, that of the frame first."""
-        return sorted((self.frame(joint, "A"), self.frame(joint, "B")), key=lambda side: side[1] not in self.world)
+        """Return both sides of a joint, that of the guide first: the one that shows it, else the first one."""
+        sides, shown = [self.frame(joint, "A"), self.frame(joint, "B")], joint.get("guideDisplay")
+        guide = shown.get("bodyId") if isinstance(shown, dict) else sides[0][1]
+        is_turned = sides[1][1] in self.world if joint.get("kind") == "prismatic" else sides[1][1] == guide
+        return sides[::-1] if is_turned else sides
 
     def read(self) -> None:
         """Enter points, links, slides and drives."""
@@ -170,8 +173,6 @@ class BodyReader:
 
     def crank(self, joint: Mapping[str, Any], driver: Mapping[str, Any]) -> None:
         """Enter a crank about a pin of the frame."""
-        count = len(self.found.drives)
-        self.found.turn(self.root(self.frame(joint, "A")[0]))
         profile = json_table(driver.get("profile"), self.file, "a profile")
-        for drive in self.found.drives[count:]:
-            drive.reach = -TURN if self.found.number(profile.get("speed", 1.0), "a speed") < 0.0 else TURN
+        backwards = self.found.number(profile.get("speed", 1.0), "a speed") < 0.0
+        self.found.turn(self.root(self.frame(joint, "A")[0]), backwards)

@@ -72,10 +72,7 @@ def read_plus(found: FoundMachine, joints: Sequence[PlusJoint], links: Sequence[
             slide_plus(found, joint)
     for joint in known.values():
         if joint.drives and not joint.slides:
-            found.turn(joint.key)
-    for drive in found.drives:
-        if drive.kind == "crank" and clockwise:
-            drive.reach = -2.0 * pi
+            found.turn(joint.key, clockwise)
 
 
 def slide_plus(found: FoundMachine, joint: PlusJoint) -> None:

@@ -28,6 +28,12 @@ class PmksJoint:
     angle: float
     drives: bool
 
+    @property
+    def mover(self) -> str:
+        """Of a slide, the link that its point is on: the second; the first where that lets the frame slide, which comes to the same."""
+        first, second = self.links
+        return first if self.kind == "P" and is_frame(second) else second
+
 
 def read_pmks_text(found: FoundMachine, text: str) -> None:
     """Read joints: R pins its links, P lets the second slide in the first, RP is a pin in a slot; the fourth letter t drives."""
@@ -43,7 +49,7 @@ def read_pmks_text(found: FoundMachine, text: str) -> None:
             joints.append(joint)
             bodies |= {name: [] for name in joint.links if not is_frame(name)}
     for joint in sorted(joints, key=lambda each: each.kind != "R"):  # a slide at a pin of its link is of that pin
-        on = joint.links if joint.kind == "R" else [mover_of(joint.links)]
+        on = joint.links if joint.kind == "R" else [joint.mover]
         pins = [each.key for each in joints if each.kind == "R" and each.place == joint.place and on[0] in each.links]
         if joint.kind == "R" or not pins:
             found.add_point(joint.key, joint.key, *joint.place, any(map(is_frame, on)))
@@ -54,7 +60,7 @@ def read_pmks_text(found: FoundMachine, text: str) -> None:
             joint.key = pins[0]
     for joint in joints:
         if joint.kind != "R":
-            mover = mover_of(joint.links)
+            mover = joint.mover
             (slot,) = (name for name in joint.links if name != mover)
             along = found.slot(joint.key, joint.angle, None if is_frame(slot) else bodies[slot])
             if joint.kind == "P":
@@ -87,11 +93,6 @@ def joint_of(found: FoundMachine, line: str, number: int) -> PmksJoint:
 def is_frame(name: str) -> bool:
     """Return whether a link is the frame."""
     return name.lower().startswith(FRAME)
-
-
-def mover_of(names: list[str]) -> str:
-    """Return which of two links carries the point of a slide: the second, unless that is the frame and turns it round."""
-    return names[0] if is_frame(names[1]) else names[1]
 
 
 def drive_pmks(found: FoundMachine, joints: list[PmksJoint]) -> None:

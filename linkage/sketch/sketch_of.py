@@ -59,9 +59,10 @@ def sketch_of(machine: Mechanism | type[Mechanism], at: Mapping[str, float] | No
     ensure(not idle, f"{what} {', '.join(idle)} one to one; a sketch has no other drives.")
     slides = {f"slide_{number}": each for number, each in enumerate(slides_of(design, joints, motion), 1)}
     frame = tuple(name for name, point in plan.points.items() if point.is_fixed or name in plan.ground)
-    links = {f"link_{'_'.join(body.points)}": body.points for body in plan.links if not body.fixed and len(body.points) > 1}
+    bodies = [body.points for body in plan.links if not body.fixed and len(body.points) > 1]
     arms = [drive.ends for drive in drives.values() if drive.kind == "crank"]
-    links |= {f"link_{P}_{Q}": (P, Q) for P, Q in arms if not any({P, Q} <= {*points} for points in links.values())}
+    bodies += [ends for ends in arms if not any({*ends} <= {*points} for points in bodies)]
+    links = {f"link_{'_'.join(points)}": points for points in bodies}
     held = {*frame, *(point for points in links.values() for point in points), *(slide.point for slide in slides.values())}
     loose = [name for name in plan.points if name not in held]
     ensure(not loose, f"{title}: the sketch has no word for what holds {', '.join(loose)}; it is on no link and no slide.")

@@ -217,3 +217,22 @@ def test_a_guide_of_the_group_may_be_named_by_a_text():
 
     one, other = (bar(slide)().sweep(5) for slide in (None, "slot"))
     assert np.array_equal(one["Q"], other["Q"])
+
+
+def test_a_group_slides_on_a_guide_of_its_own_while_its_links_are_measured():
+    class Hatch(Mechanism):
+        S = Stroke(0.0, 0.02)
+        G, O = Ground(0, -0.04), Ground(0.22, -0.06)
+        A, N, B, C = (Pin(at=(x, 0.0)) for x in (0.0, 0.1, 0.08, 0.12))
+        E, T = Pin(at=(0.18, 0.04)), Pin(at=(0.3, 0.06))
+        barrel, rod, hatch, stroke = Link("G A N"), Link("B C E"), Link("O E T"), Link("A B", AB=S + 0.08)
+        line = Guide("A", "N")
+        front, rear = Slide("B", line), Slide("C", line)
+
+    motion = Hatch().sweep(5)
+    along = motion["N"] - motion["A"]
+    for pin in "BC":
+        out = motion[pin] - motion["A"]
+        assert_allclose(along[0] * out[1] - along[1] * out[0], 0.0, atol=1e-15)
+    assert_allclose(motion.distance("A", "B"), np.linspace(0.08, 0.10, 5), rtol=1e-13)
+    assert_allclose(motion.distance("O", "T"), np.hypot(0.08, 0.12), rtol=1e-13)

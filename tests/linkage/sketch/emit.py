@@ -13,6 +13,11 @@ def has_offset(plan):
     return any(isinstance(along, tuple) for _, along in plan.slides)
 
 
+def is_plain(plan):
+    """Return whether slides are only on the frame, or on a link that a pin of another link slides on."""
+    return not has_offset(plan) and not any(point in plan.fixed for point, _ in plan.slides)
+
+
 def csv(plan: Plan):
     """Return a table of points and links."""
     if has_offset(plan):
@@ -73,10 +78,11 @@ def pmks(plan: Plan):
         lines.append(f"{' '.join(links)} R {x!r} {y!r} 0 tff{'t' if name == plan.crank[0] else 'f'}")
     for point, along in plan.slides:
         x, y = plan.points[point]
-        rider = next(f"n{number}" for number, link in enumerate(plan.links) if point in link)
+        rider = next((f"n{number}" for number, link in enumerate(plan.links) if point in link), "ground")
         slot = along[0] if isinstance(along, tuple) else along
         carrier = next((f"n{number}" for number, link in enumerate(plan.links) if isinstance(slot, str) and {*slot} <= {*link}), "ground")
-        lines.append(f"{carrier} {rider} RP {x!r} {y!r} {angle_of(plan, along) * 180.0 / 3.141592653589793!r} ffff")
+        kind, angle = "P" if point in plan.rigid else "RP", angle_of(plan, along) * 180.0 / 3.141592653589793
+        lines.append(f"{carrier} {rider} {kind} {x!r} {y!r} {angle!r} ffff")
     return "\n".join(lines)
 
 
@@ -115,7 +121,7 @@ def packed(value):
 
 def short_body(plan: Plan, digest=False):
     """Return a short share address of PMKS+ in cm, thousandths of which are whole."""
-    if has_offset(plan):
+    if not is_plain(plan):
         return None
     joints, links = [], []
 
@@ -215,7 +221,8 @@ def plus_bodies(plan: Plan):
     for point, along in plan.slides:
         slot = along[0] if isinstance(along, tuple) else along
         carrier = next((link for link in plan.links if isinstance(slot, str) and {*slot} <= {*link}), "world")
-        join("pin-in-slot", carrier, next(link for link in plan.links if point in link), point, angle_of(plan, along))
+        rider = next((link for link in plan.links if point in link), "world")
+        join("prismatic" if point in plan.rigid else "pin-in-slot", carrier, rider, point, angle_of(plan, along))
     if plan.cylinder:
         (P, Q), mounts = plan.cylinder, []
         for part, name in (("barrel", P), ("rod", Q)):

@@ -24,6 +24,8 @@ class Plan:
     cylinder: str = ""
     throw: float = 0.0
     slides: list = field(default_factory=list)
+    rigid: str = ""
+    """The points that slide whose link does not turn on its slide."""
     run: float = 1.0
     """The part of the stroke that is looked at."""
 
@@ -45,6 +47,10 @@ PLANS = [
          slides=[("A", "PQ"), ("R", 0.0)]),
     Plan("Offset", dict(O=(0, 0), A=(30, 10), P=(0, -100), Q=(70, 140), R=(160, 130)), "OP", ["OA", "PQ", "QR"], "OA",
          slides=[("A", ("PQ", 1.1)), ("R", 0.0)]),
+    Plan("Runner", dict(O=(300, 50), A=(300, 90), P=(0, 0), Q=(200, 0), M=(100, 45), H=(60, 0), I=(140, 0)), "OHI",
+         ["OA", "PMQ", "AM"], "OA", slides=[("H", "PQ"), ("I", "PQ")]),
+    Plan("Hatch", dict(G=(0, -40), N=(100, 0), S=(80, 10), E=(180, 40), O=(220, -60), T=(300, 60)), "GO", ["OET", "GN", "SE"], "OE",
+         slides=[("S", ("GN", 0.1))], rigid="S", run=0.1),
     Plan("Boom", dict(O=(0, 0), A=(400, -100), B=(500, 300), T=(1500, 600)), "OA", ["OBT"], cylinder="AB", throw=150.0),
     Plan("Watt", dict(O=(0, 0), A=(40, 20), B=(160, 120), C=(170, 0), D=(240, 110), E=(330, 140), F=(320, 0)), "OCF",
          ["OA", "AB", "BCD", "DE", "EF"], "OA"),
@@ -89,6 +95,11 @@ def residuals(plan, drive):
                 found.append([cross(line, at[point] - origin)])
             else:
                 found.append([cross(np.array([np.cos(along), np.sin(along)]), at[point] - start[point])])
+        for point, along in plan.slides:
+            if point in plan.rigid:
+                (P, Q), rider = along[0], next(link for link in plan.links if point in link)
+                turns = [cross(each[Q] - each[P], each[rider[1]] - each[rider[0]]) for each in (at, start)]
+                found.append([(turns[0] - turns[1]) / plan.size])
         if plan.crank:
             O, A = plan.crank
             arm, (c, s) = start[A] - start[O], (np.cos(drive), np.sin(drive))

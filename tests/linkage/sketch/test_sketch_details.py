@@ -36,6 +36,8 @@ def test_a_slide_may_drive(tmp_path):
     text = "ground,ram,P,0,0,30,ffft\nram,rod,R,0,0\nrod,arm,R,100,20\narm,ground,R,100,-60\n"
     machine = read_sketch(put(tmp_path, "push.txt", text), scale=1e-3).to_class()()
     (stroke,) = machine.strokes
+    turned = read_sketch(put(tmp_path, "turned.txt", text.replace(",30,", ",750,")), scale=1e-3)
+    assert next(iter(turned.slides.values())).along == pytest.approx(pi / 6, rel=1e-12)
     moved = machine.at(**{stroke: [0.0, 0.01]})["B"]
     assert np.allclose(moved[:, 1] - moved[:, 0], 0.01 * np.array([np.cos(pi / 6), np.sin(pi / 6)]), atol=1e-15)
 
@@ -63,6 +65,10 @@ def test_what_is_not_had_is_left_out_by_name(tmp_path):
     notes = " ".join(read_sketch(put(tmp_path, "told.linkage2", text)).notes)
     for words in ("the gear wheel", "a ratio of chain", "the curved slot of T", "the point alone, which is on no link", "0.255208 mm"):
         assert words in notes, (words, notes)
+    assert "of one point" not in notes
+    still = put(tmp_path, "still.linkage2", text.replace('input="true"', ""))
+    with pytest.raises(DefinitionError, match=r"--drive O A; .*Left out: the gear wheel; the curved slot of T;"):
+        read_sketch(still).to_class()
 
 
 def test_names_are_made_legal_and_told(tmp_path):

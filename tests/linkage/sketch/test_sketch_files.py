@@ -9,8 +9,8 @@ from tests.linkage.sketch import emit
 from tests.linkage.sketch.plans import PLANS, solved
 
 POSES = 5
-DAILY = {"Rocker", "Pump", "Offset", "Boom"}
-NO_DRAWING = {"Shaper", "Offset", "Scissors", "Watt"}
+DAILY = {"Rocker", "Pump", "Offset", "Hatch", "Runner", "Boom"}
+NO_DRAWING = {"Shaper", "Hatch", "Offset", "Runner", "Scissors", "Watt"}
 """Plans with a slot of a moving link, with crossing bars, and with an outline that another pin stands in: lines do not say them."""
 
 

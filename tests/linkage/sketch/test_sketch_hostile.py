@@ -11,7 +11,7 @@ from linkage.sketch import read_sketch
 from tests.linkage.sketch import emit
 from tests.linkage.sketch.plans import BY_NAME
 
-BITS = ["", *"-\"\0é0P,|\n", "nan", "inf", "1e999", "null", "{}", "[]", "<a>", "&x;", "-1", "true", "9" * 30, "..", "%00"]
+BITS = ["", *'-"\0é0P,|\n', "nan", "inf", "1e999", "null", "{}", "[]", "<a>", "&x;", "-1", "true", "9" * 30, "..", "%00"]
 LINKAGE = emit.linkage2(BY_NAME["Rocker"])
 HEAD = "kind,name,x [mm],y [mm],what\n"
 BODIES = '{"version": 2, "units": {"length": "cm"}, "bodies": [%s], "attachments": [{"id": "p", "bodyId": "a"}]}'

@@ -20,7 +20,8 @@ from linkage.errors import DefinitionError, unknown
 from linkage.loads import AS_IT_RUNS, Acting
 from linkage.loads.element import ForceElement
 from linkage.motion import Motion, PoseFunction, Request, ratio
-from linkage.plan import Plan
+from linkage.motion.requests import as_they_run
+from linkage.plan import Plan, rate_name
 from linkage.quantities import NamedMembers, distance, of_kind
 from linkage.statics import AnyMotion, LawRequest, each_once, same
 from linkage.units import show
@@ -167,6 +168,7 @@ class Consumers:
         self.places = {id(ram): place for place, ram in enumerate(self.rams)}
         self.valved = [each for each in self.inlets if each.valve is not None]
         asked += [pilot_request(each, acting) for each in self.valved]
+        self.designs, self._asked = designs, as_they_run(asked, False)
         self._function = PoseFunction(plan, designs, asked, 1)
         at = np.array([[strokes[name]] for name in self.strokes])
         rates = np.array([[0.05 + 0.01 * number] for number in range(len(self.strokes))])
@@ -194,7 +196,13 @@ class Consumers:
 
     def rows(self, strokes: Array, rates: Array) -> Array:
         """Return all that is asked of the machine, (rows, m), at strokes (n, m) moving at rates (n, m)."""
-        return np.array([self._function(*at, *moving) for at, moving in zip(strokes.T.tolist(), rates.T.tolist(), strict=True)]).T
+        if self._function.is_quick:
+            return np.array([self._function(*at, *moving) for at, moving in zip(strokes.T.tolist(), rates.T.tolist(), strict=True)]).T
+        moving = {rate_name(name, 1): np.ascontiguousarray(each) for name, each in zip(self.strokes, rates, strict=True)}
+        poses = Motion(
+            self.plan, self.designs, dict(zip(self.strokes, map(np.ascontiguousarray, strokes), strict=True)), rate_inputs=moving
+        )
+        return np.array([np.broadcast_to(poses.value(each), strokes.shape[1:]) for each in self._asked])
 
     def taken(self, strokes: Array, ways: Sequence[Array], rates: Array, like: Taken | None = None) -> Taken:
         """Return what consumers take whose movements are `ways`, rates of the strokes (n, m) each, while all move at `rates`.
@@ -279,9 +287,9 @@ def pilot_request(inlet: Inlet, acting: Acting) -> LawRequest:
 
 def refuse_unpushed(branch: Branch, time: Array, pump: ForceElement) -> None:
     """Raise DefinitionError where a cylinder is to move that neither oil nor its load pushes that way."""
-    at = np.flatnonzero((branch.force > 0.0) & (branch.speed > 0.0)) if branch.inlet.sides is None else ()
-    if len(at):
-        inlet, pump_name = branch.inlet, pump.name or "supply"
+    inlet, pump_name = branch.inlet, pump.name or "supply"
+    at = np.flatnonzero((branch.force > 0.0) & (branch.speed > 0.0))
+    if len(at) and inlet.sides is None:
         ram, other = inlet.ram.name, "rod" if inlet.sense < 0.0 else "piston"
         what = f"{ram} cannot go on {inlet.way} at {show(float(time[at[0]]), 's', 4)}: its load resists, and no pump fills its {other} side"
         raise DefinitionError(f"{what}; put that on the pump, OilLine({ram}.{other}_side, {pump_name}), or demand nothing there.")

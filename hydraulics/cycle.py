@@ -267,7 +267,7 @@ def given_stretches(consumers: Consumers, instants: Instants, limits: PumpLimits
         taken = taken_at(time)
         border = first_border(time, taken, lambda at, taken=taken: taken_at(at, taken).borders(taken))  # type: ignore[misc]
         need = np.maximum(taken.needs[0], 0.0)
-        smooth = is_smooth(taken.flows, limits.flow) and is_smooth([need], limits.cut_off) and is_smooth(taken.lengths, 1.0)
+        smooth = is_smooth(taken.flows, limits.flow) and is_smooth([need], limits.cut_off) and is_smooth([*taken.lengths], 1.0)
         if border is None and end - begin > SHORTEST and not smooth:
             border = middle
         if border is not None:

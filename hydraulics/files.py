@@ -8,7 +8,7 @@ from typing import Any
 
 from linkage.checks import require
 from linkage.errors import DefinitionError, cited, ensure, known_name, unknown
-from linkage.quantities import is_number
+from linkage.quantities import Member, is_number, label
 from linkage.quantities.quantity import plain
 
 from .gas import ROOM, Gas, Polytropic, RealNitrogen, adiabatic, isothermal, polytropic, real_nitrogen
@@ -118,3 +118,18 @@ def filled_kind() -> Any:
         return given if given in ("open", "closed") else one(given, names)
 
     return Kind(read, file_value)
+
+
+def pressure_kind() -> Any:
+    """Return how a pressure is read and written for which a pump may stand, by its name."""
+    from linkage.files.validators import Kind, amount
+
+    plain = amount("bar")
+
+    def read(given: Any, names: Any) -> Any:
+        return given if isinstance(given, str) and names.kinds.get(given) == "load" else plain.read(given, names)
+
+    def write(value: Any, design: Any, name: str) -> Any:
+        return label(value) if isinstance(value, Member) and value.kind == "load" else plain.write(value, design, name)
+
+    return Kind(read, write)

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from types import MappingProxyType
-from typing import ClassVar, final
+from typing import Any, ClassVar, final
 
 import numpy as np
 
@@ -39,6 +39,7 @@ from linkage.statics import LawRequest, elements_of, is_among
 from linkage.units import UNITS, show
 from linkage.verdict import Verdict
 
+from .files import pressure_kind
 from .inputs import Array, check_pressures, follows, not_negative, one_design, one_number
 from .line import LiftLine
 from .member import (
@@ -120,10 +121,13 @@ class LiftCircuit(PumpLine):
     pump's highest, gauge [Pa], against which is lifted; `relief` that of the relief valve, against which is held (omitted: the
     pump's); `flow` in m3/s; `back_pressure` that of the returning oil on the other side [Pa gauge]. In a class the numbers are design
     variables such as `circuit.pressure`.
+
+    A `Pump` in the place of the pressure, `LiftCircuit(ram, supply)`, may feed other lines too. It is then on both sides of the cylinder,
+    and says all numbers but `relief` and `back_pressure`.
     """
 
     cylinder: Feeds
-    pressure: Parameter
+    pressure: Any
     flow: Parameter = 0.0
     mechanical_efficiency: Parameter = 1.0
     hydraulic_efficiency: Parameter = 1.0
@@ -141,7 +145,7 @@ class LiftCircuit(PumpLine):
     )
     not_negative: ClassVar[frozenset[str]] = frozenset({"pressure", "flow", "back_pressure", "relief"})
     optional: ClassVar[frozenset[str]] = frozenset({"relief"})
-    argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"cylinder": "loads"})
+    argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"cylinder": "loads", "pressure": pressure_kind})
 
     def __post_init__(self) -> None:
         super().__post_init__()

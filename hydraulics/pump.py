@@ -8,17 +8,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
-from typing import ClassVar, Literal, final
+from typing import ClassVar, Literal, cast, final
 
 import numpy as np
 
-from linkage.errors import DefinitionError, one_word, unknown
+from linkage.errors import one_word, unknown
 from linkage.frozen import immutable
 from linkage.language import noted
 from linkage.loads import Acting, Parameter
 from linkage.mechanism import Mechanism
 from linkage.motion import HasVerdicts, Judge, Motion
-from linkage.quantities import NamedMembers, Reference, name_of
+from linkage.quantities import Member, NamedMembers, Reference, name_of
 from linkage.verdict import Verdict
 
 from .consumers import lines_on
@@ -61,7 +61,7 @@ class Pump(Supply, HasVerdicts):
     power: Parameter | None = None
     margin: Parameter = 0.0
     sharing: Literal["by demand", "least pressure first"] = "by demand"
-    first: Sequence[Reference] = ()
+    first: Reference | Sequence[Reference] = ()
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({
         "pressure": "bar", "flow": "l/min", "mechanical_efficiency": "", "hydraulic_efficiency": "", "power": "kW", "margin": "bar",
     })  # fmt: skip
@@ -72,8 +72,8 @@ class Pump(Supply, HasVerdicts):
     headed: ClassVar[str] = noted("Pump {name}")
 
     def __post_init__(self) -> None:
-        if isinstance(self.first, str):
-            raise DefinitionError(f"Pump(first={self.first!r}): a list of lines or cylinders is expected, first=[{self.first!r}].")
+        if isinstance(self.first, (str, Member)):
+            object.__setattr__(self, "first", (self.first,))
         super().__post_init__()
         one_word("sharing", self.sharing, SHARINGS)
 
@@ -85,7 +85,7 @@ class Pump(Supply, HasVerdicts):
     def examine(self, members: NamedMembers, title: str) -> None:
         lines = lines_on(self, members)
         known = [*(each.name for each in lines), *(ram.name for line in lines for ram in line.members(members))]
-        for each in map(name_of, self.first):
+        for each in map(name_of, cast(Sequence[Reference], self.first)):
             if each not in known:
                 raise unknown("Line or cylinder on this pump", each, known, where=f"{title}.{self.name}, first")
         super().examine(members, title)

@@ -14,7 +14,8 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass
 from math import inf
-from typing import TypeVar, final
+from operator import lt
+from typing import Any, TypeVar, final
 
 import numpy as np
 
@@ -94,9 +95,9 @@ class Choices:
         """What was decided."""
         return tuple(self._found)
 
-    def __call__(self, decide: Callable[[], Decided]) -> Decided:
-        """Return what is decided."""
-        found = decide() if self._again is None else next(self._again)
+    def __call__(self, decide: Callable[..., Decided], *given: Any) -> Decided:
+        """Return what is decided, or was, of what is given."""
+        found = decide(*given) if self._again is None else next(self._again)
         self._found.append(found)
         return found  # type: ignore[return-value]
 
@@ -106,25 +107,25 @@ def flow_shares(wanted: Wanted, limits: PumpLimits, choose: Choices) -> Fed:
     count = len(wanted.flows)
     same = SAME_NEED * limits.cut_off
     driven = choose(lambda: tuple(each <= same for each in wanted.needs))
-    needs = [0.0 if driven[i] else wanted.needs[i] for i in range(count)]
+    needs: list[Any] = [0.0 if driven[i] else wanted.needs[i] for i in range(count)]
     common = sum(needs[i] for i in wanted.level) / max(len(wanted.level), 1)
     needs = [common if i in wanted.level else needs[i] for i in range(count)]
     most = limits.cut_off + same - limits.margin
     over = choose(lambda: tuple(i not in wanted.creep and needs[i] > most for i in range(count)))
     blocked = tuple(i for i in range(count) if wanted.stopped[i] or over[i] or i in wanted.creep)
-    groups = choose(lambda: serving_order(wanted, needs, limits, blocked))
+    groups = choose(serving_order, wanted, needs, limits, blocked)
     shares: list[Array | float] = [0.0] * count
     given: Array | float = wanted.before
     pressure: Array | float = limits.cut_off if blocked else limits.margin if groups else 0.0
     top = -1
     for group in groups:
-        top = choose(lambda group=group, top=top: leading(needs, [*group, *((top,) if top >= 0 else ())], same))
+        top = choose(leading, needs, [*group, *((top,) if top >= 0 else ())], same)
         level = limits.cut_off if blocked else needs[top] + limits.margin
-        by_power = choose(lambda level=level: limits.power < limits.flow * level)
+        by_power = choose(lt, limits.power, limits.flow * level)
         total = sum(wanted.flows[i] for i in group)
         whole = limits.power / level if by_power else limits.flow
         rest = whole - given
-        outcome = choose(lambda rest=rest, total=total: "all" if rest >= total * (1.0 - SAME_NEED) else "part" if rest > 0.0 else "none")
+        outcome = choose(outcome_of, rest, total)
         if outcome == "none":  # the pump comes to the limit of its power before it comes to their need
             pressure = limits.power / given if by_power and not blocked else pressure
             return Fed(shares, pressure, "power" if by_power else "flow", (), 0.0, blocked)
@@ -137,13 +138,18 @@ def flow_shares(wanted: Wanted, limits: PumpLimits, choose: Choices) -> Fed:
     return Fed(shares, pressure, "", (), 0.0, blocked)
 
 
-def leading(needs: Sequence[float], among: Sequence[int], same: float) -> int:
+def outcome_of(rest: float, total: float) -> str:
+    """Return whether a group gets all that it asks for of a rest, part of it or none."""
+    return "all" if rest >= total * (1.0 - SAME_NEED) else "part" if rest > 0.0 else "none"
+
+
+def leading(needs: Sequence[Any], among: Sequence[int], same: float) -> int:
     """Return the first of those that need most, to rounding."""
     most = max(needs[i] for i in among)
     return min(i for i in among if needs[i] >= most - same)
 
 
-def serving_order(wanted: Wanted, needs: Sequence[float], limits: PumpLimits, blocked: Sequence[int]) -> tuple[tuple[int, ...], ...]:
+def serving_order(wanted: Wanted, needs: Sequence[Any], limits: PumpLimits, blocked: Sequence[int]) -> tuple[tuple[int, ...], ...]:
     """Return those that ask for something and are not blocked, in the groups and the order in which they are served."""
     found: list[tuple[int, ...]] = []
     for tier in sorted({*wanted.tiers}):

@@ -318,8 +318,8 @@ class PumpedMachine:
 
     def _between(self, time: float, strokes: Array, seen: Sequence[tuple[Mode, Going]]) -> tuple[Mode, Going]:
         """Return the mode between some of which each leads to the next; the first of them where none is settled."""
-        blocked = [{*each.fed.blocked} for _, each in seen]
-        creep = frozenset(set.union(*blocked) - set.intersection(*blocked))
+        blocked: list[set[int]] = [{*each.fed.blocked} for _, each in seen]
+        creep = frozenset(set[int]().union(*blocked) - blocked[0].intersection(*blocked))
         shares = np.array([each.shares[:, 0] for _, each in seen])
         level = frozenset() if creep else frozenset(np.flatnonzero(np.ptp(shares, axis=0) > 1e-9).tolist())
         mode, moment = self.decided(time, strokes, self.pace(seen[0][1]), Mode((), (), level, creep))
@@ -361,7 +361,7 @@ class PumpedMachine:
                 return None
             if moved <= 2e-14 and steady:
                 needs = [each for each in found.taken.needs if np.all(np.isfinite(each))]
-                smooth = is_smooth(found.rates / size, 1.0) and is_smooth([*needs, found.pump_pressure], self.limits.cut_off)
+                smooth = is_smooth([*found.rates / size], 1.0) and is_smooth([*needs, found.pump_pressure], self.limits.cut_off)
                 return (passed, found) if width <= 10.0 * SHORTEST or smooth else None
         return None
 
@@ -421,7 +421,7 @@ def worked(
     stretches, coefficients, events = run_through(work, begin, float(until), at_start)
     times = np.array([*(each.time[0] for each in stretches), stretches[-1].time[-1]])
     phases = np.array(coefficients).transpose(1, 2, 0)
-    courses = {name: Course.of_phases(times, rows) for name, rows in zip(work.consumers.strokes, phases, strict=True)}
+    courses: dict[str, Any] = {name: Course.of_phases(times, rows) for name, rows in zip(work.consumers.strokes, phases, strict=True)}
     case = acting.case if acting is not None else None
     cases = [name_of(case)] if case is not None and name_of(case) in ("plain", *plan.members) else None
     over = Over.path(time=(begin, float(until)), cases=cases, **courses)

@@ -12,6 +12,7 @@ GROUPS = {
         "tail_lift", "spreader_tractor", "plough_tractor",
         "levelled_telehandler", "axle", "crossed_axle",
         "digging_excavator", "braking_telehandler", "loading_forwarder",
+        "pumped_excavator", "pumped_telehandler", "pumped_forwarder", "regenerative_press",
     ),
     "Hitches, lifts and headers": (
         "three_point_hitch", "hitch_category_1", "hitch_category_2", "mower_lift", "marked_mower_lift", "lowered_mower_lift",

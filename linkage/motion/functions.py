@@ -278,6 +278,11 @@ class PoseFunction:
         except UntracedError:
             self._pose = None
 
+    @property
+    def is_quick(self) -> bool:
+        """Whether one program gives all of it, pose by pose; else poses are better taken together."""
+        return self._pose is not None
+
     def __call__(self, *strokes: float, **named: float) -> tuple[float, ...]:
         """Return all components one after the other at strokes [SI], in their order or by name; rates follow in their order."""
         if self._pose is None or (named and len(strokes) + len(named) != len(self._names)):

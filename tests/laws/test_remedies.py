@@ -32,8 +32,8 @@ from linkage.motion import least, most
 from linkage.units import bar, inch, kN, litre, mm, psi, unit_system
 from tests.for_all import for_all
 
-SEEDS = range(4)
-MANY = range(4, 40)
+SEEDS = (0, 3)
+MANY = (1, 2, *range(4, 40))
 
 
 @cache

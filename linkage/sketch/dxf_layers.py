@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from math import atan2, hypot
+from itertools import pairwise
+from math import atan2, dist, hypot, inf
 from typing import Any, final
 
 from ..errors import ensure
@@ -17,6 +18,8 @@ METRES = {1: 0.0254, 2: 0.3048, 4: 1e-3, 5: 1e-2, 6: 1.0}
 """The unit of a drawing by the number in its head [m]."""
 MEETS = 1e-6
 """A line ends at a pin, or passes through it, where it comes nearer to it than so much of the size, or than the pin's radius."""
+CHORDS = 16
+"""Chords of an arc between two corners."""
 
 
 def read_dxf(found: FoundMachine, path: str, layers: Mapping[str, Sequence[str]]) -> None:
@@ -68,26 +71,26 @@ class DrawingReader:
             self.slide(each)
         for role in ("crank", "cylinder"):
             for each in self.of(("LINE",), role):
-                keys = self.met(corners_of(each), False)
+                keys = self.met(corners_of(each))
                 if len(keys) == 2:
                     self.drive(role, keys[0], keys[1])
                 else:
                     self.found.left_out.append(f"a line of the layer {each.dxf.layer} that ends at {len(keys)} pins instead of two")
 
-    def met(self, corners: Sequence[Place], closed: bool) -> list[str]:
+    def met(self, corners: Sequence[Place]) -> list[str]:
         """Return the pins that a line meets, or that a closed outline surrounds."""
         limit = MEETS * self.found.size
-        sides = [*zip(corners, [*corners[1:], *corners[:1]], strict=True)][: None if closed else -1]
+        closed = len(corners) > 3 and dist(corners[0], corners[-1]) <= limit
         return [
             key
             for key, (place, radius) in self.pins.items()
-            if any(distance_to(place, P, Q) <= max(limit, 0.5 * radius) for P, Q in sides) or (closed and surrounds(place, corners))
+            if any(distance_to(place, P, Q) <= max(limit, 0.5 * radius) for P, Q in pairwise(corners))
+            or (closed and surrounds(place, corners))
         ]
 
     def link(self, entity: Any) -> None:
         """Enter a line or an outline with the pins on it; one with fewer than two is left out."""
-        corners = corners_of(entity)
-        keys = self.met(corners, ends_meet(entity))
+        keys = self.met(corners_of(entity))
         if len(keys) > 1:
             self.found.add_link("", keys)
         else:
@@ -96,7 +99,7 @@ class DrawingReader:
     def slide(self, line: Any) -> None:
         """Let the pins on a line slide on it."""
         P, Q = corners_of(line)
-        keys = [key for key in self.met([P, Q], False) if not self.found.points[key].fixed]
+        keys = [key for key in self.met([P, Q]) if not self.found.points[key].fixed]
         self.found.slides += [(key, atan2(Q[1] - P[1], Q[0] - P[0])) for key in keys]
         if not keys:
             self.found.left_out.append(f"a line of the layer {line.dxf.layer} without pins")
@@ -115,34 +118,17 @@ class DrawingReader:
 
 
 def corners_of(entity: Any) -> list[Place]:
-    """Return the corners of a line, a polyline or the outer border of a hatch, in the drawing's units."""
-    match entity.dxftype():
-        case "LINE":
-            return [(float(each.x), float(each.y)) for each in (entity.dxf.start, entity.dxf.end)]
-        case "LWPOLYLINE":
-            return [(float(x), float(y)) for x, y, *_ in entity.get_points("xy")]
-        case "POLYLINE":
-            return [(float(each.x), float(each.y)) for each in entity.points()]
-    found: list[Place] = []
-    for path in entity.paths:  # a border of lines has vertices, one of arcs has edges
-        found += [(float(x), float(y)) for x, y, *_ in getattr(path, "vertices", ())]
-        for edge in getattr(path, "edges", ()):
-            centre = getattr(edge, "center", None)
-            if centre is not None:
-                radius = float(getattr(edge, "radius", 0.0))
-                found += [(centre[0] + dx * radius, centre[1] + dy * radius) for dx, dy in ((1, 0), (0, 1), (-1, 0), (0, -1))]
-            else:
-                found += [(float(edge.start[0]), float(edge.start[1]))] if hasattr(edge, "start") else []
-    return found
-
-
-def ends_meet(entity: Any) -> bool:
-    """Return whether a polyline is closed, by its flag or because it ends where it begins."""
+    """Return the corners of a line, a polyline or a hatch, arcs by chords; a closed one ends where it begins. None of what has no form."""
     if entity.dxftype() == "LINE":
-        return False
-    corners = corners_of(entity)
-    flag = entity.closed if entity.dxftype() == "LWPOLYLINE" else entity.is_closed
-    return bool(flag) or (len(corners) > 3 and corners[0] == corners[-1])
+        return [(float(each.x), float(each.y)) for each in (entity.dxf.start, entity.dxf.end)]
+    from ezdxf import DXFError
+    from ezdxf import path as curves
+
+    try:
+        borders = [*curves.from_hatch(entity)] if entity.dxftype() == "HATCH" else [curves.make_path(entity)]
+    except (DXFError, ValueError, ArithmeticError):
+        return []
+    return [(float(each.x), float(each.y)) for border in borders for each in border.flattening(inf, CHORDS)]
 
 
 def text_of(entity: Any) -> str:
@@ -161,9 +147,6 @@ def distance_to(place: Place, P: Place, Q: Place) -> float:
 
 def surrounds(place: Place, corners: Sequence[Place]) -> bool:
     """Return whether a place is inside a closed outline."""
-    x, y = place
-    crossed = False
-    for (px, py), (qx, qy) in zip(corners, [*corners[1:], *corners[:1]], strict=True):
-        if (py > y) != (qy > y) and x < px + (qx - px) * (y - py) / (qy - py):
-            crossed = not crossed
-    return crossed
+    from ezdxf.math import Vec2, is_point_in_polygon_2d
+
+    return is_point_in_polygon_2d(Vec2(place), Vec2.list(corners)) > 0

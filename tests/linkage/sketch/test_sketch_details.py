@@ -205,3 +205,27 @@ def test_layers_of_a_drawing_are_named(tmp_path):
     assert compare(BY_NAME["Rocker"], read_sketch(path, layers=layers, drives=[("P4", "P1")]))[1] < 1e-9
     with pytest.raises(DefinitionError, match="a layer is of pins, links, ground"):
         read_sketch(path, layers=dict(bolts=["Bolts"]))
+
+
+@pytest.mark.parametrize("style", ["lwpolyline", "polyline2d"])
+def test_outlines_with_round_ends_and_hatches_of_any_border_are_read(style, tmp_path):
+    import ezdxf
+
+    plan, width = BY_NAME["Rocker"], 6.0
+    document = ezdxf.new(units=4)
+    space = document.modelspace()
+    for name, (x, y) in plan.points.items():
+        space.add_circle((x, y), 3.0)
+        space.add_text(name, dxfattribs={"insert": (x + 1, y + 1)})
+    space.add_hatch().paths.add_edge_path().add_arc(plan.points["O"], 4.0)
+    space.add_hatch().paths.add_edge_path().add_ellipse(plan.points["C"], (4.0, 0.0), 0.8)
+    space.add_hatch().paths.add_edge_path().add_spline(control_points=[(0, 0)])  # no border at all
+    for P, Q in ("OA", "AB", "BT", "TA", "BC"):
+        p, q = (np.array(plan.points[each], float) for each in (P, Q))
+        side = width * np.array([p[1] - q[1], q[0] - p[0]]) / np.linalg.norm(q - p)
+        corners = [(*(p - side), 0.0), (*(q - side), 1.0), (*(q + side), 0.0), (*(p + side), 1.0)]
+        getattr(space, f"add_{style}")(corners, format="xyb", close=True, dxfattribs={"layer": "links"})
+    document.saveas(tmp_path / "round.dxf")
+    sketch = read_sketch(tmp_path / "round.dxf", drives=[("O", "A")])
+    assert [{*points} for points in sketch.links.values()] == [{*"OA"}, {*"AB"}, {*"BT"}, {*"TA"}, {*"BC"}]
+    assert sketch.fixed == ("O", "C") and compare(plan, sketch)[1] < 1e-9

@@ -437,9 +437,9 @@ def pose_sentence(motion: Motion) -> str:
     if not found and not unknown:
         return ""
     faults = [f"{rule} {pose_value(each)}" for rule, each in found.items() if each.ok is False]
-    kept = said("all kept") if not unknown else said("{count} kept", count=len(found)) if found else ""
+    kept = said("all kept") if not unknown else said("{n} kept", n=len(found)) if found else ""
     parts = [*filter(None, [", ".join(faults) or kept]), *([] if near else [said("outside what is judged")])]
-    parts += [said("{count} not followed here: {rules}", count=len(unknown), rules=", ".join(unknown))] if unknown else []
+    parts += [said("{n} not followed here: {rules}", n=len(unknown), rules=", ".join(unknown))] if unknown else []
     return f"{said('At this pose:')} {'; '.join(parts)}."
 
 

@@ -192,7 +192,7 @@ class PageRequests:
             self.by_name[f"joint {name}"] = transmission(name)
         for name, member in speakers(self.plan, Tabled).items():
             for what, request in member.gauges(self.plan).items():
-                self.by_name |= situated_requests(f"gauge {name} {what}", request, self.situations)
+                self.by_name |= situated_requests(f"gauge {name} {what}", request, self.situations) if what in GAUGES else {}
         for k, (_, x, y, _) in enumerate(self.arrows):
             self.by_name |= situated_requests(f"arrow {k} x", x, self.situations) | situated_requests(f"arrow {k} y", y, self.situations)
 
@@ -334,6 +334,8 @@ def named_in_code(kind: type[Mechanism]) -> PageData:
 def machine_text(requests: PageRequests, live: LiveText, data: PageData, parts: Sequence[str], language: str) -> str:
     """Return the HTML of a page of a machine, with the program that works it out and the parts that a kind of page adds."""
     most, text = max(requests.scene.colours, default=0), f"{live.text}\n{page_part('judge.js')}"
+    if any(place.instants is not None for place in requests.questions.judge.places):
+        text += page_part("judge_time.js")
     return page_text(requests.plan.heading, data, (*MACHINE, *parts, START), language=language, most=most, text=text)
 
 
@@ -447,16 +449,16 @@ def column_data(name: str, found: LiveColumn, live: LiveText, requests: PageRequ
     shown, start = typeset(name), [typeset(name), typeset(shown_in(column.unit))]
     count = len(requests.situations)
     places = situated_rows(f"column {name}", live, count)
-    if isinstance(places, int) or (places and None not in places):
+    if isinstance(places, int) or (places and -1 not in places):
         return [*start, places, *([russian] if russian != shown else [])]
-    lost = [k for k in range(count) if places is None or places[k] is None]
+    lost = [k for k in range(count) if places is None or places[k] < 0]
     reasons = [live.left_out[key] for key in (f"column {name} {k}" for k in lost) if key in live.left_out]
     values = dict[int, list[float | None]]()
     for k in lost:
         given = requests.columns_in_time.get(k, {}).get(name) if k else column
         whole = [] if given is None else np.broadcast_to(np.asarray(given.values, float), (requests.count,)).tolist()
         values |= {k: [float(f"{value:.10g}") if np.isfinite(value) else None for value in whole]} if whole else {}
-    return [*start, -1 if places is None else [-1 if each is None else each for each in places], russian, values, why or reasons[0]]
+    return [*start, -1 if places is None else places, russian, values, why or reasons[0]]
 
 
 def limit_data(requests: PageRequests, name: str) -> list[Any]:
@@ -527,6 +529,7 @@ def cylinder_data(scene: Scene, live: LiveText | None = None, count: int = 0) ->
         if element.drawn_as == "cylinder":
             elements[frozenset(element.ends)].append(name)
     drawn = {(each.P, each.Q, each.aside) for each in scene.two_force if not scene._is_telescope(each)}
+    members = speakers(plan, Tabled)
     found = []
     for each in scene.two_force:
         if each.drawn_as != "cylinder":
@@ -537,12 +540,13 @@ def cylinder_data(scene: Scene, live: LiveText | None = None, count: int = 0) ->
         gauges = {what: row for what, row in gauges.items() if row is not None}
         data = {"name": name or joined_names(each.P, each.Q), "P": points.index(each.P), "Q": points.index(each.Q), "aside": each.aside}
         data |= {"drawn": 1} if (each.P, each.Q, each.aside) in drawn else {}
-        found.append(data | gauges | ({} if pair in driven else {"beside": 1}))
+        is_sized = live is not None and name in members and bool(SIZES & members[name].gauges(plan).keys())
+        found.append(data | gauges | ({"sized": 1} if is_sized else {}) | ({} if pair in driven else {"beside": 1}))
     return found
 
 
-GAUGES = ("pressure", "most", "closed", "stroke")
-"""What is read of a cylinder; see `Tabled.gauges`."""
+GAUGES, SIZES = ("pressure", "most"), {"closed", "stroke"}
+"""What is read of a cylinder, and of what it is known whether it is given; see `Tabled.gauges`."""
 
 
 def scene_data(scene: Scene, lines: Mapping[str, Sequence[int]]) -> PageData:

@@ -50,12 +50,12 @@ def situated_requests(name: str, request: Asked, situations: Sequence[PageSituat
     return {f"{name} {k}": each for k, each in enumerate(asked) if not k or each is not asked[0]}
 
 
-def situated_rows(name: str, live: LiveText, count: int) -> int | list[int | None] | None:
-    """Return the row of what is asked in situations, one for all or one for each; None where its program does not give it."""
+def situated_rows(name: str, live: LiveText, count: int) -> int | list[int] | None:
+    """Return the row of what is asked in situations, one for all or one for each, -1 where its program does not give it; None for none."""
     keys = [f"{name} {k}" for k in range(count)]
     keys = [key if key in live.rows or key in live.left_out else keys[0] for key in keys]
-    found = [live.rows[key][0] if key in live.rows else None for key in keys]
-    return found[0] if len(set(found)) == 1 else found
+    found = [live.rows[key][0] if key in live.rows else -1 for key in keys]
+    return (found[0] if found[0] >= 0 else None) if len(set(found)) == 1 else found
 
 
 def load_part(kind: str, name: Any, axis: int, motion: AnyMotion, acting: Acting) -> FloatArray:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Hashable, Mapping, Sequence
 from contextlib import suppress
-from functools import reduce
+from functools import cached_property, reduce
 from typing import Any, TypeAlias, final
 
 import numpy as np
@@ -35,7 +35,9 @@ PLAIN_WORDS = PageWords("")
 """Of a condition that is said by its own number."""
 MOST = 5000
 """Poses that a page looks at for all its questions together."""
-INSTANTS = 129
+DeliveredRow: TypeAlias = tuple[float | None, ...]
+"""What no program gives, at even instants of a path in time; None where it has no value."""
+INSTANTS = 65
 """Instants of a path in time at which a page has what no program gives; from one to the next it goes straight."""
 PHASES = 200
 """A course of more phases goes to a page as so many cubics through its values and rates."""
@@ -69,7 +71,7 @@ class LiveQuestions:
         self.asked: list[tuple[str, list[Constraint], dict[Leaf, list[Piece]]]] = []
         self.said: dict[str, tuple[str, PageWords]] = {}
         self.units, self.untraced = dict[str, str](), False
-        self.delivered = dict[str, list[list[float | None]]]()
+        self.delivered = dict[str, list[DeliveredRow]]()
         with unwarned(), suppress(LinkageError):  # what verdicts ask is looked for in one pass
             judge.answers(verdict_questions(judge))
         with unwarned():
@@ -154,6 +156,11 @@ class LiveQuestions:
                 found.append((number, row, name))
         return found
 
+    @cached_property
+    def delivered_rows(self) -> list[DeliveredRow]:
+        """The rows that are delivered, those that are equal once."""
+        return list(dict.fromkeys(row for rows in self.delivered.values() for row in rows))
+
     def rows_of_ends(self, strokes: Mapping[str, object]) -> dict[tuple[str, int], str]:
         """Return the rows of the ends and places that follow the design, by their strokes and places among them."""
         spellings, names = self.machine.plan.table.spellings, {}
@@ -177,7 +184,7 @@ class LiveQuestions:
         ]
         travel = [abs(each.end - each.start) for each in self.machine.plan.strokes.values()]
         found: PageData = {"overs": overs, "questions": [each for each in asked if each], "most": MOST, "travel": travel, "near": NEAR}
-        return found | ({"delivered": [row for rows in self.delivered.values() for row in rows]} if self.delivered else {})
+        return found | ({"delivered": self.delivered_rows} if self.delivered else {})
 
     def question(self, live: LiveText, rule: str, constraints: list[Constraint], pieces: Mapping[Leaf, list[Piece]]) -> PageData:
         """Return a question as data; nothing where the program does not give one of its pieces."""
@@ -222,8 +229,8 @@ class LiveQuestions:
         """Return a piece as data: its `Over`, its rows, behind those of the program the delivered ones, its situation."""
         situation, place = row.situation, self.judge.places[number]
         if name in self.delivered:
-            first = sum(count for _, count in live.rows.values()) + 2 * [*self.delivered].index(name)
-            rows = {"row": first, "gaps": first + 1}
+            behind = sum(count for _, count in live.rows.values())
+            rows = {what: behind + self.delivered_rows.index(own) for what, own in zip(("row", "gaps"), self.delivered[name], strict=True)}
         else:
             rows = {"row": live.rows[name][0], "gaps": live.rows[f"{name} gaps"][0], "assumed": live.rows[f"{name} assumed"][0]}
         is_timed = place.instants is not None and is_of_force(row.leaf.quantity)
@@ -233,14 +240,14 @@ class LiveQuestions:
         }  # fmt: skip
 
 
-def delivered_over(place: Domain, request: Request) -> list[list[float | None]]:
+def delivered_over(place: Domain, request: Request) -> list[DeliveredRow]:
     """Return what no program gives over a path in time, at even instants, and what is above zero where it has a bound."""
     assert place.instants is not None
     motion = place.timed(place.instants.shares(np.linspace(0.0, 1.0, INSTANTS)), "nan")
     with unwarned():
         values, free = motion[request], request.unlimited(motion)
     bounded = np.ones(motion.shape) if free is None else np.where(free, -1.0, 1.0)
-    return [[float(f"{each:.10g}") if np.isfinite(each) else None for each in row.tolist()] for row in (values, bounded)]
+    return [tuple(float(f"{each:.10g}") if np.isfinite(each) else None for each in row.tolist()) for row in (values, bounded)]
 
 
 def course_data(instants: Instants) -> PageData:

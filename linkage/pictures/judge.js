@@ -1,24 +1,7 @@
 /* Questions of a design over all that the machine runs: on a grid, then by stencils about the worst; no more poses than `most` in all.
    What has no value counts as Python's judge counts it: lost, unlimited, outside, or nothing left. */
-/* Of an `Over` in time the value, the rate and the acceleration of each stroke at an instant: at a break those of the phase that begins there. */
-const atInstant = ({ time: [, stop], courses }, t) => courses.map(([breaks, phases, last]) => {
-  const n = phases.length, end = breaks[n], stands = t < breaks[0] || t > end || (t === end && end < stop);
-  let i = 0, v = 0, r = 0, a = 0;
-  while (i < n - 1 && t >= breaks[i + 1]) i++;
-  const x = Math.min(Math.max(t, breaks[0]), end) - breaks[i];
-  for (let k = phases[i].length; k--;) { a = a * x + r; r = r * x + v; v = v * x + phases[i][k]; }
-  return [t >= end ? last : v, stands ? 0 : r, stands ? 0 : 2 * a];
-});
-/* The rates and behind them the accelerations of all strokes at some instants, as the engine takes them; nothing of what is not in time. */
-const ratesAt = (over, times) => {
-  if (!over.courses) return undefined;
-  const states = times.map((t) => atInstant(over, t));
-  return [1, 2].flatMap((order) => over.courses.map((_, k) => states.map((each) => each[k][order])));
-};
-const SPANS = 64;
 const judging = (engine, { overs: all, questions, most, travel, near }, watched = []) => {
-  const timeAt = ({ time: [begin, end] }, u) => (u === SPANS ? end : begin + ((end - begin) * u) / SPANS);
-  const given = all.map((over) => (over.courses ? { ...over, places: over.courses.map((_, k) => Array.from({ length: SPANS + 1 }, (_, u) => atInstant(over, timeAt(over, u))[k][0])) } : over));
+  const given = all.map((over) => (over.courses ? inPlaces(over) : over));
   const { abs, max, min, floor } = Math, isNumber = Number.isFinite, MET = 1e-9, TIE = 1e-9;
   /* The ends and places of each `Over` as a design has them: [row, value] follows it, as the program says, and is the value as delivered. */
   const delivered = (each) => (Array.isArray(each) ? each[1] : each), every = (over, act) => (over.places || over.ends).map((list) => list.map(act));
@@ -42,7 +25,7 @@ const judging = (engine, { overs: all, questions, most, travel, near }, watched 
   /* The strokes at a place: of a box its running strokes, of a path the share of its legs, of poses their number. */
   const strokesAt = (o, u) => {
     const { shape, ends, places, courses } = overs[o];
-    if (courses) return atInstant(overs[o], timeAt(overs[o], u[0] || 0)).map(([value]) => value);
+    if (courses) return atInstant(overs[o], timeAt(overs[o], u[0])).map(([value]) => value);
     if (shape === "box") { const found = ends.map(([a]) => a); axes[o].forEach(([, , k], j) => { found[k] = u[j]; }); return found; }
     const i = shape === "path" ? min(floor(u[0] || 0), max(places[0].length - 2, 0)) : u[0], t = shape === "path" ? (u[0] || 0) - i : 0;
     return places.map((p) => (t === 0 ? p[i] : t === 1 ? p[i + 1] : p[i] + (p[i + 1] - p[i]) * t));
@@ -51,11 +34,11 @@ const judging = (engine, { overs: all, questions, most, travel, near }, watched 
   const size = (n) => overs.reduce((sum, over, o) => sum + (over.shape === "poses" ? over.places[0].length : steps(o, n).reduce((count, each) => count * (each + 1), 1)), 0);
   const grid = (o, n) => {
     if (overs[o].shape === "poses") return overs[o].places[0].slice(0, most).map((_, i) => [i]);
-    const counts = steps(o, n), { courses, time } = overs[o];
-    const breaks = courses ? [...new Set(courses.flatMap(([own]) => own))].flatMap((t) => [-1e-9, 0, 1e-9].map((off) => [SPANS * ((t - time[0]) / (time[1] - time[0]) + off)])).filter(([u]) => u > 0 && u < SPANS) : [];
+    const counts = steps(o, n);
     const evenly = axes[o].reduce((list, [a, b], j) => list.flatMap((u) => Array.from({ length: counts[j] + 1 }, (_, i) => [...u, i === counts[j] ? b : a + ((b - a) * i) / counts[j]])), [[]]);
-    return [...evenly, ...breaks].sort(([a], [b]) => (breaks.length ? a - b : 0));
+    return overs[o].courses ? withBreaks(overs[o], evenly) : evenly;
   };
+  const fixedBy = (piece, { values }) => ({ score: values[piece.row][0] * piece.sense, u: [], lawless: 0, unlimited: 0, unknown: 0 });
   /* The worst of a piece among some poses. */
   const worstOf = (piece, found, known = { score: -Infinity, u: null, lawless: 0, unlimited: 0, unknown: 0 }) => {
     const { list, asked, values } = found, result = { ...known };
@@ -129,10 +112,10 @@ const judging = (engine, { overs: all, questions, most, travel, near }, watched 
   /* What the questions say of one pose, which `found` is of: over the overs that look at it, over all where none does. A path in time looks
      at it only while it runs; forces over it are known at its rates alone. */
   const here = (at, found, running) => {
-    const every = overs.map((_, o) => o), runs = (o) => !overs[o].courses || o === running, own = every.filter((o) => runs(o) && covers(o, at, found.values));
-    const among = own.length ? own : every.some(runs) ? every.filter(runs) : every;
-    const one = { list: [[]], asked: [true], values: found.values }, stands = { score: NaN, u: null, lawless: 0, unlimited: 0, unknown: 1 };
-    return { covered: own.length > 0, found: questions.map(({ leaves }, q) => decided(q, leaves.map(({ at: fixed, pieces }) => pieces.map((piece) => (fixed ? { score: found.values[piece.row][0] * piece.sense, u: [], lawless: 0, unlimited: 0, unknown: 0 } : piece.timed && piece.over !== running ? stands : worstOf(piece, one)))), among, null)).map((each) => ({ ...each, strokes: null, name: "" })) };
+    const every = overs.map((_, o) => o), open = every.filter((o) => !overs[o].courses || o === running), own = open.filter((o) => covers(o, at, found.values));
+    const among = own.length ? own : open.length ? open : every;
+    const one = { list: [[]], asked: [true], values: found.values };
+    return { covered: own.length > 0, found: questions.map(({ leaves }, q) => decided(q, leaves.map(({ at: fixed, pieces }) => pieces.map((piece) => (fixed ? fixedBy(piece, found) : worstOf(piece.timed && piece.over !== running ? {} : piece, one)))), among, null)).map((each) => ({ ...each, strokes: null, name: "" })) };
   };
   const ask = (vector, wanted, refines) => {
     laid(vector);
@@ -140,8 +123,8 @@ const judging = (engine, { overs: all, questions, most, travel, near }, watched 
     while (n > 2 && size(n) > most) n--;
     const look = (o, list) => {
       count += list.length;
-      const at = list.map((u) => strokesAt(o, u)), rates = overs[o].courses && ratesAt(overs[o], list.map(([u]) => timeAt(overs[o], u)));
-      const found = engine.sweep(vector, (overs[o].places || overs[o].ends).map((_, k) => at.map((p) => p[k])), rates);
+      const over = overs[o], at = list.map((u) => strokesAt(o, u));
+      const found = engine.sweep(vector, (over.places || over.ends).map((_, k) => at.map((p) => p[k])), over.courses && ratesAt(over, list.map(([u]) => timeAt(over, u))));
       const asked = list.map((_, i) => found.reason[i] === 0 && overs[o].only.every((row) => found.values[row][i] >= 0));
       return { ...found, list, asked };
     };
@@ -153,7 +136,7 @@ const judging = (engine, { overs: all, questions, most, travel, near }, watched 
       return { share: gone / list.length, allowed: overs[o].lost, reason: worst < 0 ? 0 : reason[worst], missing: worst < 0 ? 0 : missing[worst], strokes: worst < 0 ? null : strokesAt(o, list[worst]), over: overs[o].name };
     });
     const first = strokesAt(0, seen[0].list[0]), one = engine.sweep(vector, first.map((value) => [value]));
-    const worsts = questions.map(({ leaves }) => leaves.map(({ at, pieces }) => pieces.map((piece) => (at ? { score: one.values[piece.row][0] * piece.sense, u: [], lawless: 0, unlimited: 0, unknown: 0 } : worstOf(piece, seen[piece.over])))));
+    const worsts = questions.map(({ leaves }) => leaves.map(({ at, pieces }) => pieces.map((piece) => (at ? fixedBy(piece, one) : worstOf(piece, seen[piece.over])))));
     const every = overs.map((_, o) => o), judged = (q) => decided(q, worsts[q], every, lost);
     const found = questions.map((_, q) => judged(q));
     for (let round = 0; refines && round < 12; round++) for (const [q, each] of found.entries()) {

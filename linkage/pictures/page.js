@@ -10,10 +10,10 @@ if (!strokes.some((each) => each.path && each.over === undefined)) for (const [o
 }
 /* A dimension as it comes: its name, value, least and greatest [SI], unit, whether it is a length, and where it stands. */
 /* A column has a row of the program in each load case in which it differs; that of the path that runs is shown. */
-const rowNow = (row) => { const found = Array.isArray(row) ? row[caseNow()] : row; return found === null || found < 0 ? undefined : found; };
+const rowNow = (row) => { const found = row[caseNow()] ?? row; return found >= 0 ? found : undefined; };
 const columns = data.columns.map(([name, unit, row, ru, values, why]) => ({ name, unit, factor: units[unit], ru, why, get values() { return values?.[caseNow()]; }, get row() { return rowNow(row); } }));
 const caseNow = () => data.situationOf[strokes[runs].over] ?? 0;
-for (const each of [...data.cylinders, ...data.arrows]) for (const name of ["pressure", "most", "x", "y"]) if (Array.isArray(each[name])) {
+for (const each of [...data.cylinders, ...data.arrows]) for (const name of ["pressure", "most", "x", "y"]) if (each[name]?.length) {
   const row = each[name];
   Object.defineProperty(each, name, { get: () => rowNow(row) });
 }
@@ -37,10 +37,10 @@ function laid(design) {
 }
 function sweep(design, at, run) {
   laid(design);
-  const { start, end } = strokes[run];
+  const { start, end, courses } = strokes[run];
   const along = Float64Array.from({ length: COUNT }, (_, i) => (i === COUNT - 1 ? end : start + ((end - start) * i) / (COUNT - 1)));
   const poses = Array.from(along, (value) => followed(at.map((stands, k) => (k === run ? value : stands)), run));
-  const found = engine.sweep(vector(design), own.map((_, k) => Float64Array.from(poses, (pose) => pose[k])), ratesAt(strokes[run], [...along]));
+  const found = engine.sweep(vector(design), own.map((_, k) => Float64Array.from(poses, (pose) => pose[k])), courses && ratesAt(strokes[run], [...along]));
   return { ...found, along, reached: [...along.keys()].filter((i) => found.reason[i] === 0) };
 }
 /* Along a path all strokes that it drives follow the place on it, in straight lines from one of its places to the next. */
@@ -56,14 +56,14 @@ function followed(at, run = runs) {
 }
 function single(design, at) {
   laid(design);
-  const found = engine.sweep(vector(design), followed(at).slice(0, own.length).map((value) => [value]), ratesAt(strokes[runs], [at[runs]]));
-  if (data.judge.delivered && design.every((value, i) => value === dims[i].value)) found.values.push(...data.judge.delivered.map((list) => [valueAt(list, at[runs])]));
+  const found = engine.sweep(vector(design), followed(at).slice(0, own.length).map((value) => [value]), strokes[runs].courses && ratesAt(strokes[runs], [at[runs]]));
+  if (!isChanged()) found.values.push(...(data.judge.delivered ?? []).map((list) => [valueAt(list, at[runs])]));
   return found;
 }
 /* Return a value at a place of the running stroke, between two of a list of values at even steps; NaN where there is none. */
 function valueAt(list, place) {
   const { start, end } = strokes[runs], last = list.length - 1, where = min(max(((place - start) / (end - start)) * last, 0), last), i = min(floor(where), last - 1), t = where - i;
-  const [a, b] = [list[i], list[i + 1]].map((each) => each ?? NaN);
+  const a = list[i] ?? NaN, b = list[i + 1] ?? NaN;
   return t === 0 ? a : t === 1 ? b : a + (b - a) * t;
 }
 const titled = (each) => (each.name === "along the path" ? say("place") : each.name);
@@ -106,9 +106,8 @@ function warn(text) {
 function series(each, found) {
   if (!each) return null;
   if (each.row !== undefined) return found.values[each.row];
-  return found === base || asDelivered() ? each.values : null;
+  return found === base || !(isChanged() || (isMoved() && !strokes[runs].courses)) ? each.values : null;
 }
-const asDelivered = () => !isChanged() && (strokes[runs].courses || !isMoved());
 
 /* ---- what is drawn of the present state beside the mechanism ---- */
 
@@ -169,9 +168,7 @@ function arrow(each) {
   const { point, load } = each, colour = css(load ? "accent" : "other"), line = draw(sheet, "path", { w: 2.2, join: "round", fill: colour, stroke: colour });
   const number = label(point, "halo force", FORCE_FONT, 12, `color-mix(in srgb, ${colour} 60%, var(--ink))`);
   return (at) => {
-    const { x, y } = each;
-    if (x === undefined || y === undefined) { set(line, { d: "" }); number.said = ""; return; }
-    const k = pull.scale, f = [pose.values[x][0] * k, -pose.values[y][0] * k], long = hypot(...f), head = min(9, 0.5 * long);
+    const { x, y } = each, k = pull.scale, f = [pose.values[x]?.[0] * k, -pose.values[y]?.[0] * k], long = hypot(...f), head = min(9, 0.5 * long);
     if (!showsForces || !(long > 1)) { set(line, { d: "" }); number.said = ""; return; }
     const d = [f[0] / long, f[1] / long], tip = [at[point][0] + f[0], at[point][1] + f[1]], neck = [tip[0] - head * d[0], tip[1] - head * d[1]], w = 0.38 * head;
     set(line, { d: broken([at[point], neck, [neck[0] - w * d[1], neck[1] + w * d[0]], tip, [neck[0] + w * d[1], neck[1] - w * d[0]], neck]) });
@@ -182,7 +179,7 @@ function arrow(each) {
 const pull = { scale: 0, most: 0 };
 function pullScale() {
   pull.most = 0;
-  for (const { x, y } of data.arrows) if (x !== undefined && y !== undefined) for (const i of now.reached) pull.most = max(pull.most, hypot(now.values[x][i], now.values[y][i]) || 0);
+  for (const { x, y } of data.arrows) for (const i of now.reached) pull.most = max(pull.most, hypot(now.values[x]?.[i], now.values[y]?.[i]) || 0);
   pull.scale = pull.most ? min(sheetWide, sheetTall) / 4.5 / pull.most : 0;
 }
 function pressureScale() {
@@ -317,9 +314,8 @@ function plotted() {
     write(late ? W - R - 5 : L + 5, at + (limit[2] === "below" && at + 20 < H - B ? 15 : at < T + 18 ? 15 : -6), limit[1], { class: "note halo", anchor: late ? "end" : "start" });
   }
   if (data.task) wantedOnCurve(x, y, one);
-  const reason = one && one.row === undefined && one.why ? one.why : "";
   if (!values && one) write(L + 8, T + 18, say("as delivered only: this column is not followed in the page"), { class: "note halo" });
-  byId("column").title = reason;
+  byId("column").title = (one?.row === undefined && one?.why) || "";
   if (compares) write(W - R, H - 6, say("dashed: as delivered"), { anchor: "end" });
   reader();
   chart.second = draw(plot, "circle", { r: 4.5, w: 2, fill: css("other"), stroke: css("paper") });

@@ -159,7 +159,7 @@ function cylinder(each, changed, add) {
   for (const i of now.reached) lengths[i] = apart(spot(now, each.P, i), spot(now, each.Q, i));
   const ext = extremes(lengths);
   if (!ext) return;
-  if (each.closed === undefined && each.stroke === undefined && ext.high.value - ext.low.value > 1e-6) add(null, each.name, say("pins {low} to {high} apart", { low: mm(ext.low.value), high: mm(ext.high.value) }), more);
+  if (!each.sized && ext.high.value - ext.low.value > 1e-6) add(null, each.name, say("pins {low} to {high} apart", { low: mm(ext.low.value), high: mm(ext.high.value) }), more);
   if (changed && each.beside && ext.high.value - ext.low.value > 1e-6) {
     const slopes = now.reached.slice(1).map((i) => lengths[i] - lengths[i - 1]), k = slopes.findIndex((slope, i) => i && slope * slopes[i - 1] < 0);
     if (k > 0) add(null, each.name, say("its length stands still at about {where}, where its thrust moves nothing", { where: strokeText(now.along[now.reached[k]]) }), more);
@@ -191,9 +191,9 @@ function judge(n = STILL) {
 }
 const weight = ({ ok, share, rule }) => (ok === false ? 1e6 : rule ? 0 : -1e3) + (isNumber(share) ? share : -1);
 function list(found) {
-  const groups = new Map(), worst = (list) => max(...list.map(weight));
+  const groups = new Map(), failing = new Set(found.map((each) => phone.matches && each.ok === false && each.member)), worst = (list) => max(...list.map(weight));
   for (const each of found) {
-    const key = each.stale ? " stale" : each.member;
+    const key = each.stale ? " stale" : each.ok && failing.has(each.member) ? `${each.member} kept` : each.member;
     if (!groups.has(key)) groups.set(key, []);
     groups.get(key).push(each);
   }
@@ -202,7 +202,7 @@ function list(found) {
 }
 function group(member, rows) {
   const fold = make("details"), head = make("summary"), title = make("b"), fails = rows.filter((each) => each.ok === false).length, [worst] = rows, items = make("ul");
-  title.textContent = member === " stale" ? say("{n} verdicts do not follow your changes; they are as delivered", { n: rows.length }) : groupName(member) || say("Machine");
+  title.textContent = member === " stale" ? say("{n} verdicts do not follow your changes; they are as delivered", { n: rows.length }) : groupName(worst.member) || say("Machine");
   head.className = fails ? "bad" : rows.some((each) => each.ok === true) ? "ok" : "";
   head.append(title);
   if (member !== " stale") {
@@ -211,17 +211,8 @@ function group(member, rows) {
   }
   fold.open = unfolded.has(member) || ((fails > 0 || (data.task && !member)) && !unfolded.has(`!${member}`));
   on(fold, "toggle", () => { unfolded[fold.open ? "add" : "delete"](member); unfolded[fold.open ? "delete" : "add"](`!${member}`); });
-  const apart = fails > 0 && phone.matches, kept = apart ? rows.filter((each) => each.ok === true) : [];
-  items.append(...rows.filter((each) => !kept.includes(each)).map(item));
+  items.append(...rows.map(item));
   fold.append(head, items);
-  if (kept.length) {
-    const more = make("details"), inner = make("ul"), key = `${member} kept`;
-    inner.append(...kept.map(item));
-    more.append(make("summary", { className: "ok", textContent: say("{n} kept", { n: kept.length }) }), inner);
-    more.open = unfolded.has(key);
-    on(more, "toggle", () => unfolded[more.open ? "add" : "delete"](key));
-    fold.append(more);
-  }
   return fold;
 }
 function item({ ok, rule: full, member, text, share, q }) {
@@ -327,17 +318,17 @@ function here() {
       on(link, "click", (event) => { event.preventDefault(); showRule(q); });
       return link;
     }));
-    const { length: open } = found.unknown;
-    if (!found.faults.length && (found.kept || !open)) parts.push(make("span", { className: "ok", textContent: open ? say("{count} kept", { count: found.kept }) : say("all kept") }));
+    const open = found.unknown.length;
+    if (!found.faults.length && (found.kept || !open)) parts.push(make("span", { className: "ok", textContent: open ? say("{n} kept", { n: found.kept }) : say("all kept") }));
     if (!found.covered) parts.push(make("span", { className: "beyond", textContent: say("outside what is judged") }));
-    if (open) parts.push(make("span", { className: "open", textContent: say("{count} not followed here: {rules}", { count: open, rules: found.unknown.join(", ") }) }));
+    if (open) parts.push(make("span", { className: "open", textContent: say("{n} not followed here: {rules}", { n: open, rules: found.unknown.join(", ") }) }));
   }
   line.replaceChildren(...parts.flatMap((each) => [each, " "]));
 }
 /* Unfold a rule and go to it. */
 function showRule(q) {
   const row = byId(`rule-${q}`) || byId("verdicts");
-  for (let fold = row.closest("details"); fold; fold = fold.parentElement.closest("details")) fold.open = true;
+  if (row.closest("details")) row.closest("details").open = true;
   row.scrollIntoView({ block: "center" });
   row.classList.add("shown");
   setTimeout(() => row.classList.remove("shown"), 1500);

@@ -68,7 +68,8 @@ def played(machine, count=5):
     places = requests.questions.judge.places
     over = next(k for k, place in enumerate(places) if place.instants is not None)
     motion = places[over].timed(places[over].instants.shares(np.linspace(0.0, 1.0, count)), "nan")
-    job = {"text": f"{live.text}\n{page_part('judge.js')}", "judge": data["judge"], "over": over, "times": motion.time.tolist()}
+    text = "\n".join((live.text, page_part("judge.js"), page_part("judge_time.js")))
+    job = {"text": text, "judge": data["judge"], "over": over, "times": motion.time.tolist()}
     job["design"] = [float(machine.dimensions[name]) for name in live.dimensions]
     run = subprocess.run(["node", "-e", RUNNER], input=json.dumps(job), capture_output=True, text=True)
     assert not run.returncode, run.stderr[-2000:]

@@ -133,7 +133,8 @@ class Stage:
         self.live = self._curve(bound)
         self.stroke = self.figure.text(SHEET[0] + SHEET[2], TITLE, "", fontsize=style.TITLE, color=style.INK, ha="right", va="center")
         held, lost = self.along.held, unreached_words(playback.motion, self.along.name)
-        at_left = SHEET[0], said("at {place}", place=held) if held else "", style.MUTED, "left"
+        beside = ", ".join(filter(None, (said("at {place}", place=held) if held else "", playback.case)))
+        at_left = SHEET[0], beside, style.MUTED, "left"
         at_right = SHEET[0] + SHEET[2], lost, style.ACCENT, "right"
         for x, text, colour, side in (at_left, at_right):
             if text:

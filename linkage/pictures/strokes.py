@@ -16,7 +16,7 @@ from ..mechanism import Mechanism
 from ..motion import Column, Motion, check_any, last_holding, require_motion, stroke_display_unit
 from ..plan import Plan
 from ..program import FloatArray
-from ..reports import NOTHING, At, Run, column_among, motion_over, reached_motion, results, run_of
+from ..reports import NOTHING, At, Run, column_among, in_case_words, motion_over, reached_motion, results, run_of
 from ..units import factor, show, shown_in
 
 
@@ -146,7 +146,7 @@ CLOSED = 1e-6
 class Playback:
     """A motion along one stroke, the poses in reach in the order they are shown, the column to follow.
 
-    Each is shown for `seconds`; over a path in time they are real.
+    Each is shown for `seconds`; over a path in time they are real. `case` is the load case in words.
     """
 
     motion: Motion
@@ -154,6 +154,7 @@ class Playback:
     column: Column
     is_turn: bool
     seconds: float = 1.0 / RATE
+    case: str = ""
 
 
 def playback(machine: Mechanism, count: int, column: str | None = None, *, at: At | Motion = NOTHING, eased: bool = True) -> Playback:
@@ -176,7 +177,8 @@ def playback(machine: Mechanism, count: int, column: str | None = None, *, at: A
     turn = ((turn or run.is_path) and bool(motion.reached.all()) and ends_where_begun(motion)) or run.instants is not None
     there = [int(pose) for pose in np.flatnonzero(motion.reached)]
     shown = column_among(machine, results(machine, motion, run.case), column)
-    return Playback(motion, tuple(there if turn else there + there[-2:0:-1]), shown, turn, seconds)
+    case = in_case_words(machine.plan, run.case)
+    return Playback(motion, tuple(there if turn else there + there[-2:0:-1]), shown, turn, seconds, case)
 
 
 def is_turn(machine: Mechanism, run: Run) -> bool:

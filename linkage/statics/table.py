@@ -13,7 +13,7 @@ from ..errors import DefinitionError, cited, unwarned
 from ..language import noted, said, translated
 from ..loads import FRICTIONLESS, Acting
 from ..motion import Answer, Judge, Motion, Over, greatest, most, stroke_unit
-from ..motion.limits import place_text
+from ..motion.limits import place_text, timed_texts
 from ..quantities import body_name
 from ..shown import text_columns
 from ..units import shown_number, unit_sign
@@ -52,8 +52,11 @@ class PinLoad:
 
     @property
     def place(self) -> str:
-        """Where it occurs, in words: `phi = 15.00 deg, t = 0.0000 m`; over which `Over`, where there are several."""
+        """Where it occurs, in words: `phi = 15.00 deg, t = 0.0000 m`, in time `2 s (t = 0.0 mm)`; over which of several `Over`s."""
         at = ", ".join(f"{name} = {place_text(value, self.units[name])}" for name, value in self.strokes.items())
+        if self.answer is not None and np.isfinite(self.answer.time):
+            time, there = timed_texts(self.strokes, self.units, float(self.answer.time))
+            at = f"{time} ({there})"
         return ", ".join(each for each in (at, self.over and said("over {over}", over=self.over)) if each)
 
     @property

@@ -347,7 +347,7 @@ def unit_tables(used: set[str]) -> PageData:
         "length": unit_data("mm"),
         "force": unit_data("kN"),
         "signs": signs({*used, *map(shown_in, ("bar", "mm", "kN"))}),
-        "measures": {typeset(unit): [factor(unit), measure] for unit, (_, measure) in UNITS.items()},
+        "measures": {typeset(unit): [factor(unit), measure] for unit, (_, measure) in UNITS.items() if "jerk" not in measure},
         "systems": {name: {measure: typeset(unit) for measure, unit in units.items()} for name, units in SYSTEMS.items()},
         "systemNames": SYSTEM_NAMES,
     }

@@ -60,7 +60,7 @@ def machine_of(options: Namespace, like: Callable[[str], type[Mechanism]] | None
         ensure(not own, f"--machine {own}: {options.machine} is no file of a design, with `machine` and `[set]`.")
         return design(found(options.machine), options.settings)
     changed = held.replaced(**dict(parsed_setting(held.plan, text) for text in options.settings))
-    return made(type(held), changed.dimensions) if options.settings else held  # made anew, as a class may have checks of its own
+    return design_with(type(held), changed.dimensions) if options.settings else held  # made anew, as a class may have checks of its own
 
 
 def overs_of(machine: Mechanism, texts: Sequence[str]) -> list[Over] | None:
@@ -139,10 +139,10 @@ def print_verdicts(verdicts: Sequence[Verdict], options: Namespace) -> int:
 
 def design(machine: type[Kind], texts: Sequence[str]) -> Kind:
     """Return a design of a machine under settings such as `OB=180mm`; DefinitionError for what is unknown or unfit."""
-    return made(machine, dict(parsed_setting(machine.plan, text) for text in texts))
+    return design_with(machine, dict(parsed_setting(machine.plan, text) for text in texts))
 
 
-def made(machine: type[Kind], given: Mapping[str, Any]) -> Kind:
+def design_with(machine: type[Kind], given: Mapping[str, Any]) -> Kind:
     """Return a design of a machine with these dimensions; DefinitionError for what is unknown or unfit."""
     try:
         signature(machine.__init__).bind(None, **given)

@@ -20,7 +20,7 @@ from ..motion.limits import StrokeLimits
 from ..motion.measures import Least, Most
 from ..motion.requests import may_be_unlimited
 from ..pictures import mechanism
-from ..pictures.curves import as_curve, limit_of, note, panel
+from ..pictures.curves import as_curve, limit_of, panel, small_text
 from ..pictures.scene import Scene
 from ..pictures.style import ACCENT, INK, THIN, TITLE
 from ..program import FloatArray
@@ -245,7 +245,7 @@ def draw_column(ax: Axes, motion: Motion, column: Column, bound: Sequence[object
     ax.set_ylim(min([low, *(value - air for value, *_ in marks)]), max([high, *(value + air for value, *_ in marks)]))
     for value, is_least, text in marks:
         ax.axhline(value, color=INK, linewidth=1.1, linestyle=(0, (1.5, 1.5)), zorder=4.0)
-        note(ax, with_decimals(text), (1.0, value), (-4, -3 if is_least else 3), INK, ("axes fraction", "data"))
+        small_text(ax, with_decimals(text), (1.0, value), (-4, -3 if is_least else 3), INK, ("axes fraction", "data"))
 
 
 @final

@@ -61,7 +61,7 @@ def draw_chain(graph: nx.MultiGraph) -> Figure:
     return figure
 
 
-def node_places(graph: nx.MultiGraph) -> dict[Any, FloatArray]:
+def node_places(graph: nx.MultiGraph) -> dict[str, FloatArray]:
     """Return where the bodies stand, shape (2,) each: neighbours near each other, few crossings, the frame below."""
     import networkx as nx
 

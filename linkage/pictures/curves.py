@@ -265,14 +265,15 @@ def mark_limit(ax: Axes, along: StrokeAxis, column: Column, limit: Limit) -> Non
     for place in limit_crossings(along.values, column.drawn, value):
         ax.plot([place], [value], marker="o", markersize=6, color=style.ACCENT, markeredgecolor=style.PAPER, zorder=6.0)
         right = place < 0.5 * (along.values.min() + along.values.max())  # on the failing side of the line
-        note(ax, f"{place:.4g} {translated(along.unit)}", (place, value), (7 if right else -7, -4 if limit.fails == "below" else 4))
+        spot = 7 if right else -7, -4 if limit.fails == "below" else 4
+        small_text(ax, f"{place:.4g} {translated(along.unit)}", (place, value), spot)
     gaps = np.abs(np.nan_to_num(column.drawn, nan=value) - value)
     right = gaps[np.argmax(along.values)] >= gaps[np.argmin(along.values)]  # its words stand at the end that is further from the curve
     spot = (-5 if right else 5, 3 if limit.fails == "above" else -3)
-    note(ax, typeset(limit.text), (1.0 if right else 0.0, value), spot, coords=("axes fraction", "data"))
+    small_text(ax, typeset(limit.text), (1.0 if right else 0.0, value), spot, coords=("axes fraction", "data"))
 
 
-def note(
+def small_text(
     ax: Axes, text: str, at: tuple[float, float], offset: tuple[float, float], colour: str = style.ACCENT, coords: Any = "data"
 ) -> None:
     """Write a small text at an offset [points] from a place, on the side to which that leads."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from types import MappingProxyType
-from typing import Any, final
+from typing import final
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -14,7 +14,7 @@ from ..program import FloatArray
 from . import style
 from .scene import Bounds, Places
 from .shapes import lines_cross, polar
-from .sheet import haloed_beside
+from .sheet import Keywords, haloed_beside
 from .style import Look
 from .symbols import MovingPart
 
@@ -49,7 +49,7 @@ class LabelPart(MovingPart):
         leader = {"arrowstyle": "-", "color": look.colour(style.MUTED), "linewidth": 0.8, "shrinkA": 0.0, "shrinkB": 0.6 * gap}
         self.is_led = bool(distance_to_box(offset, half_of(text, font)) > LED * gap)
         colour = look.colour(style.MUTED if minor else style.INK)
-        more: dict[str, Any] = {"ha": "center", "fontstyle": "italic", "zorder": look.level + 1.0}
+        more: Keywords = {"ha": "center", "fontstyle": "italic", "zorder": look.level + 1.0}
         more["bbox"] = {"boxstyle": "square,pad=0.05", "facecolor": "none", "edgecolor": "none"}
         more["arrowprops"] = leader if self.is_led else None
         self.text = haloed_beside(ax, text, np.zeros(2), offset, font, colour, **more)

@@ -24,7 +24,7 @@ from ..study.monte_carlo import Band, MonteCarlo, share_words
 from ..study.tolerances import Tornado, tolerance_words
 from ..units import factor, show, shown_in, unit_or_none, unit_sign
 from . import style
-from .curves import WIDEST, Limit, axis_range, limit_on, note, panel_grid, stroke_panel, typeset
+from .curves import WIDEST, Limit, axis_range, limit_on, panel_grid, small_text, stroke_panel, typeset
 from .sheet import panels
 from .strokes import StrokeAxis
 
@@ -152,7 +152,7 @@ def plot_tornado(found: Tornado) -> Figure:
             if np.isfinite(change):
                 ax.barh(place, change / scale, height=0.62, color=colour, alpha=0.85, linewidth=0, zorder=4.0)
             ax.plot([linear / scale], [place], "|", color=style.INK, markersize=11, markeredgewidth=1.6, zorder=5.0)
-        note(ax, f"{100.0 * bar.share:.0f} %", (1.0, place), (-4, 0), style.MUTED, ("axes fraction", "data"))
+        small_text(ax, f"{100.0 * bar.share:.0f} %", (1.0, place), (-4, 0), style.MUTED, ("axes fraction", "data"))
     ax.axvline(0.0, color=style.INK, linewidth=1.0, zorder=6.0)
     ax.set_yticks(range(len(bars)), [tolerance_words(found.plan, bar.name, bar.tolerance) for bar in bars])
     ax.tick_params(axis="y", labelsize=style.TEXT, labelcolor=style.INK)

@@ -146,7 +146,7 @@ class OnCylinder(Point):
         self.cylinder, self.along = cylinder, quantity(along)
         self.across = None if across is None else quantity(across)
         for value in (self.along, self.across):
-            if value is not None and value.number is not None and not abs(value.number) < float("inf"):
+            if value is not None and value.constant is not None and not abs(value.constant) < float("inf"):
                 raise DefinitionError(f"{self}: along and across are finite numbers [m].")
 
     def among(self, members: NamedMembers) -> Self:
@@ -171,7 +171,7 @@ class OnCylinder(Point):
         return (*self.ends, *numbers, *owner)
 
     def variables(self) -> tuple[tuple[str, float, str, str], ...]:
-        return tuple((name, value.number, "coordinate", "") for name, value in self.numbers() if value.number is not None)
+        return tuple((name, value.constant, "coordinate", "") for name, value in self.numbers() if value.constant is not None)
 
     def having(self, values: Mapping[str, float]) -> Self:
         given = {name.rpartition(".")[2]: quantity(values[name]) for name, _ in self.numbers() if name in values}
@@ -180,9 +180,9 @@ class OnCylinder(Point):
     def faults(self, members: NamedMembers) -> Iterator[str]:
         """Yield that it is beyond the ends of its body."""
         closed: Any = getattr(members[name_of(self.cylinder)], "closed", None)
-        if self.along.number is None or not quantity(closed).is_constant:
+        if self.along.constant is None or not quantity(closed).is_constant:
             return
-        along, long = self.along.number, float(closed)
+        along, long = self.along.constant, float(closed)
         if along > long or along < (-long if self.is_on_A else 0.0):
             beyond = "its pin" if along < 0.0 else f"its end, {long / mm:.6g} mm from there"
             there = f"{along / mm:.6g} mm along {self.what}, counted from {self.ends[0]} towards {self.ends[1]}, is beyond {beyond}"

@@ -110,7 +110,7 @@ def filled_kind() -> Any:
 
     def one(given: Any, names: Any) -> Any:
         found = quantity_of(given, names)
-        return found if found.number is None or found.name else found.number
+        return found if found.constant is None or found.name else found.constant
 
     def read(given: Any, names: Any) -> Any:
         if isinstance(given, Mapping):

@@ -76,9 +76,9 @@ def condition_of(text: object, names: Names) -> PoseCondition:
     left, right = (expression(found.group(side).strip(), names) for side in (1, 3))
     if left.is_constant and right.is_constant:
         raise DefinitionError(f"{shortened(text)} compares two numbers; one side is a quantity such as x(T).")
-    if left.number is not None:
-        return PoseCondition(right, {"<=": ">=", ">=": "<="}[found.group(2)], left.number)
-    return PoseCondition(left, found.group(2), right if right.number is None else right.number)
+    if left.constant is not None:
+        return PoseCondition(right, {"<=": ">=", ">=": "<="}[found.group(2)], left.constant)
+    return PoseCondition(left, found.group(2), right if right.constant is None else right.constant)
 
 
 def over_written(member: Over, design: Design) -> Keywords:

@@ -97,9 +97,9 @@ def amount_of(given: object, names: Names, measures: str) -> Any:
     if unit and measures and UNITS[unit][1] != measures:
         parse(given.strip("+-() \t\n"), measures)  # which tells the units that do
     found = expression(given, names)
-    if found.number is None:
+    if found.constant is None:
         return found
-    return Amount(found.number, UNITS[unit][1]) if unit and not measures else found.number
+    return Amount(found.constant, UNITS[unit][1]) if unit and not measures else found.constant
 
 
 def several(what: str, one: Read) -> Read:

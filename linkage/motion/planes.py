@@ -52,14 +52,14 @@ class Planes(HasVerdicts):
             what = f"Planes({', '.join(map(cited, planes))})"
             raise DefinitionError(f'{what}: the names of the bodies of each plane are expected in one text, Planes("OBC AB", "CD EDF").')
         self.planes, self.width = planes, quantity(width)
-        if self.width.number is not None and not 0.0 <= self.width.number < np.inf:
+        if self.width.constant is not None and not 0.0 <= self.width.constant < np.inf:
             raise DefinitionError(f"Planes(width={self.width}): the sum of two half widths is expected [m], zero or more.")
 
     def parts(self) -> tuple[Reference, ...]:
         return () if self.width.is_constant else (self.width,)
 
     def variables(self) -> tuple[tuple[str, float, str, str], ...]:
-        return ((f"{self.name}.width", self.width.number, "not negative", "mm"),) if self.width.number is not None else ()
+        return ((f"{self.name}.width", self.width.constant, "not negative", "mm"),) if self.width.constant is not None else ()
 
     def having(self, values: Mapping[str, float]) -> Planes:
         return self.renewed(width=quantity(values.get(f"{self.name}.width", self.width)))
@@ -98,7 +98,7 @@ class Planes(HasVerdicts):
         return [Verdict("clearance", False, f"{text} {remedy}", answer=answer)]
 
     def __str__(self) -> str:
-        width = [] if self.width.number == 0.0 else [f"width={spelled(self.width)}"]
+        width = [] if self.width.constant == 0.0 else [f"width={spelled(self.width)}"]
         return f"Planes({', '.join([*map(repr, self.planes), *width])})"
 
 

@@ -18,7 +18,7 @@ NOTHING = Number(0.0)
 
 def is_nothing(given: Quantity) -> bool:
     """Return whether a quantity is the number zero."""
-    return given.number == 0.0
+    return given.constant == 0.0
 
 
 @final
@@ -87,7 +87,7 @@ class Axes:
         """Return the coordinates of a place of the part in the axes of what carries it."""
         x = x.opposite() if self.mirrored else x
         if not is_nothing(self.angle):
-            angle = self.angle if self.angle.number is None or self.angle.name else self.angle.number
+            angle = self.angle if self.angle.constant is None or self.angle.name else self.angle.constant
             cos, sin = np.cos(angle), np.sin(angle)
             x, y = plus(multiplied(x, cos), multiplied(y, sin).opposite()), plus(multiplied(x, sin), multiplied(y, cos))
         return plus(self.at[0], x), plus(self.at[1], y)
@@ -159,8 +159,8 @@ FRAME_AXES = Axes()
 
 def multiplied(a: Quantity, factor: Quantity | float) -> Quantity:
     """Return a product; of numbers as a number."""
-    if a.number is not None and (not a.number or not (a.name or isinstance(factor, Quantity))):
-        return a if not a.number else Number(a.number * float(factor))
+    if a.constant is not None and (not a.constant or not (a.name or isinstance(factor, Quantity))):
+        return a if not a.constant else Number(a.constant * float(factor))
     return a * factor
 
 
@@ -168,6 +168,6 @@ def plus(a: Quantity, b: Quantity) -> Quantity:
     """Return the sum of two quantities; of numbers as a number, nothing left out."""
     if is_nothing(a) or is_nothing(b):
         return b if is_nothing(a) else a
-    if a.number is not None and b.number is not None and not a.name and not b.name:
-        return Number(a.number + b.number)
+    if a.constant is not None and b.constant is not None and not a.name and not b.name:
+        return Number(a.constant + b.constant)
     return a + b

@@ -191,13 +191,15 @@ class Quantity(Operators["Quantity | float | str", "Quantity"], Member):
         """The name of the member that it is, or stands for; "" where it has none."""
         return self.name
 
-    number: float | None = None
-    """The number [SI] that this is; None for all else."""
+    @property
+    def constant(self) -> float | None:
+        """The number [SI] that this is; None for all else."""
+        return None
 
     @property
     def is_constant(self) -> bool:
         """Whether this is a plain number."""
-        return self.number is not None
+        return self.constant is not None
 
     def opposite(self) -> Quantity:
         """Return it with its sign changed; a number as a number."""
@@ -287,6 +289,10 @@ class Number(Quantity):
     """A number, in SI; one that was given with its unit is an `Amount` still."""
 
     number: float
+
+    @property
+    def constant(self) -> float:
+        return self.number
 
     @property
     def identity(self) -> Hashable:

@@ -23,7 +23,7 @@ class Ground(Point):
             raise DefinitionError(f"Ground({cited(x)}): say both coordinates one after the other [m], Ground(0.7, 0.0).")
         self.x, self.y = quantity(x), quantity(y)
         for value in (self.x, self.y):
-            if value.number is not None and not abs(value.number) < float("inf"):
+            if value.constant is not None and not abs(value.constant) < float("inf"):
                 raise DefinitionError(f"Ground({self.x}, {self.y}): both coordinates must be finite numbers.")
 
     def parts(self) -> tuple[Reference, ...]:
@@ -33,7 +33,7 @@ class Ground(Point):
         return (f"{self.name}.x", self.x), (f"{self.name}.y", self.y)
 
     def variables(self) -> tuple[tuple[str, float, str, str], ...]:
-        return tuple((name, value.number, "coordinate", "") for name, value in self.coordinates() if value.number is not None)
+        return tuple((name, value.constant, "coordinate", "") for name, value in self.coordinates() if value.constant is not None)
 
     def having(self, values: Mapping[str, float]) -> Ground:
         x, y = (quantity(values.get(name, value)) for name, value in self.coordinates())

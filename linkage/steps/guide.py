@@ -52,7 +52,7 @@ class Guide(Jointed):
 
     def variables(self) -> tuple[tuple[str, float, str, str], ...]:
         place = () if self.fixed_at is None else tuple(zip(("x", "y"), self.fixed_at, ("coordinate",) * 2, strict=True))
-        turn = (("angle", self.angle.number, "angle"),) if self.angle is not None and self.angle.number is not None else ()
+        turn = (("angle", self.angle.constant, "angle"),) if self.angle is not None and self.angle.constant is not None else ()
         return tuple((f"{self.name}.{part}", value, kind, "") for part, value, kind in (*place, *turn))
 
     def having(self, values: Mapping[str, float]) -> Guide:

@@ -96,7 +96,7 @@ class PinSlotDyad(Step):
         return f"the slot's offset is larger than the distance {self.P}{self.Q}", gap
 
     def arguments(self) -> list[str]:
-        given = [] if self.offset.number == 0.0 else [f"offset={spelled(self.offset)}"]
+        given = [] if self.offset.constant == 0.0 else [f"offset={spelled(self.offset)}"]
         return [*super().arguments(), *given]
 
     def joints(self) -> tuple[Joint, ...]:

@@ -218,7 +218,7 @@ class Step(Point):
             raise DefinitionError(f"{bound.sentence()}: the points {', '.join(names)} must be different.")
         for attribute, (slot, spelling, sign, value) in match(self.labels, bound.fitting(), bound.sentence()).items():
             given, forward = quantity(value), next(iter(slot.spellings))
-            is_negative = given.number is not None and given.number < 0.0
+            is_negative = given.constant is not None and given.constant < 0.0
             if slot.kind == "angle" and self.side is not None and (sign < 0 or is_negative):  # the side would turn it once more
                 why = f"{spelling} is counted from the other ray, which is -{forward}" if sign < 0 else f"{spelling} is negative"
                 remedy = f"write {forward}= with a positive angle, or leave the side out"
@@ -276,9 +276,9 @@ class Step(Point):
 def angle_given(given: Operand, what: str) -> Quantity:
     """Return an angle as a quantity; DefinitionError for a number of more than a full turn, which was given in degrees."""
     found = quantity(given)
-    if found.number is not None and abs(found.number) > TURN:
-        said = f"the angle {found.number:.6g} rad ({found.number / deg:.6g} deg) is more than a full turn"
-        raise DefinitionError(f"{what}: {said}; write {found.number:.6g} * deg if these are degrees, or take whole turns off.")
+    if found.constant is not None and abs(found.constant) > TURN:
+        said = f"the angle {found.constant:.6g} rad ({found.constant / deg:.6g} deg) is more than a full turn"
+        raise DefinitionError(f"{what}: {said}; write {found.constant:.6g} * deg if these are degrees, or take whole turns off.")
     return found
 
 

@@ -361,6 +361,7 @@ def test_designs_without_a_value_are_never_preferred():
     assert_allclose(many, few, rtol=1e-5)
 
 
+@pytest.mark.slow
 def test_the_least_relaxation_is_that_of_brute_force():
     limits = [TRAVEL >= 0.9, most(pressure("lift")) <= 60 * bar, most(pin_force("O")) <= 10 * kN]
     with pytest.raises(InfeasibleError) as caught:

@@ -116,7 +116,7 @@ def test_the_drawing_has_the_same_rods_and_pins(which):
     assert one.stays == other.stays == ()
 
 
-@for_all("write", [to_toml, to_json])
+@for_all("write", [to_toml], slow=[to_json])
 @both
 def test_a_file_goes_there_and_back(which, write):
     vectors, _ = ALL[which]
@@ -174,7 +174,7 @@ OUT_OF_REACH = (4, 8, 11, 26, 28, 29, 38)
 """Seeds whose machines, in steps as well, cannot be assembled all over their strokes or pass a singular pose."""
 
 
-DAILY = range(18)
+DAILY = range(8)
 """Beyond them is one seed, 20, whose machine takes as long as all others together."""
 DRAWN = [pytest.param(seed, marks=() if seed in DAILY else pytest.mark.slow) for seed in range(47) if seed not in OUT_OF_REACH]
 

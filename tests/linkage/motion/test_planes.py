@@ -297,6 +297,7 @@ def test_bodies_that_share_a_pin_by_their_outlines():
     assert_allclose(answer.value, dense.min(), atol=2e-4)
 
 
+@pytest.mark.slow
 def test_a_design_is_looked_for_that_keeps_clear():
     rng = np.random.default_rng(3)
     machine = facing(star(rng, 6), star(rng, 6))

@@ -17,7 +17,7 @@ from linkage.program import fixed_backend
 from linkage.program.numba_backend import NumbaLoop
 from linkage.study import survey
 from mechanisms.three_point_hitch import ThreePointHitch
-from tests.for_all import for_all
+from tests.for_all import first_daily, for_all
 from tests.linkage.study.survey_measures import failing, far_points, group_designs, hitch_designs, logged, travel
 
 BATCHES = import_module("linkage.study.survey")  # the module, whose function goes by its name
@@ -136,7 +136,7 @@ def test_numba_on_request():
         same(survey(hitch, over, travel, backend="numba", executor=pool), numba)
 
 
-@pytest.mark.parametrize(("designs", "measure"), [(hitch_designs, travel), (group_designs, far_points)])
+@first_daily(1, ("designs", "measure"), [(group_designs, far_points), (hitch_designs, travel)])
 def test_threads_that_trace_a_machine_at_the_same_time(designs, measure):
     machine, over = designs(64)
 

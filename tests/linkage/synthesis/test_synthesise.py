@@ -38,7 +38,7 @@ from mechanisms.classics.four_bar import FourBar
 from mechanisms.classics.klann import Klann
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.benchmarks import bench_synthesis
-from tests.for_all import for_all
+from tests.for_all import first_daily, for_all
 from tests.linkage.synthesis import synthesis_tasks as papers
 from tests.linkage.synthesis.synthesis_tasks import Bar, box, places
 
@@ -382,7 +382,7 @@ def test_a_dimension_that_moves_nothing_makes_no_other_machine():
     assert_allclose(found.machine["OA"], 0.03, rtol=0, atol=1e-9)
 
 
-@pytest.mark.parametrize("values", [[0.030, 0.036, 0.040], (0.030, 0.040, 0.002)])
+@first_daily(1, "values", [[0.030, 0.036, 0.040], (0.030, 0.040, 0.002)])
 def test_choices_and_steps_hold_the_known_bar(values):
     points = FourBar(OA=0.036, AB=0.11).at(phi=np.linspace(0.3, 3.5, 8))["P"].T
     found = synthesise(FourBar(), path=PathTask(points, of="P"), vary={"OA": values, "AB": (0.08, 0.14)}, starts=6)

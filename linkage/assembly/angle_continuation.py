@@ -177,7 +177,7 @@ class StrokeLines:
         place = np.arange(len(line)) - np.repeat(np.cumsum(counts) - counts, counts).astype(float)
         points = Points(line, place, *vectors.at(line, place))
         inner = np.flatnonzero(line[1:] == line[:-1])
-        left, right = points.taken(inner), points.taken(inner + 1)
+        left, right = points.subset(inner), points.subset(inner + 1)
         done: list[tuple[Points, Points, Mask]] = []
         while len(left.line):
             with np.errstate(all="ignore"):
@@ -189,12 +189,12 @@ class StrokeLines:
             tiny = width <= LEAST
             hopeless = ~np.isfinite(left.value).all(axis=0)  # what lies behind the end of the reach is lost in any case
             settled = good | tiny | hopeless
-            done.append((left.taken(settled), right.taken(settled), good[settled]))
-            left, right = left.taken(~settled), right.taken(~settled)
+            done.append((left.subset(settled), right.subset(settled), good[settled]))
+            left, right = left.subset(~settled), right.subset(~settled)
             place = 0.5 * (left.place + right.place)
             middle = Points(left.line, place, *vectors.at(left.line, place)) if len(place) else left
-            left, right = left.joined(middle), middle.joined(right)
-        return AnglePath.of(done, points.taken(points.place == 0.0), begin)
+            left, right = left.merged_with(middle), middle.merged_with(right)
+        return AnglePath.of(done, points.subset(points.place == 0.0), begin)
 
 
 @final
@@ -207,11 +207,11 @@ class Points:
     value: FloatArray
     rate: FloatArray
 
-    def taken(self, which: Index | Mask) -> Points:
+    def subset(self, which: Index | Mask) -> Points:
         """Return some of them."""
         return Points(self.line[which], self.place[which], self.value[:, which], self.rate[:, which])
 
-    def joined(self, other: Points) -> Points:
+    def merged_with(self, other: Points) -> Points:
         """Return these and others after them."""
         pairs = ((self.value, other.value), (self.rate, other.rate))
         value, rate = (np.concatenate(pair, axis=1) for pair in pairs)
@@ -236,9 +236,9 @@ class AnglePath:
         """Return the track of settled pieces; the directions at its start lie near some angles, or between -180 and 180 deg."""
         left, right, good = done[0]
         for more_left, more_right, more_good in done[1:]:
-            left, right, good = left.joined(more_left), right.joined(more_right), np.concatenate([good, more_good])
+            left, right, good = left.merged_with(more_left), right.merged_with(more_right), np.concatenate([good, more_good])
         order = np.lexsort((left.place, left.line))
-        left, right, good = left.taken(order), right.taken(order), good[order]
+        left, right, good = left.subset(order), right.subset(order), good[order]
         with np.errstate(all="ignore"):
             (ax, ay), (bx, by) = left.value, right.value
             turn = np.arctan2(ax * by - ay * bx, ax * bx + ay * by)

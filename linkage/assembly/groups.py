@@ -51,7 +51,7 @@ def solve_groups(plan: Plan, designs: Mapping[str, Numbers], strokes: Mapping[st
         return GroupSolution(dict.fromkeys(plan.grouped, np.full(shape, np.nan)), np.zeros(shape, int))
     newtons = [Newton(plan, group) for group in plan.groups.values()]
     designs = singled(designs)
-    start, tracks = known(plan, newtons, designs)
+    start, tracks = known_tracks(plan, newtons, designs)
     n = max((np.size(value) for value in strokes.values()), default=1)
     shape = (start[0].shape[1], n)
     if len(strokes) == 1:
@@ -79,7 +79,7 @@ Known: TypeAlias = tuple[list[FloatArray], dict[tuple[str, float], list[GroupPat
 """What is known of some designs: their groups' pins at the sketch, and the tracks along a stroke, by its name and sense."""
 
 
-def known(plan: Plan, newtons: Sequence[Newton], designs: Mapping[str, Numbers]) -> Known:
+def known_tracks(plan: Plan, newtons: Sequence[Newton], designs: Mapping[str, Numbers]) -> Known:
     """Return what is known of some designs; of a single one it is kept, the last ones of a plan."""
     if any(map(np.ndim, designs.values())):
         return designed(plan, newtons, designs), {}

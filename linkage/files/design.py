@@ -65,17 +65,17 @@ class Design:
         """Return a quantity as a number or as text that reads back as the same; DefinitionError where there is none."""
         if isinstance(given, Number):
             return given.number
-        return self.checked(spelled(given), form(given), expression)
+        return self.read_back(spelled(given), form(given), expression)
 
     def arrow(self, given: Member | str) -> str:
         """Return a vector as text, or its name; DefinitionError unless it reads back as the same."""
-        return self.checked(label(given), form(given), arrow_in)
+        return self.read_back(label(given), form(given), arrow_in)
 
     def own(self, given: Member) -> str:
         """Return the text of a quantity's or a vector's own rule, whatever its name; DefinitionError unless it reads back as the same."""
-        return self.checked(str(given), own_form(given), expression if isinstance(given, Quantity) else arrow_in)
+        return self.read_back(str(given), own_form(given), expression if isinstance(given, Quantity) else arrow_in)
 
-    def checked(self, text: str, says: object, read: Callable[[str, Names], Any]) -> str:
+    def read_back(self, text: str, says: object, read: Callable[[str, Names], Any]) -> str:
         """Return a text; DefinitionError unless it is read as what it says."""
         ensure(own_form(read(text, self.names)) == says, f"{text} does not read back as it is; give its parts names of their own.")
         return text

@@ -2,7 +2,7 @@
 
 from ..star import declare_public
 from .count import Mobility, check, mobility
-from .enumeration import MOST_LINKS, Form, canonical, chain_forms, joined
+from .enumeration import MOST_LINKS, Form, canonical, chain_forms, joint_pairs
 from .graph import ChainTables, chain_graph
 from .grashof import FourBar, four_bars, grashof
 

@@ -52,11 +52,11 @@ def is_degenerate(form: Form) -> bool:
     which = np.arange(1 << len(form))
     has = [which >> place & 1 for place in range(len(form))]
     links = np.sum(has, axis=0)
-    joints = np.sum([has[a] & has[b] for a, b in joined(form)], axis=0)
+    joints = np.sum([has[a] & has[b] for a, b in joint_pairs(form)], axis=0)
     return bool(np.any((3 * (links - 1) - 2 * joints < 1) & (links > 1)))
 
 
-def joined(form: Form) -> tuple[tuple[int, int], ...]:
+def joint_pairs(form: Form) -> tuple[tuple[int, int], ...]:
     """Return the pairs of links that are jointed."""
     return tuple((a, b) for a, b in combinations(range(len(form)), 2) if form[a] >> b & 1)
 

@@ -76,7 +76,7 @@ class Designs:
         return {name: parts if len(parts) > 1 else parts[0] for name, parts in found.items()}
 
     @property
-    def width(self) -> int:
+    def numbers_each(self) -> int:
         """How many numbers a design has."""
         return sum(prod(part.shape[1:]) for parts in self.columns.values() for part in parts if part.ndim)
 

@@ -138,7 +138,7 @@ class StudyPoses:
         if isinstance(leaf, At):
             return self.at(leaf).values(machine, leaf.quantity, way)[:, 0]
         if isinstance(leaf, Integral):
-            row, weights = self.row(leaf)
+            row, weights = self.integral_poses(leaf)
             return np.asarray((row.values(machine, leaf.quantity, way) * weights).sum(axis=1))
         total: float | FloatArray = fold_start(leaf)
         for column in self.values(machine, leaf.quantity, way).T:
@@ -155,7 +155,7 @@ class StudyPoses:
         strokes = {name: leaf.strokes.get(name, float(value[0])) for name, value in self.stroke_values.items()}
         return StudyPoses(Motion(plan, self.base.designs, at_values(strokes, plan), "raise"))
 
-    def row(self, leaf: Integral) -> tuple[StudyPoses, FloatArray]:
+    def integral_poses(self, leaf: Integral) -> tuple[StudyPoses, FloatArray]:
         """Return the poses (n,) of an integral over a row of strokes, fine enough for the machine as it is set, and their weights [SI]."""
         if leaf in self._rows:
             return self._rows[leaf]

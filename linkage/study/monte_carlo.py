@@ -258,7 +258,7 @@ class MonteCarloRun:
 
     def _of_leaf(self, leaf: At | Integral) -> FloatArray:
         """Return a quantity at its own pose, or an integral over the row of strokes, shape (designs,)."""
-        poses = self.poses.row(leaf)[0] if isinstance(leaf, Integral) else self.poses.at(leaf)
+        poses = self.poses.integral_poses(leaf)[0] if isinstance(leaf, Integral) else self.poses.at(leaf)
         parts = blocks(self.count, poses.pose_count)
         found = np.concatenate([self.poses.of_leaf(self._block(block), leaf, self.way) for block in parts])
         free = np.zeros(self.count, bool) if isinstance(leaf, Integral) else self._free(poses, leaf.quantity, found[None])[0]

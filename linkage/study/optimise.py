@@ -474,7 +474,7 @@ class DesignSearch:
         hopeless = self.hopeless(screened)
         if hopeless:
             raise self.infeasible(hopeless)
-        tasks = [(each.combination, number, unit) for each in screened for number, unit in enumerate(self.starts(each, len(screened)))]
+        tasks = [(each.combination, number, unit) for each in screened for number, unit in enumerate(self.starts_in(each, len(screened)))]
         return self.chosen([*self.ends(tasks), *self.best_looked_at(screened)], searched=len(screened))
 
     def ends(self, tasks: Sequence[tuple[tuple[int, ...], int, FloatArray]]) -> list[SearchEnd]:
@@ -518,7 +518,7 @@ class DesignSearch:
         if self.method == "local" or not problem.constraints:
             return []
         for each in screened:
-            for unit in self.starts(each, len(screened))[:HOPES]:
+            for unit in self.starts_in(each, len(screened))[:HOPES]:
                 try:
                     local = Local(problem.changed(counts=SAMPLES), each.combination, unit, elastic=problem.constraints)
                     least = local.least()
@@ -573,7 +573,7 @@ class DesignSearch:
         self.looked.append(EvaluatedDesigns("looked at", space, combination, unit, *seen, self.problem.sense))
         return self.looked[-1]
 
-    def starts(self, screened: EvaluatedDesigns, combinations: int) -> list[FloatArray]:
+    def starts_in(self, screened: EvaluatedDesigns, combinations: int) -> list[FloatArray]:
         """Return where the local searches of a combination begin: the best designs that stand apart, that of today always."""
         many = 1 if self.method == "local" else max(self.many if combinations == 1 else self.many // 2, 1)
         chosen: list[FloatArray] = []

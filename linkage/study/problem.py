@@ -254,7 +254,7 @@ class LeafNumbers(dict[Leaf, float]):
         self.lost: set[Leaf] = set()
         self.parts: dict[Leaf, Mapping[str, float]] = {}
 
-    def note(self, leaf: Leaf, value: float, *, lost: object, parts: Mapping[str, float] = NO_PARTS) -> None:
+    def enter_number(self, leaf: Leaf, value: float, *, lost: object, parts: Mapping[str, float] = NO_PARTS) -> None:
         """Note the number of a leaf, and whether it is lost."""
         self[leaf], self.parts[leaf] = value, parts
         if lost:
@@ -717,7 +717,7 @@ class Problem:
                 alone = PoseSet({}, [poses.singles[single]])
                 here = motion_of(self._grid(alone, design, self._ends(design)))
                 value = float(np.ravel(eager(here, leaf.quantity))[0])
-                found.note(leaf, value, lost=np.isnan(value) and not nothing_limits(here, leaf.quantity).all())
+                found.enter_number(leaf, value, lost=np.isnan(value) and not nothing_limits(here, leaf.quantity).all())
             else:
                 sampled.append(leaf)
         if sampled:
@@ -729,7 +729,7 @@ class Problem:
                 if isinstance(leaf, Integral):
                     low, high = self.ends(design)[self._of_leaf[leaf][0].outer[0]]
                     value = float(self.panels(leaf, design).value) * (high - low)
-                found.note(leaf, value, lost=look.lost(leaf)[0])
+                found.enter_number(leaf, value, lost=look.lost(leaf)[0])
         for names, leaves in between.items():
             self._note_extremes(found, leaves, design, names, quick=quick)
         return found
@@ -753,7 +753,7 @@ class Problem:
                 own[name] = 1.0 - part if turned else part
         values = np.ravel(tops.value) * senses
         for leaf, value, own, lost in zip(leaves, values, parts, watched.without_value, strict=True):
-            found.note(leaf, float(value), lost=lost, parts=own)
+            found.enter_number(leaf, float(value), lost=lost, parts=own)
 
     def tops(self, leaf: Leaf, design: Mapping[str, Numbers]) -> list[dict[str, float]]:
         """Return where between its samples a leaf of one design has tops that come near its worst value: the part of its stroke's range."""

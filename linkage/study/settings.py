@@ -230,14 +230,14 @@ def solutions_for(machine: Mechanism, vary: Mapping[str, object], targets: Seque
     with unwarned(), np.errstate(all="ignore"):
         size = (1 << min(8 + 2 * k, 14) if k else 1) if points is None else points
         require_whole("points", size, "a whole number of points of the box is expected, such as 4096", least=1, most=1 << 20)
-        start, choice = search.starts(size if k else 1)
+        start, choice = search.best_starts(size if k else 1)
         if not len(start):
             where = ", ".join(dict.fromkeys(search.words(place).partition(" at ")[2] for place in range(len(search.targets))))
             names = ", ".join([*box.ranges, *box.choices[0]])
             nowhere = f"No setting of {names} that was looked at can be assembled at {where}. Look farther."
             return Solutions(machine, (), False, (), False, nowhere)
         unit, off = search.descend(start, choice)
-        return search.settled(unit, choice, off)
+        return search.solutions(unit, choice, off)
 
 
 # The search: a grid of the box at once, then steps of Levenberg and Marquardt from all good starts together.
@@ -320,7 +320,7 @@ class Search:
         at = ", ".join(f"{name} = {show(float(v), stroke_display_unit(plan, name, 'mm'))}" for name, v in each.strokes.items())
         return f"{request} = {show(float(each.value) if value is None else value, each.shown_in(plan))} at {at}"
 
-    def starts(self, points: int) -> tuple[FloatArray, Index]:
+    def best_starts(self, points: int) -> tuple[FloatArray, Index]:
         """Return where to start: unit coordinates (m, k) and choices (m,), of every choice the best of a Sobol sequence."""
         k, choices = len(self.box.ranges), len(self.box.choices)
         grid = np.concatenate([unit_points(points, k, "sobol", 0), np.full((1, k), 0.5)]) if k else np.empty((1, 0))
@@ -341,7 +341,7 @@ class Search:
 
         return descended(misses, slopes, unit, STEPS)
 
-    def settled(self, unit: FloatArray, choice: Index, off: FloatArray) -> Solutions:
+    def solutions(self, unit: FloatArray, choice: Index, off: FloatArray) -> Solutions:
         """Return all solutions that a search found, or the nearest setting."""
         size = np.abs(off).max(axis=1)
         met = np.flatnonzero(size <= MET)

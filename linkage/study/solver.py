@@ -515,7 +515,7 @@ class Local:
         """Return the leaves' numbers at the samples of unit coordinates."""
         look, found = self.evaluated_at(unit), LeafNumbers()
         for leaf, value in look.of_one.items():
-            found.note(leaf, value, lost=look.rows[leaf].lost[0])
+            found.enter_number(leaf, value, lost=look.rows[leaf].lost[0])
         return found
 
     def _nearest_good(self, unit: FloatArray) -> FloatArray:

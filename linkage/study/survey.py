@@ -63,7 +63,7 @@ class SurveyRun:
     def __init__(self, task: StudyWork, designs: Designs, executor: Executor, checkpoint: Checkpoint | None, tell: Progress) -> None:
         self.task, self.designs, self.executor, self.checkpoint, self.tell = task, designs, executor, checkpoint, tell
         self.left = OpenRanges(designs.count, task.piece)
-        self.sizes = BatchSizes(max(1, MOST // (task.piece * designs.width)))
+        self.sizes = BatchSizes(max(1, MOST // (task.piece * designs.numbers_each)))
         self.values: dict[str, Array] = {}
         self.batches: list[Batch] = []
         self._under_way: dict[Any, tuple[int, int, int, float]] = {}
@@ -76,7 +76,7 @@ class SurveyRun:
         for batch in self.checkpoint.batches() if self.checkpoint else ():
             if self.left.remove(batch.start, batch.stop):
                 self._enter(batch)
-        self.tell(self.done, self.designs.count)
+        self.tell(self.designs_done, self.designs.count)
         try:
             while self.left.ranges or self._under_way:
                 while self.left.ranges and len(self._under_way) < self.sizes.ahead:
@@ -93,14 +93,14 @@ class SurveyRun:
             self._stop()
 
     @property
-    def done(self) -> int:
+    def designs_done(self) -> int:
         """How many designs are done."""
         return sum(batch.stop - batch.start for batch in self.batches)
 
     @property
     def state(self) -> str:
         """How far the study is, and what becomes of it."""
-        return how_far(self.done, self.designs.count, "designs", self.checkpoint.folder if self.checkpoint else None)
+        return how_far(self.designs_done, self.designs.count, "designs", self.checkpoint.folder if self.checkpoint else None)
 
     def _send(self) -> None:
         """Send the next batch."""
@@ -138,7 +138,7 @@ class SurveyRun:
             waited = at - left - batch.seconds if is_full else float("inf")
             self.sizes.learn(-(-(stop - start) // self.task.piece), batch.seconds, waited)
             self._keep(batch)
-            self.tell(self.done, self.designs.count)
+            self.tell(self.designs_done, self.designs.count)
 
     def _error(self, what: str, error: Exception, designs: tuple[int, int] | None = None) -> StudyError:
         """Return the error for what stops the study on the way, after keeping the results so far."""

@@ -545,7 +545,7 @@ class FieldSearch:
     # -- the loads -----------------------------------------------------------------------------------------
 
     @cached_property
-    def names(self) -> tuple[str, ...]:
+    def limiter_names(self) -> tuple[str, ...]:
         """What may limit the load: cylinders, "tipping", "slipping", further limits."""
         return (*dict.fromkeys(self.loads.kinds), *self.limits)
 
@@ -563,7 +563,7 @@ class FieldSearch:
         if self.limits and count:
             motion = self.loads.motion(rows)
             parts.append(np.array([each(motion, self.loads) for each in self.limits.values()]))
-        return LoadsFound(poses, np.concatenate(parts) if count and parts else np.empty((len(self.names), 0)))
+        return LoadsFound(poses, np.concatenate(parts) if count and parts else np.empty((len(self.limiter_names), 0)))
 
     def refined(self, found: LoadsFound, inner: int) -> LoadsFound:
         """Return the best pose of each place with its spare strokes moved to where most is carried.
@@ -622,7 +622,7 @@ class FieldSearch:
         start = PlacePoses(np.tile(base.place, len(to)), guess)
         every = np.tile(order, (len(to), 1))
         found, met = many.settled(start, self.goals, np.full(width, BEYOND), damped=False, iterations=FEW, order=every)
-        of, unit = np.full((len(self.names), len(guess)), np.nan), np.empty_like(guess)
+        of, unit = np.full((len(self.limiter_names), len(guess)), np.nan), np.empty_like(guess)
         np.put_along_axis(unit, every, found.unit, axis=1)
         of[:, met] = self.carried(PlacePoses(found.place[met], unit[met])).of
         return found.unit.reshape(len(to), n, width), of.reshape(-1, len(to), n)
@@ -653,7 +653,7 @@ class FieldSearch:
             spread[poses.place] = values
             return read_only(self.ordered(spread))
 
-        names = np.array([*self.names, NOT_LIMITED, OUT_OF_REACH])
+        names = np.array([*self.limiter_names, NOT_LIMITED, OUT_OF_REACH])
         which = np.full(count, len(names) - 1)
         which[poses.place] = np.where(np.isfinite(load), np.argmin(of, axis=0) if len(of) else 0, len(names) - 2)
         rows = self.many.places.rows(poses.unit)
@@ -662,7 +662,7 @@ class FieldSearch:
         counts = {name: int(np.sum(each)) for name, each in failing.items() if np.any(each)}
         return WorkingField(
             self.machine, self.point, self.loads.along, self.x, self.y, full(load), names[self.ordered(which)], FrozenDict(strokes),
-            FrozenDict({name: full(each) for name, each in zip(self.names, of, strict=True)}), self.rule, self.case,
+            FrozenDict({name: full(each) for name, each in zip(self.limiter_names, of, strict=True)}), self.rule, self.case,
             self.remarks(counts), FrozenDict(counts), self,
         )  # fmt: skip
 
@@ -685,7 +685,7 @@ class FieldSearch:
             found.append(said("kept: {words}", words=", ".join(kept)))
         if self.many.spare:
             found.append(said("{names} where most is carried", names=", ".join(places.free[self.many.solved :])))
-        if self.rule.tipping < 1.0 and TIPPING not in self.names:
+        if self.rule.tipping < 1.0 and TIPPING not in self.limiter_names:
             found.append(said("tipping is not judged: the machine has no supports"))
         found += [said("{rule} fails in {n} of the cells", rule=heading_of(name), n=count) for name, count in failing.items()]
         return tuple(found)

@@ -17,7 +17,7 @@ from ..checks import is_whole
 from ..errors import DefinitionError, cited, ensure, unwarned
 from ..frozen import immutable
 from ..mechanism import Mechanism
-from ..mobility import MOST_LINKS, Form, canonical, chain_forms, joined
+from ..mobility import MOST_LINKS, Form, canonical, chain_forms, joint_pairs
 from ..motion import Featured
 from ..plan import Body
 from ..program import FloatArray
@@ -78,7 +78,7 @@ class PlanarChain(Shown):
     @property
     def joints(self) -> tuple[tuple[int, int], ...]:
         """The pairs of links that are jointed."""
-        return tuple((a + 1, b + 1) for a, b in joined(self.form))
+        return tuple((a + 1, b + 1) for a, b in joint_pairs(self.form))
 
     @property
     def graph(self) -> nx.Graph:
@@ -164,7 +164,7 @@ class Inversion(Shown):
         """Return whether dyads place all links that a crank drives; else some are a group of a higher class, found by iteration."""
         form, placed = self.chain.form, {self.frame - 1, crank - 1}
         while True:
-            left = [pair for pair in joined(form) if not placed & {*pair}]
+            left = [pair for pair in joint_pairs(form) if not placed & {*pair}]
             dyad = next((pair for pair in left if all(placed & {*self._on(link)} for link in pair)), None)
             if dyad is None:
                 return len(placed) == self.chain.links
@@ -259,45 +259,45 @@ class Joints:
         return self.links[self.inversion.frame]
 
     @property
-    def turning(self) -> tuple[str, ...]:
+    def on_crank(self) -> tuple[str, ...]:
         """Those of the crank that move."""
         return tuple(each for each in self.links[self.crank] if each != "O")
 
     @property
-    def moving(self) -> Mapping[int, tuple[str, ...]]:
+    def moving_links(self) -> Mapping[int, tuple[str, ...]]:
         """The joints of the links that are neither the frame nor the crank."""
         return {link: each for link, each in self.links.items() if link not in (self.inversion.frame, self.crank)}
 
     @cached_property
     def free(self) -> tuple[str, ...]:
         """Those whose places the other links determine."""
-        every = dict.fromkeys(name for each in self.moving.values() for name in each)
-        return tuple(name for name in every if name not in self.fixed and name not in self.turning)
+        every = dict.fromkeys(name for each in self.moving_links.values() for name in each)
+        return tuple(name for name in every if name not in self.fixed and name not in self.on_crank)
 
     @cached_property
-    def names(self) -> tuple[str, ...]:
+    def joint_names(self) -> tuple[str, ...]:
         """All, the free ones first."""
-        return (*self.free, *self.fixed, *self.turning)
+        return (*self.free, *self.fixed, *self.on_crank)
 
     @cached_property
     def distances(self) -> tuple[tuple[int, int], ...]:
         """The distances that the links keep, by the places of their ends among the names: as many as determine the free joints."""
-        place = {name: number for number, name in enumerate(self.names)}
-        pairs = [(one, other) for each in self.moving.values() for k, one in enumerate(each) for other in each[k + 1 :] if k < 2]
+        place = {name: number for number, name in enumerate(self.joint_names)}
+        pairs = [(one, other) for each in self.moving_links.values() for k, one in enumerate(each) for other in each[k + 1 :] if k < 2]
         return tuple((place[one], place[other]) for one, other in pairs)
 
-    def slopes(self, places: FloatArray) -> FloatArray:
+    def distance_slopes(self, places: FloatArray) -> FloatArray:
         """Return the derivatives of the distances by the free joints at places (..., joints, 2), shape (..., distances, 2 free)."""
         a, b = np.array(self.distances).T
         ways = places[..., a, :] - places[..., b, :]
         ways = ways / np.linalg.norm(ways, axis=-1, keepdims=True)
-        found = np.zeros((*places.shape[:-2], len(a), len(self.names), 2))
+        found = np.zeros((*places.shape[:-2], len(a), len(self.joint_names), 2))
         rows = np.arange(len(a))
         found[..., rows, a, :] += ways
         found[..., rows, b, :] -= ways
         return found[..., : len(self.free), :].reshape(*places.shape[:-2], len(a), 2 * len(self.free))
 
-    def lengths(self, places: FloatArray) -> FloatArray:
+    def distances_at(self, places: FloatArray) -> FloatArray:
         """Return the distances at places (joints, 2)."""
         a, b = np.array(self.distances).T
         return np.asarray(np.linalg.norm(places[a] - places[b], axis=-1))
@@ -305,37 +305,38 @@ class Joints:
 
 def drawing(joints: Joints) -> Places:
     """Return places of all joints [m] from which the crank turns fully, far from any dead point: the best of many at random."""
-    every = np.random.default_rng(0).uniform(0.0, 1.0, (DRAWINGS, len(joints.names), 2))
-    O = joints.names.index("O")
+    names = joints.joint_names
+    every = np.random.default_rng(0).uniform(0.0, 1.0, (DRAWINGS, len(names), 2))
+    O = names.index("O")
     every -= every[:, [O]]
-    turning = [joints.names.index(name) for name in joints.turning]
+    turning = [names.index(name) for name in joints.on_crank]
     angles = np.arange(len(turning)) * 2.0 * pi / 3.0
     ways = np.stack([np.cos(angles), np.sin(angles)], axis=1)
     every[:, turning] = 1e-3 * ways
-    pairs = [pair for pair in combinations(range(len(joints.names)), 2) if not {*pair} <= {O, *turning}]
+    pairs = [pair for pair in combinations(range(len(names)), 2) if not {*pair} <= {O, *turning}]
     far = np.min([np.linalg.norm(every[:, a] - every[:, b], axis=1) for a, b in pairs], axis=0)
-    quality = np.linalg.svd(joints.slopes(every), compute_uv=False)[:, -1] * np.minimum(far, 0.3)
+    quality = np.linalg.svd(joints.distance_slopes(every), compute_uv=False)[:, -1] * np.minimum(far, 0.3)
     for number in np.argsort(-quality, kind="stable"):
         for radius in RADII:
             places = np.array(every[number])
             places[turning] = radius * ways
             if turns_fully(joints, places, turning):
-                return {name: (SIZE * float(x), SIZE * float(y)) for name, (x, y) in zip(joints.names, np.round(places, 3), strict=True)}
+                return {name: (SIZE * float(x), SIZE * float(y)) for name, (x, y) in zip(names, np.round(places, 3), strict=True)}
     raise DefinitionError(f"{joints.inversion}: no drawing was found from which link {joints.crank} turns fully.")
 
 
 def turns_fully(joints: Joints, start: FloatArray, turning: list[int]) -> bool:
     """Return whether the crank turns fully from a drawing (joints, 2), by steps of Newton, and stays far from any dead point."""
-    lengths, places, free = joints.lengths(start), np.array(start), len(joints.free)
-    least = REGULAR * np.linalg.svd(joints.slopes(start), compute_uv=False)[-1]
+    lengths, places, free = joints.distances_at(start), np.array(start), len(joints.free)
+    least = REGULAR * np.linalg.svd(joints.distance_slopes(start), compute_uv=False)[-1]
     for angle in np.linspace(0.0, 2.0 * pi, POSES + 1)[1:]:
         x, y = np.cos(angle), np.sin(angle)
         places[turning] = start[turning] @ np.array([[x, y], [-y, x]])
         for _ in range(8):
-            slopes = joints.slopes(places)
+            slopes = joints.distance_slopes(places)
             if not np.isfinite(slopes).all() or np.linalg.svd(slopes, compute_uv=False)[-1] < least:
                 return False
-            off = joints.lengths(places) - lengths
+            off = joints.distances_at(places) - lengths
             if np.abs(off).max() < 1e-12:
                 break
             places[:free] -= np.linalg.solve(slopes, off).reshape(free, 2)
@@ -351,12 +352,12 @@ def machine_class(inversion: Inversion, crank: int, coupler: int) -> type[Mechan
     members = chain_parts(
         ("phi", Stroke(0.0, 2.0 * pi)),
         {name: places[name] for name in ("O", *(each for each in joints.fixed if each != "O"))},
-        {name: places[name] for name in joints.turning},
-        {f"link{link}": names for link, names in joints.moving.items()},
+        {name: places[name] for name in joints.on_crank},
+        {f"link{link}": names for link, names in joints.moving_links.items()},
         {name: places[name] for name in joints.free},
         (COUPLER, (one, other), 0.25 * SIZE, pi / 6),
     )
-    moving = ", ".join(" ".join(each) for each in joints.moving.values())
+    moving = ", ".join(" ".join(each) for each in joints.moving_links.values())
     said = f"crank {' '.join(joints.links[crank])} drives the links {moving}"
     doc = f"The {inversion.name}: {said}; {COUPLER} is a point of {' '.join(joints.links[coupler])}."
     own: dict[str, Any] = {"__module__": __name__, "__doc__": doc, "featured": lambda self: Featured("", [COUPLER], coupler=COUPLER)}

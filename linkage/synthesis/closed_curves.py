@@ -73,7 +73,7 @@ class ClosedCurves:
         """What no shift, turn, size and start changes: |c_k| (m, 2 h), in parts of the size."""
         return np.asarray(np.abs(self.descriptors) / np.where(self.size > 0.0, self.size, 1.0)[:, None])
 
-    def shares(self, along: FloatArray) -> FloatArray:
+    def shares_of_turn(self, along: FloatArray) -> FloatArray:
         """Return which part of the round belongs to parts of the way (m, n); both may go beyond 0 and 1."""
         m, n = self.along.shape
         rows = 2.0 * np.arange(m)[:, None]

@@ -108,11 +108,11 @@ class CurveClass:
         return cls(machine.replaced(**fixed), of, stroke, tuple(variables), fixed)
 
     @property
-    def title(self) -> str:
+    def class_title(self) -> str:
         """The machine's title and the point."""
         return f"{self.machine.plan.title}, {self.of}"
 
-    def made(self, count: int, seed: int, executor: Executor | None, tell: Progress) -> tuple[FloatArray, FloatArray, int]:
+    def running_designs(self, count: int, seed: int, executor: Executor | None, tell: Progress) -> tuple[FloatArray, FloatArray, int]:
         """Return values (count, k) and amplitudes (count, 2 h) of designs that run their whole turn, and how many were looked at.
 
         The first are spread over the box; where few of them run the others are spread about those that do. There are fewer where it would
@@ -141,7 +141,7 @@ class CurveClass:
             looked, size = looked + size, min(ROUND, 2 * size)
             tell(min(len(rows), count), count)
         if not len(rows):
-            raise StudyError(f"{self.title}: of {looked} designs none runs its whole turn; a catalogue of it would be empty.")
+            raise StudyError(f"{self.class_title}: of {looked} designs none runs its whole turn; a catalogue of it would be empty.")
         return units[:count], rows[:count], looked
 
     def about(self, members: FloatArray, unit: FloatArray) -> FloatArray:
@@ -274,13 +274,13 @@ class CurveCatalogue(Shown):
         return len(self.units)
 
     def __str__(self) -> str:
-        return said("{title}: {count} closed curves of {looked} designs", title=self.kind.title, count=len(self), looked=self.looked)
+        return said("{title}: {count} closed curves of {looked} designs", title=self.kind.class_title, count=len(self), looked=self.looked)
 
     __repr__ = __str__
 
     def design(self, number: int) -> Mechanism:
         """Return the machine of a curve, by its number; its first two fixed points stand 1 m apart."""
-        check_in_count(self.kind.title, "curve", number, len(self))
+        check_in_count(self.kind.class_title, "curve", number, len(self))
         values = self.kind.values(self.units[int(number)][None])
         return self.kind.machine.replaced(**{name: float(value[0]) for name, value in self.kind.designs(values).items()})
 
@@ -289,7 +289,7 @@ class CurveCatalogue(Shown):
 
         DefinitionError for anything but a closed curve.
         """
-        require_whole(f"{self.kind.title}: count", count, "a whole number from 1 on is expected", least=1)
+        require_whole(f"{self.kind.class_title}: count", count, "a whole number from 1 on is expected", least=1)
         task = PathTask(points, of=self.kind.of, closed=True)
         numbers, values, distance = self.laid(task.points)
         rows = [{each.owner: float(value) for each, value in zip(self.variables, row, strict=True)} for row in values[:count]]
@@ -396,10 +396,10 @@ def curve_catalogue(
     """
     kind = CurveClass.for_point(machine, of, hold)
     if count is not None and not (is_whole(count) and 1 <= count <= MOST_CURVES):
-        raise DefinitionError(f"{kind.title}: count={cited(count)}: a whole number of curves is expected, up to {MOST_CURVES}.")
-    require_whole(f"{kind.title}: seed", seed, "a whole number is expected, at least 0", least=0)
+        raise DefinitionError(f"{kind.class_title}: count={cited(count)}: a whole number of curves is expected, up to {MOST_CURVES}.")
+    require_whole(f"{kind.class_title}: seed", seed, "a whole number is expected, at least 0", least=0)
     check_progress(progress)
     check_executor(executor)
-    with progress_told(progress, kind.title) as tell:
-        units, amplitudes, looked = kind.made(CURVES if count is None else count, seed, executor, tell)
+    with progress_told(progress, kind.class_title) as tell:
+        units, amplitudes, looked = kind.running_designs(CURVES if count is None else count, seed, executor, tell)
     return CurveCatalogue(kind, units, amplitudes, looked, seed)

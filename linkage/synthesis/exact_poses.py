@@ -228,7 +228,7 @@ class Burmester(Told, Shown):
             return GuidingLink.of(there, middle) if np.isfinite(middle) else GuidingLink.of(there, NOWHERE, line_through(there))
         if len(self.poses) == 4:
             loops = self.body.loops()
-            ends = [loop.nearest(place, 0 if centre is None else 1) for loop in loops]
+            ends = [loop.closest(place, 0 if centre is None else 1) for loop in loops]
             k = int(np.argmin([far for far, _ in ends]))
             (on_circle,), (on_centre,) = loops[k].at(np.array([ends[k][1]]))
             return GuidingLink.of(self.body.places_of(complex(on_circle)), complex(on_centre))
@@ -464,7 +464,7 @@ class CurveLoop:
             near = far.max(axis=1) < FARTHEST * self.seen.size
         return bool(near.any() and np.median(np.ptp(far[near], axis=1)) < 1e-6 * self.seen.size)
 
-    def nearest(self, place: complex, which: int) -> tuple[float, float]:
+    def closest(self, place: complex, which: int) -> tuple[float, float]:
         """Return how far the loop's circle point (0) or centre point (1) is off a place, where it comes nearest, and s there [rad]."""
         s, width = STEPS_OF_LOOP, TURN / LOOP
         for _ in range(12):

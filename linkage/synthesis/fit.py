@@ -102,18 +102,18 @@ class Timing:
         return int(self.moves.shape[1])
 
     @property
-    def reach(self) -> tuple[float, float]:
+    def unknowns_range(self) -> tuple[float, float]:
         """Where the unknowns' range begins, and how long it is [SI]."""
         return (self.start - self.span, 3.0 * self.span) if self.turn else (self.start, self.span)
 
     def strokes(self, base: FloatArray, own: FloatArray) -> FloatArray:
         """Return the strokes (m, n) [SI] of unknowns (m, w)."""
-        low, wide = self.reach
+        low, wide = self.unknowns_range
         return np.asarray(base + (low + wide * own) @ self.moves.T)
 
-    def own(self, strokes: FloatArray) -> FloatArray:
+    def unknowns_at(self, strokes: FloatArray) -> FloatArray:
         """Return the unknowns (m, w) of strokes (m, w) [SI]."""
-        low, wide = self.reach
+        low, wide = self.unknowns_range
         return np.asarray((strokes - low) / wide)
 
     def within(self, strokes: FloatArray) -> FloatArray:
@@ -128,7 +128,7 @@ class Timing:
         """Return unknowns (m, w), of a crank by whole turns, so that no end is near."""
         if not (self.turn and self.width):
             return own
-        turn = self.turn / abs(self.reach[1])
+        turn = self.turn / abs(self.unknowns_range[1])
         return np.asarray(own - turn * np.round((own.mean(axis=1, keepdims=True) - 0.5) / turn))
 
 
@@ -162,10 +162,10 @@ class Fit:
         self._fixed = problem.dimensions_at(np.zeros(self.n), self.combination)
         self._owner_of = np.array([self.owners.index(each.owner) for each in self.space.variables], int)
         self._by_unit = np.array([each.sign * each.span for each in self.space.variables])
-        counted = rows.weights[:, None] * rows.asked
+        counted = rows.weights[:, None] * rows.is_wanted
         self._counted = None if (counted == 1.0).all() else counted
 
-    def dimensions(self, unit: FloatArray) -> DesignValues:
+    def dimensions_of(self, unit: FloatArray) -> DesignValues:
         """Return the dimensions of designs (m, n)."""
         return self._fixed | self.space.dimensions_at(unit[..., : self.n])
 
@@ -173,7 +173,7 @@ class Fit:
         """Return the strokes (m, n) [SI] at which designs with their own unknowns (m, n + w) come to the points."""
         return self.timing.strokes(base, at[:, self.n :])
 
-    def grid(self, designs: Mapping[str, Any], strokes: FloatArray) -> Grid:
+    def grid_at(self, designs: Mapping[str, Any], strokes: FloatArray) -> Grid:
         """Return designs at strokes (n,), or (m, n) where each has its own."""
         own = strokes.ndim == 2
         every = {name: np.full(strokes.shape, value) for name, value in self.held.items()} | {self.timing.stroke: strokes}
@@ -189,7 +189,7 @@ class Fit:
         self.problem.count.add(count)
         shape = count, strokes.shape[-1]
         if self.plan.solved or not self.n:
-            grid = self.grid(designs, strokes)
+            grid = self.grid_at(designs, strokes)
             with unwarned(), np.errstate(all="ignore"):
                 found = np.array(np.broadcast_to(kernel(grid.flat, way=WAY, size=grid.size).values, (len(kernel.outputs), *shape)))
         else:  # nothing is to be solved first: the inputs as they are
@@ -215,13 +215,13 @@ class Fit:
         """Return what is wanted over the whole stroke, (m, r, count), and where it is reached; of a crank without the end of its turn."""
         strokes = self.timing.start + self.timing.span * np.linspace(0.0, 1.0, count, endpoint=not self.timing.turn)
         size = max(PIECE // count, 1)
-        parts = [self.values(self.dimensions(each), strokes, len(each)) for each in np.split(unit, range(size, len(unit), size))]
+        parts = [self.values(self.dimensions_of(each), strokes, len(each)) for each in np.split(unit, range(size, len(unit), size))]
         return np.concatenate([part[0] for part in parts]), np.concatenate([part[1] for part in parts])
 
     def misses(self, at: FloatArray, base: FloatArray) -> FloatArray:
         """Return how far designs and their own unknowns (m, n + w) are off, (m, r * n)."""
         strokes = self.strokes(at, base)
-        values, _ = self.values(self.dimensions(at), strokes, len(at))
+        values, _ = self.values(self.dimensions_of(at), strokes, len(at))
         return self.rows.off(values).reshape(len(at), len(self.requests) * self.rows.count)
 
     def slopes(self, at: FloatArray, base: FloatArray) -> FloatArray:
@@ -231,7 +231,7 @@ class Fit:
     def graded(self, at: FloatArray, base: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the misses (m, r * n) and their derivatives (m, r * n, n + w)."""
         strokes = self.strokes(at, base)
-        found = self._run(self.graded_kernel, self.dimensions(at), strokes, len(at))
+        found = self._run(self.graded_kernel, self.dimensions_of(at), strokes, len(at))
         r, points, p = len(self.requests), strokes.shape[1], len(self.owners) + 1
         off = self.rows.off(found[1 : 1 + r].swapaxes(0, 1)).reshape(len(at), r * points)
         shares = found[1 + r :].reshape(r, p, len(at), points)
@@ -240,7 +240,7 @@ class Fit:
             shares *= self._counted[:, None, None, :]
         slopes = np.empty((len(at), r, points, self.n + self.width))
         slopes[..., : self.n] = shares[:, self._owner_of].transpose(2, 0, 3, 1) * self._by_unit
-        slopes[..., self.n :] = shares[:, -1].swapaxes(0, 1)[..., None] * (self.timing.reach[1] * self.timing.moves)
+        slopes[..., self.n :] = shares[:, -1].swapaxes(0, 1)[..., None] * (self.timing.unknowns_range[1] * self.timing.moves)
         return off, slopes.reshape(len(at), r * points, -1)
 
     def descend(
@@ -299,7 +299,7 @@ class Fit:
         sense = np.where(strokes[:, -1:] >= first, 1.0, -1.0)
         ordered = first + np.minimum(np.maximum.accumulate(sense * (strokes - first), axis=1), wide) * sense
         moved = np.where(np.abs(ordered - strokes) > 1e-15 * wide, ordered, strokes)
-        return np.concatenate([at[:, : self.n], np.clip(self.timing.centred(self.timing.own(moved - base)), 0.0, 1.0)], axis=1)
+        return np.concatenate([at[:, : self.n], np.clip(self.timing.centred(self.timing.unknowns_at(moved - base)), 0.0, 1.0)], axis=1)
 
     def errors(self, at: FloatArray, base: FloatArray) -> FloatArray:
         """Return the sums of the squares of the misses (m,), infinite out of reach."""
@@ -326,7 +326,7 @@ def fit_squares(fit: Fit, at: FloatArray, base: FloatArray, *, in_order: bool) -
     if in_order and fit.width > 1:
         own = fit.put_in_order(at[None], base)[0, fit.n :]
         sense, every = 1.0 if own[-1] >= own[0] else -1.0, np.eye(fit.width)
-        turn = fit.timing.turn / abs(fit.timing.reach[1]) if fit.timing.turn else 1.0  # all within one turn
+        turn = fit.timing.turn / abs(fit.timing.unknowns_range[1]) if fit.timing.turn else 1.0  # all within one turn
         ahead = sense * np.concatenate([np.diff(every, axis=0), every[[0]] - every[[-1]]])
         lines = ahead, np.append(np.zeros(fit.width - 1), turn)
     size = max(float(np.sqrt(fit.errors(at[None], base)[0])), SMALL * fit.rows.size)

@@ -188,7 +188,7 @@ def laid_designs(fit: Fit, likeness: Likeness, unit: FloatArray, timed: object, 
     """
     if timed is True:
         base = np.broadcast_to(fit.known, (len(unit), fit.rows.count))
-        exact, _ = fit.values(fit.dimensions(unit), fit.known, len(unit))
+        exact, _ = fit.values(fit.dimensions_of(unit), fit.known, len(unit))
         _, factor, by = best_patterns(likeness, fit, unit, exact, np.arange(fit.rows.count)[None])
         own = np.zeros((len(unit), 0))
     elif timed is False and fit.rows.is_closed and runs and fit.timing.turn:
@@ -197,8 +197,8 @@ def laid_designs(fit: Fit, likeness: Likeness, unit: FloatArray, timed: object, 
         curves = ClosedCurves.of(as_complex(values))
         free = {"shift": likeness.shift, "turn": likeness.turn, "scale": likeness.scale}
         laid_on = laid_onto(curves, onto, likeness.sizes(fit, unit), **free)
-        strokes = fit.timing.start + fit.timing.span * curves.shares(laid_on.along(places))
-        factor, by, own = laid_on.factor, laid_on.by, fit.timing.own(strokes)
+        strokes = fit.timing.start + fit.timing.span * curves.shares_of_turn(laid_on.along(places))
+        factor, by, own = laid_on.factor, laid_on.by, fit.timing.unknowns_at(strokes)
         base = np.zeros((len(unit), fit.rows.count))
     else:
         values, _ = fit.swept(unit, poses_of(fit, timed))
@@ -207,7 +207,7 @@ def laid_designs(fit: Fit, likeness: Likeness, unit: FloatArray, timed: object, 
         base, own = base_of[pattern], own_of[pattern]
     laid = likeness.applied(fit, fit.space.values(unit), factor, by)
     if likeness.with_stroke:
-        own = own + np.angle(factor)[:, None] / fit.timing.reach[1]
+        own = own + np.angle(factor)[:, None] / fit.timing.unknowns_range[1]
     return np.concatenate([fit.space.within(laid), np.clip(fit.timing.centred(own), 0.0, 1.0)], axis=1), np.array(base)
 
 
@@ -242,7 +242,7 @@ def patterns(fit: Fit, timed: object, count: int) -> tuple[Index, FloatArray, Fl
         sense = np.repeat([1, -1], count)
         picks = np.mod(first[:, None] + sense[:, None] * step * way, count)
         base = sense[:, None] * way * timing.span / around
-        return picks, base, timing.own(timing.start + timing.span * first[:, None] / count)
+        return picks, base, timing.unknowns_at(timing.start + timing.span * first[:, None] / count)
     shares = lengths_along(fit)
     rows = []
     for along, is_closed in shares:
@@ -258,7 +258,7 @@ def patterns(fit: Fit, timed: object, count: int) -> tuple[Index, FloatArray, Fl
     poses = np.round(parts * last).astype(int)
     picks = np.mod(poses, count) if timing.turn else np.clip(poses, 0, last)
     strokes = timing.start + timing.span * parts
-    own = timing.own(strokes if timed is False else strokes[:, [0, -1]])
+    own = timing.unknowns_at(strokes if timed is False else strokes[:, [0, -1]])
     return picks, np.zeros((len(parts), n)), own
 
 

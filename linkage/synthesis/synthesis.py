@@ -486,7 +486,7 @@ def default_box(machine: Mechanism, task: Task) -> dict[str, tuple[float, float]
 def misses_of(fit: Fit, at: FloatArray, base: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return the strokes (n,) at which a design comes to the points, what it has there (r, n), and how far each is missed (n,)."""
     strokes = fit.strokes(at[None], base[None])
-    values, _ = fit.values(fit.dimensions(at[None]), strokes, 1)
+    values, _ = fit.values(fit.dimensions_of(at[None]), strokes, 1)
     far = np.linalg.norm(fit.rows.off(values)[0], axis=0)
     return fit.timing.within(strokes[0]), values[0], far
 

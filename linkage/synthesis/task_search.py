@@ -188,7 +188,7 @@ def catalogue_for(
         raise DefinitionError(f"{title}: starts={cited(starts)}: a catalogue holds closed curves; say {closed}, or a number of starts.")
     if isinstance(starts, CurveCatalogue):
         if type(starts.kind.machine) is not type(machine) or starts.kind.of != task.of:
-            raise DefinitionError(f"{title}: starts={cited(starts)}: this is a catalogue of {starts.kind.title}, not of {task.of}.")
+            raise DefinitionError(f"{title}: starts={cited(starts)}: this is a catalogue of {starts.kind.class_title}, not of {task.of}.")
         return starts
     varied = {each.owner for each in problem.space.variables} | {owner for owners, _ in problem.space.choices for owner, _ in owners}
     hold = [name for name, entry in machine.plan.table.entries.items() if entry.kind == "angle" and name not in varied]
@@ -322,7 +322,7 @@ class TaskSearch:
             unit = np.concatenate([unit, unit_points(self.population, len(space.variables), "sobol", self.seed)])
         unit = space.drawn(unit, self.problem.plan.title, self.seed)
         every = [(each, {"unit": unit}) for each in chosen]
-        seen = stages.done("look", LookWork(*self.shared, self.timed), every, told=self.population * len(chosen))
+        seen = stages.carried_out("look", LookWork(*self.shared, self.timed), every, told=self.population * len(chosen))
         fits = [self.fit(each) for each in chosen]
         likeness: dict[Combination, Likeness] = {}
         parts = []
@@ -333,7 +333,7 @@ class TaskSearch:
                 likeness[fit.combination] = Likeness.of(fit, unit[runs][:3], timed=self.timed is True)
                 parts.append((fit.combination, {"unit": unit[kept]}))
         running = frozenset(each for each, runs in zip(chosen, whole, strict=True) if int(runs.sum()) >= WHOLE_ENOUGH)
-        laid = stages.done("lay", LayWork(*self.shared, self.timed, likeness, running), parts)
+        laid = stages.carried_out("lay", LayWork(*self.shared, self.timed, likeness, running), parts)
         found = []
         for (_, own), each, fit, runs in zip(parts, laid, fits, whole, strict=True):
             places = standing_apart(own["unit"], each["error"], RACING * self.many)
@@ -346,7 +346,7 @@ class TaskSearch:
         if self.most(sum(len(each.at) for each in first)) < 4 * 3 * RACE:  # a limit is better spent on the best
             return [replace(each, at=each.at[: self.many], base=each.base[: self.many]) for each in first]
         found = []
-        for each, own in zip(first, stages.done("race", RaceWork(*self.shared), [each.part for each in first]), strict=True):
+        for each, own in zip(first, stages.carried_out("race", RaceWork(*self.shared), [each.part for each in first]), strict=True):
             places = standing_apart(own["at"][:, : each.fit.n], own["error"], self.many)
             found.append(replace(each, at=own["at"][places], base=each.base[places]))
         return found
@@ -386,7 +386,7 @@ class TaskSearch:
         wave = 0
         while not self.problem.count.is_spent and min(way.best for way in ways) > exact and any([way.next() for way in ways]):
             work = PolishWork(*self.shared, self.ordered, self.most(sum(len(way.now) for way in ways)))
-            reached = stages.done(f"conditions {wave}", work, [(way.fit.combination, way.rows) for way in ways])
+            reached = stages.carried_out(f"conditions {wave}", work, [(way.fit.combination, way.rows) for way in ways])
             for way, end in zip(ways, reached, strict=True):
                 way.enter(end["at"][end["ended"]], way.rows["base"][end["ended"]])
             wave += 1
@@ -443,7 +443,7 @@ class TaskSearch:
         reached = [each.at for each in first]
         if not self.problem.count.is_spent:
             work = DescentWork(*self.shared, through, self.most(sum(map(len, reached))))
-            reached = [each["at"] for each in stages.done(name or through, work, [each.part for each in first], told=told)]
+            reached = [each["at"] for each in stages.carried_out(name or through, work, [each.part for each in first], told=told)]
         return [self.ends_of(each.fit, at, each.base) for each, at in zip(first, reached, strict=True)]
 
     def ends_of(self, fit: Fit, at: FloatArray, base: FloatArray) -> Ends:
@@ -490,7 +490,7 @@ class TaskSearch:
         solutions: list[SynthesisedMachine] = []
         misses: list[Miss] = []
         seen: list[tuple[float, Ends, int]] = []
-        moving = self.moving(ends)
+        moving = self.moving_variables(ends)
         for one in every:
             error, each, k = one
             if len(solutions) == ANSWERS:
@@ -521,7 +521,7 @@ class TaskSearch:
         n = ends.fit.n
         return bool(is_one_design(ends.at[k, :n][moving], others.at[j, :n][moving], error, known, exact_error(self.rows)))
 
-    def moving(self, ends: Sequence[Ends]) -> Mask:
+    def moving_variables(self, ends: Sequence[Ends]) -> Mask:
         """Return which variables (n,) move anything of the task; all where conditions or a rank are asked."""
         found = np.zeros(len(self.problem.space.variables), bool)
         if self.problem.constraints or self.ranks:

@@ -235,7 +235,7 @@ class Stages:
         self.before = 0
         tell(0, total)
 
-    def done(self, name: str, work: FitWork, parts: Sequence[Part], *, told: int = 0) -> list[dict[str, Array]]:
+    def carried_out(self, name: str, work: FitWork, parts: Sequence[Part], *, told: int = 0) -> list[dict[str, Array]]:
         """Return what is found of the designs of each part, arrays (m, ...) by name; in the progress it counts as so many designs."""
         rows = joined_rows(parts)
         found = self._found(name, work, rows, told) if rows.count else work.nothing

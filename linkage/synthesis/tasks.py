@@ -64,7 +64,7 @@ class TaskRows:
         return float(spans.max()) or float(np.nanmax(np.abs(self.wanted))) or 1.0
 
     @cached_property
-    def asked(self) -> Mask:
+    def is_wanted(self) -> Mask:
         """Which values are wanted (r, n)."""
         return np.isfinite(self.wanted)
 
@@ -74,8 +74,8 @@ class TaskRows:
         if self.turns.any():
             turn = 2.0 * np.pi * self.turns[:, None]
             found -= turn * np.round(found / np.where(turn > 0.0, turn, 1.0))
-        if not self.asked.all():
-            found[:, ~self.asked] = 0.0
+        if not self.is_wanted.all():
+            found[:, ~self.is_wanted] = 0.0
         return np.asarray(found * self.weights[:, None])
 
 

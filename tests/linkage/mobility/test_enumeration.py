@@ -7,13 +7,13 @@ import networkx as nx
 import numpy as np
 import pytest
 
-from linkage.mobility import canonical, chain_forms, joined
+from linkage.mobility import canonical, chain_forms, joint_pairs
 from linkage.mobility.enumeration import is_degenerate
 
 
 def graph(form):
     """Return a form as a graph."""
-    return nx.Graph(joined(form))
+    return nx.Graph(joint_pairs(form))
 
 
 def form_of(edges, links):
@@ -23,12 +23,12 @@ def form_of(edges, links):
 
 def relabelled(form, order):
     """Return a form whose link k is numbered order[k]."""
-    return form_of([(order[a], order[b]) for a, b in joined(form)], len(form))
+    return form_of([(order[a], order[b]) for a, b in joint_pairs(form)], len(form))
 
 
 def least_code(form):
     """Return the least of all numberings, one by one."""
-    edges = joined(form)
+    edges = joint_pairs(form)
     return min(sorted(tuple(sorted((order[a], order[b]))) for a, b in edges) for order in permutations(range(len(form))))
 
 

@@ -64,7 +64,7 @@ def test_a_curve_is_laid_onto_its_own_image(backward):
     assert laid.backward[0] == backward
     assert np.sqrt(laid.error[0]) / onto.size[0] < 1e-7
     assert_allclose([laid.factor[0], laid.by[0]], [factor, by], rtol=0, atol=1e-7)
-    strokes = 2 * np.pi * curves.shares(laid.along(along))[0]
+    strokes = 2 * np.pi * curves.shares_of_turn(laid.along(along))[0]
     there = laid.factor * (BAR.at(phi=strokes)["P"].T @ [1.0, 1.0j]) + laid.by
     assert np.abs(there - moved(curve(300, 0.7), factor, by, 77, backward)).max() < 1e-3 * onto.size[0]
 

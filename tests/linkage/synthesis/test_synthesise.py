@@ -156,7 +156,7 @@ def test_strokes_are_polished_of_a_design_without_variables():
     problem = Problem(bar, [Given(0.0)], [], space)
     rows = PathTask(bar.at(phi=at)["P"].T, of="P").rows(bar)
     fit, base = Fit(problem, rows, Timing.of(problem, "phi", False, 4), (0,)), np.zeros(4)
-    start = fit.timing.own(at + np.array([0.1, -0.1, 0.05, 0.0]))
+    start = fit.timing.unknowns_at(at + np.array([0.1, -0.1, 0.05, 0.0]))
     local = Local(problem, (0,), start[: fit.n], squares=fit_squares(fit, start, base, in_order=True))
     end = local.run()
     assert fit.n == 0 and end.whole

@@ -212,7 +212,7 @@ def test_strokes_that_differ_by_whole_turns_or_rounding_are_in_one_order():
         noise = 1e-11 * random.standard_normal(len(at))
         moved = at + noise + TURN * random.integers(-1, 2, len(at))
         unit, base = space.unit(space.present(known)), np.zeros((1, len(at)))
-        start = np.concatenate([unit, fit.timing.own(moved)])[None]
+        start = np.concatenate([unit, fit.timing.unknowns_at(moved)])[None]
         ordered = fit.put_in_order(start, base)
         assert_allclose(fit.misses(ordered, base), 0.0, rtol=0, atol=1e-10)
         assert in_order(fit, ordered[0], base[0]), seed

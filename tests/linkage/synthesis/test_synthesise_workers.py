@@ -125,7 +125,7 @@ def test_what_goes_to_workers_is_small_and_whole(alone):
 
 def test_rows_of_several_combinations_keep_their_order():
     rows = joined_rows([((0, 1), {"at": np.zeros((2, 3))}), ((1, 0), {"at": np.ones((1, 3))})])
-    assert rows.count == 3 and rows.width == 5
+    assert rows.count == 3 and rows.numbers_each == 5
     assert rows.dimensions(1, 3)["combination"].tolist() == [[0, 1], [1, 0]]
     assert rows.digests() != joined_rows([((0, 1), {"at": np.zeros((3, 3))})]).digests()
 

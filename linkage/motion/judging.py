@@ -6,7 +6,7 @@ from abc import abstractmethod
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import ClassVar, final
+from typing import Any, ClassVar, final
 
 import numpy as np
 
@@ -451,11 +451,12 @@ def over_pose(motion: Motion, cases: Sequence[str] | None) -> Over:
     """Return where a pose is judged: it alone, in time the shortest way from it on, at the end up to it."""
     instants = motion._instants
     if instants is None or not instants.courses:
-        return Over.poses(cases=cases, **{name: [float(np.ravel(value)[0])] for name, value in motion.strokes.items()})
+        places: dict[str, Any] = {name: [float(np.ravel(value)[0])] for name, value in motion.strokes.items()}
+        return Over.poses(cases=cases, **places)
     (first, last), time = instants.breaks[[0, -1]].tolist(), float(np.ravel(instants.time)[0])
     begin = min(max(time, first), last - INSTANT * (last - first))
-    ends = begin, begin + INSTANT * (last - first)
-    return Over.path(cases=cases, time=ends, **instants.courses)
+    courses: dict[str, Any] = dict(instants.courses)
+    return Over.path(cases=cases, time=(begin, begin + INSTANT * (last - first)), **courses)
 
 
 def answers_at(judge: Judge) -> tuple[dict[str, Answer], list[str]]:

@@ -61,7 +61,7 @@ def situated_rows(name: str, live: LiveText, count: int) -> int | list[int] | No
 def load_part(kind: str, name: Any, axis: int, motion: AnyMotion, acting: Acting) -> FloatArray:
     """Return a part of what the ground does, by its place, or of an element's loads at a point, over a motion in a situation [N]."""
     if kind == "ground":
-        return ground_loads(motion, acting)[name].force[axis]
+        return cast(FloatArray, ground_loads(motion, acting)[name].force[axis])
     loads = [each for each in applied_loads(motion, acting, rates_in(motion, acting)).loads if (each.element, each.point) == name]
     return cast(FloatArray, sum((each.force[axis] for each in loads), np.zeros(motion.shape)))
 

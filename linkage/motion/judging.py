@@ -146,8 +146,8 @@ def geometry_verdicts(judge: Judge) -> list[Verdict]:
 
 
 def dead_points_over(judge: Judge) -> list[Verdict]:
-    """Return what stops or turns a motion along each stroke, or in a box: the faults of every place, else what the first place says."""
-    found: dict[tuple[str, str], list[Verdict]] = {}
+    """Return what stops or turns a motion along each stroke, or in a box, over every place; in one row the nearest dead points beyond."""
+    found, nearest = dict[tuple[str, str], list[Verdict]](), dict[tuple[str, bool], tuple[float, str]]()
     for place in [place for place in judge.places if place.motion.reached.any()] or judge.places[:1]:
         spans = {name: (float(np.min(value)), float(np.max(value))) for name, value in place.motion.strokes.items()}
         together = in_line(place).get((), "") if len(place.running) > 1 else ""
@@ -157,10 +157,14 @@ def dead_points_over(judge: Judge) -> list[Verdict]:
             found.setdefault(("", "dead points"), []).append(Verdict("dead points", False if pushed else None, text))
         for name, limits in stroke_search.limits(place.motion).items():
             if spans[name][0] < spans[name][1] or len(spans) == 1:
+                for is_behind, away, text in nearest_dead_points(limits, spans[name]):
+                    nearest[name, is_behind] = min((away, text), nearest.get((name, is_behind), (away, text)))
                 for each in dead_point_verdicts(limits, spans[name], is_pushed(judge, name)):
                     if not (together and each.rule == "dead points"):
                         found.setdefault((name, each.rule), []).append(each)
-    return [each for known in found.values() for each in dict.fromkeys(one for one in known if not one.ok) or known[:1]]
+    clear = [text for (name, _), (_, text) in nearest.items() if not {(name, "dead points"), ("", "dead points")} & found.keys()]
+    kept = [Verdict("dead points", True, said("none within the stroke; the nearest: {places}.", places="; ".join(clear)))] if clear else []
+    return kept + [each for known in found.values() for each in dict.fromkeys(known)]
 
 
 def in_line(place: Domain) -> dict[tuple[int, ...], str]:
@@ -206,8 +210,20 @@ def assembly_verdicts(judge: Judge) -> list[Verdict]:
     return [Verdict("assembly", ok, text, answer=answer)]
 
 
+def nearest_dead_points(limits: StrokeLimits, span: tuple[float, float]) -> Iterator[tuple[bool, float, str]]:
+    """Yield the nearest dead points before and behind the part of a stroke that runs: which of both, how far away, and that in words."""
+    low, high = span if span[0] < span[1] else sorted((limits.start, limits.end))
+    before = max((each for each in limits.dead_points if each[0] <= low), default=None)
+    behind = min((each for each in limits.dead_points if each[0] >= high), default=None)
+    for is_behind, each in enumerate((before, behind)):
+        if each is not None:
+            away = max(low - each[0], each[0] - high)
+            distance = said("{distance} beyond it", distance=show(away, "deg" if limits.unit == "rad" else "mm", 3))
+            yield bool(is_behind), away, f"{place_of(limits, *each)}, {distance}"
+
+
 def dead_point_verdicts(limits: StrokeLimits, span: tuple[float, float], pushed: bool) -> Iterator[Verdict]:
-    """Yield what stops or turns a motion along one stroke: within the part that runs a fault, beyond its ends how far away it is.
+    """Yield what stops or turns a motion along one stroke, within the part that runs.
 
     At an end it is a fault where it is `pushed` by a cylinder, which cannot start from there.
     """
@@ -222,15 +238,6 @@ def dead_point_verdicts(limits: StrokeLimits, span: tuple[float, float], pushed:
         yield Verdict("dead points", False, " ".join([passed] * bool(inside) + [begun] * bool(at_end and pushed)))
     elif at_end:
         yield Verdict("dead points", None, said("{places}, where the stroke ends: no ratio and no force has a value there.", places=at_end))
-    elif points:
-        before = max((each for each in points if each[0] <= low), default=None)
-        behind = min((each for each in points if each[0] >= high), default=None)
-        nearest = []
-        for each in (before, behind):
-            if each is not None:
-                away = said("{distance} beyond it", distance=show(points[each], "deg" if limits.unit == "rad" else "mm", 3))
-                nearest.append(f"{place_of(limits, *each)}, {away}")
-        yield Verdict("dead points", True, said("none within the stroke; the nearest: {places}.", places="; ".join(nearest)))
     crossing = [place_of(limits, value, step) for value, step in limits.change_points if low <= value <= high]
     if crossing:
         places = "; ".join(crossing)

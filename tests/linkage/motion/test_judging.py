@@ -6,12 +6,14 @@ import numpy as np
 import pytest
 
 from hydraulics import Accumulator, AccumulatorBlock, Cylinder, FloatCircuit, LiftCircuit, isothermal, lift_verdicts
-from linkage import RIGHT, Column, DefinitionError, Dimension, Dyad, Ground, Mechanism, OnLink, Stroke, Verdict, Weight, most, y
+from linkage import RIGHT, Column, DefinitionError, Dimension, Dyad, Ground, Mechanism, OnLink, Over, Stroke, Verdict, Weight, most, y
 from linkage.loads import FRICTIONLESS, PLAIN_CASE, ForceElement
 from linkage.motion import HasVerdicts, Tabled
 from linkage.motion.judge import Situation, situation_found
+from linkage.motion.judging import geometry_verdicts
 from linkage.reports import results
 from linkage.units import bar, litre, mm
+from mechanisms.at_work.excavator import HookExcavator
 
 
 class Boom(Mechanism):
@@ -46,6 +48,14 @@ def test_a_machine_without_loads_is_told_where_it_is_assembled_and_how_far_its_d
     far, near = np.hypot(0.1, 0.6) + 0.3, np.hypot(0.1, 0.6) - 0.3  # A, O and B in line
     assert f"B at S = {near - 0.5:.4f} m, {(0.5 - near) * 1e3:.3g} mm beyond it" in found["dead points"]
     assert f"B at S = {far - 0.5:.4f} m, {(far - 0.75) * 1e3:.3g} mm beyond it" in found["dead points"]
+
+
+def test_the_nearest_dead_points_of_all_strokes_and_places_are_one_row():
+    """Of two boxes the nearer end counts on each side, of each stroke that runs."""
+    judge = HookExcavator().judge([Over(lift=(0.1, 0.2), swing=0.2), Over(lift=(0.2, 0.38), swing=(0.1, 0.3))])
+    (row,) = (each for each in geometry_verdicts(judge) if each.rule == "dead points")
+    places = ("lift = -0.1395 m, 239 mm", "lift = 0.4535 m, 73.5 mm", "swing = -0.0409 m, 141 mm", "swing = 0.5523 m, 252 mm")
+    assert row.ok and all(f"{place} beyond it" in row for place in places) and str(row).count("beyond it") == 4
 
 
 def test_a_motion_that_is_not_assembled_says_how_much_is_missing():

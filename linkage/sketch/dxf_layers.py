@@ -118,11 +118,11 @@ class DrawingReader:
 
 
 def corners_of(entity: Any) -> list[Place]:
-    """Return the corners of a line, a polyline or a hatch, arcs by chords; a closed one ends where it begins. None of what has no form."""
+    """Return the corners of a line, a polyline or a hatch, arcs by chords; a closed one ends where it begins. What has no form has none."""
     if entity.dxftype() == "LINE":
         return [(float(each.x), float(each.y)) for each in (entity.dxf.start, entity.dxf.end)]
-    from ezdxf import DXFError
     from ezdxf import path as curves
+    from ezdxf.lldxf.const import DXFError
 
     try:
         borders = [*curves.from_hatch(entity)] if entity.dxftype() == "HATCH" else [curves.make_path(entity)]
@@ -149,4 +149,4 @@ def surrounds(place: Place, corners: Sequence[Place]) -> bool:
     """Return whether a place is inside a closed outline."""
     from ezdxf.math import Vec2, is_point_in_polygon_2d
 
-    return is_point_in_polygon_2d(Vec2(place), Vec2.list(corners)) > 0
+    return bool(is_point_in_polygon_2d(Vec2(place), Vec2.list(corners)) > 0)

@@ -36,13 +36,15 @@ def inputs_section(subject: ReportSubject, listing: Equations) -> Section:
         blocks.append(dimension_table(machine, listing, notes))
     elements, heads = machine.plan.of_kind(ForceElement), (said("name"), said("declared as"), said("source, note"))
     if elements:
-        rows = tuple((name, with_units(elements[name], text), note) for name, text, note in member_rows(machine, tuple(elements), notes))
+        declared = member_rows(machine, tuple(elements), notes)
+        rows = tuple((name, in_digits(with_units(elements[name], text)), note) for name, text, note in declared)
         blocks.append(TableBlock(said("Loads, force elements and hydraulics"), heads, rows, "lmm"))
     else:
         blocks.append(said("No load is declared: forces are not calculated."))
     cases = machine.plan.of_kind(LoadCase)
     if cases:
-        blocks.append(TableBlock(said("Load cases"), heads, member_rows(machine, tuple(cases), notes), "lmm"))
+        rows = tuple((name, in_digits(text), note) for name, text, note in member_rows(machine, tuple(cases), notes))
+        blocks.append(TableBlock(said("Load cases"), heads, rows, "lmm"))
     return Section(said("Inputs"), (*blocks, dimension_drawing(subject)))
 
 
@@ -147,7 +149,12 @@ def number_units(element: object) -> dict[str, str]:
 def member_rows(machine: Mechanism, names: tuple[str, ...], notes: Mapping[str, str]) -> tuple[tuple[str, str, str], ...]:
     """Return members as they are declared."""
     texts = written_out(machine.plan, {name: float(value) for name, value in machine.dimensions.items()})
-    return tuple((name, LONG.sub(lambda found: f"{float(found[0]):.{DIGITS}g}", texts[name]), notes.get(name, "")) for name in names)
+    return tuple((name, texts[name], notes.get(name, "")) for name in names)
+
+
+def in_digits(text: str) -> str:
+    """Return a declaration whose numbers have DIGITS digits at the most."""
+    return LONG.sub(lambda found: f"{float(found[0]):.{DIGITS}g}", text)
 
 
 def definition_section(machine: Mechanism) -> Section:
@@ -155,7 +162,7 @@ def definition_section(machine: Mechanism) -> Section:
     left_out = (Dimension, Stroke, ForceElement, LoadCase)  # these stand among the inputs
     names = tuple(name for name, member in machine.plan.members.items() if not isinstance(member, left_out))
     heads = (said("name"), said("declared as"))
-    rows = tuple((name, OF_PART.sub("", text)) for name, text, _ in member_rows(machine, names, {}))
+    rows = tuple((name, in_digits(OF_PART.sub("", text))) for name, text, _ in member_rows(machine, names, {}))
     cylinders = [(spanning_name(machine.plan, bar.P, bar.Q), f"{bar.P} {bar.Q}") for bar in machine.plan.cylinders]
     bodies = (*((said("frame") if body.fixed else body.name, " ".join(body.points)) for body in machine.links), *cylinders)
     count = said(

@@ -184,8 +184,9 @@ LEADING = 10.0
 """What such a line costs, in covered points."""
 CROSSED_TEXT, CROSSED_LEADER, COVERED_TEXT, OFF_SHEET = 40.0, 250.0, 400.0, 900.0
 """What it costs to cross another text or another such line, to cover a text, and to hang over the sheet's edge, in covered points."""
-STRAY, LED_STRAY = 300.0, 6.0
-"""What it costs to stand nearer to what another text stands for than to the own, without and with such a line, in covered points."""
+STRAY, LED_STRAY, LED_BESIDE = 300.0, 6.0, 60.0
+"""What it costs to stand nearer to what another text stands for than to the own, without and with such a line, in covered points; and
+with one right beside it."""
 ARROW = 4
 """What a point along an arrow costs, in covered points."""
 ALONG_LEADER = np.linspace(0.0, 1.0, 24)[1:, None]
@@ -197,6 +198,8 @@ FIRST_LED = LED * len(AROUND)
 """The first of the spots of a text that such a line leads to."""
 CLEAR = 1.5  # pixels kept free around a value
 NEARER = 1.0  # pixels by which a text has to be nearer to count as that
+BESIDE = 20.0  # pixels within which a text is taken for that of an arrow
+EDGE = 3.0  # pixels kept free along the sheet's edges
 
 
 @final
@@ -258,7 +261,8 @@ class PlacedWording:
         same = [len(each.mark) == len(self.mark) and np.allclose(each.mark, self.mark, atol=NEARER) for each in others]
         marks = [each.mark for each, is_same in zip(others, same, strict=True) if not is_same]
         near = self.distances(np.concatenate(marks)) if marks else np.full(len(self.spots), np.inf)
-        self.strays = np.where(np.arange(len(self.spots)) < FIRST_LED, STRAY, LED_STRAY) * (near < self.away - NEARER)
+        led = LED_STRAY + LED_BESIDE * (near < BESIDE)
+        self.strays = np.where(np.arange(len(self.spots)) < FIRST_LED, STRAY, led) * (near < self.away - NEARER)
 
     @property
     def box(self) -> FloatArray:
@@ -307,7 +311,7 @@ def place_wordings(ax: Axes, texts: Sequence[Wording], covered: FloatArray) -> N
     """Write texts near their places so that they cover neither each other, nor what is written already, nor `covered` points [m]."""
     renderer = renderer_of(figure_of(ax))
     ax.apply_aspect()
-    inside = ax.get_window_extent(renderer)
+    inside = ax.get_window_extent(renderer).padded(-EDGE)
     boxes = [np.array(each.extents) for each in text_boxes(ax)]
     led = written_leaders(ax)
     points = ax.transData.transform(covered) if covered.size else np.empty((0, 2))

@@ -15,7 +15,7 @@ from matplotlib.patches import Patch, Polygon
 from matplotlib.text import Annotation, Text
 
 from linkage import RIGHT, Crank, Dyad, Force, Ground, Mechanism, OnLink, Stroke, deg, draw, plot
-from linkage.pictures.arrows import ArrowLayer, VectorArrow, draw_arrows, place_wordings, wordings
+from linkage.pictures.arrows import EDGE, ArrowLayer, VectorArrow, draw_arrows, place_wordings, wordings
 from linkage.pictures.force_arrows import PIN, ForceQuestion, forces_at_pose, short_name
 from linkage.pictures.labels import LabelPart, offsets
 from linkage.pictures.shapes import lines_cross
@@ -132,6 +132,9 @@ def test_values_of_drawn_arrows_keep_to_their_own_and_their_lines_do_not_cross(s
     place_wordings(ax, wordings(layer, 2.5e-4, 0.012), covered)
     check_leaders(ax)
     check_texts(figure)
+    free = ax.get_window_extent().padded(-EDGE)
+    assert all(free.min[0] <= box.x0 and free.min[1] <= box.y0 and box.x1 <= free.max[0] and box.y1 <= free.max[1]
+               for text, box in boxes(figure) if " on body " in text)  # fmt: skip
 
 
 def test_names_of_crowded_points_have_lines_that_do_not_cross():

@@ -139,8 +139,8 @@ def way_back(
     helps = sense * by_other_lines(ram, line, held_in_case(motion, acting), None, True)
     brings = np.where(drives > 0.0, drives * k_m, drives / k_m)
     push = (against * empties - brings - helps) / other
-    pressures = np.maximum(brings + helps, 0.0) / empties, push, helps / other
-    working, push, tank = (each if goes is None else only_where(goes * sense > 0.0, each) for each in pressures)
+    pressures = [np.asarray(each)[()] for each in (np.maximum(brings + helps, 0.0) / empties, push, helps / other)]
+    working, push, tank = pressures if goes is None else [only_where(goes * sense > 0.0, each) for each in pressures]
     return working, push, tank
 
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from functools import cached_property
 from typing import Any, final
 
 import numpy as np
@@ -161,7 +161,7 @@ class Consumers:
             asked.append(cylinder_request("line force", ram.name, acting, force_on_lines, measures="force"))
             asked.append(distance(ram.A, ram.B))
             asked += [ratio(distance(ram.A, ram.B), name) for name in self.strokes]
-            asked += [LawRequest(formula=partial(area_of, ram, side), text=f"{ram.name} {side} area") for side in (PISTON, ROD)]
+            asked += [area_request(ram, side) for side in (PISTON, ROD)]
         there = Motion(plan, designs, {name: np.asarray(strokes[name]) for name in self.strokes}, "nan")
         on = [(line, ram) for line in self.lines for ram in line.members(self.members)]
         self.inlets = [self._inlet(line, ram, sense, there) for line, ram in on for sense in (1.0, -1.0)]
@@ -268,10 +268,14 @@ def force_on_lines(motion: AnyMotion, ram: Ram, acting: Acting) -> Array:
     return line_thrust(ram, None, motion, acting)
 
 
-def area_of(ram: Ram, side: str, motion: AnyMotion) -> Array:
-    """Return the area of a side of a cylinder [m2]."""
-    size = ram.sized(motion)
-    return (size.push_area if side == PISTON else size.pull_area) + 0.0 * motion.distance(ram.A, ram.B)
+def area_request(ram: Ram, side: str) -> LawRequest:
+    """Return the request for the area of a side of a cylinder [m2]."""
+
+    def over(motion: AnyMotion) -> Array:
+        size = ram.sized(motion)
+        return (size.push_area if side == PISTON else size.pull_area) + 0.0 * motion.distance(ram.A, ram.B)
+
+    return LawRequest(formula=over, text=f"{ram.name} {side} area", known=("area", ram.name, side))
 
 
 def pilot_request(inlet: Inlet, acting: Acting) -> LawRequest:

@@ -49,6 +49,8 @@ Demand: TypeAlias = "float | Course"
 """How fast a cylinder shall move [m/s], or a course of that over time."""
 AHEAD = 1e-7
 """s; so far it is looked ahead behind an event, to see how it goes on."""
+CLOSE = 1e-11
+"""s; so near an event is found."""
 AT_END = 1e-12
 """m or rad; a stroke or a length that is no farther from its end is at it."""
 ROUNDS = 40
@@ -336,6 +338,8 @@ class PumpedMachine:
             for low, high in pairwise(inner):
                 fine = np.linspace(low, high, 65)
                 signs = np.sign(each(fine, phase=np.full(65, 0.5 * (low + high))))
+                still = np.flatnonzero((signs[1:-1] == 0.0) & (signs[2:] * signs[:-2] != 0.0)) + 1
+                found.update(fine[still].tolist())
                 for place in np.flatnonzero(signs[1:] * signs[:-1] < 0.0):
                     ends = last_holding(lambda at, each=each, sign=signs[place]: np.sign(each(at)) == sign, fine[place], fine[place + 1])  # type: ignore[misc]
                     found.add(float(ends[0]))
@@ -391,8 +395,8 @@ class PumpedMachine:
     def border(self, time: Array, strokes: Array, mode: Mode, moment: Going, place: int) -> float:
         """Return the first instant of a stretch at which its mode is due no longer, before one of its places."""
         low = max(time[place - 1], time[0])
-        close = 1e-13 * max(1.0, abs(time[-1]))
-        return float(last_holding(lambda at: self.due(at, time, strokes, mode, moment), low, time[place], close, 4)[1])
+        close = CLOSE * max(1.0, abs(time[-1]))
+        return float(last_holding(lambda at: self.due(at, time, strokes, mode, moment), low, time[place], close, 8)[1])
 
 
 def length_ends(ram: Ram, there: Motion) -> tuple[float, float]:
@@ -477,7 +481,7 @@ def run_start(machine: Mechanism, start: Mapping[str, float] | Motion | None) ->
 
 def run_through(work: PumpedMachine, begin: float, end: float, strokes: Array) -> tuple[list[Stretch], list[Array], list[PumpEvent]]:
     """Return all stretches of a run, the polynomials of the strokes in each, by powers of the time since it begins, and the events."""
-    stretches, coefficients, events = list[Stretch](), list[Array](), Events(work)
+    stretches, coefficients, events, tiny = list[Stretch](), list[Array](), Events(work), 0
     corners = work.corners(begin, end)
     for here, corner in pairwise(corners):
         time, width, settled = here, corner - here, None
@@ -506,7 +510,9 @@ def run_through(work: PumpedMachine, begin: float, end: float, strokes: Array) -
             coefficients.append(powers(strokes, gone.rates, last - time))
             width, time, strokes = 2.0 * (last - time) if place is None else max(width, last - time), last, passed[:, -1:]
             settled = None if place is not None else (mode, work.moment(np.array([time]), strokes, work.pace(gone)[:, -1:], mode))
-            ensure(len(stretches) < MOST, f"{work.plan.title}: up to {time:.7g} s one event follows the other without end.")
+            tiny = tiny + 1 if stretches[-1].time[-1] - stretches[-1].time[0] < SHORTEST else 0
+            endless = tiny > ROUNDS or len(stretches) > MOST
+            ensure(not endless, f"{work.plan.title}: up to {time:.7g} s one event follows the other without end.")
     return stretches, coefficients, events.found
 
 

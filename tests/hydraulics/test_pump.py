@@ -210,6 +210,14 @@ def test_a_run_is_a_motion_in_time_that_goes_on_and_is_checked():
     assert [event.time for event in whole.events] == sorted(event.time for event in whole.events)
 
 
+def test_a_demand_may_change_its_sense_at_any_instant():
+    machine = TwoLifts()
+    for middle in (1.0, 1.1, 0.7 + 0.0123):  # 1.0 s is one of the instants that are looked at first
+        demand = Course([0.0, 2.0 * middle], [0.1, -0.1], "straight")
+        run = pump_of(machine).run(machine, demands={"one.ram": demand, "two.ram": 0.01}, until=2.0 * middle)
+        assert [event.time for event in run.events if event.kind == "demand"] == [pytest.approx(middle, abs=1e-9)]
+
+
 def test_a_shared_pump_is_written_into_a_file_and_read():
     class Saved(TwoLifts):
         supply = Pump(250 * bar, flow=FLOW, margin=15 * bar, power=5e3, sharing="least pressure first", first="one.ram")

@@ -70,7 +70,7 @@ def lifted(point: str = "G", share: float = 1.0) -> LawRequest:
 def lifting_circuit(plan: Plan) -> LiftCircuit:
     """Return the circuit of a hitch that lifts; DefinitionError where there is none."""
     circuits = plan.of_kind(LiftCircuit)
-    ensure("circuit" in circuits, f"{plan.title} has no lift circuit of the name circuit; give a three-point hitch.")
+    ensure("circuit" in circuits, f"{plan.title} has no lift circuit of the name circuit; give the motion of a three-point hitch.")
     return circuits["circuit"]
 
 

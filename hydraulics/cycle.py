@@ -9,17 +9,20 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, final
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, final
 
 import numpy as np
 from numpy.polynomial import chebyshev
 
+from linkage.disk import replacing_text
 from linkage.errors import DefinitionError
 from linkage.frozen import FrozenDict, immutable, read_only, refuses_changes
 from linkage.language import said
 from linkage.loads import Acting
 from linkage.loads.element import ForceElement
 from linkage.motion import Instants, Judge, Motion, require_motion
+from linkage.motion.table import from_above
 from linkage.numeric import last_holding
 from linkage.units import show
 from linkage.verdict import Verdict
@@ -27,6 +30,9 @@ from linkage.verdict import Verdict
 from .consumers import AT_BORDER, Branch, Consumers, Taken, lines_on, refuse_unpushed
 from .inputs import Array, number_set, one_design, positive
 from .sharing import LEAST_PRESSURE, PumpLimits
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 DEGREE = 12
 """Of the polynomials over a stretch."""
@@ -186,6 +192,39 @@ class PumpCycle:
         case = said("{text}, in the case {case}", text=text, case=self.case) if self.case else text
         return Verdict("pump", self.stretch <= 1.0 + AT_BORDER, f"{case}.")
 
+    def plot(self) -> Figure:
+        """Return a figure of flow, pressure and power over time, with the pump's limits, who waits, and the events in numbers.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            Save it by `figure.savefig("cycle.png")`.
+        """
+        figure: Figure = from_above("hydraulics.cycle_chart:plot_cycle")(self)
+        return figure
+
+    def to_csv(self, path: str | Path) -> Path:
+        """Write the instants with flow, pressure and power of the pump and of each line, units in the headings.
+
+        Parameters
+        ----------
+        path : str or Path
+            An existing file is replaced whole.
+
+        Returns
+        -------
+        Path
+            The path of the file.
+
+        Raises
+        ------
+        FileError
+            It cannot be written.
+        """
+        with replacing_text(path) as stream:
+            from_above("linkage.reports:write_csv")(from_above("hydraulics.cycle_chart:cycle_columns")(self), stream)
+        return Path(path)
+
     def __repr__(self) -> str:
         return f"<PumpCycle of {self.pump}: {self.duration:.4g} s, {self.litres[self.pump]:.4g} l, {self.energy.pump / 1e3:.4g} kJ>"
 
@@ -305,20 +344,38 @@ def first_border(time: Array, taken: Taken, borders: Callable[[Array], Array]) -
     return found if min(found - time[0], time[-1] - found) > max(SHORTEST, 1e-12 * width) else None
 
 
-# The verdict.
+# What is said of it.
+
+
+def judged_cycles(pump: ForceElement, judge: Judge) -> list[tuple[Any, PumpCycle]]:
+    """Return the cycles of a shared pump over the paths in time that a judge looks at, with their places."""
+    places = [place for place in judge.places if place.instants is not None and place.motion.reached.all()]
+    if len(lines_on(pump, judge.plan.members)) < 2 or not places or not one_design(number_set(pump, judge.motion, "flow")) > 0.0:
+        return []
+    return [(place, each) for place in places for each in cycles_over(pump, place, judge.acting)]
 
 
 def pump_verdicts(pump: ForceElement, judge: Judge) -> list[Verdict]:
     """Return whether a shared pump gives what is asked for over the paths in time that a judge looks at, of the one that asks most."""
-    places = [place for place in judge.places if place.instants is not None and place.motion.reached.all()]
-    if len(lines_on(pump, judge.plan.members)) < 2 or not places:
-        return []
-    if not one_design(number_set(pump, judge.motion, "flow")) > 0.0:
+    timed = [place for place in judge.places if place.instants is not None]
+    if len(lines_on(pump, judge.plan.members)) > 1 and timed and not one_design(number_set(pump, judge.motion, "flow")) > 0.0:
         return [Verdict("pump", None, said("its flow is not given, so that nothing tells how long it takes."))]
     try:
-        found = [(place, each) for place in places for each in cycles_over(pump, place, judge.acting)]
+        found = judged_cycles(pump, judge)
     except DefinitionError as error:
         return [Verdict.refused("pump", error)]
+    if not found:
+        return []
     place, worst = max(found, key=lambda each: each[1].stretch)
-    title = f"{place.over.title}: " if len(places) > 1 and place.over.title else ""
+    title = f"{place.over.title}: " if len(timed) > 1 and place.over.title else ""
     return [Verdict("pump", worst.verdict.ok, title + worst.verdict.sentence)]
+
+
+def pump_sections(pump: ForceElement, judge: Judge) -> list[Any]:
+    """Return the section of a report on a shared pump; none where no path is in time, or where nothing can be said."""
+    try:
+        found = judged_cycles(pump, judge)
+    except DefinitionError:  # the verdict says why
+        return []
+    named = [("; ".join(filter(None, (place.over.title, each.case))) if len(found) > 1 else "", each) for place, each in found]
+    return [from_above("hydraulics.cycle_chart:cycle_section")(named)] if found else []

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
-from typing import ClassVar, Literal, cast, final
+from typing import Any, ClassVar, Literal, cast, final
 
 import numpy as np
 
@@ -22,7 +22,7 @@ from linkage.quantities import Member, NamedMembers, Reference, name_of
 from linkage.verdict import Verdict
 
 from .consumers import lines_on
-from .cycle import PumpCycle, checked, pump_verdicts
+from .cycle import PumpCycle, checked, pump_sections, pump_verdicts
 from .inputs import check_pressures, follows
 from .member import OnLines
 from .sharing import SHARINGS
@@ -93,6 +93,10 @@ class Pump(Supply, HasVerdicts):
     def verdicts(self, judge: Judge) -> list[Verdict]:
         """Return whether it gives what its lines ask for, over the paths in time that a judge looks at, where it has several lines."""
         return pump_verdicts(self, judge)
+
+    def sections(self, judge: Judge) -> list[Any]:
+        """Return the section of a report on what its lines ask for over the paths in time, and where its energy goes."""
+        return pump_sections(self, judge)
 
     # -- in time -------------------------------------------------------------------------------------------
 

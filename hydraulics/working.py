@@ -162,7 +162,10 @@ class PumpedMachine:
     def speeds(self, time: Array) -> Array:
         """Return how fast each cylinder is asked to move (c, m) [m/s]; infinite for as fast as the pump can."""
         if self._latest[0] is not time:
-            each_of = [each(time) if isinstance(each, Course) else np.full(len(time), float(each)) for each in self.demands.values()]
+            within = np.full(len(time), 0.5 * (time[0] + time[-1]))  # a demand that jumps where a stretch ends has not yet done so
+            each_of = [
+                each(time, phase=within) if isinstance(each, Course) else np.full(len(time), float(each)) for each in self.demands.values()
+            ]
             self._latest = time, np.array(each_of).reshape(len(self.demands), len(time))
         return self._latest[1]
 

@@ -117,6 +117,7 @@ UNITS: dict[str, tuple[float, str]] = {
     "l/min": (litre / minute, "flow"), "gal/min": (gal / minute, "flow"), "m3/s": (1.0, "flow"),
     "N/m": (N, "stiffness"), "N/mm": (N / mm, "stiffness"), "kN/m": (kN, "stiffness"), "kgf/mm": (kgf / mm, "stiffness"),
     "lbf/in": (lbf / inch, "stiffness"),
+    "J": (1.0, "energy"), "kJ": (1e3, "energy"), "kWh": (3.6e6, "energy"),
     "kW": (1e3, "power"), "hp": (550 * lbf * ft, "power"),
     "m/s": (1.0, "speed"), "mm/s": (mm, "speed"), "in/s": (inch, "speed"),
     "m/s2": (1.0, "acceleration"), "mm/s2": (mm, "acceleration"), "m/s3": (1.0, "jerk"), "mm/s3": (mm, "jerk"),
@@ -129,7 +130,7 @@ UNITS: dict[str, tuple[float, str]] = {
 
 SI: dict[str, str] = {
     "length": "m", "angle": "rad", "time": "s", "mass": "kg", "force": "N", "moment": "Nm", "pressure": "Pa", "volume": "m3", "area": "m2",
-    "flow": "m3/s", "stiffness": "N/m", "power": "W", "speed": "m/s", "acceleration": "m/s2", "jerk": "m/s3",
+    "flow": "m3/s", "stiffness": "N/m", "power": "W", "energy": "J", "speed": "m/s", "acceleration": "m/s2", "jerk": "m/s3",
     "angular speed": "rad/s", "angular acceleration": "rad/s2", "angular jerk": "rad/s3", "angle per length": "rad/m",
 }  # fmt: skip
 """What each measure has in SI."""

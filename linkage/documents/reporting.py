@@ -185,6 +185,7 @@ def composed(
         of_source(verdicts),
         Section(said("Results"), tuple(results_blocks(subject, columns, first, bounds))),
         in_time_section(subject),
+        *(each for one in speakers(machine.plan, HasVerdicts).values() for each in one.sections(subject.verdict_judge)),
         *members_sections(subject),
         of_source(inputs_section(subject, found.listing)),
         assumptions_section(subject),

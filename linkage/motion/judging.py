@@ -82,6 +82,10 @@ class HasVerdicts(Member):
         """Return those that limit no load, and of which a chart says in how many places they fail."""
         return {}
 
+    def sections(self, judge: Judge) -> Sequence[Any]:
+        """Return the sections that it adds to a report (`linkage.documents.content.Section`), over all that the machine runs."""
+        return ()
+
     @abstractmethod
     def verdicts(self, judge: Judge) -> list[Verdict]:
         """Return what an engineer should know of it: what the judge answers over all that the machine runs, of one design.

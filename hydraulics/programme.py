@@ -1,0 +1,137 @@
+"""A working cycle as a file: what cylinders on one pump are asked for, in TOML, or a table of speeds over time."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import final
+
+import numpy as np
+
+from linkage.checks import require
+from linkage.errors import DefinitionError, ensure, known_name
+from linkage.files.names import FileTable, by_whole_names, require_entry, shortened
+from linkage.files.source import Faults, csv_rows, is_numeral, source
+from linkage.frozen import immutable
+from linkage.loads import LoadCase
+from linkage.mechanism import Mechanism
+from linkage.motion import stroke_measure
+from linkage.quantities import Course, is_number
+from linkage.units import UNITS, parse, units_of
+
+from .consumers import lines_on
+from .pump import Pump
+from .working import Demand
+
+KEYS = ("pump", "until", "case", "start", "demands")
+EXAMPLE = '[demands] with "boom.ram" = "0.15 m/s", or rows of instants and speeds, [["0 s", "0.15 m/s"], ["2 s", "0 m/s"]]'
+
+
+@final
+@immutable
+class Programme:
+    """What a pump is asked for: `demands` by cylinders, `start` by strokes, the end `until` [s], the load case."""
+
+    pump: Pump
+    demands: Mapping[str, Demand]
+    until: float
+    start: Mapping[str, float]
+    case: str | None = None
+
+
+def programme_read(machine: Mechanism, file: str) -> Programme:
+    """Return the programme that a file says, .toml or .csv.
+
+    Raises
+    ------
+    FileError
+        The file cannot be read, or says something else; with the line.
+    DefinitionError
+        The machine has no pump on its lines, or several and the file names none.
+    """
+    path = Path(file)
+    if path.suffix.lower() == ".csv":
+        demands, until = speeds_over_time(path)
+        return Programme(pump_of(machine, None), demands, until, {})
+    found = source(path)
+    faults, data = found.faults, found.data
+    until, start, demands = 1.0, dict[str, float](), dict[str, Demand]()
+    for key in data:
+        with faults.at(key):
+            known_name("Key", key, KEYS)
+    with faults.at("until"):
+        until = parsed(data.get("until", ""), "time")
+        require(until > 0.0, "until", data["until"], 'an instant behind 0 s is expected, until = "4 s"')
+    for name, given in table_under("start", data, faults).items():
+        with faults.at("start", name):
+            start[known_name("Stroke", name, machine.strokes)] = parsed(given, stroke_measure(machine.plan, name))
+    for name, given in table_under("demands", data, faults).items():
+        with faults.at("demands", name):
+            demands[name] = demand_read(given, until)
+    with faults.at("case"):
+        case = data.get("case")
+        case = None if case is None else known_name("Load case", case, machine.plan.of_kind(LoadCase))
+    faults.check()
+    ensure(demands, f"{path.name}: nothing is asked for; write {EXAMPLE}.")
+    return Programme(pump_of(machine, data.get("pump")), demands, until, start, case)
+
+
+def table_under(key: str, data: FileTable, faults: Faults) -> FileTable:
+    """Return a table of a file, an empty one where there is none; parts within it, `[demands.boom] ram`, by their whole names."""
+    with faults.at(key):
+        given = data.get(key, {})
+        require_entry(isinstance(given, Mapping), given, f"stands where a table is expected, such as {EXAMPLE}")
+        return dict(by_whole_names(given))
+    return {}
+
+
+def parsed(given: object, kind: str) -> float:
+    """Return a number of a file [SI], with its unit or without."""
+    return float(given) if is_number(given) else parse(given, kind)  # type: ignore[arg-type]
+
+
+def demand_read(given: object, until: float) -> Demand:
+    """Return what a cylinder is asked for: one speed, "max", or rows of instants, each with the speed that holds from there on."""
+    if given == "max":
+        return np.inf
+    if given == "-max":
+        return -np.inf
+    if not isinstance(given, list):
+        return parsed(given, "speed")
+    fits = all(isinstance(row, list) and len(row) == 2 for row in given)
+    require_entry(fits and given, given, 'is no list of rows, each an instant and a speed, such as ["2 s", "0.1 m/s"]')
+    times, speeds = [parsed(row[0], "time") for row in given], [parsed(row[1], "speed") for row in given]
+    ensure(times[-1] < until, f"the last row begins at {times[-1]:g} s, and the programme ends at {until:g} s; give a later `until`.")
+    if times[0] > 0.0:
+        times, speeds = [0.0, *times], [0.0, *speeds]
+    return Course.of_phases([*times, until], [speeds])
+
+
+def speeds_over_time(path: Path) -> tuple[dict[str, Demand], float]:
+    """Return what a table asks for, straight between its rows, and when it ends; its headings are "time, s" and "boom.ram, m/s"."""
+    (_, headings), *rows = [*csv_rows(path)] or [(0, list[str]())]
+    columns: dict[str, list[float]] = {}
+    for place, heading in enumerate(headings):
+        name, _, unit = heading.rpartition(", ")
+        known_name("Unit", unit, units_of("time" if name == "time" else "speed"), where=f"{path.name}: {heading}")
+        ensure(name not in columns, f"{path.name}: {name} stands twice; keep one column.")
+        for line, row in rows:
+            text = row[place] if place < len(row) else ""
+            ensure(is_numeral(text), f"{path.name}: {heading}: in line {line} {shortened(text)} is no number.")
+            columns.setdefault(name, []).append(float(text) * float(UNITS[unit][0]))
+    time = columns.pop("time", [])
+    if len(time) < 2 or not columns:
+        raise DefinitionError(f'{path.name}: two rows and the columns "time, s" and of a cylinder are expected, such as "boom.ram, m/s".')
+    return {name: Course(time, values, "straight") for name, values in columns.items()}, time[-1]
+
+
+def pump_of(machine: Mechanism, name: object) -> Pump:
+    """Return the pump of a machine that has a name; without one its only pump that is on lines."""
+    plan = machine.plan
+    pumps = {key: each for key, each in plan.of_kind(Pump).items() if lines_on(each, plan.members)}
+    if name is not None:
+        return pumps[known_name("Pump", name, pumps, where=plan.title)]
+    ensure(pumps, f"{plan.title} has no pump on its lines; declare one, supply = Pump(200 * bar, flow=60 * litre / minute).")
+    if len(pumps) > 1:
+        raise DefinitionError(f'{plan.title} has the pumps {", ".join(pumps)}; say which one, pump = "{next(iter(pumps))}" or --pump.')
+    return next(iter(pumps.values()))

@@ -144,13 +144,14 @@ def time_heading() -> str:
 # In words.
 
 
-def energy_rows(cycle: PumpCycle) -> list[tuple[str, str]]:
+def energy_rows(cycle: PumpCycle) -> list[tuple[str, str, str]]:
     """Return where the energy of a cycle goes, in rows of words."""
     words = {
         "pump": said("the pump gives"), "useful": said("moves cylinders"), "throttled": said("is throttled away"),
         "margin": said("is the pump's margin"), "braked": said("loads give, braked"),
     }  # fmt: skip
-    return [(text, show(getattr(cycle.energy, name), "kJ", 4)) for name, text in words.items()]
+    found = {text: getattr(cycle.energy, name) for name, text in words.items()}
+    return [(text, show(energy, "kJ", 4), show(energy, "kWh", 3)) for text, energy in found.items()]
 
 
 def line_rows(cycle: PumpCycle) -> list[tuple[str, ...]]:
@@ -179,9 +180,9 @@ def cycle_section(cycles: Sequence[tuple[str, PumpCycle]]) -> Section:
 def cycle_blocks(words: str, cycle: PumpCycle) -> Iterator[Block]:
     """Yield the words, tables and pictures of one cycle."""
     beside = f", {words}" if words else ""
-    yield f"{words}: {cycle.verdict.sentence}" if words else cycle.verdict.sentence
+    yield said("{pump} {sentence}", pump=f"{words}: {cycle.pump}" if words else cycle.pump, sentence=cycle.verdict.sentence)
     yield TableBlock(said("Oil, flow, pressure and power") + beside, line_heads(), tuple(line_rows(cycle)), "lrrrr")
-    yield TableBlock(said("Energy") + beside, (said("where it goes"), said("energy")), tuple(energy_rows(cycle)), "lr")
+    yield TableBlock(said("Energy") + beside, (said("where it goes"), said("energy"), ""), tuple(energy_rows(cycle)), "lrr")
     for word, paint in ((said("Flow"), flow_panel), (said("Pressure"), pressure_panel), (said("Power"), power_panel)):
         name = f"{cycle.pump}_{paint.__name__}_{words}".replace(" ", "_")
         yield Illustration(name, said("{what} over time{beside}.", what=word, beside=beside), (6.6, 2.5), ROOM, partial(paint, cycle=cycle))

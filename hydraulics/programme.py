@@ -63,10 +63,10 @@ def programme_read(machine: Mechanism, file: str) -> Programme:
         until = parsed(data.get("until", ""), "time")
         require(until > 0.0, "until", data["until"], 'an instant behind 0 s is expected, until = "4 s"')
     for name, given in table_under("start", data, faults).items():
-        with faults.at("start", name):
+        with faults.at("start", *name.split(".")):
             start[known_name("Stroke", name, machine.strokes)] = parsed(given, stroke_measure(machine.plan, name))
     for name, given in table_under("demands", data, faults).items():
-        with faults.at("demands", name):
+        with faults.at("demands", *name.split(".")):
             demands[name] = demand_read(given, until)
     with faults.at("case"):
         case = data.get("case")
@@ -112,7 +112,9 @@ def speeds_over_time(path: Path) -> tuple[dict[str, Demand], float]:
     (_, headings), *rows = [*csv_rows(path)] or [(0, list[str]())]
     columns: dict[str, list[float]] = {}
     for place, heading in enumerate(headings):
-        name, _, unit = heading.rpartition(", ")
+        name, comma, unit = heading.rpartition(", ")
+        what = 'a heading with its unit is expected, in quotes where commas part the columns, such as "boom.ram, m/s"'
+        ensure(comma, f"{path.name}: {heading}: {what}.")
         known_name("Unit", unit, units_of("time" if name == "time" else "speed"), where=f"{path.name}: {heading}")
         ensure(name not in columns, f"{path.name}: {name} stands twice; keep one column.")
         for line, row in rows:

@@ -6,7 +6,7 @@ import sys
 from collections import Counter, defaultdict
 from collections.abc import Mapping, Sequence
 from functools import cached_property
-from itertools import permutations
+from itertools import groupby, permutations
 from pathlib import Path
 from typing import Any, cast, final
 
@@ -432,9 +432,16 @@ def stroke_data(requests: PageRequests) -> list[PageData]:
         if run.instants is not None:
             first, last = run.instants.breaks[[0, -1]].tolist()
             place |= {"name": name if own else "time", "start": first, "end": last, "at": first, "unit": "s"}
+            place |= {"events": event_data(requests.along.events)} if requests.along is not None else {}
             over, turn, path = (over or {"over": 0}) | course_data(run.instants), True, {k: [] for k in range(len(names))}
         found.append(place | {"turn": int(turn), "path": path} | over)
     return found
+
+
+def event_data(events: Sequence[Any]) -> list[list[Any]]:
+    """Return what happens at each instant: the instant [s], and all that is said of it."""
+    found = [[*group] for _, group in groupby(events, key=lambda event: event.time)]
+    return [[group[0].time, "; ".join([str(group[0]), *(each.sentence for each in group[1:])])] for group in found]
 
 
 def column_data(name: str, found: LiveColumn, live: LiveText, requests: PageRequests) -> list[Any]:

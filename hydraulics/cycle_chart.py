@@ -97,7 +97,7 @@ def waiting_panel(ax: Axes, cycle: PumpCycle) -> None:
         ax.fill_between(cycle.time, base, base + 0.85 * part, color=style.ACCENT, alpha=0.55, linewidth=0, zorder=3.0)
         ax.axhline(base, color=style.RULE, linewidth=style.THIN, zorder=2.0)
     ax.set_yticks([len(late) - 0.6 - place for place in range(len(late))], list(late), fontsize=style.SMALL)
-    frame(ax, cycle, said("waits: the part of its speed that it does not get"))
+    time_axes(ax, cycle, said("waits: the part of its speed that it does not get"))
     ax.set_ylim(-0.05, max(len(late), 1))
 
 
@@ -108,7 +108,7 @@ def curves(ax: Axes, cycle: PumpCycle, values: Mapping[str, Array], word: str, u
         is_pump = name == cycle.pump
         look = {"color": style.INK, "linewidth": 1.2} if is_pump else {"color": next(colours), "linewidth": style.BOLD}
         ax.plot(cycle.time, Column(name, each, unit).drawn, label=name, zorder=5.0 if is_pump else 4.0, **look)  # type: ignore[arg-type]
-    frame(ax, cycle, f"{word}, {unit_sign(unit)}")
+    time_axes(ax, cycle, f"{word}, {unit_sign(unit)}")
     if np.isfinite(limit):
         most = float(Column(word, np.array([limit]), unit).drawn[0])
         ax.axhline(most, color=style.ACCENT, linewidth=1.3, linestyle=(0, (5, 2.5)), zorder=4.5)
@@ -117,7 +117,7 @@ def curves(ax: Axes, cycle: PumpCycle, values: Mapping[str, Array], word: str, u
     ax.legend(handles, labels, loc="upper right", bbox_to_anchor=(1.0, 1.2), ncols=6, fontsize=style.SMALL, frameon=False, borderpad=0.0)
 
 
-def frame(ax: Axes, cycle: PumpCycle, heading: str) -> None:
+def time_axes(ax: Axes, cycle: PumpCycle, heading: str) -> None:
     """Set up axes over time, with a numbered line at each event."""
     quiet(ax)
     ax.set_title(heading, loc="left", fontsize=style.TEXT, fontweight="bold", color=style.INK, pad=6)

@@ -60,11 +60,11 @@ def programme_read(machine: Mechanism, file: str) -> Programme:
         with faults.at(key):
             known_name("Key", key, KEYS)
     with faults.at("until"):
-        until = parsed(data.get("until", ""), "time")
+        until = si_number(data.get("until", ""), "time")
         require(until > 0.0, "until", data["until"], 'an instant behind 0 s is expected, until = "4 s"')
     for name, given in table_under("start", data, faults).items():
         with faults.at("start", *name.split(".")):
-            start[known_name("Stroke", name, machine.strokes)] = parsed(given, stroke_measure(machine.plan, name))
+            start[known_name("Stroke", name, machine.strokes)] = si_number(given, stroke_measure(machine.plan, name))
     for name, given in table_under("demands", data, faults).items():
         with faults.at("demands", *name.split(".")):
             demands[name] = demand_read(given, until)
@@ -85,7 +85,7 @@ def table_under(key: str, data: FileTable, faults: Faults) -> FileTable:
     return {}
 
 
-def parsed(given: object, kind: str) -> float:
+def si_number(given: object, kind: str) -> float:
     """Return a number of a file [SI], with its unit or without."""
     return float(given) if is_number(given) else parse(given, kind)  # type: ignore[arg-type]
 
@@ -97,10 +97,10 @@ def demand_read(given: object, until: float) -> Demand:
     if given == "-max":
         return -np.inf
     if not isinstance(given, list):
-        return parsed(given, "speed")
+        return si_number(given, "speed")
     fits = all(isinstance(row, list) and len(row) == 2 for row in given)
     require_entry(fits and given, given, 'is no list of rows, each an instant and a speed, such as ["2 s", "0.1 m/s"]')
-    times, speeds = [parsed(row[0], "time") for row in given], [parsed(row[1], "speed") for row in given]
+    times, speeds = [si_number(row[0], "time") for row in given], [si_number(row[1], "speed") for row in given]
     ensure(times[-1] < until, f"the last row begins at {times[-1]:g} s, and the programme ends at {until:g} s; give a later `until`.")
     if times[0] > 0.0:
         times, speeds = [0.0, *times], [0.0, *speeds]

@@ -307,7 +307,8 @@ SIGNS = (
     noted("lbf ft"), noted("Pa"), noted("kPa"), noted("MPa"), noted("bar"), noted("kgf_cm2"), noted("kgf/cm2"), noted("psi"), noted("l"),
     noted("litre"), noted("cm3"), noted("m3"), noted("gal"), noted("in3"), noted("mm2"), noted("cm2"), noted("m2"), noted("in2"),
     noted("l/min"), noted("gal/min"), noted("m3/s"), noted("N/m"), noted("N/mm"), noted("kN/m"), noted("kgf/mm"), noted("lbf/in"),
-    noted("kW"), noted("hp"), noted("m/s"), noted("mm/s"), noted("in/s"), noted("m/s2"), noted("mm/s2"), noted("m/s3"), noted("mm/s3"),
+    noted("J"), noted("kJ"), noted("kWh"), noted("kW"), noted("hp"),
+    noted("m/s"), noted("mm/s"), noted("in/s"), noted("m/s2"), noted("mm/s2"), noted("m/s3"), noted("mm/s3"),
     noted("rad/s"), noted("deg/s"), noted("rad/s2"), noted("deg/s2"), noted("rad/s3"), noted("deg/s3"), noted("rad/m"),
 )  # fmt: skip
 """The units that another language writes in its own way."""

@@ -14,6 +14,7 @@ from ..checks import require, require_type
 from ..errors import unwarned
 from ..language import said, with_and
 from ..motion import Motion, Planes, Request, gap, least_gap, nearest_places, pair_at, pairs_without_planes
+from ..motion.grid import recalled
 from ..motion.planes import depth_words
 from ..plan import Plan
 from ..program import FloatArray
@@ -99,7 +100,8 @@ def assumed_pairs(motion: Motion) -> tuple[Pairs, str]:
         return None, ""
     places = np.array(list(product(*(np.linspace(each.start, each.end, 3) for each in plan.strokes.values()))))
     strokes = {name: places[:, column] for column, name in enumerate(plan.strokes)}
-    apart, crossing = pairs_without_planes(Motion(plan, motion.designs, strokes, "nan"))
+    corners = Motion(plan, motion.designs, strokes, "nan")
+    apart, crossing = recalled(corners, "pairs without planes", lambda: pairs_without_planes(corners))
     one, other = own_bodies(plan)
     all_share = f'all bodies share a pin or lie over each other; name two that do not, clearance=("{one}", "{other}")'
     require(apart, f"{plan.title}: clearance", True, all_share)

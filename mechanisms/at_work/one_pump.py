@@ -73,7 +73,7 @@ class PumpedForwarder(Forwarder):
 
 
 class RegenerativePress(Mechanism):
-    """Cylinder OB presses a ram down on a spring of 3 kN/mm, both of its sides on one line.
+    """Cylinder OB presses a ram down on a spring of 300 N/mm, both of its sides on one line.
 
     Its rod's oil goes back to the piston, so that it is as fast as the rod alone would be, and as weak. Known for: presses close so.
     """

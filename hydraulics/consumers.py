@@ -202,7 +202,7 @@ class Consumers:
         poses = Motion(
             self.plan, self.designs, dict(zip(self.strokes, map(np.ascontiguousarray, strokes), strict=True)), rate_inputs=moving
         )
-        return np.array([np.broadcast_to(poses.value(each), strokes.shape[1:]) for each in self._asked])
+        return np.array([np.broadcast_to(poses[each], strokes.shape[1:]) for each in self._asked])
 
     def taken(self, strokes: Array, ways: Sequence[Array], rates: Array, like: Taken | None = None) -> Taken:
         """Return what consumers take whose movements are `ways`, rates of the strokes (n, m) each, while all move at `rates`.

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from hydraulics import Cylinder, LiftCircuit, OilLine, Pump, Relief
+from hydraulics import Cylinder, HoldingValve, LiftCircuit, OilLine, Pump, Relief
 from linkage import Course, DefinitionError, Ground, Guide, Mechanism, OnGuide, Over, Part, Stroke, ramp
 from linkage.files import from_dict, to_dict
-from linkage.loads import Spring, Weight
+from linkage.loads import Damper, Spring, Weight
 from linkage.units import bar, litre, minute
 
 AREA, ANNULUS = np.pi / 4 * 0.08**2, np.pi / 4 * (0.08**2 - 0.045**2)
@@ -145,6 +145,34 @@ def test_a_load_that_drives_is_braked_and_a_tier_is_served_first():
     assert_allclose(run.cycle.energy.braked, 3000 * 9.80665 * 0.12, rtol=1e-11)
     closed = run.cycle.energy.useful - run.cycle.energy.braked - 3000 * 9.80665 * (run.strokes["S"][-1] + run.strokes["T"][-1] - 0.35)
     assert abs(closed) < 1e-9 * run.cycle.energy.useful
+
+
+def test_a_damper_takes_power_and_a_holding_valve_its_pilot():
+    class Damped(TwoLifts):
+        supply = Pump(250 * bar, flow=FLOW, power=2500.0)
+        damper = Damper("one.O", "one.B", coefficient=5e4)
+
+    machine = Damped()
+    run = pump_of(machine).run(machine, demands={"one.ram": 0.12}, until=1.0)
+    weight = 3000 * 9.80665
+    v = (np.sqrt(weight**2 + 4 * 5e4 * 2500.0) - weight) / (2 * 5e4)  # (weight + c v) v is the power
+    assert_allclose(run.rates["S"], v, rtol=1e-11)
+
+    class Valved(Mechanism):
+        S = Stroke(0.0, 0.4)
+        supply = Pump(250 * bar, flow=FLOW)
+        one = Part(Lift, S=S, ram=None)
+        ram = Cylinder("one.O", "one.B", bore=0.08, rod=0.045)
+        up, down = OilLine("ram.piston_side", supply, Relief(200 * bar)), OilLine("ram.rod_side", supply)
+        valve = HoldingValve("up", pilot="down", setting=120 * bar, ratio=4.0)
+
+    machine = Valved()
+    run = pump_of(machine).run(machine, demands={"ram": -0.1}, start={"S": 0.35}, until=1.0)
+    pilot = (AREA * 120 * bar - weight) / (4 * AREA + ANNULUS)
+    assert_allclose(run.cycle.pressure["supply"], pilot, rtol=1e-12)
+    assert_allclose(
+        [run.cycle.energy.useful, run.cycle.energy.braked], [pilot * ANNULUS * 0.1, pilot * ANNULUS * 0.1 + weight * 0.1], rtol=1e-11
+    )
 
 
 class Press(Mechanism):

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from linkage.cli.command import CSV, EVERY, PICTURES, Command, lined_up, machine_options, option, picture, pose_options
-from linkage.cli.settings import CHECK, OVER, judged_code, judged_over, machine_of, motions_at, print_verdicts, si_value
+from linkage.cli.settings import CHECK, OVER, judged_code, judged_over, machine_of, motions_at, overs_of, print_verdicts, si_value
 from linkage.cli.table import Table, heading_words, write_table, write_tables
 from linkage.errors import DefinitionError, ensure, known_name
 from linkage.language import noted, said
@@ -194,7 +194,7 @@ def cycle_of_programme(machine: Mechanism, options: Namespace) -> list[tuple[str
 def cycles_judged(machine: Mechanism, options: Namespace) -> list[tuple[str, PumpCycle, Motion]]:
     """Return the cycles of the paths in time that a machine runs, with their motions."""
     pump, title = pump_of(machine, options.pump), machine.plan.title
-    found = judged_cycles(pump, machine.judge(judged_over(machine, options), Acting()))
+    found = judged_cycles(pump, machine.judge(overs_of(machine, options.over), Acting()))
     if not found:
         remedy = "give --program FILE, or declare a path in time, Over.path(lift=ramp(0.1, 0.3, speed=0.15)), with flow= of the pump"
         raise DefinitionError(f"{title}: no path in time that {pump.name} serves on several lines; {remedy}.")

@@ -99,7 +99,7 @@ def test_the_command_tells_who_waits_and_writes_a_chart_and_a_table(file, tmp_pa
     assert main(["cycle", machine, "--program", str(file), "-o", str(chart), "--csv", str(table)]) == 0
     told = capsys.readouterr().out
     assert "one.ram and two.ram must wait" in told and "kWh" in told and chart.stat().st_size > 20_000
-    heads, *rows = csv.reader(table.open(newline=""))
+    heads, *rows = csv.reader(table.read_text().splitlines())
     run = programme_read(TwoBlocks(), str(file))
     cycle = run.pump.run(TwoBlocks(), demands=run.demands, start=run.start, until=3.0).cycle
     column = [float(row[heads.index("flow supply, l/min")]) for row in rows]

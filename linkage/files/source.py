@@ -16,7 +16,7 @@ from math import isfinite
 from pathlib import Path
 from typing import Any, NoReturn, final
 
-from ..disk import read
+from ..disk import check_name, read
 from ..errors import DefinitionError, FileError, ensure
 from .names import NAME_LENGTH, Keywords, shortened
 
@@ -151,6 +151,7 @@ DELIMITERS = (";", "\t", ",")
 
 def csv_rows(path: Path) -> Iterator[tuple[int, list[str]]]:
     """Yield the rows of a CSV file with their lines, without empty ones and those that begin with #; decimal commas as points."""
+    check_name(path)
     try:
         ensure(path.stat().st_size <= MOST_BYTES, f"{path.name} is larger than {MOST_BYTES // 1_000_000} MB; give fewer points.")
         text = path.read_text(encoding="utf-8-sig")
@@ -159,13 +160,17 @@ def csv_rows(path: Path) -> Iterator[tuple[int, list[str]]]:
     except UnicodeDecodeError:
         raise DefinitionError(f"{path.name} is no text in UTF-8; save it as CSV UTF-8.") from None
     first = next((line for line in text.splitlines() if line.strip() and not line.startswith("#")), "")
-    delimiter = next((each for each in DELIMITERS if each in first), ",")
+    unquoted = re.sub(r'"[^"]*"', "", first)
+    delimiter = next((each for each in DELIMITERS if each in unquoted), ",")
     reader = csv.reader(StringIO(text), delimiter=delimiter, skipinitialspace=True)
-    for row in reader:
-        cells = [cell.strip() for cell in row]
-        if not any(cells) or cells[0].startswith("#"):
-            continue
-        yield reader.line_num, [re.sub(r"^([-+]?\d*),(\d+)$", r"\1.\2", cell) for cell in cells] if delimiter != "," else cells
+    try:
+        for row in reader:
+            cells = [cell.strip() for cell in row]
+            if not any(cells) or cells[0].startswith("#"):
+                continue
+            yield reader.line_num, [re.sub(r"^([-+]?\d*),(\d+)$", r"\1.\2", cell) for cell in cells] if delimiter != "," else cells
+    except csv.Error as error:
+        raise DefinitionError(f"{path.name}, line {reader.line_num}: it cannot be read as a table of rows: {error}.") from None
 
 
 def is_numeral(cell: str) -> bool:

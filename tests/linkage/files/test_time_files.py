@@ -90,6 +90,19 @@ def test_a_table_of_rows_is_read_as_a_spreadsheet_writes_it(tmp_path):
     (tmp_path / "cycle.csv").write_text('# of the log\n"time, s";"a, mm"\n0;100,5\n\n1,5;inf\n')
     with pytest.raises(FileError, match="line 5 'inf' is no number"):
         load(tmp_path / "machine.toml")
+    (tmp_path / "cycle.csv").write_text('"time, s","a, mm","on; off"\n0,100,1\n1.5,300,0\n')
+    assert load(tmp_path / "machine.toml")().sweep(2, over="go").strokes["a"].tolist() == pytest.approx([0.1, 0.3])
+
+
+def test_a_table_that_is_none_is_refused_in_words(tmp_path):
+    for name, rows, words in [
+        ("cycle.csv", '"time, s","a, mm"\n0,100\n' + "1" * 140_000, "cycle.csv, line 3: it cannot be read as a table of rows"),
+        (r"cy\u0000cle.csv", "", "the name holds characters that no file's name can have"),
+    ]:
+        (tmp_path / "cycle.csv").write_text(rows)
+        (tmp_path / "machine.toml").write_text(f'{HEAD}csv = "{name}"\nb = 0.2')
+        with pytest.raises(FileError, match=re.escape(words)):
+            load(tmp_path / "machine.toml")
 
 
 def test_what_a_file_gets_wrong_is_refused_in_words(tmp_path):

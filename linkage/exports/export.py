@@ -13,14 +13,14 @@ from typing import Any, final
 import numpy as np
 
 from .. import plugins
-from ..checks import require_type
+from ..checks import require, require_type
 from ..disk import Place, check_name, check_place, replacing
-from ..errors import DefinitionError, known_name
+from ..errors import DefinitionError, ensure, known_name
 from ..mechanism import Mechanism, played_along, require_mechanism
 from ..motion import Column, Motion, columns_of
 from ..pictures.strokes import pose_words
 from ..plugins import Plugins
-from ..quantities import as_mapping
+from ..quantities import as_mapping, numbers_in
 from ..reports import NOTHING, Run, first_stroke, one_run, rate_columns, reached_motion, results, runs_of, stroke_middles, write_csv
 from ..sketch import sketch_of, sketch_text
 from ..study import WorkingField
@@ -164,6 +164,8 @@ class SketchFile(Exporter):
         self.suffix, self.help = suffix, help
 
     def content(self, job: ExportJob) -> bytes:
+        many = [name for name, value in job.at.items() if np.size(value) != 1]
+        ensure(not many, f"{job.machine.plan.title}: a sketch is of one pose; give one value of {', '.join(many)}.")
         at = {name: float(np.ravel(value)[0]) for name, value in job.at.items()}
         return sketch_text(sketch_of(job.machine, at), self.suffix).encode("utf-8")
 
@@ -264,7 +266,9 @@ def check_exportable(what: Mechanism | Motion, exporter: Exporter, at: object, t
         raise DefinitionError(f"{title}: a file holds one design, and this machine is a batch of them; choose one of its designs.")
     if isinstance(what, Motion) and exporter.of_machines:
         raise DefinitionError(f"{title}: {exporter.of_machines}, so it is made of a machine: export(machine, ...).")
-    require_type(f"{title}: at", at, Mapping, "values of strokes by name are expected, such as at=dict(S=0.1)", of=str)
+    given = require_type(f"{title}: at", at, Mapping, "values of strokes by name are expected, such as at=dict(S=0.1)", of=str)
+    for name, value in given.items():
+        require(numbers_in(value).size, f"{title}: at: {name}", value, "a number or several are expected, in SI")
     if isinstance(what, Motion) and at:
         raise DefinitionError(f"{title}: a motion has its poses; at= goes with a machine.")
     require_type(f"{title}: trace", trace, (list, tuple), 'a list of points is expected, such as trace=["G"]')

@@ -525,3 +525,16 @@ def test_a_machine_that_is_assembled_nowhere_is_not_written(suffix, tmp_path):
     with pytest.raises(AssemblyError, match="cannot be assembled"):
         export(ThreePointHitch(OB=0.01), tmp_path / f"nowhere{suffix}")
     assert not list(tmp_path.iterdir())
+
+
+@for_all("suffix", [".csv", ".xlsx", ".svg", ".txt", ".linkage2"])
+@for_all("value", [[], "0.6", None, [[1.0], [1.0, 2.0]]], ids=str)
+def test_strokes_that_are_no_numbers_are_refused(suffix, value, tmp_path):
+    with pytest.raises(DefinitionError, match=r"MowerLift: at: S=.*a number or several are expected"):
+        export(MowerLift(), tmp_path / f"lift{suffix}", at={"S": value})
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_sketch_is_of_one_pose(tmp_path):
+    with pytest.raises(DefinitionError, match="a sketch is of one pose; give one value of S"):
+        export(MowerLift(), tmp_path / "lift.txt", at={"S": (0.6, 0.7)})

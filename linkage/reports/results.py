@@ -29,8 +29,9 @@ def results(machine: Mechanism, motion: Motion, case: Case = None) -> list[Colum
     In a load case all are of that case but those of the machine's own table that do not say what asks for them. Where none is given it is
     the one that the motion is shown in (`case_along`); "plain" are the machine's own loads.
     """
-    case = case_along(require_motion(motion)) if case is None else None if case == PLAIN_CASE else case
     require_mechanism(machine)
+    require_motion(motion)
+    case = case_along(motion) if case is None else None if case == PLAIN_CASE else case
     is_held = not held_fault(motion)
     columns = columns_by(machine, motion) if is_held else columns_of(motion)
     if not is_held or not is_loaded(motion):

@@ -17,6 +17,7 @@ from linkage.reports import (
     design_rows,
     ranges_below_zero,
     reached_span,
+    results,
     rich_tables,
     spans_in_words,
     stroke_rows,
@@ -182,6 +183,14 @@ def test_closer_look_keeps_the_design():
     motion = closely(Lift(OB=0.18).sweep(2))
     assert motion.shape == (513,)
     np.testing.assert_allclose(motion.distance("O", "B"), 0.18, rtol=1e-12)
+
+
+@for_all("case", [None, "plain", "far"])
+def test_results_of_what_is_no_motion_or_no_machine_are_refused_in_every_case(case):
+    with pytest.raises(DefinitionError, match="is no motion"):
+        results(Lift(), "x", case)
+    with pytest.raises(DefinitionError, match="is no mechanism"):
+        results("x", Lift().sweep(2), case)
 
 
 def test_ranges_in_words():

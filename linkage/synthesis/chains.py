@@ -189,9 +189,10 @@ class Inversion(Shown):
         form, on_frame = self.chain.form, self._on(self.frame - 1)
         driven = next((each for each in self.cranks if self.has_dyads_only(each)), self.cranks[0]) if crank is None else crank
         known = ", ".join(str(each + 1) for each in on_frame)
-        ensure(driven - 1 in on_frame, f"{self.name}: crank={cited(crank)}: a link on the frame is expected, one of {known}.")
+        fits = is_whole(driven) and driven - 1 in on_frame
+        ensure(fits, f"{self.name}: crank={cited(crank)}: a link on the frame is expected, one of {known}.")
         carrying = farthest(form, driven - 1, self.floating) + 1 if coupler is None else coupler
-        if carrying - 1 not in self.floating:
+        if not is_whole(carrying) or carrying - 1 not in self.floating:
             known = ", ".join(str(each + 1) for each in self.floating)
             raise DefinitionError(f"{self.name}: coupler={cited(coupler)}: a link that is not on the frame is expected, one of {known}.")
         return machine_class(self, driven, carrying)()

@@ -123,7 +123,9 @@ def test_numbers_of_links_without_chains_are_refused(links):
 
 def test_links_that_cannot_drive_or_carry_are_refused():
     inversion = chains(6)[0].inversions[0]
-    with pytest.raises(DefinitionError, match="a link on the frame is expected"):
-        inversion.machine(crank=inversion.frame)
-    with pytest.raises(DefinitionError, match="a link that is not on the frame is expected"):
-        inversion.machine(coupler=inversion.cranks[0])
+    for crank in (inversion.frame, "2"):
+        with pytest.raises(DefinitionError, match="a link on the frame is expected"):
+            inversion.machine(crank=crank)
+    for coupler in (inversion.cranks[0], "5"):
+        with pytest.raises(DefinitionError, match="a link that is not on the frame is expected"):
+            inversion.machine(coupler=coupler)

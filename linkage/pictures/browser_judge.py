@@ -224,7 +224,6 @@ class LiveQuestions:
             ],
         }
 
-
     def piece_data(self, live: LiveText, number: int, row: Sought, name: str) -> PageData:
         """Return a piece as data: its `Over`, its rows, behind those of the program the delivered ones, its situation."""
         situation, place = row.situation, self.judge.places[number]

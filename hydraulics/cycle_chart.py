@@ -56,7 +56,9 @@ def plot_cycle(cycle: PumpCycle) -> Figure:
     foot = 0.1 + LINE * len(told)
     high = sum(heights) + foot + 0.5
     figure, axes = panels((WIDE, high), 1, len(heights), rect=(0.0, foot / high, 1.0, 1.0 - foot / high))
-    axes[0].get_gridspec().set_height_ratios(heights)
+    grid = axes[0].get_gridspec()
+    assert grid is not None
+    grid.set_height_ratios(heights)
     for ax, paint in zip(axes, (flow_panel, pressure_panel, power_panel, waiting_panel), strict=False):
         paint(ax, cycle)
         ax.set_xlabel("")

@@ -229,7 +229,7 @@ class OilLine(PumpLine, GasLine):
         return [each for each in found if isinstance(each, kind)]
 
     def pump(self, members: NamedMembers) -> Pump | None:
-        return next(iter(self.supplies(members, Pump)), None)  # type: ignore[arg-type]
+        return cast("Pump | None", next(iter(self.supplies(members, Pump)), None))
 
     @property
     def blocks(self) -> list[Block]:

@@ -16,7 +16,7 @@ from linkage.frozen import immutable
 from linkage.loads import LoadCase
 from linkage.mechanism import Mechanism
 from linkage.motion import stroke_measure
-from linkage.quantities import Course, is_number
+from linkage.quantities import Course, Reference, is_number
 from linkage.units import UNITS, parse, units_of
 
 from .consumers import lines_on
@@ -33,7 +33,7 @@ class Programme:
     """What a pump is asked for: `demands` by cylinders, `start` by strokes, the end `until` [s], the load case."""
 
     pump: Pump
-    demands: Mapping[str, Demand]
+    demands: Mapping[Reference, Demand]
     until: float
     start: Mapping[str, float]
     case: str | None = None
@@ -55,7 +55,7 @@ def programme_read(machine: Mechanism, file: str) -> Programme:
         return Programme(pump_of(machine, None), demands, until, {})
     found = source(path)
     faults, data = found.faults, found.data
-    until, start, demands = 1.0, dict[str, float](), dict[str, Demand]()
+    until, start, demands = 1.0, dict[str, float](), dict[Reference, Demand]()
     for key in data:
         with faults.at(key):
             known_name("Key", key, KEYS)
@@ -78,10 +78,10 @@ def programme_read(machine: Mechanism, file: str) -> Programme:
 
 def table_under(key: str, data: FileTable, faults: Faults) -> FileTable:
     """Return a table of a file, an empty one where there is none; parts within it, `[demands.boom] ram`, by their whole names."""
-    with faults.at(key):
-        given = data.get(key, {})
-        require_entry(isinstance(given, Mapping), given, f"stands where a table is expected, such as {EXAMPLE}")
+    given = data.get(key, {})
+    if isinstance(given, Mapping):
         return dict(by_whole_names(given))
+    faults.add((key,), f"{shortened(given)} stands where a table is expected, such as {EXAMPLE}.")
     return {}
 
 
@@ -107,7 +107,7 @@ def demand_read(given: object, until: float) -> Demand:
     return Course.of_phases([*times, until], [speeds])
 
 
-def speeds_over_time(path: Path) -> tuple[dict[str, Demand], float]:
+def speeds_over_time(path: Path) -> tuple[dict[Reference, Demand], float]:
     """Return what a table asks for, straight between its rows, and when it ends; its headings are "time, s" and "boom.ram, m/s"."""
     (_, headings), *rows = [*csv_rows(path)] or [(0, list[str]())]
     columns: dict[str, list[float]] = {}

@@ -64,8 +64,6 @@ class Motion(Shown):
 
     _limits_of: ClassVar[Callable[[Any], Limits]] = stroke_search.limits
     """What looks for its limits: along the strokes alone, until the room of the judge gives more."""
-    events: Sequence[Any] = ()
-    """What happens on the way in time, each with its `time` [s] and a sentence as its text."""
 
     def __init__(
         self,

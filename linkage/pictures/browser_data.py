@@ -432,7 +432,7 @@ def stroke_data(requests: PageRequests) -> list[PageData]:
         if run.instants is not None:
             first, last = run.instants.breaks[[0, -1]].tolist()
             place |= {"name": name if own else "time", "start": first, "end": last, "at": first, "unit": "s"}
-            place |= {"events": event_data(requests.along.events)} if requests.along is not None else {}
+            place |= {"events": event_data(getattr(requests.along, "events", ()))}  # of a run of one pump
             over, turn, path = (over or {"over": 0}) | course_data(run.instants), True, {k: [] for k in range(len(names))}
         found.append(place | {"turn": int(turn), "path": path} | over)
     return found

@@ -463,9 +463,10 @@ class Parts:
         for pin in self.pins:
             if pin not in points and pin not in [name_of(slide.point) for slide in self.slides.values()]:
                 raise DefinitionError(f"{self.title}: nothing holds the pin {pin}; say Link(...) or Slide(...) with it.", member=pin)
+        slid_on = {name_of(slide.guide) for slide in self.slides.values()}
         while True:
             while ready := [name for name, member in self.pending.items() if set(needs(member)) <= self.known and not self.waits(member)]:
-                for name in sorted(ready, key=lambda each: not isinstance(self.pending[each], Guide)):  # a group may slide on it
+                for name in sorted(ready, key=lambda each: each not in slid_on):  # a group that slides on it measures it
                     self.settle(name, self.pending.pop(name))
             loose = [pin for pin in self.pins if pin not in self.settled]
             if not loose:

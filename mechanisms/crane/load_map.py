@@ -26,7 +26,7 @@ from linkage import (
     ratio,
     working_field,
 )
-from linkage.errors import known_name
+from linkage.errors import ensure, known_name
 from linkage.loads.point import on_slope
 from linkage.motion import last_holding
 from linkage.program import FloatArray
@@ -45,8 +45,12 @@ def sides(motion: Motion, stroke: str) -> tuple[float, float]:
     """Return what the cylinder of a stroke pushes and pulls with at the pump's pressure [N], both positive, of one design.
 
     It is p n times the area, less the back pressure's share. The side that a cylinder does not work with gives nothing.
+    DefinitionError for a cylinder without a line.
     """
-    low, high = motion.plan.of_kind(Cylinder)[DRIVEN[stroke]].bounds(motion, lifting=True)
+    name = DRIVEN[stroke]
+    low, high = motion.plan.of_kind(Cylinder)[name].bounds(motion, lifting=True)
+    is_bounded = np.isfinite([low, high]).all()
+    ensure(is_bounded, f"{motion.plan.title}: nothing bounds the thrust of {name}; declare its line, LiftCircuit({name}, ...).")
     return max(float(high), 0.0), max(-float(low), 0.0)
 
 

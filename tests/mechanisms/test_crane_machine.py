@@ -159,6 +159,14 @@ def test_moment_of_a_cylinder_over_its_way_is_its_oil():
     assert trapezoid(arm_moment(crane, psi)[1], psi) == pytest.approx(area * (0.14**2 - 0.08**2) * 0.926744269401061, rel=1e-6)
 
 
+def test_a_cylinder_without_a_line_has_no_moment():
+    class Bare(Crane):
+        lift_line = None
+
+    with pytest.raises(DefinitionError, match="Bare: nothing bounds the thrust of lift; declare its line"):
+        boom_moment(Bare(), 0.5)
+
+
 def test_chains_halve_the_way_and_double_the_force():
     """The cylinder goes half the telescope's way with twice its force; the chains carry what the telescope does, each where it pulls."""
     at = {"phi": 1.0, "psi": PSI, "t": 1.0}

@@ -292,10 +292,11 @@ def pilot_request(inlet: Inlet, acting: Acting) -> LawRequest:
 def refuse_unpushed(branch: Branch, time: Array, pump: ForceElement) -> None:
     """Raise DefinitionError where a cylinder is to move that neither oil nor its load pushes that way."""
     inlet, pump_name = branch.inlet, pump.name or "supply"
-    at = np.flatnonzero((branch.force > 0.0) & (branch.speed > 0.0))
+    at = np.flatnonzero((branch.force > AT_BORDER * np.abs(branch.force).max()) & (branch.speed > 0.0))
     if len(at) and inlet.sides is None:
         ram, other = inlet.ram.name, "rod" if inlet.sense < 0.0 else "piston"
-        what = f"{ram} cannot go on {inlet.way} at {show(float(time[at[0]]), 's', 4)}: its load resists, and no pump fills its {other} side"
+        instant = show(float(time[max(at[0] - 1, 0)]), "s", 4)
+        what = f"{ram} cannot go on {inlet.way} at {instant}: its load resists, and no pump fills its {other} side"
         raise DefinitionError(f"{what}; put that on the pump, OilLine({ram}.{other}_side, {pump_name}), or demand nothing there.")
 
 

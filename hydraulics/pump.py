@@ -12,6 +12,7 @@ from typing import Any, ClassVar, Literal, cast, final
 
 import numpy as np
 
+from linkage.checks import require_type
 from linkage.errors import one_word, unknown
 from linkage.frozen import immutable
 from linkage.language import noted
@@ -74,6 +75,7 @@ class Pump(Supply, HasVerdicts):
     def __post_init__(self) -> None:
         if isinstance(self.first, (str, Member)):
             object.__setattr__(self, "first", (self.first,))
+        require_type("Pump: first", self.first, (list, tuple), 'names of lines or cylinders are expected, first=["lift"]')
         super().__post_init__()
         one_word("sharing", self.sharing, SHARINGS)
 

@@ -43,7 +43,7 @@ from .cycle import (
 )
 from .inputs import Array, one_design
 from .member import LENGTHS, Ram
-from .sharing import SAME_NEED, Choices, Fed, Wanted, flow_shares, level_shares
+from .sharing import BY_DEMAND, SAME_NEED, Choices, Fed, Wanted, flow_shares, level_shares
 
 Demand: TypeAlias = "float | Course"
 """How fast a cylinder shall move [m/s], or a course of that over time."""
@@ -108,7 +108,7 @@ class PumpedMachine:
     def __init__(
         self, pump: ForceElement, machine: Mechanism, demands: Mapping[str, Demand], start: Mapping[str, float], acting: Acting
     ) -> None:
-        plan, designs = machine.plan, dict(machine.judge().designs)
+        plan, designs = machine.plan, dict(machine.judge(acting=acting).designs)
         self.consumers = Consumers(plan, designs, pump, acting, start)
         self._latest = np.zeros(0), np.zeros((len(demands), 0))
         self.plan, self.designs, self.pump, self.demands = plan, designs, pump, demands
@@ -270,8 +270,8 @@ class PumpedMachine:
 
     def decided(self, time: float, strokes: Array, rates: Array, like: Mode) -> tuple[Mode, Going]:
         """Return the mode that is due at an instant, strokes and rates (n, 1), and what goes on in it; level or creeping stay as `like`."""
-        at, moving = np.array([time]), rates
-        for _ in range(ROUNDS):
+        at, moving, late = np.array([time]), rates, list[Mode]()
+        for number in range(ROUNDS):
             taken, ways = self.wanted(at, strokes, moving)
             mode, choose = replace(like, stopped=self.stopped(taken, ways, strokes, 0)), Choices()
             flow_shares(self.asks(taken, mode, 0), self.limits, choose)
@@ -280,7 +280,12 @@ class PumpedMachine:
             slow = self.pace(found)
             if not self.consumers.follows_rates or np.allclose(slow, moving, rtol=1e-13, atol=1e-15):
                 break
+            late += [mode] if number >= ROUNDS // 2 else []
             moving = 0.5 * (moving + slow) if np.any(moving) else slow
+        if len({*late}) > 1:
+            who = ", ".join(ram.name for ram in self.rams)
+            what = f"{self.plan.title}: at {show(time - AHEAD, 's', 7)} dampers or friction decide, by the speeds themselves,"
+            raise DefinitionError(f"{what} which of {who} move; ask for less, or give the pump more pressure or sharing={BY_DEMAND!r}.")
         return mode, found
 
     @staticmethod
@@ -398,7 +403,7 @@ class PumpedMachine:
     def border(self, time: Array, strokes: Array, mode: Mode, moment: Going, place: int) -> float:
         """Return the first instant of a stretch at which its mode is due no longer, before one of its places."""
         low = max(time[place - 1], time[0])
-        close = CLOSE * max(1.0, abs(time[-1]))
+        close = CLOSE * max(1.0, abs(time[0]))
         return float(last_holding(lambda at: self.due(at, time, strokes, mode, moment), low, time[place], close, 8)[1])
 
 
@@ -456,6 +461,7 @@ def demands_given(demands: Mapping[Reference, Demand], title: str) -> dict[str, 
             is_speed = is_number(demand) or (isinstance(demand, float) and np.isinf(demand))
             require(is_speed, what, demand, "a speed in m/s is expected, or a Course of speeds over time")
             demand = float(demand)
+        ensure(name_of(each) not in found, f"{what} is asked for twice, by its name and as a member; keep one of the two.")
         found[name_of(each)] = demand
     return found
 
@@ -467,8 +473,10 @@ def run_start(machine: Mechanism, start: Mapping[str, float] | Motion | None) ->
     if isinstance(start, Motion):
         require(start._instants is not None, f"{plan.title}: start", start, "a motion in time is expected, such as another run, or strokes")
         assert start._instants is not None
-        begin = float(start._instants.breaks[-1])
-        return begin, {name: float(course(begin)) for name, course in start._instants.courses.items()}
+        begin, courses = float(start._instants.breaks[-1]), start._instants.courses
+        missing = ", ".join(name for name in found if name not in courses)
+        require(not missing, f"{plan.title}: start", start, f"a motion of this machine is expected; this one has no stroke {missing}")
+        return begin, {name: float(courses[name](begin)) for name in found}
     known = as_mapping(dict.fromkeys(found, "..."))
     require_type(f"{plan.title}: start", start or {}, Mapping, f"strokes by their names are expected, {known}")
     for name, value in (start or {}).items():
@@ -507,12 +515,15 @@ def run_through(work: PumpedMachine, begin: float, end: float, strokes: Array) -
                 found = work.integrated(time, last, strokes, mode, moment) or found
             passed, gone = found
             instants = stretch_times(time, last)
-            for branch in (each for own in gone.taken.branches for each in own):
+            going = (own for own, stands in zip(gone.taken.branches, mode.stopped, strict=True) if not stands)
+            for branch in (each for own in going for each in own):
                 refuse_unpushed(branch, instants, work.pump)
             stretches.append(Stretch(instants, gone.pump_pressure, list(gone.shares), gone.taken, gone.fed.blocked))
             coefficients.append(powers(strokes, gone.rates, last - time))
             width, time, strokes = 2.0 * (last - time) if place is None else max(width, last - time), last, passed[:, -1:]
-            settled = None if place is not None else (mode, work.moment(np.array([time]), strokes, work.pace(gone)[:, -1:], mode))
+            settled = None
+            if place is None and time < corner:
+                settled = mode, work.moment(np.array([time]), strokes, work.pace(gone)[:, -1:], mode)
             tiny = tiny + 1 if stretches[-1].time[-1] - stretches[-1].time[0] < SHORTEST else 0
             endless = tiny > ROUNDS or len(stretches) > MOST
             ensure(not endless, f"{work.plan.title}: up to {time:.7g} s one event follows the other without end.")

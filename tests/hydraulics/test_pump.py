@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 from hydraulics import Cylinder, HoldingValve, LiftCircuit, OilLine, Pump, Relief
 from linkage import Course, DefinitionError, Ground, Guide, Mechanism, OnGuide, Over, Part, Stroke, ramp
 from linkage.files import from_dict, to_dict
-from linkage.loads import Damper, Spring, Weight
+from linkage.loads import Acting, Damper, Spring, Weight
 from linkage.units import bar, litre, minute
 
 AREA, ANNULUS = np.pi / 4 * 0.08**2, np.pi / 4 * (0.08**2 - 0.045**2)
@@ -246,6 +246,48 @@ def test_a_demand_may_change_its_sense_at_any_instant():
         assert [event.time for event in run.events if event.kind == "demand"] == [pytest.approx(middle, abs=1e-9)]
 
 
+@pytest.mark.filterwarnings("error")
+def test_a_ram_without_oil_on_its_rod_goes_back_as_far_as_its_load_drives_it():
+    class Plunger(Mechanism):
+        S = Stroke(0.0, 0.4)
+        supply = Pump(250 * bar, flow=FLOW)
+        one = Part(Block, S=S, ram=None)
+        ram = Cylinder("one.O", "one.B", bore=0.08, rod=0.045, works="piston")
+        line = OilLine("ram.piston_side", supply, Relief(200 * bar))
+
+    there_and_back = Course.of_phases([0.0, 1.0, 2.0], [[0.1, -0.1]])
+    for speed in (0.1, 0.3, 0.7):  # its spring is free where it comes to its end
+        machine = Plunger()
+        run = pump_of(machine).run(machine, demands={"ram": Course.of_phases([0.0, 1.0, 2.0], [[speed, -speed]])}, until=2.0)
+        stop = next(event for event in run.events if event.kind == "stop")
+        assert_allclose([stop.time, run.strokes["S"][-1]], [1.0 + FLOW / AREA / speed, 0.0], atol=1e-9)
+        assert_allclose(run.cycle.energy.useful, run.cycle.energy.braked, rtol=1e-9)
+    pulled = Plunger(**{"one.spring.free_length": 1.45})  # free at 50 mm
+    with pytest.raises(DefinitionError, match=r"retracting at 1\.49\d* s: its load resists"):
+        pump_of(pulled).run(pulled, demands={"ram": there_and_back}, until=2.0)
+
+
+def test_a_stop_is_found_as_well_in_a_run_that_goes_on_for_days():
+    machine = TwoLifts()
+    run = pump_of(machine).run(machine, demands={"one.ram": 0.1}, until=1e6)
+    assert_allclose(run.events[-1].time, 0.4 * AREA / FLOW, atol=1e-9)
+    assert_allclose(run.strokes["S"][-1], 0.4, atol=1e-10)
+
+
+def test_dampers_that_decide_by_the_speed_who_moves_are_refused_in_words():
+    class Stiff(TwoLifts):
+        supply = Pump(100 * bar, flow=FLOW)  # it cannot give what the damper asks for at the whole speed
+        damper = Damper("one.O", "one.B", coefficient=6e5)
+
+    class Least(TwoLifts):
+        supply = Pump(250 * bar, flow=0.7 * FLOW, sharing="least pressure first")
+        one_damper, two_damper = Damper("one.O", "one.B", coefficient=5e4), Damper("two.O", "two.B", coefficient=2e5)
+
+    for machine in (Stiff(), Least()):
+        with pytest.raises(DefinitionError, match=r"at 0 s dampers or friction decide.*ask for less"):
+            pump_of(machine).run(machine, demands={"one.ram": 0.12, "two.ram": 0.12}, until=1.0)
+
+
 def test_a_shared_pump_is_written_into_a_file_and_read():
     class Saved(TwoLifts):
         supply = Pump(250 * bar, flow=FLOW, margin=15 * bar, power=5e3, sharing="least pressure first", first="one.ram")
@@ -269,6 +311,7 @@ def test_what_cannot_be_is_refused_in_words():
 
     least = type("Least", (TwoLifts,), {"supply": Pump(250 * bar, flow=FLOW, sharing="least pressure first")})()
     bare = Bare()
+    other = pump_of(OneBlock()).run(OneBlock(), demands={"one.ram": 0.1}, until=0.5)
     for ask, words in [
         (lambda: supply.run(machine, demands={"one.rm": 0.1}, until=1.0), "Cylinder 'one.rm' is unknown"),
         (lambda: supply.run(machine, demands={}, until=1.0), "nothing is asked for"),
@@ -281,6 +324,12 @@ def test_what_cannot_be_is_refused_in_words():
         (lambda: supply.run(machine, demands={"one.ram": 0.1}, start={"S": 0.5}, until=1.0), "0 to 0.4"),
         (lambda: pump_of(bare).run(bare, demands={"one.ram": 0.1}, until=9.0), "no relief valve is on the lines of supply"),
         (lambda: supply.check(machine.sweep(S=11, T=0.1)), "has no time of its own"),
+        (lambda: supply.run(machine, demands={"one.ram": 0.1, machine.plan.members["one.ram"]: 0.2}, until=1.0), "asked for twice"),
+        (lambda: supply.run(machine, demands={"one.ram": 0.1}, until=1.0, acting="plain"), "a situation is expected"),
+        (lambda: supply.run(machine, demands={"one.ram": 0.1}, until=1.0, acting=Acting(case=["plain"])), "the load case"),
+        (lambda: supply.run(machine, demands={"one.ram": 0.1}, until=9.0, start=other), "this one has no stroke T"),
+        (lambda: Pump(200 * bar, flow=FLOW, first=3), "names of lines or cylinders are expected"),
+        (lambda: type("Wrong", (TwoLifts,), {"supply": Pump(2e7, flow=FLOW, first=[3])}), "3 stands where"),
         (lambda: Alone().plan.members["more"].run(Alone(), demands={"one.ram": 0.1}, until=1.0), "no line is on more"),
         (lambda: Pump(200 * bar, flow=FLOW, power=0.0), "Power of the pump"),
         (lambda: Pump(200 * bar, sharing="first come"), "first come"),

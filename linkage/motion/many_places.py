@@ -47,7 +47,7 @@ EDGE = 1e-10
 @final
 @dataclass(frozen=True, eq=False)
 class PlacePoses:
-    """PlacePoses that give places: of which place (n,), unit coordinates of all strokes looked for (n, k), those solved for first."""
+    """Poses that give places: of which place (n,), unit coordinates of all strokes looked for (n, k), those solved for first."""
 
     place: Index
     unit: FloatArray

@@ -281,7 +281,7 @@ class PumpedMachine:
             if not self.consumers.follows_rates or np.allclose(slow, moving, rtol=1e-13, atol=1e-15):
                 break
             late += [mode] if number >= ROUNDS // 2 else []
-            moving = 0.5 * (moving + slow) if np.any(moving) else slow
+            moving = slow if number < 4 else 0.5 * (moving + slow)  # friction knows the sense alone, and is settled at once
         if len({*late}) > 1:
             who = ", ".join(ram.name for ram in self.rams)
             what = f"{self.plan.title}: at {show(time - AHEAD, 's', 7)} dampers or friction decide, by the speeds themselves,"

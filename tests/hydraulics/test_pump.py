@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 from hydraulics import Cylinder, HoldingValve, LiftCircuit, OilLine, Pump, Relief
 from linkage import Course, DefinitionError, Ground, Guide, Mechanism, OnGuide, Over, Part, Stroke, ramp
 from linkage.files import from_dict, to_dict
-from linkage.loads import Acting, Damper, Spring, Weight
+from linkage.loads import Acting, Damper, GuideFriction, Spring, Weight
 from linkage.units import bar, litre, minute
 
 AREA, ANNULUS = np.pi / 4 * 0.08**2, np.pi / 4 * (0.08**2 - 0.045**2)
@@ -272,6 +272,25 @@ def test_a_stop_is_found_as_well_in_a_run_that_goes_on_for_days():
     run = pump_of(machine).run(machine, demands={"one.ram": 0.1}, until=1e6)
     assert_allclose(run.events[-1].time, 0.4 * AREA / FLOW, atol=1e-9)
     assert_allclose(run.strokes["S"][-1], 0.4, atol=1e-10)
+
+
+def test_friction_of_a_guide_is_what_the_cylinder_feels_by_hand():
+    class Rubbing(Mechanism):
+        S = Stroke(0.0, 0.4)
+        supply = Pump(250 * bar, flow=FLOW, power=2000.0)
+        one = Part(Lift, S=S, ram=None)
+        foot = Ground(0.3, 0.0)
+        ram = Cylinder("foot", "one.B", bore=0.08, rod=0.045)
+        friction = GuideFriction("one.B", coefficient=0.2)
+        line = LiftCircuit("ram", supply, relief=200 * bar)
+
+    machine = Rubbing()
+    run = pump_of(machine).run(machine, demands={"ram": 0.1}, until=0.5)
+    S = np.array([float(run.over.strokes["S"](time)) for time in run.cycle.time])
+    length = np.hypot(0.5 + S, 0.3)
+    need = 3000 * 9.80665 / ((0.5 + S - 0.2 * 0.3) / length) / AREA  # it is pressed to its guide by F 0.3 / length
+    assert_allclose(run.cycle.pressure["line"], need, rtol=1e-12)
+    assert_allclose(run.cycle.power["supply"], np.minimum(2000.0, need * AREA * 0.1), rtol=1e-10)
 
 
 def test_dampers_that_decide_by_the_speed_who_moves_are_refused_in_words():

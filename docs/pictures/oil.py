@@ -10,10 +10,11 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from linkage import draw, kN, mm, reaction
+from linkage import Acting, draw, kN, mm, reaction
 from linkage.pictures import style
 from mechanisms.at_work.axle import Axle, CrossedAxle
 from mechanisms.at_work.levelled import LevelledTelehandler
+from mechanisms.at_work.one_pump import PumpedExcavator
 
 IMAGES = Path(__file__).parents[1] / "images"
 
@@ -49,6 +50,14 @@ def axle() -> Figure:
     return figure
 
 
+def one_pump() -> Figure:
+    """Return the chart of a cycle: an excavator whose three cylinders share one pump."""
+    start, acting = {"lift": 0.100, "swing": 0.400, "curl": 0.155}, Acting(case="carrying")
+    return PumpedExcavator.supply.run(
+        PumpedExcavator(), demands={"boom.ram": 0.15, "arm.ram": -0.15, "tool.ram": 0.15}, start=start, until=4.0, acting=acting
+    ).cycle.plot()
+
+
 def dress(ax: Axes, across: str, up: str) -> None:
     """Dress a panel of curves."""
     ax.set_xlabel(across, fontsize=style.LABEL, color=style.INK)
@@ -60,7 +69,7 @@ def dress(ax: Axes, across: str, up: str) -> None:
     ax.legend(fontsize=style.LABEL, frameon=False)
 
 
-PICTURES: dict[str, Callable[[], Figure]] = {"at_work_axle": axle, "at_work_levelled": levelled}
+PICTURES: dict[str, Callable[[], Figure]] = {"at_work_axle": axle, "at_work_levelled": levelled, "one_pump_cycle": one_pump}
 
 if __name__ == "__main__":
     for name, picture in PICTURES.items():

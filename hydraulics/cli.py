@@ -17,6 +17,7 @@ from linkage.language import noted, said
 from linkage.loads import Acting, ForceElement, LoadCase
 from linkage.mechanism import Mechanism
 from linkage.motion import Column, Judge, Motion, columns_of, least
+from linkage.motion.limits import stroke_unit, timed_texts
 from linkage.statics import LawRequest, elements_of, is_among, pull_direction
 from linkage.units import g0, show
 from linkage.verdict import Verdict
@@ -184,10 +185,16 @@ def print_cycle(options: Namespace) -> int:
 def cycle_of_programme(machine: Mechanism, options: Namespace) -> list[tuple[str, PumpCycle, Motion]]:
     """Return the cycle of a programme that a file says, with its motion."""
     ensure(not options.over, "--over is a path of the machine, --program asks cylinders to move; give one of them.")
+    ensure(not options.check, "--check judges the machine's own paths in time; cylinders may wait in a programme: leave it out.")
     programme = programme_read(machine, options.program)
     pump = pump_of(machine, options.pump) if options.pump else programme.pump
     acting = Acting(case=programme.case)
     motion = pump.run(machine, demands=programme.demands, start=programme.start, until=programme.until, acting=acting)
+    if options.csv != "-":
+        loads = said("its own loads") if programme.case is None else said("the case {case}", case=programme.case)
+        units = {name: stroke_unit(machine.plan, name) for name in motion.strokes}
+        _, strokes = timed_texts({name: each[0] for name, each in motion.strokes.items()}, units, 0.0)
+        print(said("It begins at {strokes}, under {loads}.", strokes=strokes, loads=loads))
     return [("", motion.cycle, motion)]
 
 

@@ -45,6 +45,8 @@ TO_INTEGRALS = (
 """What makes integrals from the first place on of values at the places."""
 SMOOTH = 1e-11
 """Of the largest value: the last coefficients of what is a polynomial to rounding."""
+PLATEAU = 1e-10
+"""Of the highest value: what is no lower is as high, and the first such instant is told."""
 SHORTEST = 1e-9
 """s; no stretch is divided any finer."""
 
@@ -156,14 +158,15 @@ class PumpCycle:
     def peak(self, values: Array) -> tuple[float, float]:
         """Return the highest of some values over time, shape (n,), and its instant [s], between the instants too."""
         rows, times = values.reshape(-1, DEGREE + 1), self.time.reshape(-1, DEGREE + 1)
-        number = int(np.argmax(rows.max(axis=1)))
+        highest = rows.max(axis=1)
+        number = int(np.argmax(highest >= highest.max() - PLATEAU * abs(highest.max())))
         own = TO_COEFFICIENTS @ rows[number]
         own[np.abs(own) <= SMOOTH * np.abs(own).max()] = 0.0
         flat = chebyshev.chebroots(chebyshev.chebder(chebyshev.chebtrim(own))) if np.any(own[1:]) else np.zeros(0)
         tried = np.concatenate([PLACES, flat[np.abs(flat.imag) < 1e-9].real])
         tried = tried[np.abs(tried) <= 1.0]
         found = chebyshev.chebval(tried, own)
-        best = int(np.argmax(found >= found.max() - 1e-12 * abs(found.max())))
+        best = int(np.argmax(found >= found.max() - PLATEAU * abs(found.max())))
         begin, end = times[number, [0, -1]]
         return float(found[best]), float(begin + 0.5 * (end - begin) * (tried[best] + 1.0))
 
@@ -184,7 +187,8 @@ class PumpCycle:
             if np.isfinite(most) and (unit != "bar" or value > most * (1.0 + AT_BORDER)):
                 given = {"value": show(value, unit, 4), "time": show(time, "s", 4), "most": show(most, unit, 4)}
                 texts.append(said("{value} at {time} of {most}", **given))
-        text = said("needs {what}", what="; ".join(texts))
+        what = "; ".join(texts)
+        text = said("gives {what}", what=what) if self.share else said("needs {what}", what=what)
         if self.stretch > 1.0 + AT_BORDER:
             long, short = show(self.stretch * self.duration, "s", 4), show(self.duration, "s", 4)
             how = said("it can be done in {long} instead of {short}", long=long, short=short)

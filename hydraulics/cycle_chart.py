@@ -27,6 +27,8 @@ WIDE, HIGH, STRIP, LINE = 8.0, 2.1, 0.32, 0.19
 """Sizes of a chart [inch]: its width, a panel, a cylinder that waits, a line of words."""
 ROOM = (0.62, 0.16, 0.5, 0.34)
 """The room beside the axes of a picture in a report [inch: left, right, bottom, top]."""
+HEADROOM = 1.25
+"""Of a limit: so high a panel goes at the least, so that the numbers of events stand above it."""
 MOST_EVENTS = 24
 """So many are told below a chart."""
 
@@ -55,7 +57,7 @@ def plot_cycle(cycle: PumpCycle) -> Figure:
     heights = [HIGH] * 3 + [STRIP * len(late) + 0.35] * bool(late)
     foot = 0.1 + LINE * len(told)
     high = sum(heights) + foot + 0.5
-    figure, axes = panels((WIDE, high), 1, len(heights), rect=(0.0, foot / high, 1.0, 1.0 - foot / high))
+    figure, axes = panels((WIDE, high), 1, len(heights), rect=(0.0, foot / high, 0.985, 1.0 - foot / high))
     grid = axes[0].get_gridspec()
     assert grid is not None
     grid.set_height_ratios(heights)
@@ -99,7 +101,7 @@ def waiting_panel(ax: Axes, cycle: PumpCycle) -> None:
         ax.fill_between(cycle.time, base, base + 0.85 * part, color=style.ACCENT, alpha=0.55, linewidth=0, zorder=3.0)
         ax.axhline(base, color=style.RULE, linewidth=style.THIN, zorder=2.0)
     ax.set_yticks([len(late) - 0.6 - place for place in range(len(late))], list(late), fontsize=style.SMALL)
-    time_axes(ax, cycle, said("waits: the part of its speed that it does not get"))
+    time_axes(ax, cycle, said("waits: the part of its speed that it does not get"), is_numbered=False)
     ax.set_ylim(-0.05, max(len(late), 1))
 
 
@@ -108,19 +110,19 @@ def curves(ax: Axes, cycle: PumpCycle, values: Mapping[str, Array], word: str, u
     colours = around(COLOURS)
     for name, each in values.items():
         is_pump = name == cycle.pump
-        look = {"color": style.INK, "linewidth": 1.2} if is_pump else {"color": next(colours), "linewidth": style.BOLD}
-        ax.plot(cycle.time, Column(name, each, unit).drawn, label=name, zorder=5.0 if is_pump else 4.0, **look)  # type: ignore[arg-type]
+        colour, width = (style.mixed(style.INK, style.PAPER, 0.55), 2.2 * style.BOLD) if is_pump else (next(colours), style.BOLD)
+        ax.plot(cycle.time, Column(name, each, unit).drawn, label=name, zorder=4.0 if is_pump else 5.0, color=colour, linewidth=width)
     time_axes(ax, cycle, f"{word}, {unit_sign(unit)}")
     if np.isfinite(limit):
         most = float(Column(word, np.array([limit]), unit).drawn[0])
-        ax.axhline(most, color=style.ACCENT, linewidth=1.3, linestyle=(0, (5, 2.5)), zorder=4.5)
-        ax.set_ylim(top=max(ax.get_ylim()[1], 1.08 * most))
+        ax.axhline(most, color=style.ACCENT, linewidth=1.3, linestyle=(0, (5, 2.5)), zorder=4.5, label=said("limit"))
+        ax.set_ylim(top=max(ax.get_ylim()[1], HEADROOM * most))
     handles, labels = ax.get_legend_handles_labels()
     ax.legend(handles, labels, loc="upper right", bbox_to_anchor=(1.0, 1.2), ncols=6, fontsize=style.SMALL, frameon=False, borderpad=0.0)
 
 
-def time_axes(ax: Axes, cycle: PumpCycle, heading: str) -> None:
-    """Set up axes over time, with a numbered line at each event."""
+def time_axes(ax: Axes, cycle: PumpCycle, heading: str, *, is_numbered: bool = True) -> None:
+    """Set up axes over time, with a line at each event and its number."""
     quiet(ax)
     ax.set_title(heading, loc="left", fontsize=style.TEXT, fontweight="bold", color=style.INK, pad=6)
     ax.set_xlim(float(cycle.time[0]), float(cycle.time[-1]))
@@ -132,6 +134,8 @@ def time_axes(ax: Axes, cycle: PumpCycle, heading: str) -> None:
         ax.axvline(event.time, color=style.MUTED, linewidth=style.THIN, linestyle=(0, (1, 2)), zorder=1.5)
         level = level + 1 if event.time - last < 0.02 * cycle.duration else 0
         last = event.time
+        if not is_numbered:
+            continue
         ax.annotate(
             str(number), (event.time, 1.0), xytext=(2, -2 - 9 * (level % 4)), xycoords=("data", "axes fraction"),
             textcoords="offset points", ha="left", va="top", fontsize=style.SMALL - 1.0, color=style.MUTED, zorder=6.0,

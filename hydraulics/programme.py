@@ -60,7 +60,8 @@ def programme_read(machine: Mechanism, file: str) -> Programme:
         with faults.at(key):
             known_name("Key", key, KEYS)
     with faults.at("until"):
-        until = si_number(data.get("until", ""), "time")
+        ensure("until" in data, 'it is missing; say when the programme ends, until = "4 s".')
+        until = si_number(data["until"], "time")
         require(until > 0.0, "until", data["until"], 'an instant behind 0 s is expected, until = "4 s"')
     for name, given in table_under("start", data, faults).items():
         with faults.at("start", *name.split(".")):
@@ -92,9 +93,9 @@ def si_number(given: object, kind: str) -> float:
 
 def demand_read(given: object, until: float) -> Demand:
     """Return what a cylinder is asked for: one speed, "max", or rows of instants, each with the speed that holds from there on."""
-    if given == "max":
+    if given in ("max", "inf", np.inf):
         return np.inf
-    if given == "-max":
+    if given in ("-max", "-inf", -np.inf):
         return -np.inf
     if not isinstance(given, list):
         return si_number(given, "speed")

@@ -24,7 +24,7 @@ from linkage.loads.element import ForceElement
 from linkage.mechanism import Mechanism
 from linkage.motion import Instants, Motion, Over
 from linkage.numeric import last_holding
-from linkage.plan import Mask, require_kinds
+from linkage.plan import Mask, Plan, require_kinds
 from linkage.quantities import Course, Reference, as_mapping, is_number, name_of
 from linkage.units import require_measure, show
 
@@ -424,7 +424,7 @@ def worked(
     """Return how a machine moves while its cylinders are asked to, from event to event."""
     require_type("run: the machine", machine, Mechanism, "a design is expected, such as supply.run(Excavator(), ...)")
     plan = machine.plan
-    given = demands_given(demands, plan.title)
+    given = demands_given(demands, plan)
     begin, strokes = run_start(machine, start)
     require_number("run: until", until, f"an instant behind {begin:.6g} s is expected", above=begin)
     own = plan.members.get(pump.name)
@@ -449,13 +449,14 @@ def worked(
     return found
 
 
-def demands_given(demands: Mapping[Reference, Demand], title: str) -> dict[str, Demand]:
+def demands_given(demands: Mapping[Reference, Demand], plan: Plan) -> dict[str, Demand]:
     """Return demands by the names of cylinders; DefinitionError for one that is no speed."""
-    require_type(f"{title}: demands", demands, Mapping, 'speeds of cylinders by their names are expected, demands={"lift": 0.1}')
-    require(len(demands) > 0, f"{title}: demands", demands, 'nothing is asked for; name a cylinder, demands={"lift": 0.1}')
+    example = f'demands={{"{next(iter(plan.of_kind(Ram)), "lift")}": 0.1}}'
+    require_type(f"{plan.title}: demands", demands, Mapping, f"speeds of cylinders by their names are expected, {example}")
+    require(len(demands) > 0, f"{plan.title}: demands", demands, f"nothing is asked for; name a cylinder, {example}")
     found: dict[str, Demand] = {}
     for each, demand in demands.items():
-        what = f"{title}: demands: {name_of(each)}"
+        what = f"{plan.title}: demands: {name_of(each)}"
         if not isinstance(demand, Course):
             require_measure(demand, "speed", what)
             is_speed = is_number(demand) or (isinstance(demand, float) and np.isinf(demand))

@@ -50,7 +50,7 @@ from ..reports import (
     run_of,
 )
 from ..units import SYSTEMS, UNITS, deg, display_unit, factor, shown_in, unit_system
-from .browser_file import MACHINE, START, PageData, page_part, page_text
+from .browser_file import EVENTS, MACHINE, START, PageData, page_part, page_text
 from .browser_forces import force_arrows, page_situations, situated_requests, situated_rows
 from .browser_judge import LiveQuestions, course_data, rule_key, unit_data
 from .curves import WHOLE, Limit, as_curve, check_poses, limit_of, typeset
@@ -336,7 +336,8 @@ def machine_text(requests: PageRequests, live: LiveText, data: PageData, parts: 
     most, text = max(requests.scene.colours, default=0), f"{live.text}\n{page_part('judge.js')}"
     if any(place.instants is not None for place in requests.questions.judge.places):
         text += page_part("judge_time.js")
-    return page_text(requests.plan.heading, data, (*MACHINE, *parts, START), language=language, most=most, text=text)
+    later = EVENTS if any("events" in each for each in data["strokes"]) else ()
+    return page_text(requests.plan.heading, data, (*MACHINE, *parts, START, *later), language=language, most=most, text=text)
 
 
 def unit_tables(used: set[str]) -> PageData:
@@ -432,7 +433,8 @@ def stroke_data(requests: PageRequests) -> list[PageData]:
         if run.instants is not None:
             first, last = run.instants.breaks[[0, -1]].tolist()
             place |= {"name": name if own else "time", "start": first, "end": last, "at": first, "unit": "s"}
-            place |= {"events": event_data(getattr(requests.along, "events", ()))}  # of a run of one pump
+            events = event_data(getattr(requests.along, "events", ()))  # of a run of one pump
+            place |= {"events": events} if events else {}
             over, turn, path = (over or {"over": 0}) | course_data(run.instants), True, {k: [] for k in range(len(names))}
         found.append(place | {"turn": int(turn), "path": path} | over)
     return found

@@ -24,6 +24,8 @@ LANGUAGES = ("en", "ru")
 MACHINE = ("machine.html", "page.css", "mechanism.js", "labels.js", "page.js", "verdicts.js", "hands.js", "leave.js")
 """The parts of a page with a machine that moves and changes; what a kind of page adds comes after them, and START last."""
 START = "start.js"
+EVENTS = ("events.css", "events.js")
+"""What a page with events on its way in time has behind all others."""
 SAID = re.compile(r'\bsay\("((?:[^"\\]|\\.)*)"|\bdata-(?:say|tip|name)="([^"]+)"')
 """Where the program and the text of a page have what is translated."""
 

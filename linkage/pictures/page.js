@@ -362,15 +362,6 @@ function strokeSliders() {
       soon(k === runs && !turns ? "pose" : "sweep"); remember();
     };
     row.append(label, slider, out);
-    if (each.events && each.events.length) { /* marks on the slider, and below it the latest of them in words: a press goes to the next */
-      const marks = make("datalist"), told = make("button"), next = () => each.events.find(([time]) => time > stands[k] + 1e-9) || each.events[0];
-      marks.id = `events${k}`; told.type = "button"; told.className = "event";
-      marks.append(...each.events.map(([time]) => Object.assign(make("option"), { value: String((1000 * (time - low)) / (high - low)) })));
-      slider.setAttribute("list", marks.id);
-      on(told, "click", (event) => { event.preventDefault(); put(next()[0]); });
-      row.append(told, marks);
-      each.told = told;
-    }
     each.slider = slider; each.out = out;
     return row;
   });
@@ -595,7 +586,6 @@ function render(work) {
     const text = each.path && !each.unit ? say("place {n} of {count}", { n: short(value, 3), count: each.end }) : fixed(value / each.factor, places(max(abs(each.start), abs(each.end)) / each.factor, 4)) + unitText(each.unit);
     if (document.activeElement !== each.out) each.out.value = text;
     each.slider.setAttribute("aria-valuetext", text);
-    if (each.told) each.told.textContent = (each.events.findLast(([time]) => time <= value + 1e-9) || ["", each.events[0][1]])[1];
   });
   if (anew || sized || work.has("size")) showSizes();
   if (anew || sized) { asking.laid(vector(present)); if (!toldBefore) judge(); else { clearTimeout(later); later = setTimeout(rested, REST); } }

@@ -17,7 +17,7 @@ from .telehandler import Forks, Telehandler
 
 
 class PumpedExcavator(Excavator):
-    """The excavator on one pump of 45 l/min and 5.75 kW. It swings its full bucket up in a cycle that the pump can just follow."""
+    """The excavator on one pump of 45 l/min and 5.75 kW. It swings its full bucket up in a cycle that asks for most of the pump's flow."""
 
     grading, loading = None, None  # type: ignore[assignment]
     supply = Pump(200 * bar, flow=45 * litre / minute, power=5750.0)

@@ -14,7 +14,7 @@ from ..errors import FileError
 from ..files.names import shortened
 from ..mechanism import Mechanism
 from ..quantities import is_name, joined_names
-from ..units import show
+from ..units import parse, show
 from .machine_sketch import MachineSketch, Place, SketchDrive, SketchSlide
 
 OFF_LINE = 1e-3
@@ -40,14 +40,17 @@ class FoundPoint:
 @final
 @dataclass
 class FoundDrive:
-    """What drives: a crank about its first key or a cylinder between two; the stroke [units of the file, rad] where the file gives it."""
+    """What drives: a crank about its first key or a cylinder between two; the stroke [units of the file, rad] where the file gives it.
+
+    A text is a length with a unit of its own, which no scale of the drawing changes.
+    """
 
     kind: str
     ends: tuple[str, str]
-    reach: float | None = None
+    reach: float | str | None = None
     name: str = ""
-    back: float = 0.0
-    """How far it goes back from the drawn pose, as `reach` forwards."""
+    start: float | str = 0.0
+    """Where it begins, seen from the drawn pose, as `reach` is where it ends."""
 
 
 @final
@@ -191,8 +194,9 @@ class FoundMachine:
                 size, reach, name = self.unit or 1.0, HALF * dist(places[P], places[Q]), "S"
                 if drive.reach is None:
                     self.notes.append(f"The file does not say the stroke of the cylinder {P} {Q}: it goes out by half its drawn length.")
-            end = reach if drive.reach is None else drive.reach * size
-            yield legal_name(drive.name or name, taken), SketchDrive(drive.kind, (P, Q), -drive.back * size or 0.0, end)
+            given = drive.start, reach / size if drive.reach is None else drive.reach
+            start, end = (parse(each, "length") if isinstance(each, str) else each * size for each in given)
+            yield legal_name(drive.name or name, taken), SketchDrive(drive.kind, (P, Q), start, end)
 
     def straighten(self) -> None:
         """Put each point that slides between two others onto their line; FileError for one that is not near it."""

@@ -9,12 +9,13 @@ from collections.abc import Callable, Iterator
 from math import degrees
 
 from ..errors import DefinitionError, FileError
-from ..units import UNITS, parse
+from ..units import DIGITS, UNITS, parse
 from .found import FoundDrive, FoundMachine, ensure_file
 from .machine_sketch import MachineSketch
 
 HEADER = re.compile(r"(\w+)\s*(?:\[\s*([^\]]*?)\s*\]|\(\s*([^)]*?)\s*\))?\s*")
 COLUMNS = ("kind", "name", "x", "y", "what")
+PLAIN = re.compile(rf"[-+]?{DIGITS}")
 
 
 def read_points_csv(found: FoundMachine, text: str) -> None:
@@ -68,9 +69,14 @@ def read_drive(kind: str, found: FoundMachine, name: str, words: list[str], wher
     measures, example = ("angle", "O A 360deg") if kind == "crank" else ("length", "A B 250mm")
     ensure_file(len(words) in (2, 3, 4), f"{where}: a {kind} names its two ends and how far it goes, such as `{example}`.")
     P, Q = (found.known(word, where) for word in words[:2])
-    unit = 1.0 if kind == "crank" else found.unit or 1.0
-    back, *reach = [value_in(word, measures, where) / unit for word in (["0", *words[2:]] if len(words) < 4 else words[2:])]
-    found.drives.append(FoundDrive(kind, (P, Q), reach[0] if reach else None, name, -back))
+    back, *reach = [reach_in(word, measures, where) for word in (["0", *words[2:]] if len(words) < 4 else words[2:])]
+    found.drives.append(FoundDrive(kind, (P, Q), reach[0] if reach else None, name, back))
+
+
+def reach_in(text: str, measures: str, where: str) -> float | str:
+    """Return an angle [rad]; a length as its text, or as a number in the unit of the table where it has no unit of its own."""
+    value = value_in(text, measures, where)
+    return value if measures == "angle" or PLAIN.fullmatch(text) else text
 
 
 ROWS: dict[str, Callable[[FoundMachine, str, list[str], str], None]] = {
@@ -82,11 +88,14 @@ ROWS: dict[str, Callable[[FoundMachine, str, list[str], str], None]] = {
 
 
 def value_in(text: str, kind: str, where: str) -> float:
-    """Return a value with its unit [SI]; FileError for anything else."""
+    """Return a value [SI]; FileError for anything else, and for an angle without a unit, which one would mean in degrees."""
     try:
-        return parse(text, kind)
+        value = parse(text, kind)
     except DefinitionError as error:
         raise FileError(f"{where}: {error}") from None
+    is_said = kind != "angle" or value == 0.0 or not PLAIN.fullmatch(text)
+    ensure_file(is_said, f"{where}: the angle {text!r} has no unit; write '{text}deg' or '{text}rad'.")
+    return value
 
 
 def points_csv(sketch: MachineSketch) -> str:

@@ -108,6 +108,20 @@ def test_a_table_may_have_other_marks_and_units(tmp_path):
     assert read_sketch(put(tmp_path, "Plain.csv", table)) == expected
 
 
+def test_a_length_of_a_row_is_in_the_unit_of_the_table_unless_it_has_its_own(tmp_path):
+    head, rows = "kind,name,x{0},y{0},what\n", "point,A,0,0,fixed\npoint,B,300,0,\nlink,,,,A B\ncylinder,lift,,,A B {1}\n"
+    for unit, scale, one in ((" [mm]", None, 1e-3), (" [cm]", None, 1e-2), (" [in]", None, 0.0254), ("", 1e-3, 1e-3), (" [mm]", 0.01, 0.01)):
+        for reach, start, end in (
+            ("550", 0.0, 550 * one), ("-20 40", -20 * one, 40 * one), ("550mm", 0.0, 0.55), ("-2cm 40", -0.02, 40 * one),
+            ("-1 40mm", -one, 0.04), ("-30", 0.0, -30 * one),
+        ):  # fmt: skip
+            drive = read_sketch(put(tmp_path, "lift.csv", (head + rows).format(unit, reach)), scale=scale).drives["lift"]
+            assert (drive.start, drive.end) == pytest.approx((start, end), rel=1e-14), (unit, scale, reach)
+    for row in ("crank,,,,A B 360", "crank,,,,A B -1 2", "slide,,,,B 30"):
+        with pytest.raises(FileError, match="line 5: the angle '.*' has no unit; write '.*deg'"):
+            read_sketch(put(tmp_path, "turn.csv", head.format(" [mm]") + rows.partition("cylinder")[0] + row))
+
+
 # -- out again ---------------------------------------------------------------------------------------------
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from argparse import Namespace
 from pathlib import Path
 
@@ -26,6 +27,7 @@ from .settings import pair
 def import_command(options: Namespace) -> int:
     """Read a file, look whether it assembles, and write the machine."""
     from ..sketch import read_sketch, sketch_text
+    from ..sketch.read import SUFFIXES
 
     scale = None if options.scale is None else parse(options.scale, "length")
     layers: dict[str, list[str]] = {}
@@ -39,7 +41,10 @@ def import_command(options: Namespace) -> int:
         say_remark(note)
     path = Path(f"{found.name.lower()}.toml" if options.output is None else options.output)
     check_place(path)
-    ensure(options.output is not None or not path.exists(), f"{path} is there already and stays as it is; choose another name, -o FILE.")
+    is_source = os.path.exists(options.file) and path.exists() and os.path.samefile(path, options.file)
+    ensure(not is_source, f"{path} is the file that is imported and stays as it is; choose another name, -o FILE.")
+    is_free = not path.exists() or (options.output is not None and path.suffix.lower() not in SUFFIXES)
+    ensure(is_free, f"{path} is there already and stays as it is; choose another name, -o FILE.")
     machine = found.to_class()
     text = sketch_text(found, path.suffix.lower())
     with replacing_text(path) as stream:

@@ -7,7 +7,7 @@ from itertools import pairwise
 from math import atan2, dist, hypot, inf
 from typing import Any, final
 
-from ..errors import ensure
+from ..errors import ensure, unknown
 from ..surroundings import dxf_entities
 from .found import FoundDrive, FoundMachine, ensure_file
 from .machine_sketch import Place
@@ -24,9 +24,14 @@ CHORDS = 16
 
 def read_dxf(found: FoundMachine, path: str, layers: Mapping[str, Sequence[str]]) -> None:
     """Read the model space of a drawing; `layers` says by role which layers are meant, such as pins=["Bolts"]."""
-    unknown = [role for role in layers if role not in ROLES]
-    ensure(not unknown, f"{found.file}: --layer {', '.join(unknown)}: a layer is of {', '.join(ROLES)}.")
+    others = [role for role in layers if role not in ROLES]
+    ensure(not others, f"{found.file}: --layer {', '.join(others)}: a layer is of {', '.join(ROLES)}.")
     drawing, entities = dxf_entities(path)
+    there = {str(each.dxf.layer).lower(): str(each.dxf.layer) for each in entities}
+    for role, names in layers.items():
+        for name in names:
+            if name.lower() not in there:
+                raise unknown("Layer", name, there.values(), where=f"{found.file}, --layer {role}={name}")
     found.unit = METRES.get(int(drawing.header.get("$INSUNITS", 0)))
     DrawingReader(found, entities, {role: [each.lower() for each in layers.get(role, (role,))] for role in ROLES}).read()
 

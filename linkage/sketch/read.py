@@ -62,6 +62,8 @@ def read_sketch(
         A point that is named is not there.
     """
     found, title = content_of(file, layers)
+    is_drawing = str(file).lower().endswith(".dxf")
+    ensure(is_drawing or not layers, f"{found.file}: --layer {', '.join(layers)}: only a drawing, .dxf, has layers; leave it out.")
     if scale is not None:
         ensure(isfinite(scale) and scale > 0.0, f"{found.file}: the scale is {scale!r}; say what 1 of the file is, such as 1mm.")
         found.unit = scale

@@ -110,7 +110,8 @@ def test_a_table_may_have_other_marks_and_units(tmp_path):
 
 def test_a_length_of_a_row_is_in_the_unit_of_the_table_unless_it_has_its_own(tmp_path):
     head, rows = "kind,name,x{0},y{0},what\n", "point,A,0,0,fixed\npoint,B,300,0,\nlink,,,,A B\ncylinder,lift,,,A B {1}\n"
-    for unit, scale, one in ((" [mm]", None, 1e-3), (" [cm]", None, 1e-2), (" [in]", None, 0.0254), ("", 1e-3, 1e-3), (" [mm]", 0.01, 0.01)):
+    units = (" [mm]", None, 1e-3), (" [cm]", None, 1e-2), (" [in]", None, 0.0254), ("", 1e-3, 1e-3), (" [mm]", 0.01, 0.01)
+    for unit, scale, one in units:
         for reach, start, end in (
             ("550", 0.0, 550 * one), ("-20 40", -20 * one, 40 * one), ("550mm", 0.0, 0.55), ("-2cm 40", -0.02, 40 * one),
             ("-1 40mm", -one, 0.04), ("-30", 0.0, -30 * one),
@@ -118,7 +119,7 @@ def test_a_length_of_a_row_is_in_the_unit_of_the_table_unless_it_has_its_own(tmp
             drive = read_sketch(put(tmp_path, "lift.csv", (head + rows).format(unit, reach)), scale=scale).drives["lift"]
             assert (drive.start, drive.end) == pytest.approx((start, end), rel=1e-14), (unit, scale, reach)
     for row in ("crank,,,,A B 360", "crank,,,,A B -1 2", "slide,,,,B 30"):
-        with pytest.raises(FileError, match="line 5: the angle '.*' has no unit; write '.*deg'"):
+        with pytest.raises(FileError, match=r"line 5: the angle '.*' has no unit; write '.*deg'"):
             read_sketch(put(tmp_path, "turn.csv", head.format(" [mm]") + rows.partition("cylinder")[0] + row))
 
 
@@ -191,6 +192,22 @@ def test_the_command_ends_with_2_and_the_option_that_helps(tmp_path, capsys):
     assert not (tmp_path / "a.toml").exists()
 
 
+def test_no_file_of_another_program_is_written_over(tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for name, text in (("a.csv", emit.csv(BY_NAME["Rocker"])), ("a.linkage2", emit.linkage2(BY_NAME["Rocker"])), ("b.csv", "1,2\n")):
+        put(tmp_path, name, text)
+    (tmp_path / "link.toml").symlink_to(tmp_path / "a.csv")
+    for source in ("a.csv", "a.linkage2"):
+        for target in ("a.csv", f"./{source}", str(tmp_path / source), "a.linkage2", "b.csv"):
+            before = (tmp_path / target).read_text()
+            assert main(["import", source, "-o", target]) == 2
+            told = capsys.readouterr().err
+            assert "stays as it is; choose another name" in told and (source not in target or "is the file that is imported" in told)
+            assert (tmp_path / target).read_text() == before
+    assert main(["import", "a.csv", "-o", "link.toml"]) == 2 and "is the file that is imported" in capsys.readouterr().err
+    assert main(["import", "a.csv", "-o", "a.toml"]) == main(["import", "a.csv", "-o", "a.toml"]) == 0
+
+
 def test_files_of_our_own_are_not_taken_for_others(tmp_path):
     from linkage.files import to_json
 
@@ -219,6 +236,11 @@ def test_layers_of_a_drawing_are_named(tmp_path):
     assert compare(BY_NAME["Rocker"], read_sketch(path, layers=layers, drives=[("P4", "P1")]))[1] < 1e-9
     with pytest.raises(DefinitionError, match="a layer is of pins, links, ground"):
         read_sketch(path, layers=dict(bolts=["Bolts"]))
+    for role in layers:
+        with pytest.raises(DefinitionError, match=rf"'Bolt' is unknown in .*{role}=Bolt. Did you mean Bolts\? Known: Frame, Bolts, notes"):
+            read_sketch(path, layers={**layers, role: ["notes", "Bolt"]})
+    with pytest.raises(DefinitionError, match="only a drawing"):
+        read_sketch(put(tmp_path, "a.csv", emit.csv(BY_NAME["Rocker"])), layers=layers)
 
 
 @pytest.mark.parametrize("style", ["lwpolyline", "polyline2d"])

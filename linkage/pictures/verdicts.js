@@ -189,15 +189,15 @@ function judge(n = STILL) {
   list(found);
   count(found);
 }
-const weight = ({ ok, share, rule }) => (ok === false ? 1e6 : rule ? 0 : -1e3) + (isNumber(share) ? share : -1);
+const weight = ({ ok, share, rule, stale }) => (stale ? -1e7 : 0) + (ok === false ? 1e6 : rule ? 0 : -1e3) + (isNumber(share) ? share : -1);
 function list(found) {
   const groups = new Map(), failing = new Set(found.map((each) => phone.matches && each.ok === false && each.member)), worst = (list) => max(...list.map(weight));
   for (const each of found) {
     const key = each.stale ? " stale" : each.ok && failing.has(each.member) ? `${each.member} kept` : each.member;
-    if (!groups.has(key)) groups.set(key, []);
+    for (const name of [key.replace(/ kept$/, ""), key]) if (!groups.has(name)) groups.set(name, []);
     groups.get(key).push(each);
   }
-  const sorted = [...groups].sort(([a, one], [b, other]) => (a === " stale") - (b === " stale") || worst(other) - worst(one));
+  const sorted = [...groups].sort(([, one], [, other]) => worst(other) - worst(one));
   byId("groups").replaceChildren(...sorted.map(([member, rows]) => group(member, rows.sort((a, b) => weight(b) - weight(a)))));
 }
 function group(member, rows) {

@@ -191,14 +191,14 @@ function judge(n = STILL) {
 }
 const weight = ({ ok, share, rule, stale }) => (stale ? -1e7 : 0) + (ok === false ? 1e6 : rule ? 0 : -1e3) + (isNumber(share) ? share : -1);
 function list(found) {
-  const groups = new Map(), failing = new Set(found.map((each) => phone.matches && each.ok === false && each.member)), worst = (list) => max(...list.map(weight));
+  const groups = new Map(), worst = ([, list]) => max(...list.map(weight));
   for (const each of found) {
-    const key = each.stale ? " stale" : each.ok && failing.has(each.member) ? `${each.member} kept` : each.member;
-    for (const name of [key.replace(/ kept$/, ""), key]) if (!groups.has(name)) groups.set(name, []);
-    groups.get(key).push(each);
+    const key = each.stale ? " stale" : each.member;
+    groups.set(key, [...(groups.get(key) || []), each]);
   }
-  const sorted = [...groups].sort(([, one], [, other]) => worst(other) - worst(one));
-  byId("groups").replaceChildren(...sorted.map(([member, rows]) => group(member, rows.sort((a, b) => weight(b) - weight(a)))));
+  const parts = [...groups].flatMap(([member, rows]) => (phone.matches && worst([0, rows]) > 9 ? [[member, rows.filter((each) => !each.ok)], [`${member} kept`, rows.filter((each) => each.ok)]] : [[member, rows]]))
+    .filter(([, rows]) => rows[0]).sort((a, b) => worst(b) - worst(a));
+  byId("groups").replaceChildren(...parts.map(([member, rows]) => group(member, rows.sort((a, b) => weight(b) - weight(a)))));
 }
 function group(member, rows) {
   const fold = make("details"), head = make("summary"), title = make("b"), fails = rows.filter((each) => each.ok === false).length, [worst] = rows, items = make("ul");
@@ -206,7 +206,7 @@ function group(member, rows) {
   head.className = fails ? "bad" : rows.some((each) => each.ok === true) ? "ok" : "";
   head.append(title);
   if (member !== " stale") {
-    const kept = rows.filter((each) => each.ok === true).length, rule = ruleIn(worst), text = fails ? rule : [isNumber(worst.share) && rule, kept ? say("{n} kept", { n: kept }) : ""].filter(Boolean).join(" \u00b7 ");
+    const kept = rows.filter((each) => each.ok === true).length, rule = ruleIn(worst), text = fails ? rule : [isNumber(worst.share) && rule, kept && say("{n} kept", { n: kept })].filter(Boolean).join(" \u00b7 ");
     head.append(make("span", { textContent: text }), bar(worst));
   }
   fold.open = unfolded.has(member) || ((fails > 0 || (data.task && !member)) && !unfolded.has(`!${member}`));

@@ -15,7 +15,7 @@ from ..files.names import shortened
 from ..mechanism import Mechanism
 from ..quantities import is_name, joined_names
 from ..units import parse, show
-from .machine_sketch import MachineSketch, Place, SketchDrive, SketchSlide
+from .machine_sketch import MachineSketch, Place, SketchDrive, SketchSlide, written
 
 OFF_LINE = 1e-3
 """A point farther from its slide than so much of the size of the drawing is not on it."""
@@ -167,7 +167,7 @@ class FoundMachine:
         names, labels = self.point_names(taken)
         size, unit = self.size * self.unit, self.unit
         ensure_file(isfinite(size) and size > 1e-9, f"{self.file}: all points stand at one place ({show(size, 'mm')}); look at --scale.")
-        places = {names[key]: (point.place[0] * unit, point.place[1] * unit) for key, point in self.points.items()}
+        places = {names[key]: (as_written(point.place[0] * unit), as_written(point.place[1] * unit)) for key, point in self.points.items()}
         links = {}
         for name, points in self.links:
             own = name if name and name not in labels else f"link_{name}"
@@ -189,13 +189,13 @@ class FoundMachine:
         for drive in self.drives:
             P, Q = (names[key] for key in drive.ends)
             if drive.kind == "crank":
-                size, reach, name = 1.0, TURN, "phi"
+                name, start, end = "phi", float(drive.start), float(TURN if drive.reach is None else drive.reach)
             else:
-                size, reach, name = self.unit or 1.0, HALF * dist(places[P], places[Q]), "S"
+                reach = f"{HALF * dist(places[P], places[Q])!r}m" if drive.reach is None else drive.reach
+                lengths = (parse(each, "length") if isinstance(each, str) else each * (self.unit or 1.0) for each in (drive.start, reach))
+                name, (start, end) = "S", map(as_written, lengths)
                 if drive.reach is None:
                     self.notes.append(f"The file does not say the stroke of the cylinder {P} {Q}: it goes out by half its drawn length.")
-            given = drive.start, reach / size if drive.reach is None else drive.reach
-            start, end = (parse(each, "length") if isinstance(each, str) else each * size for each in given)
             yield legal_name(drive.name or name, taken), SketchDrive(drive.kind, (P, Q), start, end)
 
     def straighten(self) -> None:
@@ -227,6 +227,11 @@ class FoundMachine:
         if changed:
             self.notes.append(f"Named anew: {', '.join(changed)}.")
         return names, {*labels}
+
+
+def as_written(value: float) -> float:
+    """Return a number as it is written."""
+    return float(written(value))
 
 
 def labels_of(links: Sequence[Sequence[str]]) -> Iterator[str]:

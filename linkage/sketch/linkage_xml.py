@@ -10,7 +10,7 @@ from xml.etree.ElementTree import Element, ParseError, SubElement, XMLPullParser
 from ..errors import FileError, ensure
 from ..units import inch, mm
 from .found import FoundDrive, FoundMachine, ensure_file
-from .machine_sketch import MachineSketch
+from .machine_sketch import MachineSketch, written
 
 DEEPEST = 8
 CHUNK = 65_536
@@ -110,7 +110,7 @@ def linkage_xml(sketch: MachineSketch) -> str:
     ensure(is_one, f"{sketch.name}: two cranks turn about one pin, which a file of Linkage cannot say.")
     ids = {name: str(number) for number, name in enumerate(points)}
     for name, (x, y) in points.items():
-        given = {"id": ids[name], "name": name, "layer": "16", "x": f"{x / unit:.17g}", "y": f"{y / unit:.17g}"}
+        given = {"id": ids[name], "name": name, "layer": "16", "x": written(x / unit), "y": written(y / unit)}
         given |= {"anchor": "true"} if name in fixed else {}
         given |= {"input": "true", "rpm": "-15" if inputs[name].end < inputs[name].drawn else "15"} if name in inputs else {}
         connector = SubElement(root, "connector", given | ({"slider": "true"} if name in slides else {}))
@@ -122,7 +122,7 @@ def linkage_xml(sketch: MachineSketch) -> str:
         if drive.kind == "cylinder":
             what = f"{sketch.name}: Linkage draws the cylinder {name} where its stroke begins"
             ensure(drive.drawn == drive.start, f"{what}; take the sketch there, at {name}={drive.start:g}.")
-            throw = {"actuator": "true", "throw": f"{(drive.end - drive.drawn) / unit:.17g}", "cpm": "15"}
+            throw = {"actuator": "true", "throw": written((drive.end - drive.drawn) / unit), "cpm": "15"}
             add_element(root, {"id": str(number), "name": name, "layer": "16", **throw}, [ids[each] for each in drive.ends])
     indent(root, "\t")
     return tostring(root, encoding="unicode") + "\n"

@@ -159,7 +159,7 @@ class MachineSketch:
         }
         for name, drive in rods.values():
             P, Q = drive.ends
-            label, closed = joined_names(P, Q), self.lengths.get(joined_names(P, Q), self.length(P, Q) - drive.drawn)
+            label, closed = joined_names(P, Q), self.lengths.get(joined_names(P, Q), float(written(self.length(P, Q) - drive.drawn)))
             is_measured = label not in self.lengths and min(drive.start, drive.end) <= 0.0
             found["links"][f"rod_{name}"] = {"points": f"{P} {Q}", label: name if is_measured else f"{closed!r} + {name}"}
         found["guides"] = {
@@ -277,6 +277,12 @@ def grid(place: Place, step: float) -> Place:
 def clean(value: float) -> float:
     """Return a length without the last digits that a multiple of a decimal step brings [m]."""
     return float(f"{value:.12g}")
+
+
+def written(value: float) -> str:
+    """Return a number in 15 digits where these say it within 1e-15 of itself, without the noise of a unit's factor; else in all."""
+    text = f"{value:.15g}"
+    return text if abs(float(text) - value) <= 1e-15 * abs(value) else repr(value)
 
 
 def stroke_end(drive: SketchDrive) -> float | str:

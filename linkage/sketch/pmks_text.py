@@ -10,7 +10,7 @@ from typing import final
 
 from ..errors import ensure
 from .found import FoundMachine, ensure_file
-from .machine_sketch import MachineSketch, Place
+from .machine_sketch import MachineSketch, Place, written
 
 FRAME = ("ground", "gnd", "grnd", "grd")
 KINDS = ("R", "P", "RP", "G")
@@ -119,7 +119,7 @@ def pmks_text(sketch: MachineSketch) -> str:
     lines, pivot = [], drives[0].ends[0]
     on = {name: [link for link, points in sketch.links.items() if name in points] for name in sketch.points}
     for name, (x, y) in sketch.points.items():
-        place, own = f"{1e3 * x:.16g},{1e3 * y:.16g}", [*(["ground"] if name in sketch.fixed else []), *on[name]]
+        place, own = f"{written(1e3 * x)},{written(1e3 * y)}", [*(["ground"] if name in sketch.fixed else []), *on[name]]
         if on[name]:
             lines.append(f"{','.join(own)},R,{place},0,{'ffft' if name == pivot else 'ffff'}")
         for slide in sketch.slides.values():
@@ -131,5 +131,5 @@ def pmks_text(sketch: MachineSketch) -> str:
                 if isinstance(along, tuple):
                     (ax, ay), (bx, by) = (sketch.points[end] for end in along)
                     along = atan2(by - ay, bx - ax)
-                lines.append(f"{carrier},{on[name][0]},RP,{place},{degrees(along):.16g},ffff")
+                lines.append(f"{carrier},{on[name][0]},RP,{place},{written(degrees(along))},ffff")
     return "\n".join(lines) + "\n"

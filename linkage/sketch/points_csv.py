@@ -11,7 +11,7 @@ from math import degrees
 from ..errors import DefinitionError, FileError
 from ..units import DIGITS, UNITS, parse
 from .found import FoundDrive, FoundMachine, ensure_file
-from .machine_sketch import MachineSketch
+from .machine_sketch import MachineSketch, written
 
 HEADER = re.compile(r"(\w+)\s*(?:\[\s*([^\]]*?)\s*\]|\(\s*([^)]*?)\s*\))?\s*")
 COLUMNS = ("kind", "name", "x", "y", "what")
@@ -110,13 +110,13 @@ def points_csv(sketch: MachineSketch) -> str:
 def point_rows(sketch: MachineSketch) -> Iterator[list[str]]:
     """Yield the rows below the header."""
     for name, (x, y) in sketch.points.items():
-        yield ["point", name, f"{1e3 * x:.16g}", f"{1e3 * y:.16g}", "fixed" if name in sketch.fixed else "pin"]
+        yield ["point", name, written(1e3 * x), written(1e3 * y), "fixed" if name in sketch.fixed else "pin"]
     for name, points in sketch.links.items():
         yield ["link", name, "", "", " ".join(points)]
     for name, slide in sketch.slides.items():
-        along = f"{degrees(slide.along):.17g}deg" if isinstance(slide.along, float) else " ".join(slide.along)
+        along = f"{written(degrees(slide.along))}deg" if isinstance(slide.along, float) else " ".join(slide.along)
         yield ["slide", name, "", "", f"{slide.point} {along}"]
     for name, drive in sketch.drives.items():
         ends = [each - drive.drawn for each in (drive.start, drive.end) if each != drive.drawn]
-        reach = [f"{degrees(each):.17g}deg" if drive.kind == "crank" else f"{1e3 * each:.16g}mm" for each in ends]
+        reach = [f"{written(degrees(each))}deg" if drive.kind == "crank" else f"{written(1e3 * each)}mm" for each in ends]
         yield [drive.kind, name, "", "", " ".join([*drive.ends, *reach])]

@@ -1,5 +1,6 @@
 """What files say beside pins and links: slides that may not turn, names, units, what is left out; out again; and the command."""
 
+import re
 from math import pi
 
 import numpy as np
@@ -76,6 +77,7 @@ def test_names_are_made_legal_and_told(tmp_path):
     text = "\n".join([*rows, 'link,,,,"1 Crank"', "crank,,,,1 Crank"]).replace("b c", "b-c")
     sketch = read_sketch(put(tmp_path, "names.csv", text + "\nlink,,,,Crank b-c\nlink,,,,b-c lambda\n"))
     assert list(sketch.points) == ["P1", "Crank_2", "b_c", "lambda_2"]
+    assert sketch.drives["phi"].end == 2.0 * pi  # an angle stays as it is to the last bit
     assert sketch.notes[-1] == "Named anew: 1 is P1, Crank is Crank_2, b-c is b_c, lambda is lambda_2."
     sketch.to_class()
     clash = text.replace("point,1,", "point,a,").replace("1 Crank", "a ab").replace("Crank", "ab")
@@ -141,6 +143,22 @@ def test_a_sketch_goes_out_and_comes_in_again(suffix, tmp_path):
         first, second = sketch.to_class()().at(**{one: values}), again.to_class()().at(**{other: values - drive.drawn})
         for point, found in near.items():
             assert np.max(np.abs(first[point] - second[found])) < 1e-9 * sketch.size, (name, point)
+
+
+def test_what_is_short_in_a_file_is_short_in_every_file_that_is_written(tmp_path):
+    chance = np.random.default_rng(7)
+    for unit, digits in (("mm", 1), ("cm", 2), ("m", 4)):
+        factor = {"mm": 1, "cm": 10, "m": 1000}[unit]
+        ends = np.round(np.r_[700, 1150, chance.uniform(100, 2000, 8)] / factor, digits)
+        points = "".join(f"point,P{n},{x!r},{y!r},\n" for n, (x, y) in enumerate(ends.reshape(5, 2).tolist()))
+        head = f"kind,name,x [{unit}],y [{unit}],what\npoint,O,0,0,fixed\n{points}link,,,,O P0\n"
+        links = "".join(f"link,,,,P{n} P{n - 1} O\n" for n in range(1, 5))
+        sketch = read_sketch(put(tmp_path, "a.csv", head + links + "cylinder,,,,O P4 0.7mm 1150.1mm\n"))
+        assert sketch.points["P0"] == tuple(float(f"{each * factor / 1e3:.12g}") for each in ends[:2])
+        assert (sketch.drives["S"].start, sketch.drives["S"].end) == (0.0007, 1.1501)
+        assert sketch_text(sketch, ".csv").splitlines()[-1] == "cylinder,S,,,O P4 0.7mm 1150.1mm"
+        for write in (lambda each: repr(each.points), lambda each: repr(each.drives), lambda each: sketch_text(each, ".csv")):
+            assert not re.search(r"\d\.\d*(0{8}|9{8})\d", write(sketch)), (unit, write(sketch))
 
 
 def nearest(sketch, places):

@@ -195,6 +195,7 @@ def read_old_address(found: FoundMachine, text: str) -> None:
     """Read joints, links and settings of an address, `j=a,-1.24,-0.89,ab,R,t,Null,t%0A...&l=...&s=10,false,false,cm`."""
     parts = parse_qs(text, keep_blank_values=True, max_num_fields=20)
     rows = {name: [row.split(",") for row in parts.get(name, [""])[0].splitlines() if row.strip()] for name in "jls"}
+    ensure_file(rows["j"] and rows["l"], f"{found.file}: the address has no joints and links; copy it whole.")
     joints = [old_joint(found, row) for row in rows["j"]]
     links = [PlusLink(row[0], tuple(filter(None, row[6].split("|"))), block=row[1] == "P") for row in rows["l"] if len(row) > 6]
     ensure_file(len(links) == len(rows["l"]), f"{found.file}: a link of the address has fewer than seven parts; copy it whole.")

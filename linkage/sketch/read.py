@@ -25,6 +25,8 @@ from .pylinkage_json import read_pylinkage
 
 SUFFIXES = ".csv", ".linkage2", ".txt", ".pmks", ".json", ".dxf"
 DRAWING_BYTES = 20_000_000
+WEB = re.compile(r"\s*(?:https?:|[\w.]*pmksplus\.com\b)", re.IGNORECASE)
+"""How an address in the web begins, whether or not it is whole."""
 
 
 def read_sketch(
@@ -89,7 +91,8 @@ def is_foreign(text: str) -> bool:
 def is_address(text: str) -> bool:
     """Return whether a text is a share address, or what stands behind its ?."""
     query = address_text(text)
-    return text.startswith(ENVELOPE) or SHORT.match(query) is not None or re.match(r"j=[^&]*&l=", query) is not None
+    begins = WEB.match(text), SHORT.match(query), re.match(r"j=[^&]*&l=", query)
+    return text.startswith(ENVELOPE) or any(begins)
 
 
 def content_of(file: Place, layers: Mapping[str, Sequence[str]]) -> tuple[FoundMachine, str]:
@@ -142,6 +145,9 @@ def read_address(found: FoundMachine, text: str) -> None:
     elif re.match(r"j=", query):
         read_old_address(found, query)
     else:
+        holds = query if WEB.match(query) is None else ""
+        ensure_file(holds, f"{found.file}: there is no machine behind the address; copy it whole, with what stands behind its ?.")
+        ensure_file(SHORT.match(query), f"{found.file}: the address is damaged behind its ?, {shortened(query)}; copy it whole.")
         read_short_address(found, query)
 
 

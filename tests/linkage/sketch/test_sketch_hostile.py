@@ -63,6 +63,18 @@ def test_a_damaged_address_is_refused():
         read_sketch(text.replace("A,A,", "A,B,", 1))
 
 
+def test_an_address_that_is_cut_or_empty_is_told_as_one():
+    whole, old = emit.short_body(BY_NAME["Pump"]), emit.old_address(BY_NAME["Rocker"]).partition("?")[2]
+    hosts = "https://app.pmksplus.com/", "http://app.pmksplus.com", "HTTPS://App.PmksPlus.com/", "app.pmksplus.com/", "pmksplus.com"
+    for host in hosts:
+        cuts = [f"?{text[:cut]}" for text in (whole, old) for cut in (1, 4, 12, 40)]
+        for behind in ("", "?", "?2P.Ay,abc", "?j=", "?x", "/?l=a", *cuts):
+            with pytest.raises(LinkageError, match=r"^the address: .*; copy it whole"):
+                read_sketch(host + behind)
+        if host.endswith("/"):
+            assert read_sketch(f"{host}?{whole}") == read_sketch(whole)
+
+
 def test_a_table_of_bodies_may_stand_in_an_address():
     from base64 import urlsafe_b64encode
     from zlib import crc32

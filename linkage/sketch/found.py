@@ -167,7 +167,7 @@ class FoundMachine:
         names, labels = self.point_names(taken)
         size, unit = self.size * self.unit, self.unit
         ensure_file(isfinite(size) and size > 1e-9, f"{self.file}: all points stand at one place ({show(size, 'mm')}); look at --scale.")
-        places = {names[key]: (without_noise(point.place[0] * unit), without_noise(point.place[1] * unit)) for key, point in self.points.items()}
+        places = {names[key]: (noiseless(point.place[0] * unit), noiseless(point.place[1] * unit)) for key, point in self.points.items()}
         links = {}
         for name, points in self.links:
             own = name if name and name not in labels else f"link_{name}"
@@ -193,7 +193,7 @@ class FoundMachine:
             else:
                 reach = f"{HALF * dist(places[P], places[Q])!r}m" if drive.reach is None else drive.reach
                 lengths = (parse(each, "length") if isinstance(each, str) else each * (self.unit or 1.0) for each in (drive.start, reach))
-                name, (start, end) = "S", map(without_noise, lengths)
+                name, (start, end) = "S", map(noiseless, lengths)
                 if drive.reach is None:
                     self.notes.append(f"The file does not say the stroke of the cylinder {P} {Q}: it goes out by half its drawn length.")
             yield legal_name(drive.name or name, taken), SketchDrive(drive.kind, (P, Q), start, end)
@@ -229,7 +229,7 @@ class FoundMachine:
         return names, {*labels}
 
 
-def without_noise(value: float) -> float:
+def noiseless(value: float) -> float:
     """Return a number as it is written."""
     return float(written(value))
 

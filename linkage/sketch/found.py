@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from difflib import get_close_matches
 from itertools import combinations, permutations
 from math import cos, dist, hypot, inf, isfinite, pi, remainder, sin
 from typing import Any, final
@@ -66,12 +67,19 @@ class FoundMachine:
     drives: list[FoundDrive] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     left_out: list[str] = field(default_factory=list)
+    line: int = 0
+    """The line that is read, where the file has lines."""
+
+    @property
+    def here(self) -> str:
+        """The file, and the line that is read."""
+        return f"{self.file}, line {self.line}" if self.line else self.file
 
     # -- what readers say --------------------------------------------------------------------------------
 
     def add_point(self, key: str, name: object, x: object, y: object, fixed: bool = False) -> None:
         """Enter a point; FileError for one that is there, and for coordinates that are no finite numbers."""
-        ensure_file(key not in self.points, f"{self.file}: the point {shortened(key)} stands twice; each point has a name of its own.")
+        ensure_file(key not in self.points, f"{self.here}: the point {shortened(key)} stands twice; each point has a name of its own.")
         place = self.number(x, f"x of {shortened(key)}"), self.number(y, f"y of {shortened(key)}")
         self.points[key] = FoundPoint(str(name) or key, place, fixed)
 
@@ -81,13 +89,16 @@ class FoundMachine:
             value = float(given) if isinstance(given, (int, float, str)) and not isinstance(given, bool) else inf
         except (ValueError, OverflowError):
             value = inf
-        ensure_file(isfinite(value) and abs(value) < 1e12, NO_NUMBER.format(where=f"{self.file}, {where}", given=shortened(given)))
+        ensure_file(isfinite(value) and abs(value) < 1e12, NO_NUMBER.format(where=f"{self.here}, {where}", given=shortened(given)))
         return value
 
     def known(self, key: object, what: str) -> str:
         """Return the key of a point; FileError for any other."""
         is_there = isinstance(key, str) and key in self.points
-        ensure_file(is_there, f"{self.file}: {what} names the point {shortened(key)}, which is not there.")
+        if not is_there:
+            near = get_close_matches(str(key), [point.name for point in self.points.values()], 1, 0.5)
+            hint = f" Did you mean {near[0]}?" if near else ""
+            raise FileError(f"{self.here}: {what} names the point {shortened(key)}, which is not there.{shortened(hint, quote=False)}")
         return str(key)
 
     def add_link(self, name: str, keys: Sequence[object], what: str = "") -> None:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from math import dist, hypot, isfinite
 from typing import Any, final
 
-from ..errors import DefinitionError, ensure
+from ..errors import DefinitionError, FileError, ensure
 from ..files import from_dict, to_toml
 from ..files.design import in_unit
 from ..mechanism import Mechanism
@@ -203,7 +204,11 @@ class MachineSketch:
         AssemblyError
             It cannot be assembled where it is drawn.
         """
-        return from_dict(self.tables())
+        try:
+            return from_dict(self.tables())
+        except FileError as error:  # it names tables, which no file that was drawn has
+            text = re.sub(r"^the tables: (?:\w+\.\w+: )?", "", str(error))
+            raise FileError(text if text.startswith(f"{self.name}: ") else f"{self.name}: {text}") from error
 
     def to_toml(self) -> str:
         """Return the machine as TOML text, which `load` reads into the same class. Errors are those of `to_class`."""

@@ -9,7 +9,8 @@ from collections.abc import Callable, Iterator
 from math import degrees
 
 from ..errors import DefinitionError, FileError
-from ..units import DIGITS, UNITS, parse
+from ..files.names import shortened
+from ..units import DIGITS, parse, units_of
 from .found import FoundDrive, FoundMachine, ensure_file
 from .machine_sketch import MachineSketch, written
 
@@ -34,33 +35,38 @@ def read_points_csv(found: FoundMachine, text: str) -> None:
     ensure_file(names == [*COLUMNS], f"{found.file}, line 1: a table of points begins with kind,name,x [mm],y [mm],what.")
     units = {head[2] or head[3] for head in heads[2:4] if head} - {None}
     if units:
-        ensure_file(len(units) == 1 and units <= UNITS.keys(), f"{found.file}, line 1: x and y have one unit of length, such as [mm].")
+        lengths, others = units_of("length"), ", ".join(sorted(units - {*units_of("length")}))
+        ensure_file(not others, f"{found.file}, line 1: {shortened(others)} is no unit of length; known are {', '.join(lengths)}.")
+        ensure_file(len(units) == 1, f"{found.file}, line 1: x and y have one unit of length, such as [mm].")
         found.unit = parse(f"1 {units.pop()}", "length")
-    later: list[tuple[str, str, list[str], str]] = []
+    later: list[tuple[str, str, list[str], int]] = []
     for number, row in rows[1:]:
-        where = f"{found.file}, line {number}"
+        found.line, where = number, f"{found.file}, line {number}"
         ensure_file(len(row) <= len(COLUMNS), f"{where}: {len(row)} cells are too many; names with a comma stand in quotes.")
         kind, name, x, y, what = [*row, *[""] * (len(COLUMNS) - len(row))]
         if kind.lower() == "point":
-            ensure_file(name and what.lower() in ("", "fixed", "pin"), f"{where}: a point has a name, and is fixed or a pin.")
+            ensure_file(name, f"{where}: the point has no name.")
+            is_said = what.lower() in ("", "fixed", "pin")
+            ensure_file(is_said, f"{where}: {shortened(what)} says nothing of a point; it is fixed or a pin.")
             found.add_point(name, name, x, y, what.lower() == "fixed")
         else:
             ensure_file(kind.lower() in ROWS, f"{where}: {kind or 'nothing'} is none of point, {', '.join(ROWS)}.")
-            later.append((kind.lower(), name, what.split(), where))
-    for kind, name, words, where in later:  # points first, in whatever order the rows are
-        ROWS[kind](found, name, words, where)
+            later.append((kind.lower(), name, what.split(), number))
+    for kind, name, words, found.line in later:  # points first, in whatever order the rows are
+        ROWS[kind](found, name, words, f"{found.file}, line {found.line}")
+    found.line = 0
 
 
 def read_link(found: FoundMachine, name: str, words: list[str], where: str) -> None:
     """Read the row of a link."""
-    found.add_link(name, words, f"{where}: the link {name}")
+    found.add_link(name, words, f"the link {name}".rstrip())
 
 
 def read_slide(found: FoundMachine, name: str, words: list[str], where: str) -> None:
     """Read the row of a slide: a point, then two points of its line or the angle of a line of the frame."""
     words = [word for word in words if word.lower() not in ("on", "along", "at")]
     ensure_file(len(words) in (2, 3), f"{where}: a slide names its point and two points of the line, `C P Q`, or an angle, `C 30deg`.")
-    keys = [found.known(word, where) for word in (words if len(words) == 3 else words[:1])]
+    keys = [found.known(word, "a slide") for word in (words if len(words) == 3 else words[:1])]
     found.slides.append((keys[0], (keys[1], keys[2]) if len(words) == 3 else value_in(words[1], "angle", where)))
 
 
@@ -68,7 +74,8 @@ def read_drive(kind: str, found: FoundMachine, name: str, words: list[str], wher
     """Read the row of a crank or a cylinder: its ends, then how far it goes from the drawn pose, forwards, or back and forwards."""
     measures, example = ("angle", "O A 360deg") if kind == "crank" else ("length", "A B 250mm")
     ensure_file(len(words) in (2, 3, 4), f"{where}: a {kind} names its two ends and how far it goes, such as `{example}`.")
-    P, Q = (found.known(word, where) for word in words[:2])
+    P, Q = (found.known(word, f"a {kind}") for word in words[:2])
+    ensure_file(P != Q and not {*words[2:]} & found.points.keys(), f"{where}: a {kind} has two ends, such as `{example}`.")
     back, *reach = [reach_in(word, measures, where) for word in (["0", *words[2:]] if len(words) < 4 else words[2:])]
     found.drives.append(FoundDrive(kind, (P, Q), reach[0] if reach else None, name, back))
 

@@ -53,6 +53,27 @@ def test_it_is_refused_in_words(name, tmp_path):
         read_sketch(tmp_path / name, scale=1e-3).to_class()
 
 
+def test_a_row_that_is_wrong_is_told_once_with_its_line_and_the_remedy(tmp_path):
+    rows = "point,A,0,0,fixed\npoint,Ball,300,0,\npoint,E,1150,1250,pin\nlink,,,,A Ball\ncylinder,lift,,,A Ball 550mm\n"
+    for old, new, words in (
+        ("1250,pin", "1250,pinn", "typo.csv, line 4: 'pinn' says nothing of a point"),
+        ("A Ball 550mm", "A Ball E 550mm", "typo.csv, line 6: a cylinder has two ends"),
+        ("A Ball 550mm", "A A", "typo.csv, line 6: a cylinder has two ends"),
+        ("A Ball 550mm", "A Bal", "typo.csv, line 6: a cylinder names the point 'Bal', which is not there. Did"),
+        ("link,,,,A Ball", "link,bar,,,A Bal", "typo.csv, line 5: the link bar names the point 'Bal', which is not there. Did"),
+        ("link,,,,A Ball", "slide,,,,Bali 3deg", "typo.csv, line 5: a slide names the point 'Bali', which is not there. Did"),
+        ("point,E", "point,A", "typo.csv, line 4: the point 'A' stands twice"),
+        ("1150,1250", '"1150,5",1250', "typo.csv, line 4, x of 'E': '1150,5' is no finite number"),
+        ("[mm]", "[furlong]", "typo.csv, line 1: 'furlong' is no unit of length; known are m, mm, "),
+        ("[mm]", "[kg]", "typo.csv, line 1: 'kg' is no unit of length; known are m, mm, "),
+        ("link,,,,A Ball", "link,,,,A Ball\nlink,,,,Ball E", "Typo: the parts leave E free"),
+    ):
+        (tmp_path / "typo.csv").write_text((HEAD + rows).replace(old, new), encoding="utf-8")
+        with pytest.raises(LinkageError) as told:
+            read_sketch(tmp_path / "typo.csv").to_class()
+        assert str(told.value).startswith(words) and str(told.value).count("typo.csv") <= 1, (words, str(told.value))
+
+
 def test_a_damaged_address_is_refused():
     for digest in (True, False):
         text = emit.short_body(BY_NAME["Pump"], digest)

@@ -80,7 +80,9 @@ class DrawingReader:
                 if len(keys) == 2:
                     self.drive(role, keys[0], keys[1])
                 else:
-                    self.found.left_out.append(f"a line of the layer {each.dxf.layer} that ends at {len(keys)} pins instead of two")
+                    self.found.left_out.append(
+                        f"a line of the layer {each.dxf.layer} that ends at {len(keys)} pins instead of two{self.loose_ends(each)}"
+                    )
 
     def met(self, corners: Sequence[Place]) -> list[str]:
         """Return the pins that a line meets, or that a closed outline surrounds."""
@@ -93,13 +95,22 @@ class DrawingReader:
             or (closed and surrounds(place, corners))
         ]
 
+    def loose_ends(self, entity: Any) -> str:
+        """Return in words where a line ends off each pin; nothing where it ends on pins."""
+        corners = corners_of(entity)
+        ends = dict.fromkeys([*corners[:1], *corners[-1:]])
+        places = [f"({x:.6g}, {y:.6g})" for x, y in ends if not self.met([(x, y), (x, y)])]
+        return f": no pin at {' and '.join(places)}" if places else ""
+
     def link(self, entity: Any) -> None:
         """Enter a line or an outline with the pins on it; one with fewer than two is left out."""
         keys = self.met(corners_of(entity))
         if len(keys) > 1:
             self.found.add_link("", keys)
         else:
-            self.found.left_out.append(f"a {entity.dxftype().lower()} of the layer {entity.dxf.layer} with {len(keys)} pins")
+            self.found.left_out.append(
+                f"a {entity.dxftype().lower()} of the layer {entity.dxf.layer} with {len(keys)} pins{self.loose_ends(entity)}"
+            )
 
     def slide(self, line: Any) -> None:
         """Let the pins on a line slide on it."""

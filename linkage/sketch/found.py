@@ -25,6 +25,9 @@ WORDS = {"Mechanism", "Stroke", "drawn", "Ground", "Crank", "Pin", "Link", "Guid
 TURN = 2.0 * pi
 HALF = 0.5
 """The stroke of a cylinder of which the file says nothing, in drawn lengths."""
+SMALL, LARGE = 5e-3, 100.0
+"""A machine that is drawn smaller or larger than this [m] is likely to have another unit."""
+SHOWN_ITEMS = 8
 NO_NUMBER = "{where}: {given} is no finite number; correct it in the file."
 
 
@@ -171,13 +174,15 @@ class FoundMachine:
         used = {key for _, points in self.links for key in points} | {key for key, _ in self.slides}
         used |= {key for _, along in self.slides if isinstance(along, tuple) for key in along}
         used |= {each for drive in self.drives for each in drive.ends}
-        for key in [key for key, point in self.points.items() if key not in used and not point.fixed]:
-            self.left_out.append(f"the point {shortened(self.points.pop(key).name, quote=False)}, which is on no link")
+        loose = [key for key, point in self.points.items() if key not in used and not point.fixed]
+        self.left_out += [f"the point {shortened(self.points.pop(key).name, quote=False)}, which is on no link" for key in loose]
         ensure_file(self.points, f"{self.file}: it holds no points that a link joins.")
         taken = set(WORDS)
         names, labels = self.point_names(taken)
         size, unit = self.size * self.unit, self.unit
         ensure_file(isfinite(size) and size > 1e-9, f"{self.file}: all points stand at one place ({show(size, 'mm')}); look at --scale.")
+        if not SMALL <= size <= LARGE:
+            self.notes.append(f"The machine is {show(size, 'mm')} wide; if that is not meant, say what 1 of the file is, --scale 1mm.")
         places = {names[key]: (noiseless(point.place[0] * unit), noiseless(point.place[1] * unit)) for key, point in self.points.items()}
         links = {}
         for name, points in self.links:
@@ -189,7 +194,7 @@ class FoundMachine:
             slides[legal_name(f"slide_{names[key]}", taken)] = SketchSlide(names[key], line)
         drives = dict(self.named_drives(names, places, taken))
         if self.left_out:
-            self.notes.append(f"Left out: {'; '.join(self.left_out)}.")
+            self.notes.append(f"Left out: {few(self.left_out, '; ')}.")
         fixed = tuple(names[key] for key, point in self.points.items() if point.fixed)
         return MachineSketch(
             legal_name(title, {"Mechanism"}), places, fixed, links, slides, drives, notes=tuple(map(printable, self.notes))
@@ -236,7 +241,7 @@ class FoundMachine:
             labels = [*labels_of([[names[key] for key in points] for _, points in self.links])]
         changed = [f"{point.name} is {names[key]}" for key, point in self.points.items() if point.name != names[key]]
         if changed:
-            self.notes.append(f"Named anew: {', '.join(changed)}.")
+            self.notes.append(f"Named anew: {few(changed, ', ')}.")
         return names, {*labels}
 
 
@@ -260,6 +265,12 @@ def legal_name(given: str, taken: set[str]) -> str:
     found = next(each for each in (text, *(f"{text}_{number}" for number in range(2, 10_000))) if is_name(each) and each not in taken)
     taken.add(found)
     return found
+
+
+def few(items: Sequence[str], between: str) -> str:
+    """Return the first few items, and how many more there are."""
+    rest = len(items) - SHOWN_ITEMS
+    return between.join([*items[:SHOWN_ITEMS], *([f"and {rest} more"] if rest > 0 else [])])
 
 
 def printable(text: str) -> str:

@@ -72,6 +72,21 @@ def test_what_is_not_had_is_left_out_by_name(tmp_path):
         read_sketch(still).to_class()
 
 
+def test_many_remarks_are_the_first_few_and_a_count(tmp_path):
+    text = emit.csv(BY_NAME["Rocker"])
+    for count in (3, 8, 200):
+        loose = "".join(f"\npoint,L-{n},{n},{n},pin" for n in range(count))
+        notes = read_sketch(put(tmp_path, "loose.csv", text + loose)).notes
+        (note,) = (each for each in notes if each.startswith("Left out"))
+        assert note.count("which is on no link") == min(count, 8) and note.endswith(f"; and {count - 8} more." if count > 8 else "link.")
+
+
+def test_a_machine_of_an_unlikely_size_asks_for_the_scale(tmp_path):
+    text = put(tmp_path, "size.csv", emit.csv(BY_NAME["Rocker"]))
+    for scale, asks in ((None, False), (1.0, True), (1e-6, True), (0.1, False), (1e-4, False)):
+        assert any("--scale 1mm" in note for note in read_sketch(text, scale=scale).notes) == asks, scale
+
+
 def test_names_are_made_legal_and_told(tmp_path):
     rows = ["kind,name,x [mm],y [mm],what", "point,1,0,0,fixed", "point,Crank,40,10,", "point,b c,150,90,", "point,lambda,160,0,fixed"]
     text = "\n".join([*rows, 'link,,,,"1 Crank"', "crank,,,,1 Crank"]).replace("b c", "b-c")
@@ -250,7 +265,8 @@ def test_layers_of_a_drawing_are_named(tmp_path):
     document.saveas(path)
     layers = dict(pins=["Bolts"], ground=["Frame"], links=["Bars"])
     sketch = read_sketch(path, layers=layers)
-    assert len(sketch.points) == 5 and sketch.fixed == ("P4", "P5") and "a line of the layer Bars with 1 pins" in sketch.notes[-1]
+    assert len(sketch.points) == 5 and sketch.fixed == ("P4", "P5")
+    assert "a line of the layer Bars with 1 pins: no pin at (900, 900)." in sketch.notes[-1]
     assert compare(BY_NAME["Rocker"], read_sketch(path, layers=layers, drives=[("P4", "P1")]))[1] < 1e-9
     with pytest.raises(DefinitionError, match="a layer is of pins, links, ground"):
         read_sketch(path, layers=dict(bolts=["Bolts"]))

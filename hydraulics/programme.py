@@ -11,13 +11,13 @@ import numpy as np
 from linkage.checks import require
 from linkage.errors import DefinitionError, ensure, known_name
 from linkage.files.names import FileTable, by_whole_names, require_entry, shortened
-from linkage.files.source import Faults, csv_rows, is_numeral, source
+from linkage.files.source import Faults, measured_columns, source
 from linkage.frozen import immutable
 from linkage.loads import LoadCase
 from linkage.mechanism import Mechanism
 from linkage.motion import stroke_measure
 from linkage.quantities import Course, Reference, is_number
-from linkage.units import UNITS, parse, units_of
+from linkage.units import parse
 
 from .consumers import lines_on
 from .pump import Pump
@@ -110,22 +110,17 @@ def demand_read(given: object, until: float) -> Demand:
 
 def speeds_over_time(path: Path) -> tuple[dict[Reference, Demand], float]:
     """Return what a table asks for, straight between its rows, and when it ends; its headings are "time, s" and "boom.ram, m/s"."""
-    (_, headings), *rows = [*csv_rows(path)] or [(0, list[str]())]
-    columns: dict[str, list[float]] = {}
-    for place, heading in enumerate(headings):
-        name, comma, unit = heading.rpartition(", ")
+
+    def measures_of(name: str) -> tuple[str]:
         what = 'a heading with its unit is expected, in quotes where commas part the columns, such as "boom.ram, m/s"'
-        ensure(comma, f"{path.name}: {heading}: {what}.")
-        known_name("Unit", unit, units_of("time" if name == "time" else "speed"), where=f"{path.name}: {heading}")
-        ensure(name not in columns, f"{path.name}: {name} stands twice; keep one column.")
-        for line, row in rows:
-            text = row[place] if place < len(row) else ""
-            ensure(is_numeral(text), f"{path.name}: {heading}: in line {line} {shortened(text)} is no number.")
-            columns.setdefault(name, []).append(float(text) * float(UNITS[unit][0]))
+        ensure(name, f"{path.name}: {what}.")
+        return ("time" if name == "time" else "speed",)
+
+    columns = measured_columns(path, path.name, measures_of)
     time = columns.pop("time", [])
     if len(time) < 2 or not columns:
         raise DefinitionError(f'{path.name}: two rows and the columns "time, s" and of a cylinder are expected, such as "boom.ram, m/s".')
-    return {name: Course(time, values, "straight") for name, values in columns.items()}, time[-1]
+    return {name: Course(time, [*map(float, values)], "straight") for name, values in columns.items()}, float(time[-1])
 
 
 def pump_of(machine: Mechanism, name: object) -> Pump:

@@ -12,7 +12,7 @@ from ..units import UNITS, Amount
 from .design import degrees_text
 from .expression import one_unit
 from .names import FileTable, Keywords, Names, require_entry, shortened
-from .source import csv_rows, is_numeral
+from .source import measured_columns
 from .validators import amount_of
 
 STEPS: Mapping[str, Collection[str]] = {
@@ -127,19 +127,8 @@ def rows_read(name: object, folder: Path | None, strokes: Collection[str]) -> Fi
     """
     if folder is None or not isinstance(name, str) or Path(name).name != name:
         raise DefinitionError(f"csv = {shortened(name)}: a table stands in the folder of the file that names it; give its name alone.")
-    (_, headings), *rows = [*csv_rows(folder / name)] or [(0, list[str]())]
-    found: dict[str, list[float]] = {}
-    for place, heading in enumerate(headings):
-        column, _, unit = heading.rpartition(", ")
-        if column not in ("time", *strokes):
-            continue
-        known_name("Unit", unit, UNITS, where=f"csv = {name}: {heading}")
-        measures = MEASURES["times" if column == "time" else "values"]
-        ensure(UNITS[unit][1] in measures, f"csv = {name}: {heading}: a unit of {' or '.join(measures)} is expected.")
-        for line, row in rows:
-            text = row[place] if place < len(row) else ""
-            ensure(is_numeral(text), f"csv = {name}: {heading}: in line {line} {shortened(text)} is no number.")
-            found.setdefault(column, []).append(Amount(float(text) * float(UNITS[unit][0]), UNITS[unit][1]))
+    measures = {stroke: MEASURES["values"] for stroke in strokes} | {"time": MEASURES["times"]}
+    found = measured_columns(folder / name, f"csv = {name}", lambda column: measures.get(column, ()))
     if "time" not in found or len(found) < 2:
         raise DefinitionError(f'csv = {name}: columns "time, s" and of a stroke are expected, such as "{next(iter(strokes), "S")}, m".')
     return found

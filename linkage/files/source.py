@@ -8,7 +8,7 @@ import os
 import re
 import tomllib
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from io import StringIO
@@ -17,7 +17,8 @@ from pathlib import Path
 from typing import Any, NoReturn, final
 
 from ..disk import check_name, read
-from ..errors import DefinitionError, FileError, ensure
+from ..errors import DefinitionError, FileError, ensure, known_name
+from ..units import UNITS, Amount
 from .names import NAME_LENGTH, Keywords, shortened
 
 Key = tuple[str, ...]
@@ -171,6 +172,29 @@ def csv_rows(path: Path) -> Iterator[tuple[int, list[str]]]:
             yield reader.line_num, [re.sub(r"^([-+]?\d*),(\d+)$", r"\1.\2", cell) for cell in cells] if delimiter != "," else cells
     except csv.Error as error:
         raise DefinitionError(f"{path.name}, line {reader.line_num}: it cannot be read as a table of rows: {error}.") from None
+
+
+def measured_columns(path: Path, what: str, measures_of: Callable[[str], Collection[str]]) -> dict[str, list[Amount]]:
+    """Return the columns of a table by name, whose headings are names with units, "boom.ram, m/s".
+
+    `measures_of` says what a column of a name may measure; one that may measure nothing is passed over. `what` begins what is refused.
+    DefinitionError for a file that cannot be read, a name that stands twice, another unit, and for what is no number.
+    """
+    (_, headings), *rows = [*csv_rows(path)] or [(0, list[str]())]
+    found: dict[str, list[Amount]] = {}
+    for place, heading in enumerate(headings):
+        name, _, unit = heading.rpartition(", ")
+        measures = measures_of(name)
+        if not measures:
+            continue
+        known_name("Unit", unit, UNITS, where=f"{what}: {heading}")
+        ensure(UNITS[unit][1] in measures, f"{what}: {heading}: a unit of {' or '.join(measures)} is expected.")
+        ensure(name not in found, f"{what}: {heading}: {name} stands twice; keep one column.")
+        for line, row in rows:
+            text = row[place] if place < len(row) else ""
+            ensure(is_numeral(text), f"{what}: {heading}: in line {line} {shortened(text)} is no number.")
+            found.setdefault(name, []).append(Amount(float(text) * float(UNITS[unit][0]), UNITS[unit][1]))
+    return found
 
 
 def is_numeral(cell: str) -> bool:

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from linkage.cli.command import CSV, EVERY, PICTURES, Command, lined_up, machine_options, option, picture, pose_options
+from linkage.cli.follow import ALONG, PAGE
 from linkage.cli.settings import CHECK, OVER, judged_code, judged_over, machine_of, motions_at, overs_of, print_verdicts, si_value
 from linkage.cli.table import Table, heading_words, write_table, write_tables
 from linkage.errors import DefinitionError, ensure, known_name
@@ -150,7 +151,6 @@ def capacity_verdict(judge: Judge, asked: LawRequest, point: str) -> Verdict:
 
 # A working cycle.
 
-FILMS, PAGE = (".gif", ".mp4"), ".html"
 CycleCommand = Command(
     "cycle",
     "a working cycle on one pump: who waits, how long it takes, how many litres and kWh",
@@ -158,7 +158,7 @@ CycleCommand = Command(
     option("--program", metavar="FILE", help="what cylinders are asked for, .toml or .csv; without it the machine's own paths in time"),
     option("--pump", metavar="SUPPLY", help="the pump, where several stand on lines"),
     CSV,
-    option("-o", "--output", metavar="FILE", help=f"a chart, an animation, the live page: {', '.join((*PICTURES, *FILMS, PAGE))}"),
+    option("-o", "--output", metavar="FILE", help=f"a chart, an animation, the live page: {', '.join(ALONG)}"),
     OVER,
     CHECK,
 )
@@ -168,7 +168,7 @@ CycleCommand = Command(
 def print_cycle(options: Namespace) -> int:
     """Print what a pump gives over a cycle, and draw it."""
     machine = machine_of(options)
-    path = None if options.output is None else picture(options, machine, (*PICTURES, *FILMS, PAGE))
+    path = None if options.output is None else picture(options, machine, ALONG)
     found = cycle_of_programme(machine, options) if options.program else cycles_judged(machine, options)
     if options.csv != "-":
         for place, (words, cycle, _) in enumerate(found):
@@ -177,7 +177,7 @@ def print_cycle(options: Namespace) -> int:
         write_cycle(options.csv, found)
     if path is not None:
         ensure(len(found) == 1, f"-o {path}: there are {len(found)} cycles; choose one, --over NAME.")
-        draw_cycle(path, *found[0])
+        draw_cycle(path, *found[0][1:])
         print(path)
     return judged_code([cycle.verdict for _, cycle, _ in found], options)
 
@@ -223,7 +223,7 @@ def write_cycle(file: str, found: Sequence[tuple[str, PumpCycle, Motion]]) -> No
     write_table(cycle_columns(found[0][1]), len(found[0][1].time), file)
 
 
-def draw_cycle(path: Path, words: str, cycle: PumpCycle, motion: Motion) -> None:
+def draw_cycle(path: Path, cycle: PumpCycle, motion: Motion) -> None:
     """Draw a cycle's chart, its animation or its live page."""
     if path.suffix.lower() in PICTURES:
         plot_cycle(cycle).savefig(path)

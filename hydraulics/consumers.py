@@ -28,7 +28,7 @@ from linkage.units import show
 
 from .inputs import Array, one_design
 from .line import LiftLine
-from .member import PISTON, ROD, OnLines, Ram, cylinder_request, line_thrust, lines_of
+from .member import PISTON, ROD, OnLines, Ram, cylinder_request, in_class, line_thrust, lines_of
 
 AT_BORDER = 1e-9
 """Of its size: what is on the other side of a border by no more is on it."""
@@ -217,9 +217,11 @@ class Consumers:
         each_of = rows[: len(self.rams) * (count + 4)].reshape(len(self.rams), count + 4, many)
         pilots = dict(zip(map(id, self.valved), rows[len(self.rams) * (count + 4) :], strict=True))
         slopes = each_of[:, 2 : count + 2]
-        known = [None if like is None else [each.inlet for each in own] for own in (like.branches if like is not None else ways)]
         speeds = [(slopes * way).sum(axis=1) for way in ways]
-        moving = [self._moving(speed, way) if each is None else each for speed, way, each in zip(speeds, ways, known, strict=True)]
+        if like is None:
+            moving = [self._moving(speed, way) for speed, way in zip(speeds, ways, strict=True)]
+        else:
+            moving = [[each.inlet for each in own] for own in like.branches]
         found = [self._branches(each_of, speed, inlets, pilots) for speed, inlets in zip(speeds, moving, strict=True)]
         return Taken(found, each_of[:, 1], slopes)
 
@@ -256,6 +258,12 @@ class Consumers:
         held = [line for line in others if line.kind_in(self.members) == "held"]
         mine = [each.line for each in self.inlets if each.ram is inlet.ram and each.sense == inlet.sense and each.sides is not None]
         return bool(held or mine)
+
+
+def in_plan(pump: ForceElement, plan: Plan) -> ForceElement:
+    """Return a pump as it is in a machine, which has its numbers; the pump itself where the machine has none of that name."""
+    found = in_class(plan.members, pump)
+    return found if isinstance(found, ForceElement) else pump
 
 
 def lines_on(pump: ForceElement, members: NamedMembers) -> list[LiftLine]:

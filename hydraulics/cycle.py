@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, final
 
@@ -22,12 +22,13 @@ from linkage.language import said
 from linkage.loads import Acting
 from linkage.loads.element import ForceElement
 from linkage.motion import Instants, Judge, Motion, require_motion
+from linkage.motion.grid import recalled
 from linkage.motion.table import from_above
 from linkage.numeric import last_holding
 from linkage.units import show
 from linkage.verdict import Verdict
 
-from .consumers import AT_BORDER, Branch, Consumers, Taken, lines_on, refuse_unpushed
+from .consumers import AT_BORDER, Branch, Consumers, Taken, in_plan, lines_on, refuse_unpushed
 from .inputs import Array, number_set, one_design, positive
 from .sharing import LEAST_PRESSURE, PumpLimits
 
@@ -257,7 +258,8 @@ def limits_of(pump: ForceElement, consumers: Consumers, there: Motion) -> PumpLi
     flow = one_design(number_set(pump, there, "flow"))
     positive(flow, f"Flow of {title}", "give it in m3/s, such as flow=60 * litre / minute")
     power = np.inf if pump.given("power") is None else one_design(number_set(pump, there, "power"))
-    positive(power, f"Power of {title}", "give watts, such as power=5.75 * kW, or leave it out") if np.isfinite(power) else None
+    if np.isfinite(power):
+        positive(power, f"Power of {title}", "give watts, such as power=5.75 * kW, or leave it out")
     relief = [line.supply(there) for line in consumers.lines]
     cut_off = min(map(one_design, relief))
     return PumpLimits(flow, power, one_design(number_set(pump, there, "margin")), cut_off, pump.given("sharing") == LEAST_PRESSURE)
@@ -272,25 +274,31 @@ def checked(pump: ForceElement, motion: Motion, acting: Acting | None) -> PumpCy
     if motion._instants is None or not motion._instants.courses:
         what = f"{motion.plan.title}: {pump.name or 'a pump'}.check(motion): this motion has no time of its own"
         raise DefinitionError(f"{what}; sweep the machine over a path in time, Over.path(time=[...], ...).")
-    own = motion.plan.members.get(pump.name)
-    judge, own = Judge(motion.plan, motion.designs, [motion], acting), own if isinstance(own, ForceElement) else pump
+    judge = Judge(motion.plan, motion.designs, [motion], acting)
+    own = in_plan(pump, motion.plan)
     return max((each for place in judge.places for each in cycles_over(own, place, judge.acting)), key=lambda each: each.stretch)
 
 
 def cycles_over(pump: ForceElement, place: Any, acting: Acting) -> list[PumpCycle]:
-    """Return what is needed of a pump over a path in time, in each load case that occurs there."""
-    instants, cases = place.instants or place.motion._instants, place.cases(acting)
-    assert instants is not None
-    found = []
+    """Return what is needed of a pump over a path in time, in each load case that occurs there; asked again, it is known."""
+    cases, found = place.cases(acting), []
     for case in cases:
         situation = acting if acting.case is not None and len(cases) == 1 else replace(acting, case=case)
-        start = {name: float(course(instants.breaks[0])) for name, course in instants.courses.items()}
-        consumers = Consumers(place.plan, place.designs, pump, situation, start)
-        there = Motion(place.plan, place.designs, {name: np.asarray(value) for name, value in start.items()}, "nan")
-        limits, names = limits_of(pump, consumers, there), [line.name for line in consumers.lines]
-        stretches = given_stretches(consumers, instants, limits)
-        found.append(PumpCycle(pump.name or "supply", names, (), stretches, limits, case if len(cases) > 1 else ""))
+        label = case if len(cases) > 1 else ""
+        make = partial(cycle_over, pump, place, situation, label)
+        is_own = acting.loads is None and (acting.case is None or isinstance(acting.case, str))  # the machine's loads, in a case of its own
+        found.append(recalled(place.motion, ("pump cycle", pump.name, case, label), make) if is_own else make())
     return found
+
+
+def cycle_over(pump: ForceElement, place: Any, situation: Acting, label: str) -> PumpCycle:
+    """Return what is needed of a pump over a path in time in one load case."""
+    instants = place.instants or place.motion._instants
+    start = {name: float(course(instants.breaks[0])) for name, course in instants.courses.items()}
+    consumers = Consumers(place.plan, place.designs, pump, situation, start)
+    there = Motion(place.plan, place.designs, {name: np.asarray(value) for name, value in start.items()}, "nan")
+    limits, names = limits_of(pump, consumers, there), [line.name for line in consumers.lines]
+    return PumpCycle(pump.name or "supply", names, (), given_stretches(consumers, instants, limits), limits, label)
 
 
 def given_stretches(consumers: Consumers, instants: Instants, limits: PumpLimits) -> list[Stretch]:
@@ -351,27 +359,32 @@ def first_border(time: Array, taken: Taken, borders: Callable[[Array], Array]) -
 # What is said of it.
 
 
+def timed_places(pump: ForceElement, judge: Judge) -> list[Any]:
+    """Return the places of a judge over paths in time, of a pump that several lines share."""
+    is_shared = len(lines_on(pump, judge.plan.members)) > 1
+    return [place for place in judge.places if is_shared and place.instants is not None and place.motion.reached.all()]
+
+
 def judged_cycles(pump: ForceElement, judge: Judge) -> list[tuple[Any, PumpCycle]]:
-    """Return the cycles of a shared pump over the paths in time that a judge looks at, with their places."""
-    places = [place for place in judge.places if place.instants is not None and place.motion.reached.all()]
-    if len(lines_on(pump, judge.plan.members)) < 2 or not places or not one_design(number_set(pump, judge.motion, "flow")) > 0.0:
-        return []
-    return [(place, each) for place in places for each in cycles_over(pump, place, judge.acting)]
+    """Return the cycles of a shared pump over the paths in time that a judge looks at, with their places; of one without flow none."""
+    places = timed_places(pump, judge)
+    has_flow = bool(places) and one_design(number_set(pump, judge.motion, "flow")) > 0.0
+    return [(place, each) for place in places for each in cycles_over(pump, place, judge.acting)] if has_flow else []
 
 
 def pump_verdicts(pump: ForceElement, judge: Judge) -> list[Verdict]:
     """Return whether a shared pump gives what is asked for over the paths in time that a judge looks at, of the one that asks most."""
-    timed = [place for place in judge.places if place.instants is not None]
-    if len(lines_on(pump, judge.plan.members)) > 1 and timed and not one_design(number_set(pump, judge.motion, "flow")) > 0.0:
-        return [Verdict("pump", None, said("its flow is not given, so that nothing tells how long it takes."))]
+    places = timed_places(pump, judge)
+    if not places:
+        return []
     try:
         found = judged_cycles(pump, judge)
     except DefinitionError as error:
         return [Verdict.refused("pump", error)]
     if not found:
-        return []
+        return [Verdict("pump", None, said("its flow is not given, so that nothing tells how long it takes."))]
     place, worst = max(found, key=lambda each: each[1].stretch)
-    title = f"{place.over.title}: " if len(timed) > 1 and place.over.title else ""
+    title = f"{place.over.title}: " if len(places) > 1 and place.over.title else ""
     return [Verdict("pump", worst.verdict.ok, title + worst.verdict.sentence)]
 
 

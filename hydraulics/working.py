@@ -28,7 +28,7 @@ from linkage.plan import Mask, Plan, require_kinds
 from linkage.quantities import Course, Reference, as_mapping, is_number, name_of
 from linkage.units import require_measure, show
 
-from .consumers import AT_BORDER, Consumers, Taken, cylinder_named, refuse_unpushed
+from .consumers import AT_BORDER, Consumers, Taken, cylinder_named, in_plan, refuse_unpushed
 from .cycle import (
     DEGREE,
     SHORTEST,
@@ -229,16 +229,20 @@ class PumpedMachine:
 
     def moment(self, time: Array, strokes: Array, rates: Array, mode: Mode, like: Taken | None = None) -> Going:
         """Return what goes on at instants in a mode; `rates` are those at which friction and dampers are taken."""
-        taken, ways = self.wanted(time, strokes, rates, like)
+        return self.going(strokes, mode, *self.wanted(time, strokes, rates, like))
+
+    def going(self, strokes: Array, mode: Mode, taken: Taken, ways: Sequence[Array]) -> Going:
+        """Return what goes on in a mode at strokes (n, m), of what is wanted there."""
+        many = strokes.shape[1]
         slopes = self._need_slopes(strokes, taken, ways) if mode.level or mode.creep else np.zeros(0)
-        wanted, idle = self.asks(taken, mode), [not flow[len(time) // 2] > 0.0 for flow in taken.flows]
+        wanted, idle = self.asks(taken, mode), [not flow[many // 2] > 0.0 for flow in taken.flows]
         for _ in range(ROUNDS if mode.creep else 1):
             fed = flow_shares(wanted, self.limits, Choices(mode.choices))
-            shares = np.array([np.broadcast_to(each, time.shape) for each in fed.shares]).reshape(len(ways), len(time)).copy()
+            shares = np.array([np.broadcast_to(each, many) for each in fed.shares]).reshape(len(ways), many).copy()
             shares[idle] = 1.0  # nothing is asked of the pump: its load moves it, or it stands
             shares[[*mode.stopped]] = 0.0
             self._levelled(slopes, taken, fed, mode, shares)
-            creeping = sum((shares[number] * taken.flows[number] for number in mode.creep), np.zeros(len(time)))
+            creeping = sum((shares[number] * taken.flows[number] for number in mode.creep), np.zeros(many))
             if np.allclose(creeping, wanted.before, rtol=1e-14, atol=0.0):
                 break
             wanted = replace(wanted, before=creeping)
@@ -276,7 +280,7 @@ class PumpedMachine:
             mode, choose = replace(like, stopped=self.stopped(taken, ways, strokes, 0)), Choices()
             flow_shares(self.asks(taken, mode, 0), self.limits, choose)
             mode = replace(mode, choices=choose.made)
-            found = self.moment(at, strokes, moving, mode)
+            found = self.going(strokes, mode, taken, ways)
             slow = self.pace(found)
             if not self.consumers.follows_rates or np.allclose(slow, moving, rtol=1e-13, atol=1e-15):
                 break
@@ -427,8 +431,7 @@ def worked(
     given = demands_given(demands, plan)
     begin, strokes = run_start(machine, start)
     require_number("run: until", until, f"an instant behind {begin:.6g} s is expected", above=begin)
-    own = plan.members.get(pump.name)
-    work = PumpedMachine(own if isinstance(own, ForceElement) else pump, machine, given, strokes, acting or Acting())
+    work = PumpedMachine(in_plan(pump, plan), machine, given, strokes, acting or Acting())
     at_start = np.array([[strokes[name]] for name in work.consumers.strokes])
     stretches, coefficients, events = run_through(work, begin, float(until), at_start)
     times = np.array([*(each.time[0] for each in stretches), stretches[-1].time[-1]])

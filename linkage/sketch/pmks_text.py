@@ -83,7 +83,8 @@ def joint_of(found: FoundMachine, line: str, number: int) -> PmksJoint:
     names, kind, rest = words[: places[-1]], words[places[-1]].upper(), words[places[-1] + 1 :]
     x, y = (found.number(word, where) for word in rest[:2])
     has_angle = len(rest) > 2 and re.match(r"[-+.\d]", rest[2]) is not None
-    ensure_file(kind == "R" or len({*names}) == 2, f"{where}: {kind} joins two links.")
+    ensure_file(kind == "R" or len(names) == len({*names}) == 2, f"{where}: {kind} joins two links.")
+    ensure_file(kind != "P" or not all(map(is_frame, names)), f"{where}: both links of P are the frame; name the link that slides.")
     ensure_file(kind in ("R", "G") or has_angle, f"{where}: {kind} has the angle of its slide behind x and y [deg].")
     angle = radians(found.number(rest[2], where)) if has_angle else 0.0
     key = ascii_uppercase[number] if number < len(ascii_uppercase) else f"P{number + 1}"

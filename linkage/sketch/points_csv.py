@@ -30,6 +30,7 @@ def read_points_csv(found: FoundMachine, text: str) -> None:
         rows = [(reader.line_num, [cell.strip() for cell in row]) for row in reader if any(cell.strip() for cell in row)]
     except csv.Error as error:
         raise FileError(f"{found.file}, line {reader.line_num}: it is no table: {error}.") from None
+    ensure_file(rows, f"{found.file}: the table has no rows.")
     heads = [HEADER.fullmatch(cell.lower()) for cell in rows[0][1]]
     names = [head[1] if head else "" for head in heads]
     ensure_file(names == [*COLUMNS], f"{found.file}, line 1: a table of points begins with kind,name,x [mm],y [mm],what.")

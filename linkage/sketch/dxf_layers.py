@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
-from math import atan2, dist, hypot, inf
+from math import dist, hypot, inf
 from typing import Any, final
 
 from ..errors import ensure, unknown
 from ..surroundings import dxf_entities
 from .found import FoundDrive, FoundMachine, ensure_file
-from .machine_sketch import Place
+from .machine_sketch import Place, line_angle
 
 ROLES = "pins", "links", "ground", "slides", "crank", "cylinder"
 """What a layer may be of, and by default its name."""
@@ -60,9 +60,9 @@ class DrawingReader:
         words = [(text_of(each), (each.dxf.insert.x, each.dxf.insert.y)) for each in self.of(("TEXT", "MTEXT"), *ROLES, "")]
         for circle in (*circles, *ground):
             place, radius = (float(circle.dxf.center.x), float(circle.dxf.center.y)), float(circle.dxf.radius)
-            if any(hypot(place[0] - x, place[1] - y) <= radius for (x, y), _ in self.pins.values()):
+            if any(dist(place, centre) <= radius for centre, _ in self.pins.values()):
                 continue  # a pin and its washer
-            near = [(hypot(at[0] - place[0], at[1] - place[1]), word) for word, at in words if word]
+            near = [(dist(at, place), word) for word, at in words if word]
             far, word = min(near, default=(0.0, ""))
             key = f"P{len(self.pins) + 1}"
             is_hatched = any(hatch and surrounds(place, hatch) for hatch in hatches)
@@ -116,7 +116,7 @@ class DrawingReader:
         """Let the pins on a line slide on it."""
         P, Q = corners_of(line)
         keys = [key for key in self.met([P, Q]) if not self.found.points[key].fixed]
-        self.found.slides += [(key, atan2(Q[1] - P[1], Q[0] - P[0])) for key in keys]
+        self.found.slides += [(key, line_angle(P, Q)) for key in keys]
         if not keys:
             self.found.left_out.append(f"a line of the layer {line.dxf.layer} without pins")
 

@@ -16,7 +16,7 @@ from ..files.names import shortened
 from ..mechanism import Mechanism
 from ..quantities import is_name, joined_names
 from ..units import parse, show
-from .machine_sketch import MachineSketch, Place, SketchDrive, SketchSlide, written
+from .machine_sketch import MachineSketch, Place, SketchDrive, SketchSlide, longer_side, noiseless
 
 OFF_LINE = 1e-3
 """A point farther from its slide than so much of the size of the drawing is not on it."""
@@ -132,11 +132,12 @@ class FoundMachine:
             near.append(self.helper(key, (sign * self.size * c, sign * self.size * t), carrier))
         return near[0], near[1]
 
-    def slide_body(self, link: list[str], key: str, angle: float, along: tuple[str, str] | float) -> None:
-        """Let a link slide without turning: a point of it and a second one farther along the line at an angle [rad]."""
-        reach = 0.25 * self.size
-        second = self.helper(key, (reach * cos(angle), reach * sin(angle)), link)
-        self.slides += [(key, along), (second, along)]
+    def add_slide(self, key: str, angle: float, along: tuple[str, str] | float, rigid: list[str] | None = None) -> None:
+        """Let a point slide on a line at an angle [rad]; a rigid link does not turn there, as a second point of it slides farther along."""
+        self.slides.append((key, along))
+        if rigid is not None:
+            reach = 0.25 * self.size
+            self.slides.append((self.helper(key, (reach * cos(angle), reach * sin(angle)), rigid), along))
 
     def push(self, key: str, angle: float, along: tuple[str, str] | float) -> None:
         """Let a cylinder drive a point on its slide: from a point of the line behind it."""
@@ -159,8 +160,7 @@ class FoundMachine:
     @property
     def size(self) -> float:
         """The longer side of the box around all points, in the file's units; 1 where they stand at one place."""
-        places = [each.place for each in self.points.values()]
-        return max((max(part) - min(part) for part in zip(*places, strict=True)), default=0.0) or 1.0
+        return longer_side(point.place for point in self.points.values()) or 1.0
 
     # -- the sketch --------------------------------------------------------------------------------------
 
@@ -243,11 +243,6 @@ class FoundMachine:
         if changed:
             self.notes.append(f"Named anew: {few(changed, ', ')}.")
         return names, {*labels}
-
-
-def noiseless(value: float) -> float:
-    """Return a number as it is written."""
-    return float(written(value))
 
 
 def labels_of(links: Sequence[Sequence[str]]) -> Iterator[str]:

@@ -5,10 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from math import dist, hypot, isfinite
+from math import atan2, dist, isfinite
 from typing import Any, final
 
-from ..errors import DefinitionError, FileError, ensure
+from ..errors import DefinitionError, FileError, ensure, quoted
 from ..files import from_dict, to_toml
 from ..files.design import in_unit
 from ..mechanism import Mechanism
@@ -118,12 +118,11 @@ class MachineSketch:
     @property
     def size(self) -> float:
         """The longer side of the box around all points [m]."""
-        xs, ys = ([place[axis] for place in self.points.values()] for axis in (0, 1))
-        return max(max(xs) - min(xs), max(ys) - min(ys))
+        return longer_side(self.points.values())
 
     def length(self, P: str, Q: str) -> float:
         """Return the drawn distance of two points [m]."""
-        return hypot(self.points[P][0] - self.points[Q][0], self.points[P][1] - self.points[Q][1])
+        return dist(self.points[P], self.points[Q])
 
     # -- what it becomes -----------------------------------------------------------------------------------
 
@@ -142,7 +141,6 @@ class MachineSketch:
         """
         self.check_driven()
         cranks = {drive.ends[1]: (name, drive) for name, drive in self.drives.items() if drive.kind == "crank"}
-        rods = {frozenset(drive.ends): (name, drive) for name, drive in self.drives.items() if drive.kind == "cylinder"}
         turned = {frozenset(drive.ends) for _, drive in cranks.values()}
         found: dict[str, Any] = {"name": self.name, "doc": " ".join(self.notes)} if self.notes else {"name": self.name}
         found["strokes"] = {name: [drive.start, stroke_end(drive)] for name, drive in self.drives.items()}
@@ -158,9 +156,12 @@ class MachineSketch:
             for name, points in self.links.items()
             if not {*points} <= {*self.fixed} and frozenset(points) not in turned
         }
-        for name, drive in rods.values():
+        for name, drive in self.drives.items():
+            if drive.kind != "cylinder":
+                continue
             P, Q = drive.ends
-            label, closed = joined_names(P, Q), self.lengths.get(joined_names(P, Q), float(written(self.length(P, Q) - drive.drawn)))
+            label = joined_names(P, Q)
+            closed = self.lengths.get(label, noiseless(self.length(P, Q) - drive.drawn))
             is_measured = label not in self.lengths and min(drive.start, drive.end) <= 0.0
             found["links"][f"rod_{name}"] = {"points": f"{P} {Q}", label: name if is_measured else f"{closed!r} + {name}"}
         found["guides"] = {
@@ -279,6 +280,16 @@ def grid(place: Place, step: float) -> Place:
     return x, y
 
 
+def longer_side(places: Iterable[Place]) -> float:
+    """Return the longer side of the box around some places, 0 around none, in their units."""
+    return max((max(part) - min(part) for part in zip(*places, strict=True)), default=0.0)
+
+
+def line_angle(P: Place, Q: Place) -> float:
+    """Return the angle of the line from one place to another [rad]."""
+    return atan2(Q[1] - P[1], Q[0] - P[0])
+
+
 def clean(value: float) -> float:
     """Return a length without the last digits that a multiple of a decimal step brings [m]."""
     return float(f"{value:.12g}")
@@ -288,6 +299,11 @@ def written(value: float) -> str:
     """Return a number in 15 digits where these say it within 1e-15 of itself, without the noise of a unit's factor; else in all."""
     text = f"{value:.15g}"
     return text if abs(float(text) - value) <= 1e-15 * abs(value) else repr(value)
+
+
+def noiseless(value: float) -> float:
+    """Return a number as it is written."""
+    return float(written(value))
 
 
 def stroke_end(drive: SketchDrive) -> float | str:
@@ -311,17 +327,10 @@ def python_member(section: str, table: Mapping[str, Any]) -> str:
         case "pins":
             return f"Pin({at[0]})"
         case "links":
-            return f"Link({', '.join([repr_text(table['points']), *words])})"
+            return f"Link({', '.join([quoted(table['points']), *words])})"
         case "guides":
             ends = [
-                repr_text(table[name]) if isinstance(table[name], str) else f"{(*table[name],)!r}"
-                for name in ("from", "to")
-                if name in table
+                quoted(table[name]) if isinstance(table[name], str) else f"{(*table[name],)!r}" for name in ("from", "to") if name in table
             ]
             return f"Guide({', '.join([*ends, *words])})"
-    return f"Slide({repr_text(table['point'])}, {table['guide']})"
-
-
-def repr_text(text: str) -> str:
-    """Return a name as text in double quotes."""
-    return f'"{text}"'
+    return f"Slide({quoted(table['point'])}, {table['guide']})"

@@ -102,7 +102,7 @@ class BodyReader:
 
     def read(self) -> None:
         """Enter points, links, slides and drives."""
-        within = {str(each.get("internalJoint")): each for each in self.cylinders}
+        within = {str(each.get("internalJoint")) for each in self.cylinders}
         for joint in self.joints.values():
             (first, a, _), (second, b, _) = self.frame(joint, "A"), self.frame(joint, "B")
             if joint.get("kind") in ("revolute", "weld"):
@@ -145,10 +145,7 @@ class BodyReader:
             is_held = each in self.world or self.root(each) in bodies
             ensure_file(is_held, f"{self.file}: the slide {joint.get('label') or key} is of a body that nothing else holds.")
         along = self.found.slot(point, angle, None if carrier in self.world else bodies[self.root(carrier)])
-        if joint.get("kind") == "prismatic":
-            self.found.slide_body(bodies[self.root(body)], point, angle, along)
-        else:
-            self.found.slides.append((point, along))
+        self.found.add_slide(point, angle, along, bodies[self.root(body)] if joint.get("kind") == "prismatic" else None)
         if key in self.drivers:
             self.found.push(point, angle, along)
             self.found.drives[-1].reach = self.reach(key)
@@ -157,7 +154,7 @@ class BodyReader:
         """Return how far a driven joint goes, in the file's units or rad: from where it is driven from to its limit; None without one."""
         if key not in self.limits:
             return None
-        profile = json_table(self.drivers[key].get("profile"), self.file, "a profile") if key in self.drivers else {}
+        profile = json_table(self.drivers[key].get("profile"), self.file, "a profile")
         initial = self.found.number(profile.get("initial", 0.0), "where a driver begins")
         return self.found.number(self.limits[key].get("upper"), "a limit") - initial
 

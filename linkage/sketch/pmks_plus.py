@@ -5,12 +5,17 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from math import atan2, pi, radians
+from itertools import takewhile
+from math import pi, radians
 from typing import Any, final
 from urllib.parse import parse_qs, unquote
 
+import numpy as np
+
+from ..numeric.convex import corner_turn
 from ..units import parse
 from .found import FoundDrive, FoundMachine, ensure_file, json_list
+from .machine_sketch import line_angle
 
 DIGITS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_-"
 CHECKS = DIGITS[:62]
@@ -79,13 +84,9 @@ def slide_plus(found: FoundMachine, joint: PlusJoint) -> None:
     """Enter a slide: of a pin, or of all links at it where these may not turn on it."""
     angle, along = joint.angle, joint.line or joint.angle
     if joint.line is not None:
-        (ax, ay), (bx, by) = (found.points[found.known(key, "a slot")].place for key in joint.line)
-        angle = atan2(by - ay, bx - ax)
+        angle = line_angle(*(found.points[found.known(key, "a slot")].place for key in joint.line))
     on = [points for _, points in found.links if joint.key in points]
-    if joint.rigid and on:
-        found.slide_body(on[0], joint.key, angle, along)
-    else:
-        found.slides.append((joint.key, along))
+    found.add_slide(joint.key, angle, along, on[0] if joint.rigid and on else None)
     if joint.drives:
         found.push(joint.key, angle, along)
 
@@ -104,8 +105,8 @@ def enter_cylinder(found: FoundMachine, joint: PlusJoint, known: Mapping[str, Pl
     feet = [key for key in joint.line if key in others]
     if len(feet) != 1 or joint.key in others:
         return False
-    (ax, ay), (bx, by), (cx, cy) = (found.points[key].place for key in (*joint.line, rod_end))
-    if abs((bx - ax) * (cy - ay) - (by - ay) * (cx - ax)) > 5e-3 * found.size**2:
+    corners = np.array([found.points[key].place for key in (*joint.line, rod_end)])
+    if abs(corner_turn(corners, 0, 1, 2)) > 5e-3 * found.size**2:
         return False
     inside = [found.points.pop(key).name for key in (joint.key, *(key for key in joint.line if key != feet[0]))]
     found.links = [each for each in found.links if each[1] not in (barrels[0], rods[0])]
@@ -132,13 +133,11 @@ def read_short_address(found: FoundMachine, text: str) -> None:
     flags, _, _, units, rest = (body.split(".", 4) + [""] * 5)[:5]
     ensure_file(units[:1] in "012" and units, f"{found.file}: the address has no unit of length; say --scale 1cm.")
     found.unit = parse(f"1 {LENGTHS[int(units[0])]}")
-    sections = rest.split("..", 2)  # each section ends with a dot of its own
-    texts = rest.split(".")
-    first = texts.index("") if "" in texts else len(texts)
-    second = texts.index("", first + 1) if "" in texts[first + 1 :] else len(texts)
-    ensure_file(len(sections) > 1 and first > 0, f"{found.file}: the address has no joints and links; copy it whole.")
-    joints = [short_joint(found, each.split(",")) for each in texts[:first]]
-    links = [short_link(found, each.split(",")) for each in texts[first + 1 : second]]
+    texts = iter(rest.split("."))  # each joint and link ends with a dot, and so does each section
+    joint_texts, link_texts = [*takewhile(bool, texts)], [*takewhile(bool, texts)]
+    ensure_file(joint_texts and ".." in rest, f"{found.file}: the address has no joints and links; copy it whole.")
+    joints = [short_joint(found, each.split(",")) for each in joint_texts]
+    links = [short_link(found, each.split(",")) for each in link_texts]
     read_plus(found, joints, [each for each in links if each is not None], clockwise=bool(whole_of(found, flags) & 1))
 
 

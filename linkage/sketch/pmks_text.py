@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from math import atan2, degrees, radians
+from math import degrees, radians
 from string import ascii_uppercase
 from typing import final
 
 from ..errors import ensure
 from .found import FoundMachine, ensure_file
-from .machine_sketch import MachineSketch, Place, written
+from .machine_sketch import MachineSketch, Place, line_angle, written
 
 FRAME = ("ground", "gnd", "grnd", "grd")
 KINDS = ("R", "P", "RP", "G")
@@ -63,10 +63,7 @@ def read_pmks_text(found: FoundMachine, text: str) -> None:
             mover = joint.mover
             (slot,) = (name for name in joint.links if name != mover)
             along = found.slot(joint.key, joint.angle, None if is_frame(slot) else bodies[slot])
-            if joint.kind == "P":
-                found.slide_body(bodies[mover], joint.key, joint.angle, along)
-            else:
-                found.slides.append((joint.key, along))
+            found.add_slide(joint.key, joint.angle, along, bodies[mover] if joint.kind == "P" else None)
     for name, keys in bodies.items():
         found.add_link(name, keys)
     drive_pmks(found, joints)
@@ -130,7 +127,6 @@ def pmks_text(sketch: MachineSketch) -> str:
                     carrier = next((link for link, points in sketch.links.items() if {*along} <= {*points}), "")
                 ensure(carrier and on[name], f"{sketch.name}: the slide of {name} is between no two links, which text of PMKS cannot say.")
                 if isinstance(along, tuple):
-                    (ax, ay), (bx, by) = (sketch.points[end] for end in along)
-                    along = atan2(by - ay, bx - ax)
+                    along = line_angle(*(sketch.points[end] for end in along))
                 lines.append(f"{carrier},{on[name][0]},RP,{place},{written(degrees(along))},ffff")
     return "\n".join(lines) + "\n"

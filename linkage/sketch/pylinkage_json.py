@@ -7,6 +7,7 @@ from math import atan2, cos, dist, sin
 from typing import Any
 
 from .found import TURN, FoundDrive, FoundMachine, ensure_file, json_list, json_table
+from .machine_sketch import line_angle
 
 TOLD = 1e-6
 """A distance that differs from the coordinates by more than so much of the size is told."""
@@ -40,7 +41,7 @@ def enter_joint(found: FoundMachine, joint: Mapping[str, Any]) -> None:
         turn = 0.0
         if kind == "Fixed":
             second = found.points[found.known(parent_name(joint.get("joint1")), name)].place
-            turn = atan2(second[1] - origin[1], second[0] - origin[0]) + found.number(joint.get("angle"), name)
+            turn = line_angle(origin, second) + found.number(joint.get("angle"), name)
         far = found.number(joint.get("distance"), name)
         x, y = origin[0] + far * cos(turn), origin[1] + far * sin(turn)
     found.add_point(name, name, x, y, kind == "Static")

@@ -10,9 +10,11 @@ import numpy as np
 from ..errors import DefinitionError, ensure
 from ..mechanism import Mechanism, require_mechanism
 from ..motion import Motion
+from ..numeric.convex import corner_turn
 from ..plan import Part
 from ..quantities import FRAME_SIDE, Dimension, Joint, Quantity, Stroke
-from .machine_sketch import MachineSketch, Place, SketchDrive, SketchSlide
+from ..steps import Drawn, Group, Slide
+from .machine_sketch import MachineSketch, SketchDrive, SketchSlide
 
 ONE_TO_ONE = 1e-12
 """A driven length or angle follows its stroke one to one where its slope is 1 to so much."""
@@ -73,9 +75,7 @@ def sketch_of(machine: Mechanism | type[Mechanism], at: Mapping[str, float] | No
 
 def is_found_anew(member: object) -> bool:
     """Return whether a member is found anew from a sketch: dimensions are measured, groups are made of pins."""
-    return isinstance(member, (Dimension, Stroke)) or (
-        not isinstance(member, Quantity) and type(member).__name__ in ("Drawn", "Group", "Slide")
-    )
+    return isinstance(member, (Dimension, Stroke, Drawn, Group, Slide))
 
 
 def drives_of(design: Mechanism, joints: list[tuple[str, Joint]], strokes: Mapping[str, float]) -> Iterator[tuple[str, SketchDrive]]:
@@ -129,7 +129,6 @@ def slides_of(design: Mechanism, joints: list[tuple[str, Joint]], motion: Motion
 
 def is_in_line(motion: Motion, *points: str) -> bool:
     """Return whether three points stand in one line, to the digits of their places."""
-    places: list[Place] = [(float(motion.x(each)), float(motion.y(each))) for each in points]
-    (ax, ay), (bx, by), (cx, cy) = places
-    size = max(abs(each) for place in places for each in place) or 1.0
-    return abs((bx - ax) * (cy - ay) - (by - ay) * (cx - ax)) <= 1e-9 * size * size
+    places = np.array([(float(motion.x(each)), float(motion.y(each))) for each in points])
+    size = float(np.max(np.abs(places))) or 1.0
+    return abs(corner_turn(places, 0, 1, 2)) <= 1e-9 * size * size

@@ -112,9 +112,7 @@ class BodyReader:
         hollow = {str(each.get(name)) for each in self.cylinders for name in ("barrel", "rod")}
         fixed = {self.root(key) for key, each in self.attachments.items() if each.get("bodyId") in self.world}
         inside = {self.root(key) for key, each in self.attachments.items() if each.get("bodyId") in hollow}
-        inside -= {
-            self.root(str(each.get(name))) for each in self.cylinders for name in ("barrelMount", "rodMount") if each.get(name) in self.one
-        }
+        inside -= {end for each in self.cylinders for end in self.mounts(each)}
         lines = [self.sides(joint)[0][0] for joint in self.joints.values() if joint.get("kind") in SLIDES]
         ends = [end for joint in self.joints.values() for end in self.sides(joint)[joint.get("kind") in SLIDES :]]
         inside |= {*lines} - {self.root(attachment) for attachment, _, _ in ends}  # where a slot is drawn, which is no point
@@ -144,6 +142,8 @@ class BodyReader:
         for each in (carrier, body):
             is_held = each in self.world or self.root(each) in bodies
             ensure_file(is_held, f"{self.file}: the slide {joint.get('label') or key} is of a body that nothing else holds.")
+        moves = joint.get("kind") != "prismatic" or body not in self.world
+        ensure_file(moves, f"{self.file}: the slide {joint.get('label') or key} is of the frame on the frame; name the body that slides.")
         along = self.found.slot(point, angle, None if carrier in self.world else bodies[self.root(carrier)])
         self.found.add_slide(point, angle, along, bodies[self.root(body)] if joint.get("kind") == "prismatic" else None)
         if key in self.drivers:
@@ -158,9 +158,14 @@ class BodyReader:
         initial = self.found.number(profile.get("initial", 0.0), "where a driver begins")
         return self.found.number(self.limits[key].get("upper"), "a limit") - initial
 
+    def mounts(self, cylinder: Mapping[str, Any]) -> list[str]:
+        """Return the points that a cylinder is between, in so far as they are there."""
+        ends = (str(cylinder.get(name)) for name in ("barrelMount", "rodMount"))
+        return [self.root(end) for end in ends if end in self.attachments]
+
     def cylinder(self, given: Mapping[str, Any]) -> None:
         """Enter a cylinder between its mounts; without a driver it holds nothing and is left out."""
-        ends = [self.root(str(given.get(name))) for name in ("barrelMount", "rodMount") if given.get(name) in self.one]
+        ends = [self.found.known(end, f"the cylinder {given.get('label')}") for end in self.mounts(given)]
         ensure_file(len(ends) == 2, f"{self.file}: the cylinder {given.get('label')} has no two mounts.")
         key = str(given.get("internalJoint"))
         if key in self.drivers:
@@ -172,4 +177,4 @@ class BodyReader:
         """Enter a crank about a pin of the frame."""
         profile = json_table(driver.get("profile"), self.file, "a profile")
         backwards = self.found.number(profile.get("speed", 1.0), "a speed") < 0.0
-        self.found.turn(self.root(self.frame(joint, "A")[0]), backwards)
+        self.found.turn(self.found.known(self.root(self.frame(joint, "A")[0]), "a driver"), backwards)

@@ -110,6 +110,22 @@ def test_a_table_of_bodies_may_stand_in_an_address():
         read_sketch(address.replace(address[6:14], "00000000"))
 
 
+def test_bodies_that_do_not_fit_together_are_told(tmp_path):
+    changes = [
+        ("Pump", lambda data: data["joints"][-1]["frameB"].update(attachmentId="world:O"), "of the frame on the frame"),
+        ("Boom", lambda data: data["joints"][-1].update(kind="revolute"), "a driver names the point 'barrel:mid', which is not there"),
+        ("Boom", lambda data: data["assemblies"][0].update(barrelMount=[]), "has no two mounts"),
+        ("Boom", lambda data: data["assemblies"][0].update(barrelMount="OBT"), "has no two mounts"),
+    ]
+    for name, change, words in changes:
+        data = json.loads(emit.plus_bodies(BY_NAME[name]))
+        data["joints"][-1]["kind"] = "prismatic"
+        change(data)
+        (tmp_path / "bodies.json").write_text(json.dumps(data), encoding="utf-8")
+        with pytest.raises(LinkageError, match=words):
+            read_sketch(tmp_path / "bodies.json").to_class()
+
+
 def mutated(text, chance):
     """Return a text with a few letters, or a whole word, replaced by something else."""
     if chance.random() < 0.5:

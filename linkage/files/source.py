@@ -151,7 +151,7 @@ DELIMITERS = (";", "\t", ",")
 
 
 def csv_rows(path: Path) -> Iterator[tuple[int, list[str]]]:
-    """Yield the rows of a CSV file with their lines, without empty ones and those that begin with #; decimal commas as points."""
+    """Yield the rows of a CSV file with their lines, as `text_rows` does those of its text."""
     check_name(path)
     try:
         ensure(path.stat().st_size <= MOST_BYTES, f"{path.name} is larger than {MOST_BYTES // 1_000_000} MB; give fewer points.")
@@ -160,9 +160,19 @@ def csv_rows(path: Path) -> Iterator[tuple[int, list[str]]]:
         raise DefinitionError(f"{path.name} cannot be read: {error.strerror}; paths start from the file's own folder.") from None
     except UnicodeDecodeError:
         raise DefinitionError(f"{path.name} is no text in UTF-8; save it as CSV UTF-8.") from None
+    yield from text_rows(path.name, text)
+
+
+def delimiter_of(text: str) -> str:
+    """Return what stands between the cells of a table, by its first row."""
     first = next((line for line in text.splitlines() if line.strip() and not line.startswith("#")), "")
     unquoted = re.sub(r'"[^"]*"', "", first)
-    delimiter = next((each for each in DELIMITERS if each in unquoted), ",")
+    return next((each for each in DELIMITERS if each in unquoted), ",")
+
+
+def text_rows(name: str, text: str) -> Iterator[tuple[int, list[str]]]:
+    """Yield the rows of a table with their lines, without empty ones and those that begin with #; decimal commas as points."""
+    delimiter = delimiter_of(text)
     reader = csv.reader(StringIO(text), delimiter=delimiter, skipinitialspace=True)
     try:
         for row in reader:
@@ -171,7 +181,7 @@ def csv_rows(path: Path) -> Iterator[tuple[int, list[str]]]:
                 continue
             yield reader.line_num, [re.sub(r"^([-+]?\d*),(\d+)$", r"\1.\2", cell) for cell in cells] if delimiter != "," else cells
     except csv.Error as error:
-        raise DefinitionError(f"{path.name}, line {reader.line_num}: it cannot be read as a table of rows: {error}.") from None
+        raise DefinitionError(f"{name}, line {reader.line_num}: it cannot be read as a table of rows: {error}.") from None
 
 
 def measured_columns(path: Path, what: str, measures_of: Callable[[str], Collection[str]]) -> dict[str, list[Amount]]:

@@ -28,7 +28,6 @@ HALF = 0.5
 SMALL, LARGE = 5e-3, 100.0
 """A machine that is drawn smaller or larger than this [m] is likely to have another unit."""
 SHOWN_ITEMS = 8
-NO_NUMBER = "{where}: {given} is no finite number; correct it in the file."
 
 
 @final
@@ -92,7 +91,8 @@ class FoundMachine:
             value = float(given) if isinstance(given, (int, float, str)) and not isinstance(given, bool) else inf
         except (ValueError, OverflowError):
             value = inf
-        ensure_file(isfinite(value) and abs(value) < 1e12, NO_NUMBER.format(where=f"{self.here}, {where}", given=shortened(given)))
+        is_finite = isfinite(value) and abs(value) < 1e12
+        ensure_file(is_finite, f"{self.here}, {where}: {shortened(given)} is no finite number; correct it in the file.")
         return value
 
     def known(self, key: object, what: str) -> str:

@@ -10,6 +10,7 @@ from math import degrees
 
 from ..errors import DefinitionError, FileError
 from ..files.names import shortened
+from ..files.source import delimiter_of, text_rows
 from ..units import DIGITS, parse, units_of
 from .found import FoundDrive, FoundMachine, ensure_file
 from .machine_sketch import MachineSketch, written
@@ -21,24 +22,22 @@ PLAIN = re.compile(rf"[-+]?{DIGITS}")
 
 def read_points_csv(found: FoundMachine, text: str) -> None:
     """Read a table: rows point (fixed, pin), link (its points), slide (a point, two points or an angle), crank and cylinder."""
-    first = next((line for line in text.splitlines() if line.strip()), "")
-    mark = max(",;\t", key=first.count)
-    if mark == ";":  # the tables of countries that write 1,5
+    if delimiter_of(text) != ",":  # the tables of countries that write 1,5, also among other words
         text = re.sub(r"(?<=\d),(?=\d)", ".", text)
-    reader = csv.reader(io.StringIO(text), delimiter=mark)
     try:
-        rows = [(reader.line_num, [cell.strip() for cell in row]) for row in reader if any(cell.strip() for cell in row)]
-    except csv.Error as error:
-        raise FileError(f"{found.file}, line {reader.line_num}: it is no table: {error}.") from None
+        rows = [*text_rows(found.file, text)]
+    except DefinitionError as error:
+        raise FileError(str(error)) from None
     ensure_file(rows, f"{found.file}: the table has no rows.")
+    where = f"{found.file}, line {rows[0][0]}"
     heads = [HEADER.fullmatch(cell.lower()) for cell in rows[0][1]]
     names = [head[1] if head else "" for head in heads]
-    ensure_file(names == [*COLUMNS], f"{found.file}, line 1: a table of points begins with kind,name,x [mm],y [mm],what.")
+    ensure_file(names == [*COLUMNS], f"{where}: a table of points begins with kind,name,x [mm],y [mm],what.")
     units = {head[2] or head[3] for head in heads[2:4] if head} - {None}
     if units:
         lengths, others = units_of("length"), ", ".join(sorted(units - {*units_of("length")}))
-        ensure_file(not others, f"{found.file}, line 1: {shortened(others)} is no unit of length; known are {', '.join(lengths)}.")
-        ensure_file(len(units) == 1, f"{found.file}, line 1: x and y have one unit of length, such as [mm].")
+        ensure_file(not others, f"{where}: {shortened(others)} is no unit of length; known are {', '.join(lengths)}.")
+        ensure_file(len(units) == 1, f"{where}: x and y have one unit of length, such as [mm].")
         found.unit = parse(f"1 {units.pop()}", "length")
     later: list[tuple[str, str, list[str], int]] = []
     for number, row in rows[1:]:

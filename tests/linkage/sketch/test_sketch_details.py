@@ -119,10 +119,11 @@ def test_a_table_may_have_other_marks_and_units(tmp_path):
     text = emit.csv(BY_NAME["Rocker"]).replace("crank,,,,O A", "crank,psi,,,O A -20deg 40.5deg")
     expected = read_sketch(put(tmp_path, "plain.csv", text))
     assert np.degrees([expected.drives["psi"].start, expected.drives["psi"].end]) == pytest.approx([-20.0, 40.5])
-    for changed in (text.replace(",", "\t"), "\n" + text.replace("mm", "MM")):
+    for changed in (text.replace(",", "\t"), "\n" + text.replace("mm", "MM"), f"# by hand\n{text}\n# as measured"):
         assert read_sketch(put(tmp_path, "Plain.csv", changed)).points == expected.points
-    table = "\n".join(row.replace(",", ";") for row in text.splitlines()).replace("40.5deg", "40,5deg").replace(";40;", ";40,0;")
-    assert read_sketch(put(tmp_path, "Plain.csv", table)) == expected
+    for mark in ";\t":
+        table = text.replace(",", mark).replace("40.5deg", "40,5deg").replace(f"{mark}40{mark}", f"{mark}40,0{mark}")
+        assert read_sketch(put(tmp_path, "Plain.csv", table)) == expected
 
 
 def test_a_length_of_a_row_is_in_the_unit_of_the_table_unless_it_has_its_own(tmp_path):

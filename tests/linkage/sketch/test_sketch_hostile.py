@@ -31,6 +31,7 @@ WRONG = {
     "head.csv": ("a,b\n1,2\n", "begins with kind,name"),
     "kind.csv": ("kind,name,x [mm],y [mm],what\nspring,O,0,0,fixed\n", "line 2: spring is none of point, link, slide"),
     "empty.csv": ("", "the file is empty"),
+    "long.csv": (HEAD + "point," + "O" * 200_000, "long.csv, line 2: it cannot be read as a table"),
     "blank.csv": (",,,\n", "the table has no rows"),
     "binary.txt": ("\0\1\2", "no text"),
     "words.txt": ("hello world\n", "joint 1: links, R, P, RP or G"),

@@ -108,10 +108,9 @@ def content_of(file: Place, layers: Mapping[str, Sequence[str]]) -> tuple[FoundM
         raise FileError(f"{shortened(text, quote=False)}: the name of a file to import ends in one of {', '.join(SUFFIXES)}.")
     found, title = FoundMachine(path.name), "".join(word[:1].upper() + word[1:] for word in re.findall(r"[^\W_]+", path.stem))
     if suffix == ".dxf":
-        size = len(read(path, DRAWING_BYTES + 1))
-        ensure_file(
-            size <= DRAWING_BYTES, f"{path.name}: the drawing is larger than {DRAWING_BYTES / 1e6:g} MB; save the machine by itself."
-        )
+        read(path, most=0)  # a file that is not there is named in words
+        is_small = path.stat().st_size <= DRAWING_BYTES
+        ensure_file(is_small, f"{path.name}: the drawing is larger than {DRAWING_BYTES / 1e6:g} MB; save the machine by itself.")
         read_dxf(found, str(path), layers)
         return found, title
     raw = read(path, FILE_BYTES + 1)

@@ -188,7 +188,7 @@ def measured_columns(path: Path, what: str, measures_of: Callable[[str], Collect
     """Return the columns of a table by name, whose headings are names with units, "boom.ram, m/s".
 
     `measures_of` says what a column of a name may measure; one that may measure nothing is passed over. `what` begins what is refused.
-    DefinitionError for a file that cannot be read, a name that stands twice, another unit, and for what is no number.
+    DefinitionError for a file that cannot be read, a name that stands twice, another unit, and for anything but a number.
     """
     (_, headings), *rows = [*csv_rows(path)] or [(0, list[str]())]
     found: dict[str, list[Amount]] = {}

@@ -204,7 +204,7 @@ def cycles_judged(machine: Mechanism, options: Namespace) -> list[tuple[str, Pum
     found = judged_cycles(pump, machine.judge(overs_of(machine, options.over), Acting()))
     if not found:
         remedy = "give --program FILE, or declare a path in time, Over.path(lift=ramp(0.1, 0.3, speed=0.15)), with flow= of the pump"
-        raise DefinitionError(f"{title}: no path in time that {pump.name} serves on several lines; {remedy}.")
+        raise DefinitionError(f"{title}: no path in time that {pump.name} serves; {remedy}.")
     named = ["; ".join(filter(None, (place.over.title, cycle.case))) for place, cycle in found]
     return [(words, cycle, place.motion) for words, (place, cycle) in zip(named, found, strict=True)]
 

@@ -326,7 +326,8 @@ def given_stretches(consumers: Consumers, instants: Instants, limits: PumpLimits
             continue
         for branch in taken.branches[0]:
             refuse_unpushed(branch, time, consumers.pump)
-        found.append(Stretch(time, need + limits.margin * (taken.flows[0] > 0.0), [1.0], taken))
+        is_fed = taken.flows[0][len(time) // 2] > 0.0  # at its ends too: a flow that begins or ends there is fed up to there
+        found.append(Stretch(time, need + limits.margin * is_fed, [1.0], taken))
     return found
 
 
@@ -359,23 +360,27 @@ def first_border(time: Array, taken: Taken, borders: Callable[[Array], Array]) -
 # What is said of it.
 
 
-def timed_places(pump: ForceElement, judge: Judge) -> list[Any]:
-    """Return the places of a judge over paths in time, of a pump that several lines share."""
-    is_shared = len(lines_on(pump, judge.plan.members)) > 1
-    return [place for place in judge.places if is_shared and place.instants is not None and place.motion.reached.all()]
+def timed_places(judge: Judge) -> list[Any]:
+    """Return the places of a judge over paths in time."""
+    return [place for place in judge.places if place.instants is not None and place.motion.reached.all()]
+
+
+def is_shared(pump: ForceElement, judge: Judge) -> bool:
+    """Return whether several lines share a pump."""
+    return len(lines_on(pump, judge.plan.members)) > 1
 
 
 def judged_cycles(pump: ForceElement, judge: Judge) -> list[tuple[Any, PumpCycle]]:
-    """Return the cycles of a shared pump over the paths in time that a judge looks at, with their places; of one without flow none."""
-    places = timed_places(pump, judge)
+    """Return the cycles of a pump over the paths in time that a judge looks at, with their places; of one without flow none."""
+    places = timed_places(judge)
     has_flow = bool(places) and one_design(number_set(pump, judge.motion, "flow")) > 0.0
     return [(place, each) for place in places for each in cycles_over(pump, place, judge.acting)] if has_flow else []
 
 
 def pump_verdicts(pump: ForceElement, judge: Judge) -> list[Verdict]:
     """Return whether a shared pump gives what is asked for over the paths in time that a judge looks at, of the one that asks most."""
-    places = timed_places(pump, judge)
-    if not places:
+    places = timed_places(judge)
+    if not places or not is_shared(pump, judge):
         return []
     try:
         found = judged_cycles(pump, judge)
@@ -391,7 +396,7 @@ def pump_verdicts(pump: ForceElement, judge: Judge) -> list[Verdict]:
 def pump_sections(pump: ForceElement, judge: Judge) -> list[Any]:
     """Return the section of a report on a shared pump; none where no path is in time, or where nothing can be said."""
     try:
-        found = judged_cycles(pump, judge)
+        found = judged_cycles(pump, judge) if is_shared(pump, judge) else []
     except DefinitionError:  # the verdict says why
         return []
     named = [("; ".join(filter(None, (place.over.title, each.case))) if len(found) > 1 else "", each) for place, each in found]

@@ -14,7 +14,7 @@ from linkage.documents.content import Block, Illustration, Section, TableBlock
 from linkage.language import noted, said, translated
 from linkage.motion import Column
 from linkage.pictures import style
-from linkage.pictures.sheet import panels, quiet
+from linkage.pictures.sheet import Keywords, panels, quiet
 from linkage.units import show, unit_sign
 
 from .cycle import PumpCycle
@@ -27,6 +27,8 @@ WIDE, HIGH, STRIP, LINE = 8.0, 2.1, 0.32, 0.19
 """Sizes of a chart [inch]: its width, a panel, a cylinder that waits, a line of words."""
 ROOM = (0.62, 0.16, 0.5, 0.34)
 """The room beside the axes of a picture in a report [inch: left, right, bottom, top]."""
+NOTHING = 1e-12
+"""Of the energy that comes in: what is no more is nothing, to rounding."""
 HEADROOM = 1.25
 """Of a limit: so high a panel goes at the least, so that the numbers of events stand above it."""
 MOST_EVENTS = 24
@@ -118,7 +120,8 @@ def curves(ax: Axes, cycle: PumpCycle, values: Mapping[str, Array], word: str, u
         ax.axhline(most, color=style.ACCENT, linewidth=1.3, linestyle=(0, (5, 2.5)), zorder=4.5, label=said("limit"))
         ax.set_ylim(top=max(ax.get_ylim()[1], HEADROOM * most))
     handles, labels = ax.get_legend_handles_labels()
-    ax.legend(handles, labels, loc="upper right", bbox_to_anchor=(1.0, 1.2), ncols=6, fontsize=style.SMALL, frameon=False, borderpad=0.0)
+    look: Keywords = {"ncols": 7, "fontsize": style.SMALL, "frameon": False, "borderpad": 0.0, "handlelength": 1.3, "columnspacing": 1.0}
+    ax.legend(handles, labels, loc="upper right", bbox_to_anchor=(1.0, 1.2), **look)
 
 
 def time_axes(ax: Axes, cycle: PumpCycle, heading: str, *, is_numbered: bool = True) -> None:
@@ -156,7 +159,8 @@ def energy_rows(cycle: PumpCycle) -> list[tuple[str, str, str]]:
         "pump": said("the pump gives"), "useful": said("moves cylinders"), "throttled": said("is throttled away"),
         "margin": said("is the pump's margin"), "braked": said("loads give, braked"),
     }  # fmt: skip
-    found = {text: getattr(cycle.energy, name) for name, text in words.items()}
+    least = NOTHING * max(cycle.energy.pump, cycle.energy.braked)
+    found = {text: energy if abs(energy := getattr(cycle.energy, name)) > least else 0.0 for name, text in words.items()}
     return [(text, show(energy, "kJ", 4), show(energy, "kWh", 3)) for text, energy in found.items()]
 
 
@@ -187,6 +191,7 @@ def cycle_blocks(words: str, cycle: PumpCycle) -> Iterator[Block]:
     """Yield the words, tables and pictures of one cycle."""
     beside = f", {words}" if words else ""
     yield said("{pump} {sentence}", pump=f"{words}: {cycle.pump}" if words else cycle.pump, sentence=cycle.verdict.sentence)
+    yield said("How a pump is shared does not follow inertia: needs are those of slow motion, with friction and dampers at their rates.")
     yield TableBlock(said("Oil, flow, pressure and power") + beside, line_heads(), tuple(line_rows(cycle)), "lrrrr")
     yield TableBlock(said("Energy") + beside, (said("where it goes"), said("energy"), ""), tuple(energy_rows(cycle)), "lrr")
     for word, paint in ((said("Flow"), flow_panel), (said("Pressure"), pressure_panel), (said("Power"), power_panel)):

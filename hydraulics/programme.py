@@ -20,6 +20,7 @@ from linkage.quantities import Course, Reference, is_number
 from linkage.units import parse
 
 from .consumers import lines_on
+from .member import Ram
 from .pump import Pump
 from .working import Demand
 
@@ -68,7 +69,7 @@ def programme_read(machine: Mechanism, file: str) -> Programme:
             start[known_name("Stroke", name, machine.strokes)] = si_number(given, stroke_measure(machine.plan, name))
     for name, given in table_under("demands", data, faults).items():
         with faults.at("demands", *name.split(".")):
-            demands[name] = demand_read(given, until)
+            demands[known_name("Cylinder", name, machine.plan.of_kind(Ram))] = demand_read(given, until)
     with faults.at("case"):
         case = data.get("case")
         case = None if case is None else known_name("Load case", case, machine.plan.of_kind(LoadCase))

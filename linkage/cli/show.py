@@ -138,5 +138,5 @@ def said_of_itself(machine: Mechanism) -> list[str]:
 def print_section(title: str, lines: Iterable[str]) -> None:
     """Print a section; nothing where it has no lines."""
     text = [f"  {line}".rstrip() for line in lines]
-    if text:
+    if any(text):
         print("\n".join([title, *text, ""]))

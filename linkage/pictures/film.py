@@ -15,7 +15,7 @@ import numpy.typing as npt
 from matplotlib.artist import Artist
 from matplotlib.backends.backend_agg import FigureCanvasAgg, RendererAgg
 from matplotlib.figure import Figure
-from matplotlib.text import Annotation
+from matplotlib.text import Annotation, Text
 from PIL import Image
 
 from ..checks import require, require_type
@@ -118,6 +118,8 @@ CURVE = (0.685, 0.115, 0.285, 0.775)
 
 MOST = 9
 """Decimals that a value is shown with, at most."""
+TITLE_GAP = 12.0
+"""Between a title and what stands beside it [pixels], at the least."""
 
 
 @final
@@ -142,6 +144,7 @@ class Stage:
         for artist in self._moving:
             artist.set_animated(True)
         self.canvas.draw()
+        self._fit_place()
         self.still: Any = self.canvas.copy_from_bbox(self.figure.bbox)
         names = [artist for artist in self.drawing.artists if isinstance(artist, Annotation)]
         self.stamps: dict[Artist, Stamp] = {name: Stamp(name, self.canvas) for name in names}
@@ -155,7 +158,7 @@ class Stage:
         drawing = Drawing(ax, self.scene)
         drawing.ground()
         drawing.label_points(self.scene.some(9))
-        self._title(SHEET[0], self.scene.motion.plan.heading)
+        self.title = self._title(SHEET[0], self.scene.motion.plan.heading)
         return drawing
 
     def _curve(self, bound: Sequence[object] | None) -> tuple[Artist, ...]:
@@ -169,22 +172,38 @@ class Stage:
         self.value = self.figure.text(CURVE[0] + CURVE[2], TITLE, "", fontsize=style.TITLE, color=style.CURVE, ha="right", va="center")
         return tuple(sorted([*ax.lines, *ax.texts], key=lambda artist: artist.get_zorder()))
 
-    def _title(self, left: float, text: str) -> None:
-        self.figure.text(left, TITLE, text, fontsize=style.TITLE, fontweight="bold", color=style.INK, va="center")
+    def _title(self, left: float, text: str) -> Text:
+        return self.figure.text(left, TITLE, text, fontsize=style.TITLE, fontweight="bold", color=style.INK, va="center")
 
     @property
     def _moving(self) -> list[Artist]:
         return [*self.drawing.artists, *self.live, self.stroke, self.value]
 
+    def _place(self, pose: int) -> str:
+        """Return where a pose is in words: its instant, and the strokes that move."""
+        motion = self.playback.motion
+        strokes = (stroke_words(motion.plan, name, float(motion.strokes[name][pose]), fixed=True) for name in self.moving)
+        time = [] if motion.time is None else [f"{motion.time[pose]:.2f} {translated('s')}"]
+        return ", ".join([*time, *strokes])
+
+    def _fit_place(self) -> None:
+        """Leave out the last strokes of a place that would run into the title; the axes say where they go."""
+        renderer = self.canvas.get_renderer()
+        end = self.title.get_window_extent(renderer).x1 + TITLE_GAP
+        has_time = self.playback.motion.time is not None
+        for shown in range(len(self.moving), -has_time, -1):
+            self.moving = self.moving[:shown]
+            self.stroke.set_text(max((self._place(pose) for pose in range(len(self.playback.column.drawn))), key=len))
+            if self.stroke.get_window_extent(renderer).x0 > end:
+                break
+
     def frame(self, pose: int) -> npt.NDArray[np.uint8]:
         """Return the picture at a pose, shape (height, width, 4): red, green, blue, and a fourth that says nothing."""
-        motion, along, values = self.playback.motion, self.along, self.playback.column.drawn
+        along, values = self.along, self.playback.column.drawn
         self.drawing.update(pose)
         self.run.set_data(along.values[: pose + 1], values[: pose + 1])
         self.marker.set_data(along.values[pose : pose + 1], values[pose : pose + 1])
-        strokes = (stroke_words(motion.plan, name, float(motion.strokes[name][pose]), fixed=True) for name in self.moving)
-        time = [] if motion.time is None else [f"{motion.time[pose]:.2f} {translated('s')}"]
-        self.stroke.set_text(", ".join([*time, *strokes]))
+        self.stroke.set_text(self._place(pose))
         self.value.set_text(column_text(values, pose))
         self.canvas.restore_region(self.still)
         renderer = self.canvas.get_renderer()

@@ -6,13 +6,14 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from hydraulics import Pump
 from hydraulics.programme import programme_read
 from linkage import Course, DefinitionError, Over, ramp
 from linkage.cli import main
 from linkage.errors import FileError
 from linkage.pictures.browser_data import event_data
-from linkage.units import litre, minute, show
-from tests.hydraulics.test_pump import FLOW, TwoBlocks, pump_of
+from linkage.units import bar, litre, minute, show
+from tests.hydraulics.test_pump import FLOW, OneBlock, TwoBlocks, pump_of
 
 PROGRAMME = """
 until = "3 s"
@@ -26,6 +27,11 @@ two.ram = 0.05
 
 class CycledBlocks(TwoBlocks):
     going = Over.path(S=ramp(0.0, 0.2, speed=0.1, acceleration=0.5), T=ramp(0.0, 0.15, speed=0.05, acceleration=0.5))
+
+
+class BlockWithMargin(OneBlock):
+    supply = Pump(300 * bar, flow=FLOW, margin=40 * bar)
+    going = Over.path(S=ramp(0.1, 0.3, speed=0.1, acceleration=0.5))
 
 
 @pytest.fixture
@@ -114,12 +120,24 @@ def test_without_a_programme_the_command_checks_the_paths_in_time_of_the_machine
     assert "Over.path(" in capsys.readouterr().err
 
 
+def test_the_margin_is_there_from_the_first_instant_and_adds_nothing_to_the_peak(capsys):
+    machine = BlockWithMargin()
+    cycle = pump_of(machine).check(machine.sweep(11, over="going"))
+    fed = cycle.flow["supply"] > 0.0
+    assert_allclose((cycle.pressure["supply"] - cycle.pressure["line"])[fed], 40 * bar, rtol=1e-12)
+    assert_allclose(cycle.pressure["supply"][[0, -1]], cycle.pressure["line"][[0, -1]] + 40 * bar, rtol=1e-12)
+    assert_allclose(cycle.peak(cycle.pressure["supply"])[0], cycle.peak(cycle.pressure["line"])[0] + 40 * bar, rtol=1e-9)
+    assert pump_of(machine).sections(machine.judge()) == [] and not [v for v in machine.verdicts() if v.rule == "pump"]
+    assert main(["cycle", f"{__file__}:BlockWithMargin"]) == 0 and "of 30 l/min" in capsys.readouterr().out  # of a pump on one line too
+
+
 def test_a_report_says_what_the_pump_gives_and_where_its_energy_goes():
     machine = CycledBlocks()
     (section,) = pump_of(machine).sections(machine.judge())
     cycle = pump_of(machine).check(machine.sweep(11, over="going"))
-    words, lines, energy, *pictures = section.blocks
+    words, left_out, lines, energy, *pictures = section.blocks
     assert section.title == "One pump, supply" and words == f"supply {cycle.verdict.sentence}" and len(pictures) == 3
+    assert "does not follow inertia" in left_out
     assert [row[0] for row in lines.rows] == ["supply", "first_line", "second_line"]
     assert energy.rows[0][1:] == (show(cycle.energy.pump, "kJ", 4), show(cycle.energy.pump, "kWh", 3))
     assert pump_of(TwoBlocks()).sections(TwoBlocks().judge()) == []

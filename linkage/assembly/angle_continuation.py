@@ -43,7 +43,7 @@ NONE_SOLVED = GroupSolution({}, np.zeros((1, 1), bool))
 
 
 def with_angles(found: GroupSolution, plan: Plan, designs: Mapping[str, Numbers], strokes: Mapping[str, FloatArray]) -> GroupSolution:
-    """Return what is solved with the references of followed angles [rad], shape (designs, poses); NaN where one cannot be followed.
+    """Return a solution with the references of followed angles [rad], shape (designs, poses); NaN where one cannot be followed.
 
     Designs are floats or (m,), strokes (n,) or (m, n).
     """

@@ -1,4 +1,4 @@
-"""From what a class declares to steps in an order that can be built: sketches settled, parts lists resolved."""
+"""Assembly: from a class's declarations to steps in an order that can be built; sketches settled, parts lists resolved."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from .sketch import ONE_PLACE, Sketch, all_behind, missing_labels, sided, with_b
 
 @final
 class Shape:
-    """What is known of a link's shape, from its own labels and those of links of the same body. Lengths in m, angles in rad."""
+    """A link's shape as known from its own labels and those of links of the same body. Lengths in m, angles in rad."""
 
     def __init__(self, link: Link, parts: Parts) -> None:
         self.points, self.parts, self.pins = link.point_names, parts, parts.pins
@@ -93,7 +93,7 @@ class Shape:
         return None if first is None or second is None else Number(float(np.hypot(first[0] - second[0], first[1] - second[1])))
 
     def drawn(self, point: str) -> tuple[float, float] | None:
-        """Return a point's place in the drawing, or where it is placed [m]; None for what is neither drawn nor placed."""
+        """Return a point's place in the drawing, else its settled place [m]; None for a point that has neither."""
         is_placed = point in self.parts.settled
         if point in self.pins and (self.pins[point].drawn_at or not is_placed):
             return self.pins[point].drawn_at
@@ -191,7 +191,7 @@ def check_names(members: Mapping[str, Member], title: str) -> None:
 @final
 @dataclass(frozen=True)
 class PinEquation:
-    """An equation of the parts list: the loose pins it holds, and what it stands for."""
+    """An equation of the parts list: its loose pins, and its words."""
 
     pins: tuple[str, ...]
     length: tuple[str, str, Quantity] | None = None
@@ -244,7 +244,7 @@ def attachments(points: list[str], shape: Shape, what: str, one_place: Callable[
 
 
 def as_sketched(parts: Parts, pin: str, step: OnLink, what: str, shape: Shape) -> OnLink:
-    """Return a group's rigid point with the side its link's pins have in the sketch, and what is not given measured there."""
+    """Return a group's rigid point with its link's side in the sketch, and unknown labels measured there."""
     parents = [name_of(parent) for parent in step.parents]
     if step.near is None and step.drawn_at is None:
         return step
@@ -382,7 +382,7 @@ def sketched(member: Member) -> bool:
 
 @final
 class Parts:
-    """What is settled so far, and the pins, links and slides that are still to be used; settled at the sketch where positions choose."""
+    """The parts settled so far, and the pins, links and slides still to be used; settled at the sketch where positions choose."""
 
     def __init__(self, members: Mapping[str, Member], title: str, held: frozenset[str] = frozenset()) -> None:
         """Take all members; `held` are those that others hold by names of their own: a sketch brings them along with their owners."""
@@ -484,7 +484,7 @@ class Parts:
         return any(each in self.pending for each in getattr(member, "cases", None) or ())
 
     def settle(self, name: str, member: Member) -> None:
-        """Settle a member: measure what it lacks, choose its side."""
+        """Settle a member: measure its missing dimensions, choose its side."""
         self.known.add(name)
         if name in self.held:
             return

@@ -29,12 +29,12 @@ STUCK = 2.0
 
 
 def state_rows(count: int) -> list[str]:
-    """Return what is remembered of a lane with so many coordinates, row by row; the first rows are kept of every place."""
+    """Return the rows of a lane's memory for so many coordinates; the first rows are stored for every place."""
     return [*place_rows(count), "good", "before", "earlier", "step", "going", *row_names("w", count), *row_names("x", count)]
 
 
 def place_rows(count: int) -> list[str]:
-    """Return what is kept of a place: where it is, the clearance with its sign, the size and the pins [m]."""
+    """Return the rows stored for a place: its position, the clearance with its sign, the size and the pins [m]."""
     return ["t", "sense", "size", *row_names("u", count)]
 
 
@@ -45,7 +45,7 @@ def row_names(letter: str, count: int) -> list[str]:
 
 @final
 class Program:
-    """The loops of a group's continuation: the rows of the lanes' memory that they read and write, and what each row becomes."""
+    """The loops of a group's continuation: the rows of the lanes' memory that they read and write, and each row's new value."""
 
     def __init__(self, plan: Plan, group: Group) -> None:
         programs, self.graph = Programs.of(plan, group), plan.trace.graph
@@ -74,7 +74,7 @@ class Program:
         return "\n    ".join(lane_loop(rows, written, width, dialect))
 
     def _rules(self, outputs: Sequence[Node]) -> dict[str, Mapping[str, FloatNode]]:
-        """Return the rules as what rows become; `outputs` are the nodes of a group's programs on its rows."""
+        """Return the rules as new values of rows; `outputs` are the nodes of a group's programs on its rows."""
         pick, count, row = self.graph.pick, self.count, self.row
         u, w, x, g, v, y = ([row(name) for name in row_names(letter, count)] for letter in "uwxgvy")
         on, (change, pivot, clear, size) = outputs[:count], outputs[count:]
@@ -366,7 +366,7 @@ class GroupPath:
         return GroupPath(self.newton, self.route, before, replace(self.lanes, goal=np.maximum(goal, self.lanes.goal)), self)
 
     def _held(self, lane: Index, place: FloatArray) -> dict[str, Numbers]:
-        """Return what this group's programs take at places of lanes, the pins of the groups before it included."""
+        """Return the inputs of this group's programs at places of lanes, the pins of the groups before it included."""
         inputs = self.route.inputs(lane, place)
         for track in self.before:  # each is told the pins of those before itself, which would else be found 2^k times
             inputs |= dict(zip(track.newton.names, track._at_step(lane, place, inputs), strict=True))
@@ -553,7 +553,7 @@ class GroupPath:
         return np.clip(found, self.first[lane], np.maximum(self.last[lane] - 1, self.first[lane]))
 
     def _between(self, lane: Index, place: FloatArray, near: tuple[FloatArray, FloatArray]) -> FloatArray:
-        """Return the pins at places, from what is found near them."""
+        """Return the pins at places, from solutions near them."""
         found, close = near
         again = np.flatnonzero(close == 0.0)
         if again.size:  # followed on their own from the place before
@@ -568,7 +568,7 @@ class GroupPath:
         return found
 
     def _near(self, lane: Index, place: FloatArray, held: Mapping[str, Numbers]) -> tuple[FloatArray, FloatArray]:
-        """Return what Newton's method finds at places, 1 where that is near enough to what is expected, -1 beyond the end of a way."""
+        """Return Newton's solutions at places, and 1 where one is as near as expected, -1 beyond the end of a way."""
         left = self._left(lane, place)
         right, before = np.minimum(left + 1, self.last[lane]), np.maximum(left - 1, self.first[lane])
         places, pins = ([np.take(values, each, axis=-1) for each in (before, left, right)] for values in (self.places, self.u))

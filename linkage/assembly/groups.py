@@ -80,7 +80,7 @@ Known: TypeAlias = tuple[list[FloatArray], dict[tuple[str, float], list[GroupPat
 
 
 def known_tracks(plan: Plan, newtons: Sequence[Newton], designs: Mapping[str, Numbers]) -> Known:
-    """Return what is known of some designs; of a single one it is kept, the last ones of a plan."""
+    """Return the tracks known of some designs; the last single designs of a plan are cached."""
     if any(map(np.ndim, designs.values())):
         return designed(plan, newtons, designs), {}
     every: dict[tuple[float, ...], Known] = plan.made("tracks", lambda _: {})
@@ -149,7 +149,7 @@ Found = tuple[list[FloatArray], npt.NDArray[np.int_], tuple[float, ...]]
 def along_one(
     plan: Plan, newtons: Sequence[Newton], known: Known, designs: Mapping[str, Numbers], name: str, values: FloatArray
 ) -> Found:
-    """Return the pins of every group over one stroke, shape (coordinates, m * n), what crossed, and where a single design's ways end."""
+    """Return the pins of every group over one stroke, shape (coordinates, m * n), the crossed groups, and a single design's ends."""
     (start, tracks), values = known, np.ravel(values)
     m = start[0].shape[1]
     u = [np.empty((len(each), m, len(values))) for each in start]
@@ -178,7 +178,7 @@ def along_one(
 
 
 def along_many(newtons: Sequence[Newton], start: Sequence[FloatArray], route: InputRoute, count: int) -> Found:
-    """Return the pins of every group at poses of several strokes, shape (coordinates, m * n), and what crossed."""
+    """Return the pins of every group at poses of several strokes, shape (coordinates, m * n), and the crossed groups."""
     crossed = np.zeros(count, int)
     found = group_paths(newtons, route, [np.repeat(each, route.n, axis=1) for each in start], np.ones(count), LINE, exact=True)
     u = []

@@ -29,13 +29,13 @@ def traced_rule(count: int, rule: Rule) -> str:
 
 
 def place_ahead(*given: Any, choose: Any) -> tuple[Any, ...]:
-    """Return the next place, and what is expected of one coordinate there: step, limit, three places and the coordinate's three values."""
+    """Return the next place, and one coordinate predicted there: step, limit, three places and the coordinate's three values."""
     place, (line,), (start,) = predicted(given[0], given[1], given[2:5], [[each] for each in given[5:]], choose)
     return place, line, start
 
 
 def place_between(*given: Any, choose: Any) -> tuple[Any, ...]:
-    """Return what is expected of one coordinate at a place, and how far it may lie: three places, its values, clearances and sizes."""
+    """Return one coordinate predicted at a place, and its bound: three places, its values, clearances and sizes."""
     (found,), bound = interpolated(given[0], given[1:4], [[each] for each in given[4:7]], given[7:9], given[9:], choose)
     return found, bound
 
@@ -53,7 +53,7 @@ def group_text(plan: Plan, group: Group, inputs: Inputs) -> str:
 
 
 def groups_text(plan: Plan, inputs: Inputs, dimensions: Sequence[str]) -> str:
-    """Return what solves the groups of a plan in JavaScript; dimensions by their names in the order of a design."""
+    """Return JavaScript that solves the groups of a plan; dimensions by their names in the order of a design."""
     seeds = at_sketch(plan)
     first = accumulate((len(group.inputs) for group in plan.groups.values()), initial=len(plan.strokes))
     groups = ",".join(f"[{start},{group_text(plan, group, inputs)}]" for start, group in zip(first, plan.groups.values(), strict=False))
@@ -70,7 +70,7 @@ def groups_text(plan: Plan, inputs: Inputs, dimensions: Sequence[str]) -> str:
 
 
 def angles_text(plan: Plan, clipped: Callable[[Plan, Sequence[Node]], Sequence[Node]], inputs: Inputs) -> str:
-    """Return what follows the angles of a plan in JavaScript; `clipped` gives nodes that stand at a dead point to rounding."""
+    """Return JavaScript that follows the angles of a plan; `clipped` clips nodes at a dead point to rounding."""
     vectors = [arrow_function(clipped(plan, followed_nodes(plan, name)), inputs) for name in plan.followed]
     numbers = {
         "FOLLOWED": len(plan.strokes) + len(plan.grouped),

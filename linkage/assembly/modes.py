@@ -182,7 +182,7 @@ def members_on_sides(plan: Plan, declared: Mapping[str, Member], sides: Mapping[
 
 
 def written_as(raw: Member, chosen: Member, place: Place | None) -> Member:
-    """Return what is written for a point: a pin of links at its new rough place, where there is one, else its step on its side."""
+    """Return a point as a member to write: a pin of links at its new rough place, where there is one, else its step on its side."""
     if isinstance(raw, Pin) and raw.near is not None and place is not None:
         return Pin(near=rounded_to(place, 6))
     assert isinstance(chosen, Step)

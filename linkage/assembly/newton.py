@@ -46,7 +46,7 @@ class Newton:
         return self.plan.made(("newton", self.group.name), lambda plan: Programs.of(plan, self.group))
 
     def held(self, inputs: Mapping[str, Numbers]) -> dict[str, Numbers]:
-        """Return what the programs take of the inputs, floats or arrays like these: all that does not hang on the group's own pins."""
+        """Return the program inputs that do not depend on the group's own pins, floats or arrays like the inputs."""
         programs = self.programs
         with np.errstate(all="ignore"):
             known = programs.hold(*(inputs[name] for name in programs.inputs))
@@ -72,7 +72,7 @@ class Newton:
             return residual / size, rows / size[:, None], size
 
     def start(self, inputs: Mapping[str, Numbers], sketch: FloatArray) -> tuple[FloatArray, bool, float]:
-        """Return the solution nearest a rough sketch by damped steps, whether it was found, and what is missing [m]."""
+        """Return the solution nearest a rough sketch by damped steps, whether it was found, and the missing length [m]."""
         u = sketch
         with np.errstate(all="ignore"):
             residual, rows, size = self.system(inputs, u)
@@ -211,7 +211,7 @@ class GroupEquations:
 @final
 @immutable
 class Programs:
-    """Newton's step and the clearance of a group, from its pins and what is known before: inputs `@k0`, `@k1`, ...
+    """Newton's step and the clearance of a group, from its pins and the known values before: inputs `@k0`, `@k1`, ...
 
     The last value of each is above zero where no pivot is too small.
     """
@@ -320,7 +320,7 @@ class Elimination:
                         self.rows[other][each] = self.rows[other][each] - factor * self.rows[row][each]
 
     def worth(self, least: float) -> Node:
-        """Return a number that is above zero where every pivot is larger than `least` of what it clears away."""
+        """Return a number above zero where every pivot is larger than `least` of the entries it clears away."""
         excess = [least * entry - pivot for pivot, entry in self.beside]
         return -largest_of(excess or [self.rows[0][0].graph.constant(-1.0)])
 

@@ -67,7 +67,7 @@ def predicted(
 def step_judged(
     h: Scalar, was: Scalar, largest: Scalar, near: Scalar, miss: Scalar, sense: Scalar, size: Scalar, choose: Choose = pick
 ) -> tuple[Scalar, Scalar]:
-    """Return whether what was found a step `h` ahead is the same branch, and the next step.
+    """Return whether the solution a step `h` ahead is on the same branch, and the next step.
 
     `near`: whether Newton's method came to a solution; `miss`: how far from where it was expected [m]; `sense` and `was`: the clearance
     with its sign there and here.

@@ -316,7 +316,7 @@ class Difference:
 
 
 def sketch_words(plan: Plan, designs: Mapping[str, Numbers]) -> list[str]:
-    """Return where a class says otherwise than its drawing, and what fits; not of what a design has set otherwise than its class."""
+    """Return where a class differs from its drawing, and fitting values; dimensions that a design has set anew are left out."""
     found = [f"{name}: {words}" for name, part in plan.of_kind(Part).items() for words in sketch_words(part.plan, part.plan.defaults)]
     if all(point.drawn_at is None for point in plan.points.values()):
         return found
@@ -341,7 +341,7 @@ def sketch_words(plan: Plan, designs: Mapping[str, Numbers]) -> list[str]:
 
 @np.errstate(all="ignore")
 def width_words(plan: Plan, designs: Mapping[str, Numbers]) -> str:
-    """Return how wide a machine is at the pose of its sketch, and what to write, where no machine is; else nothing.
+    """Return the width of a machine at its sketch where it is too large for one, and a remedy; else nothing.
 
     Points that only give a guide its direction, and those where guides cross, may be as far as they like.
     """

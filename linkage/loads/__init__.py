@@ -1,4 +1,4 @@
-"""Force elements: what acts on a mechanism, declared like its points. Forces in N, gravity downwards.
+"""Force elements: loads, springs and cylinders on a mechanism, declared like its points. Forces in N, gravity downwards.
 
 positive thrust pushes the ends of the driven length apart     A o--->[=====]<---o B   the pins push back
 a weight pulls down, a spring longer than its free length pulls its ends together

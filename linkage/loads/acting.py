@@ -1,4 +1,4 @@
-"""What acts: which loads, in which load case, in which direction of motion, at which rates. One value wherever forces are asked for."""
+"""Acting: loads, load case, direction of motion and rates in one value, wherever forces are computed."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ class LoadCase(Member):
 
     @property
     def label(self) -> str:
-        """What the case is called: its title, else its name in the class."""
+        """The name of the case for a reader: its title, else its name in the class."""
         return self.title or self.name or "load case"
 
     @property
@@ -92,7 +92,7 @@ class LoadCase(Member):
                 raise DefinitionError(f"{title}: {what}; give one another title.")
 
     def factor(self, load: str) -> float:
-        """Return what a load is multiplied by; 0 where it does not count."""
+        """Return the factor of a load in this case; 0 where it does not count."""
         kept = self.only is None or load in [name_of(each) for each in self.only]
         return float(self.scale.get(load, 1.0)) if kept else 0.0
 
@@ -112,7 +112,7 @@ class LoadCase(Member):
 
 
 def check_factor(case: LoadCase, name: str, element: object, where: str) -> None:
-    """Raise DefinitionError for a factor of what carries the same whatever its factor is."""
+    """Raise DefinitionError for a factor of an element whose force does not scale with it."""
     if isinstance(element, ForceElement) and not element.scales and case.scale.get(name, 1.0) != 1.0:
         what = f"scale={{{name!r}: {plain(case.scale[name])!r}}}: {name} is a {type(element).__name__}"
         says = "and holds or feeds whatever the loads need, so that a factor changes nothing"
@@ -121,7 +121,7 @@ def check_factor(case: LoadCase, name: str, element: object, where: str) -> None
 
 
 def shut_members(case: LoadCase, members: Mapping[str, Member], where: str) -> dict[str, Member]:
-    """Return what a case shuts, as it is then, by name; DefinitionError for what cannot be shut, with what can."""
+    """Return the members that a case shuts, as they are then, by name; DefinitionError for one that cannot be shut."""
     elements = {name: each for name, each in members.items() if isinstance(each, ForceElement)} if case.shut else {}
     shut = {name: each.when_shut() for name, each in elements.items()}
     able = {name: each for name, each in shut.items() if each is not None}
@@ -153,7 +153,7 @@ def check_words(title: object, scale: object, only: object, shut: object) -> Non
 
 
 class HasLoads(Protocol):
-    """Anything with loads: what a force element is at the least."""
+    """Anything with loads: the least that a force element is."""
 
     def loads(self, motion: Poses) -> list[Load]:
         """Return the forces over the motion's poses [N]."""
@@ -216,7 +216,7 @@ class Acting:
         return replace(self, direction=direction, **dict.fromkeys(("rates", "accelerations") if given else ()))
 
     def within(self, outer: Acting, what: str = "") -> Self:
-        """Return this with what is not said here taken from `outer`; where `what` is said to be asked, DefinitionError for what differs."""
+        """Return this with its gaps filled from `outer`; with `what` (the asking function), DefinitionError where both differ."""
         said = {each.name: getattr(self, each.name) for each in fields(self)}
         for name, value in said.items():
             other = getattr(outer, name)
@@ -238,7 +238,7 @@ PLAIN = Acting()
 
 
 class ActingKeywords(TypedDict, total=False):
-    """The keywords of a public function that say what acts, as `Acting` does, or that one in the place of them."""
+    """The keywords of a public function for the situation: those of `Acting`, or an `Acting` in their place."""
 
     case: Case
     direction: str | None

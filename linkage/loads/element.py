@@ -1,4 +1,4 @@
-"""What a force element is: it knows its law, the motion knows where its points are, both meet in `loads(motion)`."""
+"""Force elements: each knows its law, the motion knows the places of its points, both meet in `loads(motion)`."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ class Load:
 @final
 @dataclass(frozen=True)
 class Glyph:
-    """What pictures show of an element: a word for the form, the points it hangs on, how many there are of it, a direction [rad].
+    """The sign of an element in pictures: a word for the form, the points it hangs on, their number, a direction [rad].
 
     Between two points: `strut`, `spring`, `damper`, `cylinder`, `accumulator` (`count` of them, on the cylinder there). At one point:
     `weight`, `force`, `support`. On a body of some points: `mass`, `moment`; `away` is where from the first point, in the body's axes
@@ -91,7 +91,7 @@ class Push:
 @final
 @dataclass(frozen=True, eq=False)
 class Share:
-    """What one unit of a tie's force is in a straight member: its thrust, positive where it pushes; it broadcasts against the poses."""
+    """The share of a tie's force in a straight member: its thrust at a force of 1, positive where it pushes; broadcasts over the poses."""
 
     member: Any
     of: Callable[[Poses], Array]
@@ -100,7 +100,7 @@ class Share:
 @final
 @dataclass(frozen=True, eq=False)
 class Reeving:
-    """A member of a tie that bends, as a rope does over pulleys: what a thrust of one newton puts on the points that it runs over.
+    """A member of a tie that bends, as a rope over pulleys: the forces on its points at a thrust of one newton.
 
     Its length may follow strokes, which then wind it up, each by the `rate` at which it does. Where it would have to push, another one
     that draws back pulls instead, `back` by its name: `back_loads` are what one newton of that thrust then puts on points, `back_share`
@@ -161,7 +161,7 @@ class DeclaredLengths(Protocol):
 
 
 class Declared(Protocol):
-    """What a force element may ask of the machine that a motion is of; a plan answers."""
+    """The machine as a force element may read it: its members and tables; a plan implements it."""
 
     @property
     def title(self) -> str:
@@ -201,7 +201,7 @@ class Declared(Protocol):
 
 
 class Poses(Protocol):
-    """What a law of force may ask of a motion; numbers are arrays over the poses, or stand for them while the law is traced."""
+    """A motion as a law of force may read it; numbers are arrays over the poses, or traced numbers."""
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -228,7 +228,7 @@ class Poses(Protocol):
         """Return the distance of two points [m]."""
 
     def sketched(self, quantity: Quantity) -> Array:
-        """Return what a quantity is at the sketch pose of each design [SI]; broadcasts against results."""
+        """Return the value of a quantity at the sketch pose of each design [SI]; broadcasts against results."""
 
     def ratio(self, target: Reference, *, wrt: str | None = None, order: int = 1) -> Array:
         """Return the derivative of a point or a quantity by a stroke, of `order` 1 or 2."""
@@ -241,7 +241,7 @@ class Poses(Protocol):
 
 
 class Formulas(Poses, Protocol):
-    """What the equations of forces are written on: poses whose numbers are symbols, and the lines that are there already."""
+    """The sheet on which the equations of forces are written: poses whose numbers are symbols, and the lines written so far."""
 
     @property
     def pi(self) -> Array:
@@ -251,7 +251,7 @@ class Formulas(Poses, Protocol):
         """Return both parts of the vector from one point to another [m], shape (2,)."""
 
     def line(self, name: str, value: Array, unit: str = "") -> Array:
-        """Write the equation `name = value` and return its symbol, which stands for the value in what follows; `unit` is shown."""
+        """Write the equation `name = value` and return its symbol, for use in later lines; `unit` is shown."""
 
     def given(self, name: str, value: Callable[[Poses], Array], unit: str = "") -> Array:
         """Return the symbol of a number that no formula gives, such as one found by iteration; `value(motion)` tells it [SI]."""
@@ -263,10 +263,10 @@ class Formulas(Poses, Protocol):
         """Return the symbol of the force that an element puts on a point downwards [N]."""
 
     def thrust(self, member: Reference) -> Array | None:
-        """Return the symbol of what a two-point member carries [N], positive where it pushes; None where it carries nothing."""
+        """Return the symbol of the thrust of a two-point member [N], positive where it pushes; None where it carries nothing."""
 
     def carry(self, member: TwoPinned, thrust: Array) -> None:
-        """Write what a two-point member carries by the law of an element [N]."""
+        """Write the thrust of a two-point member by the law of an element [N]."""
 
 
 FRICTIONLESS = "frictionless"
@@ -354,7 +354,7 @@ class ForceElement(Jointed):
         """Return the forces over the motion's poses [N]."""
 
     def glyphs(self, members: Mapping[str, Member]) -> tuple[Glyph, ...]:
-        """Return what pictures show of it, among the members of its class; nothing unless it says so."""
+        """Return the signs in pictures of this element, from the members of its class; by default none."""
         return ()
 
     def moving(self, motion: Poses, rates: Rates) -> list[Load]:
@@ -362,7 +362,7 @@ class ForceElement(Jointed):
         return self.loads(motion)
 
     def pushes(self, motion: Poses, rates: Rates) -> list[Push]:
-        """Return what straight two-point members carry by this element's law; it then acts through their pins, and `loads` is not asked."""
+        """Return the thrusts in straight two-point members by this element's law; it then acts through their pins without `loads`."""
         return []
 
     def frictions(self, motion: Poses) -> list[Friction]:
@@ -390,21 +390,21 @@ class ForceElement(Jointed):
         return ""
 
     def when_shut(self) -> ForceElement | None:
-        """Return it as it is where a load case shuts it, `LoadCase(shut=[...])`: what is in it stays; None for what cannot be shut."""
+        """Return the element as it is while a load case shuts it, `LoadCase(shut=[...])`; None for one that cannot be shut."""
         return None
 
     def claims(self, members: Mapping[str, Member]) -> Mapping[Hashable, str]:
-        """Return what no other element may have beside it, in words with the remedy; the class's members by name."""
+        """Return its claims that no other element may share, in words with the remedy; `members` are the class's, by name."""
         return {}
 
     @property
     def scales(self) -> bool:
-        """Whether a load case may multiply it: what only holds or feeds carries what the others need, whatever its factor."""
+        """Whether a load case may multiply it; an element that only holds or feeds follows the others' needs, without a factor."""
         return not self.holds
 
     @property
     def holds(self) -> bool:
-        """Whether it holds what the mechanism needs, as a cylinder does, and takes over the drive of a stroke."""
+        """Whether it holds the mechanism, as a cylinder does, and takes over the drive of a stroke."""
         return False
 
     def bounds(self, motion: Poses, lifting: bool, *, share: float = 1.0) -> tuple[Array, Array]:
@@ -416,7 +416,7 @@ class ForceElement(Jointed):
         return UNBOUNDED
 
     def formulas(self, written: Formulas) -> None:
-        """Write what the equations of forces say of this element beyond its loads: nothing, unless it has something to say.
+        """Write its lines in the equations of forces beyond its loads; by default none.
 
         An element that feeds others writes first what they carry, `written.carry(...)`; all others come after the driving forces.
         """
@@ -498,7 +498,7 @@ class ForceElement(Jointed):
         return str(self) if is_named else type(self).__name__
 
     def options(self) -> dict[str, object]:
-        """Return what it was given beside its places and parameters, where that is not the usual, by name."""
+        """Return its arguments beside places and parameters that are not the default, by name."""
         declared: tuple[Field[object], ...] = fields(self) if is_dataclass(self) else ()
         others = [each for each in declared if each.name not in (*self.places, *self.parameters) and each.default is not MISSING]
         return {each.name: getattr(self, each.name) for each in others if repr(getattr(self, each.name)) != repr(each.default)}
@@ -544,7 +544,7 @@ def value_text(value: object) -> str:
 
 
 def require_poses(given: object) -> None:
-    """Raise DefinitionError for what holds no poses: anything but a motion, or what stands for one while a law is traced."""
+    """Raise DefinitionError for a value without poses: anything but a motion, or the traced motion of a law."""
     if isinstance(given, type) or not callable(getattr(given, "ratio", None)):
         raise DefinitionError(f"{cited(given)} is no motion; give machine.sweep(...) or machine.at(...).")
 

@@ -70,7 +70,7 @@ def on_slope(gravity: tuple[float, float], slope: float) -> tuple[float, float]:
 
 
 class Directed(ForceElement):
-    """The base of what acts along a direction that is given in the frame's axes, or in those of a part."""
+    """The base of loads along a direction that is given in the frame's axes, or in those of a part."""
 
     axes: ClassVar[Axes | None] = None
 
@@ -187,7 +187,7 @@ class Support(Directed):
         return self.in_the_whole(motion, self.unit[0], self.unit[1])
 
     def bounds(self, motion: Poses, lifting: bool, *, share: float = 1.0) -> tuple[Array, Array]:
-        """Return what its reaction can be [N]: it pushes, and never pulls."""
+        """Return the bounds of its reaction [N]: it pushes, and never pulls."""
         return np.zeros(()), np.asarray(np.inf)
 
     def loads(self, motion: Poses) -> list[Load]:
@@ -207,7 +207,7 @@ def vector(size: Array | float, direction: tuple[Array | float, Array | float]) 
 def shared_mass(
     motion: Poses, points: tuple[str, ...], mass: Array | float, gravity: tuple[float, float], rates: Rates, on: tuple[str, ...] = ()
 ) -> list[Load]:
-    """Return what a mass that some points share puts on them: its weight, and its inertia where accelerations are known.
+    """Return the loads of a mass shared by some points: its weight, and its inertia where accelerations are known.
 
     Two points are the ends of a uniform bar, which may stretch. Others are points with equal masses.
     """
@@ -243,7 +243,7 @@ class OnBody(ForceElement):
     link: Body
 
     def named(self) -> tuple[Reference, ...]:
-        """Return what names the body: a link, or two or more points."""
+        """Return the names of the body: a link, or two or more points."""
         given = tuple(self.link.split()) if isinstance(self.link, str) else self.link
         return given if isinstance(given, tuple) else (given,)
 
@@ -254,7 +254,7 @@ class OnBody(ForceElement):
         self.points(members, title)
 
     def points(self, members: Mapping[str, Member], title: str) -> tuple[str, ...]:
-        """Return the body's points; DefinitionError for what names no body."""
+        """Return the body's points; DefinitionError for names of no body."""
         names = tuple(name_of(each) for each in self.named())
         for name in names:
             if name not in members:

@@ -180,7 +180,7 @@ def wraps(stations: Sequence[Station], motion: Poses) -> dict[int, Array]:
 
 
 def pulls(stations: Sequence[Station], weights: Sequence[float], motion: Poses) -> list[Load]:
-    """Return what a tension of one newton pulls with, at every point that a rope runs over [N]."""
+    """Return the pulls [N] of a rope's tension of one newton on every point that it runs over."""
     ways = [np.stack([along.x, along.y]) * weight for (_, along), weight in zip(straight_parts(stations, motion), weights, strict=True)]
     first, last = Load(stations[0].point, ways[0]), Load(stations[-1].point, -1.0 * ways[-1])
     between = [Load(each.point, after - before) for each, before, after in zip(stations[1:-1], ways[:-1], ways[1:], strict=True)]

@@ -81,20 +81,20 @@ class TwoPoint(ForceElement):
         return np.asarray((arm[0] * moved[0] + arm[1] * moved[1]) / motion.distance(A, B))[()]
 
     def closed_thrust(self, motion: Any, acting: Any) -> Array | None:
-        """Return, for what holds, what closed lines put on it in a situation [N]; None where there are none."""
+        """Return, of a holding member, its thrust from closed lines in a situation [N]; None where there are none."""
         return None
 
     def area_in(self, motion: Poses, sense: Array) -> Array:
-        """Return, for what holds, its thrust at one unit of pressure [m2], where `sense` is 1 while it pushes and -1 while it pulls."""
+        """Return, of a holding member, its thrust at one unit of pressure [m2]; `sense` is 1 while it pushes and -1 while it pulls."""
         return sense
 
     def area_written(self, written: Formulas) -> Array:
-        """Return, for what holds, its thrust at one unit of pressure [m2] as it is written in the equations of forces."""
+        """Return, of a holding member, its thrust at one unit of pressure [m2] as the equations of forces write it."""
         return self.area_in(written, np.ones(()))
 
     @property
     def works_both(self) -> bool:
-        """Whether, of what holds, another area works while it pulls than while it pushes."""
+        """Whether a holding member works with another area while it pulls than while it pushes."""
         return False
 
     def pushes(self, motion: Poses, rates: Rates = AT_REST) -> list[Push]:

@@ -126,7 +126,7 @@ ASIDE = (0.5, 0.37, 0.61)
 @final
 @dataclass(frozen=True)
 class Mobility:
-    """How many independent motions there are, by rank and by count, which links bring nothing new, and what is loose.
+    """The number of independent motions, by rank and by count, the redundant links, and the loose bodies.
 
     `loose` are the bodies that can move while the drives are locked.
     """
@@ -273,7 +273,7 @@ def check_lengths(plan: Plan) -> None:
 
 
 def check_labels(plan: Plan, name: str, link: Link, places: Mapping[str, tuple[float, float]], inputs: Mapping[str, Numbers]) -> None:
-    """Raise DefinitionError where what a link says of its points is not how other labels place them."""
+    """Raise DefinitionError where a link's labels contradict the places that other labels give."""
     reading = Reading(plan.members, plan.table.lengths, inputs)
     for label, value in link.labels.items():
         ((slot, _, sign, given),) = match({label: value}, link.slots(), f"{name} = {link}").values()

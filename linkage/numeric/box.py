@@ -70,7 +70,7 @@ def values_a_stroke(k: int, designs: int) -> int:
 @final
 @immutable
 class Climbs:
-    """Searches, arrays (r, ...): whose (function and design), the best place and its value, the next stencil, what it should show."""
+    """Searches, arrays (r, ...): their function and design, the best place and its value, the next stencil, the value it should show."""
 
     function: Index
     design: Index
@@ -178,7 +178,7 @@ def hopeful(seen: FloatArray, k: int, side: int) -> tuple[Index, FloatArray]:
 
 
 def starts_of(box: SeenBox) -> tuple[Climbs, FloatArray]:
-    """Return the searches from the grid, and what their first stencils show, (r, n): values that the grid has."""
+    """Return the searches from the grid, and the values on their first stencils, (r, n), which the grid has."""
     K, D, _ = box.seen.shape
     found = [hopeful(box.seen[row], box.k, box.side) for row in np.ndindex(K, D)]
     count = [len(point) for point, _ in found]
@@ -210,7 +210,7 @@ class Quadratic:
 
     @classmethod
     def of(cls, seen: FloatArray, k: int) -> Quadratic:
-        """Return those through what stencils show."""
+        """Return the quadratics through the values on stencils."""
         ahead, behind = seen[:, 1 : 2 * k + 1 : 2], seen[:, 2 : 2 * k + 1 : 2]
         bend = np.zeros((len(seen), k, k))
         bend[:, range(k), range(k)] = ahead - 2.0 * seen[:, :1] + behind
@@ -551,7 +551,7 @@ def border_crossings(box: SeenBox, climbs: Climbs, places: FloatArray, shared: b
 
 
 def hopeful_borders(box: SeenBox, alike: Index, known: FloatArray) -> Climbs:
-    """Return the searches on borders that may better what is known (K, D)."""
+    """Return the searches on borders that may improve the known values (K, D)."""
     starts = border_starts(box)
     if not len(starts.value):
         return starts

@@ -115,7 +115,7 @@ class DampedSystem:
             free &= ~leaving
 
     def bend(self, off: FloatArray, ahead: FloatArray) -> FloatArray:
-        """Return what the curvature of the misses adds to the step (m, k), from the misses at a part of it; nothing where that is large."""
+        """Return the addition of the misses' curvature to the step (m, k), from the misses at a part of it; zero where that is large."""
         along = (self.slopes @ self.step[:, :, None])[:, :, 0]
         curved = (2.0 / PROBE) * ((ahead - off) / PROBE - along)
         curved[~np.isfinite(curved).all(axis=1)] = 0.0
@@ -162,7 +162,7 @@ def without_repeats(order: Index, is_same: Callable[[int, int], bool], most: int
 
 
 def is_one_solution(apart: FloatArray, same: float, is_between: Callable[[], bool]) -> bool:
-    """Return whether two solutions so far apart (k,) are one: to rounding, or, at a double one, as what lies between is a solution too."""
+    """Return whether two solutions so far apart (k,) are one: to rounding, or near a double one with solutions between them."""
     far = float(np.abs(apart).max(initial=0.0))
     return far <= same or (far <= NEAR and is_between())
 

@@ -206,7 +206,7 @@ def narrowed(look: Look, tops: Tops) -> Tops:
 
 
 def best_seen(tops: Tops, t: FloatArray, seen: FloatArray, half: FloatArray) -> Tops:
-    """Return the best of the places (K, D, c, n) seen, or what was known where that is better.
+    """Return the best of the places (K, D, c, n) seen, or the known best where that is better.
 
     What may hide next to it is twice its rise above the places beside it; anything where it has risen more than was thought possible,
     as values do that grow beyond bounds.
@@ -318,7 +318,7 @@ def grows_along_leg(look: Look, tops: Tops) -> Mask:
 
 
 def is_pole(value: FloatArray, seen: FloatArray, reached: Mask, far: FloatArray, border: float = 1e-12, near: float = SEEN) -> Mask:
-    """Return from which sides (..., 2) a value (...) grows beyond bounds, by what is seen (..., 2, n) at distances (n,) on either side.
+    """Return from which sides (..., 2) a value (...) grows without bound, from values (..., 2, n) at distances (n,) on either side.
 
     A value c / (x0 + d)^q gains most by halving d where d is about x0. At a pole its gains grew all the way there, over six halvings at
     least 2.5-fold. For q = 1/2 it is 4-fold; the gains of a finite value shrink. And x0 is as near as numbers go (`near`). Or it is below

@@ -69,7 +69,7 @@ def by_panel(values: FloatArray, edges: FloatArray) -> FloatArray:
 
 
 def bent_at_ends(values: FloatArray, ends: FloatArray) -> Any:
-    """Return in which panels a value at an end is not what those at Gauss's places say of it: there is a kink beside the end."""
+    """Return the panels whose end value differs from the polynomial through Gauss's places: a kink lies beside the end."""
     places, _ = np.polynomial.legendre.leggauss(NODES)
     shown = values.reshape(*values.shape[:-1], -1, NODES) @ np.linalg.solve(np.vander(places).T, np.vander([-1.0, 1.0], NODES).T)
     apart = np.abs(shown - np.stack([ends[..., :-1], ends[..., 1:]], axis=-1)).max(axis=-1)

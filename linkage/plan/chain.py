@@ -30,7 +30,7 @@ class ChainBody:
 @final
 @immutable
 class Pair:
-    """A `pin` at a point or a `slide`, between two bodies by their names; `length` is what a slide drives, by these `strokes`."""
+    """A `pin` at a point or a `slide`, between two bodies by their names; `length` is the length a slide drives, by these `strokes`."""
 
     kind: str
     name: str
@@ -186,12 +186,12 @@ def arm_joint(plan: Members, name: str) -> Joint:
 
 
 def holds_an_arm(plan: Members, points: tuple[str, ...]) -> bool:
-    """Return whether a body is an arm with what it moves on; the arm stands for itself."""
+    """Return whether a body only consists of an arm and points of its carrier; the arm then is a body itself."""
     return any(joint.arm and name in points and set(joint.by.points) & set(points) for name, joint in plan.joints)
 
 
 def enter_arm(chain: KinematicChain, plan: Members, name: str, points: tuple[str, ...]) -> None:
-    """Enter an arm: a slide on its body, a pin, or both with a carriage between them, by what strokes drive."""
+    """Enter an arm: a slide on its body, a pin, or both with a carriage between them, according to its driving strokes."""
     joint = arm_joint(plan, name)
     pushed = next((drive.quantity for drive in joint.drives if drive.along == "t" and plan.moves(drive.quantity)), None)
     turned = tuple(each for drive in joint.drives if drive.along != "t" for each in driven_by(plan, drive.quantity))

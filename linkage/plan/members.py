@@ -1,4 +1,4 @@
-"""The members of a mechanism, bound and in order, and what moves with what: the same for every design."""
+"""The members of a mechanism, bound and in order, and which bodies move together: the same for every design."""
 
 from __future__ import annotations
 
@@ -199,7 +199,7 @@ class Members:
     # -- what moves with what --------------------------------------------------------------------------
 
     def reaches(self, *starts: Member | str, within: Collection[str] = ()) -> set[str]:
-        """Return the names of all members that some things are built from, themselves included; with `within` not what is behind these."""
+        """Return the names of all members that some members are built from, themselves included; `within` stops the search at these."""
         if not within and len(starts) == 1 and isinstance(starts[0], str) and starts[0] in self._behind:
             return set(self._behind[starts[0]])
         names = [name for each in starts for name in ([each] if isinstance(each, str) else needs(each))]
@@ -254,7 +254,7 @@ class Members:
 
     @cached_property
     def joints(self) -> tuple[tuple[str, Joint], ...]:
-        """What the steps, guides and slides hold, each with its member's name; driven joints only where a stroke drives them."""
+        """The joints of steps, guides and slides, each with its member's name; driven joints only where a stroke drives them."""
         return tuple((name, joint) for name, member in self.holding.items() for joint in member.joints() if self.is_there(joint))
 
     @cached_property
@@ -274,7 +274,7 @@ class Members:
         return not joint.drives or any(self.moves(drive.quantity) for drive in joint.drives)
 
     def track(self, joint: Joint) -> tuple[str, ...]:
-        """Return what a joint's point slides on: the two points of a moving line, sorted, or a guide's name; empty without a slide."""
+        """Return the track of a joint's point: the two points of a moving line, sorted, or a guide's name; empty without a slide."""
         guide = self.of_kind(Guide).get(joint.track[0]) if len(joint.track) == 1 else None
         return joint.track if guide is None or guide.Q is None else tuple(sorted(guide.points))
 
@@ -320,12 +320,12 @@ class Members:
 
     @cached_property
     def turning(self) -> frozenset[str]:
-        """The names of what angles are sums of: strokes and dimensions in rad."""
+        """The names of the terms of angles: strokes and dimensions in rad."""
         parts = [part for name in self.members for part in self.with_parts(name)]
         return frozenset().union(*(self.terms(angle) for part in parts for angle in part.in_radians()))
 
     def known_stroke_kind(self, name: str) -> str:
-        """Return whether a stroke is an "angle" or a "length": by what it is added to, else as it was given; "" where nothing says so."""
+        """Return whether a stroke is an "angle" or a "length": by the sums it is in, else as it was given; "" where neither tells."""
         if name in self.turning:
             return "angle"
         jointed = [each for each in self.members.values() if isinstance(each, Jointed) and each.kind != "load"]
@@ -358,7 +358,7 @@ class Members:
 
     @cached_property
     def cuts(self) -> tuple[str, ...]:
-        """The inputs beside the strokes by which members move the machine: what is differentiated by for the force that holds them."""
+        """The inputs beside the strokes by which members move the machine; the force that holds them is a derivative by these."""
         return tuple(name for member in self.members.values() for name in member.cuts(self.members))
 
     @cached_property
@@ -393,7 +393,7 @@ class Members:
         return translated(re.sub(r"(?<=[a-z0-9])(?=[A-Z])", " ", self.title).capitalize())
 
     def named(self) -> Mapping[str, Member]:
-        """Return what has a value, points, vectors and quantities, by name."""
+        """Return the points, vectors and quantities by name."""
         found = {name: member for name, member in self.members.items() if isinstance(member, (Point, Arrow, Quantity))}
         return named_by(found, self.aliases)
 
@@ -412,7 +412,7 @@ def needed_names(name: str, member: Member, title: str) -> list[str]:
 
 
 def with_inner(members: dict[str, Member], wanted: dict[str, list[str]], title: str) -> None:
-    """Enter what members hold by names of their own, `lift.length`, where another one needs it, with the names that it needs."""
+    """Enter inner members such as `lift.length` where another member needs them, with the names that they need."""
     lost = [name for needed in wanted.values() for name in needed if name not in wanted]
     while lost:
         name = lost.pop()

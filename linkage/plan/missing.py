@@ -1,4 +1,4 @@
-"""What cannot be placed, in words: the point, its triangle, the missing millimetres, the remedy."""
+"""Members that cannot be placed, in words: the point, its triangle, the missing millimetres, the remedy."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def name_or_pins(plan: Members, name: str) -> str:
 
 
 def missing_words(plan: Members, name: str, reading: ArrayReading, lost: Mask) -> tuple[str, float]:
-    """Return why a member cannot be placed at the poses `lost` of a reading, at the worst of them, and what is missing [m]."""
+    """Return why a member cannot be placed at the poses `lost` of a reading, at the worst of them, and the missing length [m]."""
     for owner, length in plan.following:
         least = float(np.min(reading.value(length)))
         if owner == name and least < 0.0:
@@ -122,7 +122,7 @@ def length_text(length: float) -> str:
 
 
 def remedy(plan: Members, name: str, labels: Sequence[str], longest: int, values: FloatArray, reading: ArrayReading) -> str:
-    """Return what to change: the stroke where a side follows it, and a dimension that closes the gap; the unit where it looks mistaken."""
+    """Return the remedy: the stroke that a side follows, a dimension that closes the gap, or a unit that looks mistaken."""
     others = [index for index in range(len(labels)) if index != longest]
     if values[longest] > MISTAKEN * values[others].max():
         return f"Are all lengths in m? {values[longest]:.6g} m would be {values[longest]:.6g} * mm."

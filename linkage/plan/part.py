@@ -196,7 +196,7 @@ class Part(Member):
 
 @final
 class HeldName(str):
-    """The name of a member of a part, by which what it holds is named as well: `lower.ram.length`, `lower.ram.rod_side`."""
+    """The name of a member of a part, and the prefix of its inner names: `lower.ram.length`, `lower.ram.rod_side`."""
 
     def __new__(cls, called: str, member: Member) -> HeldName:
         found = super().__new__(cls, called)
@@ -228,7 +228,7 @@ class Inner:
 
 
 def given_text(value: object) -> str:
-    """Return what a keyword was given as it is written."""
+    """Return the value of a keyword as it is written in source."""
     match value:
         case Quantity():
             return value.name or written(value)
@@ -252,13 +252,13 @@ def pair_of(given: object, what: str) -> tuple[Operand, Operand]:
 
 
 class Renaming:
-    """Members with other names for some of what they refer to."""
+    """A renaming of members: new names for some of their references."""
 
     def __init__(self, names: Mapping[str, str]) -> None:
         self.names = names
 
     def member(self, given: Member) -> Member:
-        """Return a member that refers to what the names stand for; itself, where it uses none of them."""
+        """Return a member with its references renamed; the member itself, where it uses none of the names."""
         try:
             if not any(each in self.names for each in needs(given)):
                 return given
@@ -268,17 +268,17 @@ class Renaming:
         return given.renewed(**{name: self.attribute(given, name, value) for name, value in held.items()})
 
     def named_member(self, given: Member) -> Any:
-        """Return what replaces a member that an argument is or holds."""
+        """Return the member that replaces an argument, or the one that it holds."""
         return given if given.name and not isinstance(given, Group) else self.member(given)
 
     def attribute(self, given: Member, name: str, value: Any) -> Any:
-        """Return what an attribute holds under the other names; the keys of labels, and of what a part is given, are names of its own."""
+        """Return an attribute under the other names; the keys of labels, and of a part's keywords, are names of their own."""
         if name == "labels" or (isinstance(given, Part) and name == "given"):
             return {key: self.value(each, is_word=False) for key, each in value.items()}
         return self.value(value, name in word_arguments(type(given)))
 
     def value(self, given: Any, is_word: bool) -> Any:
-        """Return what an argument holds under the other names; a word is no name."""
+        """Return an argument under the other names; a word is kept."""
         if isinstance(given, Member):
             return self.named_member(given)
         if isinstance(given, str):

@@ -36,7 +36,7 @@ def has_angles(plan: Members, asked: Iterable[str | Member]) -> bool:
 
 
 def followed_angles(plan: Members, trace: Trace, loads: Sequence[Quantity]) -> tuple[str, ...]:
-    """Return the angles of a trace, as yet not followed, whose whole turns change where points are or what loads are.
+    """Return the angles of a trace, as yet not followed, whose whole turns change places or loads.
 
     DefinitionError where one of them changes the pins of a group.
     """
@@ -116,7 +116,7 @@ class Plan(Members, Shown):
         return uuid4().hex
 
     def __reduce__(self) -> tuple[object, ...]:
-        """Return what pickle is to make a plan of: its members go, what follows from them does not."""
+        """Return the state for pickle: the members; everything derived from them is left out."""
         REGISTRY[self.key] = self
         found_later = {name for base in type(self).__mro__ for name, member in vars(base).items() if isinstance(member, cached_property)}
         kept = {name: value for name, value in vars(self).items() if name not in found_later | {"_kernels"}}
@@ -129,7 +129,7 @@ class Plan(Members, Shown):
 
     @property
     def gruebler(self) -> int:
-        """The Gruebler count 3 (n - 1) - 2 j of the chain, without what closed lines and ropes of their own lengths keep."""
+        """The Gruebler count 3 (n - 1) - 2 j of the chain, less the constraints of closed lines and of ropes with a given length."""
         return self.chain.count - len(self.cuts) + len(self.driven_cuts)
 
     @cached_property
@@ -148,7 +148,7 @@ class Plan(Members, Shown):
         return trace
 
     def _traced(self, solved: Sequence[str]) -> Trace:
-        """Return a trace of nothing yet, with the dimensions, the strokes and what is solved for as inputs."""
+        """Return an empty trace with the dimensions, the strokes and the unknowns `solved` as inputs."""
         levels = dict.fromkeys((*self.strokes, *solved), Level.POSE) | dict.fromkeys(self.table.entries, Level.DESIGN)
         return Trace(self.members, self.table.lengths, levels)
 
@@ -163,7 +163,7 @@ class Plan(Members, Shown):
         return reading
 
     def work_out(self, reading: Reading) -> None:
-        """Work out every point in a reading, and where angles are followed what loads follow."""
+        """Evaluate every point in a reading, and the loads' quantities where angles are followed."""
         for name in self.points:
             reading.at(name)
         for quantity in self.followers if self.followed else ():
@@ -199,7 +199,7 @@ class Plan(Members, Shown):
         return self.made((targets, along, guarded), make)
 
     def made(self, key: Hashable, make: Callable[[Plan], Made]) -> Made:
-        """Return a kernel, or what holds one, made once from a program of its own: it does not depend on what was asked for before."""
+        """Return a kernel, or an object with kernels, made once from a program of its own that earlier requests do not affect."""
         found = cast("Made | None", self._kernels.get(key))
         if found is None:
             self._kernels[key] = found = make(self._fork())
@@ -208,7 +208,7 @@ class Plan(Members, Shown):
         return found
 
     def made_beside(self, key: Hashable, make: Callable[[Plan], Made]) -> Made:
-        """Return the same from a program that all share who ask so, in which what several read is traced once.
+        """Return the same from one shared program, in which common parts are traced once.
 
         What is made must not hang on what else was read there, but to err on the careful side.
         """
@@ -299,7 +299,7 @@ def restored(key: str, kind: type[Plan], parts: Mapping[str, object]) -> Plan:
 
 
 def plan_measure(plan: Plan, variable: str) -> str:
-    """Return what a design variable measures ("length", "angle", "pressure", ...); "" where nothing says so.
+    """Return the kind of a design variable ("length", "angle", "pressure", ...); "" where nothing tells it.
 
     A dimension without a unit of its own measures what it is added to: `L0` in `AB=L0 + S` is a length.
     """

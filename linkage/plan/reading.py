@@ -46,7 +46,7 @@ class Reading(Where):
         return self.positions[name]
 
     def copied(self) -> Self:
-        """Return the same reading, to go on from: what is worked out and noted there stays there."""
+        """Return a copy of the reading to go on from; its own results and notes do not change."""
         found = copy(self)
         vars(found).update({name: value.copy() for name, value in vars(self).items() if type(value) in (dict, list)})
         return found
@@ -61,7 +61,7 @@ class Reading(Where):
         return X
 
     def _once(self, kind: str, reference: Reference, rule: str) -> Scalar:
-        """Return what a member's rule gives, worked out when it is first asked for."""
+        """Evaluate a member's rule when it is first asked for."""
         named = reference if isinstance(reference, str) else reference.name
         if named and named not in self.members:
             raise unknown("Name", named, self.members)
@@ -100,7 +100,7 @@ class Reading(Where):
         return self.inputs[name]
 
     def at_pose(self, quantity: Reference, strokes: Mapping[str, float]) -> Scalar:
-        """Return what a quantity is at one pose of the strokes; DefinitionError where that takes a group to be solved."""
+        """Return the value of a quantity at one pose of the strokes; DefinitionError where a group would have to be solved."""
         behind = self.behind(quantity)
         groups = [name for name in of_kind(self.members, Group) if name in behind]
         if groups:

@@ -1,4 +1,4 @@
-"""The dimensions of a mechanism: one owner each, all spellings, and the check of what they are set to."""
+"""The dimensions of a mechanism: one owner each, all spellings, and the check of their settings."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ Label: TypeAlias = frozenset[str] | tuple[str, frozenset[str]]
 @final
 @dataclass(frozen=True)
 class DesignVariable:
-    """One design variable: its default [SI], what it measures, where it stands, and the unit it is shown in, if it has one."""
+    """One design variable: its default [SI], kind of measure, owner, and display unit, if it has one."""
 
     name: str
     default: float
@@ -36,7 +36,7 @@ class DesignVariable:
 
     @property
     def measures(self) -> str:
-        """What it measures by its unit or its label: "length", "angle", "pressure"; "" where neither says so."""
+        """Its kind by its unit or its label: "length", "angle", "pressure"; "" where neither tells it."""
         return UNITS[self.unit][1] if self.unit else {"length": "length", "coordinate": "length", "angle": "angle"}.get(self.kind, "")
 
 
@@ -145,7 +145,7 @@ RANGES: Mapping[str, tuple[float, float]] = {
 
 
 def signed(value: float | npt.ArrayLike, sign: int, entry: DesignVariable) -> Numbers:
-    """Return a setting under its owner's sign; raise DefinitionError for what is not a number."""
+    """Return a setting with its owner's sign; raise DefinitionError for anything but a number."""
     if isinstance(value, float):
         return sign * float(value)
     try:
@@ -156,7 +156,7 @@ def signed(value: float | npt.ArrayLike, sign: int, entry: DesignVariable) -> Nu
 
 
 def value_in_range(entry: DesignVariable, value: Numbers) -> Numbers:
-    """Return a value that the variable may take; raise DefinitionError for NaN, infinity and what is out of its range."""
+    """Return a value within the variable's range; raise DefinitionError for NaN, infinity and values out of range."""
     low, high = RANGES.get(entry.kind, (-LARGEST, LARGEST))
     if low <= value <= high if type(value) is float else np.all((np.asarray(value) >= low) & (np.asarray(value) <= high)):
         return value

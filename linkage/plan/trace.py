@@ -53,7 +53,7 @@ class Nearness:
 @final
 @dataclass(frozen=True)
 class Loop:
-    """What a step's place hangs on: links that must meet, guides that must cross, a length that must be positive, a direction.
+    """A loop that places a step: links that must meet, guides that must cross, a length that must be positive, a direction.
 
     `links`: the radicand, the scale of its root and the size of the terms whose difference it is; `guides`: the sine; `length`: [m];
     `meeting`: the distance of the points between which the direction is taken [m].
@@ -66,7 +66,7 @@ class Loop:
 
 @final
 class Trace(Reading):
-    """A reading whose scalars are the nodes of one graph; `kept` is what others have made of it, by what asked for it."""
+    """A reading whose scalars are the nodes of one graph; `kept` caches results of others, by their keys."""
 
     def __init__(self, members: Mapping[str, Member], lengths: Mapping[frozenset[str], Quantity], levels: Mapping[str, Level]) -> None:
         self.graph = Graph()
@@ -108,7 +108,7 @@ class Trace(Reading):
         return self._tangents[key]
 
     def fork(self) -> Trace:
-        """Return this trace on a graph of its own: what is read there leaves nothing here, and what was read here is known there."""
+        """Return this trace on a forked graph: new nodes do not change this one, and its own are known there."""
         fork = self.view()
         fork.graph = self.graph.fork()
         fork.kept, fork._tangents = {}, {}
@@ -118,13 +118,13 @@ class Trace(Reading):
         return fork
 
     def view(self) -> Trace:
-        """Return this trace as it stands, for reading more: what is read there leaves nothing here but nodes."""
+        """Return a view of this trace for more readings; they add nothing here but nodes."""
         view = self.copied()
         view.kept, view._tangents, view.placing = self.kept, self._tangents, []
         return view
 
     def alone(self, member: Member | None) -> Trace:
-        """Return this trace with nothing read that has no name, and then a quantity or a vector read: what is measured is its own."""
+        """Return this trace without unnamed readings and with a quantity or a vector read, so that all its measures are that one's."""
         view = self.view()
         view.measures = dict.fromkeys(measure for measure in view.measures if measure.member)
         view._values = {key: known for key, known in view._values.items() if isinstance(key[1], str)}
@@ -201,13 +201,13 @@ class Trace(Reading):
 
     @cached_property
     def away(self) -> Node:
-        """What is above zero where the fixed points stand near enough to the origin."""
+        """A node above zero where the fixed points are near enough to the origin."""
         places = [self.at(name) for name, point in of_kind(self.members, Point).items() if point.is_fixed]
         coordinates = [part for place in places for part in (place.x, place.y)]
         return self.graph.node(self.extent * AWAY**2 - reduce(np.maximum, (part * part for part in coordinates), 0.0))
 
     def nearness(self, names: Container[str], *, exact: bool = False) -> Node:
-        """Return the product of what measures the distance of some members from singular poses, each at most 1."""
+        """Return the product of the distances of some members from singular poses, each at most 1."""
         found = self.graph.constant(1.0)
         for measure in self.measures:
             if measure.member in names or not measure.member:
@@ -215,7 +215,7 @@ class Trace(Reading):
         return found
 
     def least_part(self, names: Container[str]) -> Node:
-        """Return the least of what measures the distance of some members from singular poses, at most 1."""
+        """Return the least of the distances of some members from singular poses, at most 1."""
         parts = [measure.exact for measure in self.measures if measure.member in names or not measure.member]
         return reduce(lambda a, b: self.graph.apply("minimum", a, b), parts, self.graph.one)
 
@@ -266,7 +266,7 @@ class Trace(Reading):
 
 
 def in_fork(value: object, nodes: Sequence[Node]) -> Any:
-    """Return what holds nodes of a graph with those that have the same numbers in a fork of it."""
+    """Return a value with its nodes replaced by those of the same numbers in a fork of their graph."""
     match value:
         case Node():
             return nodes[value.number]

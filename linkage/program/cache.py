@@ -62,7 +62,7 @@ def is_trusted(folder: Path) -> bool:
 @final
 @dataclass
 class CompiledFile:
-    """The text of one program in its file, and what was compiled of it: beside the file, in folders that `take` is given."""
+    """The text of one program in its file, and its compiled code: beside the file, in folders that `take` is given."""
 
     file: Path
     folders: list[Path] = field(default_factory=list)
@@ -85,7 +85,7 @@ class CompiledFile:
         return cls(file)
 
     def take(self, folder: Path) -> bool:
-        """Return whether what is compiled may come from a folder and go there; what lies there and is not sound is thrown away."""
+        """Return whether a folder may hold compiled code; unsound files in it are deleted."""
         if not is_trusted(folder):
             return False
         self.folders.append(folder)
@@ -94,7 +94,7 @@ class CompiledFile:
         return True
 
     def note(self) -> None:
-        """Note the sums of what is compiled now, where that changed; without them it is made again the next time."""
+        """Store the checksums of the compiled code where they changed; without them it is compiled again the next time."""
         for folder in self.folders:
             sums = self._sums(folder)
             if sums != self._noted(folder):
@@ -102,7 +102,7 @@ class CompiledFile:
                     stream.write(json.dumps(sums, indent=1).encode())
 
     def drop(self) -> None:
-        """Throw away what is compiled."""
+        """Delete the compiled code."""
         for folder in self.folders:
             for path in (self._note(folder), *folder.glob(f"{self.file.stem}*.nb[ci]*")):
                 path.unlink(missing_ok=True)
@@ -127,7 +127,7 @@ def file_of(text: str) -> Path:
 
 
 def is_cached(text: str) -> bool:
-    """Return whether a program has been compiled before on this machine, and what came of it may be used."""
+    """Return whether a program has been compiled before on this machine, and its code may be used."""
     try:
         file = file_of(text)
         return any(file.parent.glob(f"__pycache__/{file.stem}*.nbc")) and is_own(file.parent)
@@ -153,7 +153,7 @@ def code_from(text: str, where: str) -> CodeType:
 
 
 def compiled_in_file(text: str, name: str, make: Make) -> Callable[..., None]:
-    """Return a function of a text, compiled by `make(function, file)`; what cannot be kept on disk, or not read, is made in memory."""
+    """Return a function compiled from a text by `make(function, file)`; in memory where the disk cannot keep or read it."""
     cached = CompiledFile.of(text)
     if cached is not None:
         file = cached.file

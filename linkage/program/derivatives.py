@@ -148,7 +148,7 @@ class Shares:
         return self._active[node]
 
     def _passed_on(self, node: Node, found: Mapping[Node, Node]) -> Iterator[tuple[Node, Node]]:
-        """Yield what a node passes on of its share to the nodes that it is built from."""
+        """Yield the shares that a node passes on to the nodes that it is built from."""
         if node.closure is not None:
             yield from self._through_loop(node.closure, found)
         elif node.op == "alias":

@@ -68,7 +68,7 @@ def eliminated(matrix: Sequence[Sequence[Node]], right: Sequence[Node]) -> list[
 
 @final
 class SparseSystem:
-    """A linear system as plain operations, of which what is zero by its structure is neither compared nor subtracted.
+    """A linear system as plain operations; entries that are zero by its structure are neither compared nor subtracted.
 
     `rows` are the entries of each equation by the unknown's place, as many as there are unknowns, `right` their right sides. The unknown
     that stands in the fewest equations goes next; the largest of its entries, by choices, divides. Where the system is `scaled`, its
@@ -94,7 +94,7 @@ class SparseSystem:
 
     @property
     def pivots(self) -> list[Node]:
-        """What is divided by; a system is singular where one of them is zero."""
+        """The divisors of the elimination; a system is singular where one of them is zero."""
         return [row[column] for column, row in self.done.items()]
 
     def unknowns(self) -> list[Node]:

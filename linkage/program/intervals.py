@@ -25,26 +25,26 @@ OUTWARDS = 1e-14
 @final
 @dataclass(frozen=True)
 class Enclosure(Operators["Enclosure | float", "Enclosure"]):
-    """What lies between two values, these included."""
+    """An interval: all values between two bounds, these included."""
 
     low: float
     high: float
 
     @classmethod
     def of(cls, given: Enclosure | float) -> Enclosure:
-        """Return a number as what lies between it and itself."""
+        """Return a number as an interval of one value."""
         return given if isinstance(given, Enclosure) else cls(float(given), float(given))
 
     @classmethod
     def around(cls, ends: Sequence[float]) -> Enclosure:
-        """Return what lies between the least and the greatest of some values, moved outwards; anything where one has no value."""
+        """Return the interval of some values, widened by rounding; unbounded where one has no value."""
         if any(isnan(each) for each in ends):
             return ANYTHING
         low, high = min(ends), max(ends)
         return cls(low - OUTWARDS * abs(low), high + OUTWARDS * abs(high))
 
     def applied(self, function: str, *operands: Enclosure | float) -> Enclosure:
-        """Return what a function of RULES makes of enclosures and numbers."""
+        """Apply a function of RULES to intervals and numbers."""
         return RULES[function](*map(Enclosure.of, operands))
 
 
@@ -52,17 +52,17 @@ ANYTHING = Enclosure(-inf, inf)
 
 
 def enclosed_product(a: Enclosure, b: Enclosure) -> Enclosure:
-    """Return what products lie between."""
+    """Return the interval of a product."""
     return Enclosure.around([(0.0 if x == 0.0 or y == 0.0 else x * y) for x in (a.low, a.high) for y in (b.low, b.high)])
 
 
 def enclosed_quotient(a: Enclosure, b: Enclosure) -> Enclosure:
-    """Return what quotients lie between; anything where the divisor may be zero."""
+    """Return the interval of a quotient; unbounded where the divisor may be zero."""
     return ANYTHING if b.low <= 0.0 <= b.high else enclosed_product(a, Enclosure.around([1.0 / b.low, 1.0 / b.high]))
 
 
 def enclosed_power(a: Enclosure, exponent: Enclosure) -> Enclosure:
-    """Return what powers lie between."""
+    """Return the interval of a power."""
     if exponent.low != exponent.high:
         powers = [x**y for x in (a.low, a.high) for y in (exponent.low, exponent.high)] if a.low > 0.0 else []
         return Enclosure.around(powers) if powers else ANYTHING
@@ -76,17 +76,17 @@ def enclosed_power(a: Enclosure, exponent: Enclosure) -> Enclosure:
 
 
 def root_of(a: Enclosure) -> Enclosure:
-    """Return what roots lie between; of what may be negative those of the rest, there being none otherwise."""
+    """Return the interval of a square root; a negative part has no root and is left out."""
     return Enclosure.around([max(a.low, 0.0) ** 0.5, max(a.high, 0.0) ** 0.5])
 
 
 def without_sign(a: Enclosure) -> Enclosure:
-    """Return what sizes without a sign lie between."""
+    """Return the interval of an absolute value."""
     return Enclosure(0.0 if a.low <= 0.0 <= a.high else min(abs(a.low), abs(a.high)), max(abs(a.low), abs(a.high)))
 
 
 def logarithm(a: Enclosure) -> Enclosure:
-    """Return what logarithms lie between."""
+    """Return the interval of a logarithm."""
     return ANYTHING if a.low <= 0.0 else Enclosure.around([log(a.low), log(a.high) if a.high < inf else inf])
 
 

@@ -56,7 +56,7 @@ class PlainFloats:
         return text + function_text("pose", [*plan.passed, *plan.pose_inputs], plan.pose, (*plan.outputs, *plan.guards), dialect)
 
     def design(self, values: Sequence[float]) -> tuple[float, ...]:
-        """Return what the pose part needs of a design; that of the latest is kept."""
+        """Return the values that the pose part needs of a design; the latest design's are kept."""
         key, (known, passed) = array("d", values).tobytes(), self._latest  # bytes tell 0.0 from -0.0
         if key == known:
             return passed
@@ -137,7 +137,7 @@ BACKEND: ContextVar[str | None] = ContextVar("linkage_backend", default=None)
 
 @contextmanager
 def fixed_backend(backend: str) -> Iterator[None]:
-    """Run what would choose its back end by itself on this one, in this thread: a result then depends on its inputs alone."""
+    """Fix the back end in this thread for kernels that would choose one; results then depend on their inputs alone."""
     token = BACKEND.set(backend)
     try:
         yield
@@ -148,7 +148,7 @@ def fixed_backend(backend: str) -> Iterator[None]:
 @final
 @dataclass(frozen=True)
 class Result:
-    """What a kernel returns: values, shape (outputs, designs, poses), and a number a guard, above zero where it is at all poses."""
+    """The result of a kernel: values, shape (outputs, designs, poses), and one number a guard, above zero where it holds at all poses."""
 
     values: FloatArray
     guards: FloatArray
@@ -171,7 +171,7 @@ class RunOptions:
 
 
 class Backend(Protocol):
-    """What fills values, shape (outputs, designs, poses), and guards, by a schedule of nodes.
+    """A back end: it fills values, shape (outputs, designs, poses), and guards by a schedule of nodes.
 
     A package adds its own by an entry point of `hydrolinkage.backends`, which leads to a class or a function of the schedule.
     """
@@ -182,7 +182,7 @@ class Backend(Protocol):
         """Return whether designs, not poses, are best contiguous in the result."""
 
     def run(self, design: Sequence[Numbers], poses: Sequence[Numbers], values: FloatArray, guards: FloatArray) -> None:
-        """Fill values and guards: what the schedule's inputs are, a float or an array each, stands in their order."""
+        """Fill values and guards from the schedule's inputs in their order, a float or an array each."""
 
 
 BackendName: TypeAlias = str | Callable[[Schedule], Backend]
@@ -233,7 +233,7 @@ class Kernel:
         return Result(values, guards)
 
     def _backend(self, way: RunOptions, m: int, n: int) -> Backend:
-        """Return what to run: the one that is named, the fixed one, or the quickest for so many designs and poses."""
+        """Return the back end to run: the one that is named, the fixed one, or the quickest for so many designs and poses."""
         name = way.backend or ("floats" if m == 1 and n <= FEW else BACKEND.get())
         if name == "floats":
             return self.floats

@@ -1,4 +1,4 @@
-"""A program in other languages: as a C function over the poses of one design, as JavaScript in few letters, and what packages add."""
+"""Programs in other languages: a C function over the poses of one design, compact JavaScript, and further ones from packages."""
 
 from __future__ import annotations
 
@@ -124,7 +124,7 @@ class C(Language):
 
 
 def inputs_text(plan: Schedule, design: Mapping[str, float]) -> str:
-    """Return which inputs are which, and what those of a design are."""
+    """Return the order of the inputs, and the values of those of a design."""
     names = [node.value for node in plan.design_inputs]
     given = ", ".join(f"{name} = {design[name]!r}" if name in design else name for name in names)
     moved = ", ".join(node.value for node in plan.pose_inputs)
@@ -188,7 +188,7 @@ def short_names(taken: Collection[str]) -> Iterator[str]:
 @final
 @dataclass
 class Expressions:
-    """Nodes as JavaScript: what has a name is `named`, all else is written where it is read, once; `turning` are angles to continue."""
+    """Nodes as JavaScript: nodes with a name are in `named`, others are written where they are read, once; `turning` are angles."""
 
     named: dict[Node, str]
     taken: set[str]
@@ -247,7 +247,7 @@ class Expressions:
 
 
 def counted(results: Sequence[Node], nodes: Sequence[Node]) -> Counter[Node]:
-    """Return how often each node is read by others and by the results; what a square reads counts twice."""
+    """Return how often each node is read by others and by the results; the argument of a square counts twice."""
     uses = Counter(each.origin for each in results)
     for node in nodes:
         uses.update(arg.origin for arg in node.args)

@@ -24,7 +24,7 @@ Operand: TypeAlias = "Node | float"
 
 @final
 class Level(IntEnum):
-    """What a node depends on."""
+    """The inputs a node depends on."""
 
     CONSTANT = 0
     DESIGN = 1
@@ -257,7 +257,7 @@ COMPOSED: Mapping[str, Callable[..., Node]] = MappingProxyType(
 
 
 def operation_key(op: str, args: tuple[Node, ...]) -> tuple[object, ...]:
-    """Return what an operation is known by: the same for both orders where these do not matter."""
+    """Return the key of an operation: the same for both orders where these do not matter."""
     if len(args) == 2:
         a, b = args[0].number, args[1].number
         return (op, b, a) if a > b and op in COMMUTATIVE else (op, a, b)
@@ -426,7 +426,7 @@ def sum_of_products(graph: Graph, sign: float, a: Node, b: Node) -> Node | None:
 
 
 def shared_factor(x: Node, y: Node) -> tuple[Node, Node, Node] | None:
-    """Return the factor two products share, and what is left of each; None where they share none."""
+    """Return the factor two products share, and the rest of each; None where they share none."""
     if x.op == y.op == "multiply":
         for w, u in (x.args, x.args[::-1]):
             for other, v in (y.args, y.args[::-1]):

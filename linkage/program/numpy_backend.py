@@ -142,12 +142,12 @@ def is_table(value: Numbers) -> TypeGuard[FloatArray]:
 
 
 def rows_part(value: Numbers, here: slice) -> Numbers:
-    """Return what some designs see of an input of the poses, where it has rows of its own for them."""
+    """Return the rows of an input of the poses for some designs, where it has rows of its own for them."""
     return value[here] if is_table(value) and len(value) > 1 else value
 
 
 def columns_part(value: Numbers, here: slice) -> Numbers:
-    """Return what belongs to some designs or poses, which stand last, of an input that has more than one value for them."""
+    """Return the columns of an input for some designs or poses, which are the last axis, where it has several."""
     return value if not is_array(value) or value.shape[-1] == 1 else value[..., here]
 
 

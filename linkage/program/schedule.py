@@ -1,4 +1,4 @@
-"""Which operations a kernel does and in which order: only the ancestors of what is asked for."""
+"""Schedules: the operations of a kernel in their order, only the ancestors of its outputs."""
 
 from __future__ import annotations
 

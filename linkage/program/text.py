@@ -31,7 +31,7 @@ GUARDED = Dialect({**TEMPLATES, "divide": "divide({}, {})", "reciprocal": "recip
 
 @final
 class NodeNames:
-    """What the nodes are called in a text: by their place in it, so that equal programs have equal texts."""
+    """The names of nodes in a text, by their place in it, so that equal programs have equal texts."""
 
     def __init__(self, dialect: Dialect, given: Mapping[Node, str] | None = None) -> None:
         self.dialect = dialect
@@ -156,7 +156,7 @@ NUMBA = Dialect(
 
 
 def loop_text(plan: Schedule, dialect: Dialect) -> tuple[list[str], list[str], list[str]]:
-    """Return the pose part in a language, a line an operation, and what outputs and guards are called.
+    """Return the pose part in a language, a line an operation, and the names of outputs and guards.
 
     Constants are called c0, c1, ..., inputs i0, i1, ...
     """
@@ -188,7 +188,7 @@ def numba_text(plan: Schedule, turned: bool) -> str:
 
 
 def pose_loop(plan: Schedule, depth: int, count: str, given: Sequence[str], targets: Sequence[str]) -> list[str]:
-    """Return the loop over so many poses: what is given, the operations, the outputs into their targets; `bad` counts missed guards."""
+    """Return the loop over so many poses: the inputs, the operations, the outputs into their targets; `bad` counts missed guards."""
     lines, outputs, guards = loop_text(plan, NUMBA)
     results = [f"{target} = {name}" for target, name in zip(targets, outputs, strict=True)]
     missed = [f"missed{k} += 0 if {name} > 0.0 else 1" for k, name in enumerate(guards)]
@@ -243,7 +243,7 @@ def part_of(arrays: int) -> int:
 
 
 def of_design(plan: Schedule) -> list[str]:
-    """Return what a row takes out of the constants, and which row of the inputs it reads."""
+    """Return the lines that read a row's constants, and its row of the inputs."""
     constants = [f"c{k} = c[{k}, at]" for k in range(len(plan.passed))]
     return ["at = row if c.shape[1] > 1 else 0", *constants, "across = row if i.shape[1] > 1 else 0"]
 

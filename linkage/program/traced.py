@@ -1,4 +1,4 @@
-"""A user's law read on the nodes of a program: numbers that calculate as usual, and refuse what would need their value.
+"""Laws traced on the nodes of a program: numbers calculate as usual, and refuse operations that need their value.
 
 A law written for arrays runs once on these. What it tests by np.any and np.all, to refuse input that has no answer, is taken
 to be in order and noted. np.where chooses by a comparison; a number that it compares for equality is noted too.
@@ -38,7 +38,7 @@ def method(ufunc: np.ufunc) -> Callable[..., Scalar]:
 @final
 @dataclass(eq=False)
 class Notes:
-    """What laws are true under: nodes `assumed` above zero, and `switches` above zero where it is another law than next to it.
+    """Conditions of traced laws: nodes `assumed` above zero, and `switches` above zero where another law holds.
 
     `gaps` are nodes that are above zero where a law has a value. All are kept with the name of the law that is being traced, `owner`;
     `tests` counts what it asked for. `claims` are, by the columns of one table, the gaps that were noted while each was made.
@@ -186,7 +186,7 @@ def claim(value: Scalar, name: str) -> None:
 
 
 def is_traced(value: object) -> bool:
-    """Return whether a value is a number of a law that is being traced: it has no value yet; what has none later is reported then."""
+    """Return whether a value is a number of a law that is being traced, which has no value yet."""
     return isinstance(value, Traced)
 
 

@@ -1,4 +1,4 @@
-"""The axes of a part of a machine: where they stand in the whole, and what carries them."""
+"""The axes of a part of a machine: their place in the whole machine, and the body that carries them."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class Axes:
 
     @property
     def is_level(self) -> bool:
-        """Whether they are not turned against what carries them."""
+        """Whether they are parallel to the axes of their carrier."""
         return is_nothing(self.angle)
 
     @property
@@ -63,11 +63,11 @@ class Axes:
 
     @property
     def identity(self) -> tuple[Hashable, ...]:
-        """What tells them from other axes."""
+        """A hashable key: equal for equal axes."""
         return (self.carrier, *(each.identity for each in (*self.at, self.angle)), self.mirrored)
 
     def parts(self) -> tuple[Reference, ...]:
-        """Return what they are built from."""
+        """Return the references they are built from: the carrier's points, the origin and the angle."""
         return (*self.carrier, *(each for each in (*self.at, self.angle) if not each.is_constant))
 
     def within(self, inner: Axes | None) -> Axes:
@@ -84,7 +84,7 @@ class Axes:
         return Axes(self.P, self.Q, self.corner(*inner.at), plus(self.angle, turn), mirrored)
 
     def corner(self, x: Quantity, y: Quantity) -> tuple[Quantity, Quantity]:
-        """Return the coordinates of a place of the part in the axes of what carries it."""
+        """Return the coordinates of a place of the part in the axes of its carrier."""
         x = x.opposite() if self.mirrored else x
         if not is_nothing(self.angle):
             angle = self.angle if self.angle.constant is None or self.angle.name else self.angle.constant
@@ -95,12 +95,12 @@ class Axes:
     # -- in a reading ------------------------------------------------------------------------------------------
 
     def _turned(self, where: Where, vector: Vec) -> Vec:
-        """Return a vector of the part in the axes of what carries it."""
+        """Return a vector of the part in the axes of its carrier."""
         found = Vec(-vector.x, vector.y) if self.mirrored else vector
         return found if is_nothing(self.angle) else found.turned(*where.turn(self.angle))
 
     def _base(self, where: Where) -> tuple[Vec, Vec]:
-        """Return the origin [m] and the direction of what carries them."""
+        """Return the origin [m] and the direction of the carrier."""
         P, Q = self.carrier
         start = where.at(P)
         return start, (where.at(Q) - start) * (1.0 / where.link_length(P, Q))
@@ -141,7 +141,7 @@ class Axes:
         return self._straight(where, Vec(x, y))
 
     def _straight(self, where: Where, given: Vec) -> Vec:
-        """Return a vector in the axes of what carries the part as the part reads it."""
+        """Return a vector of the carrier's axes in the axes of the part."""
         if not is_nothing(self.angle):
             cos, sin = where.turn(self.angle)
             given = given.turned(cos, -sin)

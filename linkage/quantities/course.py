@@ -1,4 +1,4 @@
-"""Courses: what a stroke does over time, phase by phase a polynomial, so that rates and accelerations are exact."""
+"""Courses: a stroke over time as a piecewise polynomial, so that rates and accelerations are exact."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ Phases: TypeAlias = tuple[FloatArray, FloatArray, float]
 @final
 @refuses_changes
 class Course:
-    """What a stroke does over time: `Course([0.0, 2.0, 4.0], [0.10, 0.30, 0.10])` is a value and its exact derivatives at every instant.
+    """A stroke over time: `Course([0.0, 2.0, 4.0], [0.10, 0.30, 0.10])` gives the value and its exact derivatives at every instant.
 
     Parameters
     ----------
@@ -99,7 +99,7 @@ class Course:
 
     @classmethod
     def of_steps(cls, steps: Sequence[Mapping[str, Any]], measures: str = "") -> Self:
-        """Return what is made of steps in their order; DefinitionError where the value jumps from one to the next."""
+        """Return a course made of steps in their order; DefinitionError where the value jumps from one to the next."""
         found = cls.__new__(cls)
         found._hold(steps, measures)
         return found
@@ -133,7 +133,7 @@ class Course:
 
     @property
     def key(self) -> bytes:
-        """What tells it from courses that go otherwise."""
+        """A key in bytes: equal for courses with equal breaks and phases."""
         return bytes(self.breaks.tobytes() + self._phases.tobytes())
 
     def __call__(self, x: npt.ArrayLike, order: int = 0, *, phase: npt.ArrayLike | None = None) -> Any:
@@ -201,7 +201,7 @@ class Course:
         return Course.of_steps([*self.steps, *course.steps], measures)
 
     def part(self, begin: float, end: float) -> Course:
-        """Return what it is from one instant to another [s], which it keeps; DefinitionError beyond its ends."""
+        """Return the course between two instants [s], at the same times; DefinitionError beyond its ends."""
         first, last = self.breaks[[0, -1]].tolist()
         fits = is_number(begin) and is_number(end) and first <= begin < end <= last
         require_measure((begin, end), "time", "part")
@@ -315,7 +315,7 @@ def ramp(a: float, b: float, *, speed: float, acceleration: float | None = None,
 
 
 def course_of(given: Course | Curve | float, begin: float, end: float) -> Course:
-    """Return what a stroke is given over a path in time as a course: a number stands still, a periodic curve goes on over the path."""
+    """Return a stroke over a path in time as a course: a number is constant, a periodic curve is repeated over the path."""
     if isinstance(given, Course):
         return given
     if not isinstance(given, Curve):
@@ -328,7 +328,7 @@ def course_of(given: Course | Curve | float, begin: float, end: float) -> Course
 
 
 def common_measure(what: str, *given: object) -> str:
-    """Return what amounts measure, "length" or "angle", "" where none says it; DefinitionError where they differ, and for anything else."""
+    """Return the kind of some amounts, "length" or "angle"; "" for plain numbers. DefinitionError where the kinds differ."""
     known = [each for each in amounts_in([*given]) if each.measures]
     found = known[0].measures if known else ""
     require_measure(known, "angle" if found == "angle" else "length", what)

@@ -91,7 +91,7 @@ class Curve:
 
     @property
     def title(self) -> str:
-        """What it is called in a message: its name, and from where to where it goes."""
+        """Its name in a message, with its range."""
         return f"{self.name}, a table from {self.xs[0]:.6g} to {self.xs[-1]:.6g},"
 
     # -- the spline ------------------------------------------------------------------------------------------
@@ -172,7 +172,7 @@ def column(what: str, given: npt.ArrayLike, owner: str) -> FloatArray:
 @final
 @immutable
 class CurveValue(Quantity):
-    """What a curve, or a derivative of it, gives for a quantity."""
+    """The value, or a derivative, of a curve at a quantity."""
 
     curve: Curve
     x: Quantity

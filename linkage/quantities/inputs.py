@@ -1,4 +1,4 @@
-"""What is given from outside: strokes, which move the mechanism, and dimensions and labels, which make the design."""
+"""The inputs of a machine: strokes, which move the mechanism, and dimensions and labels, which make the design."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a member holds: the joints that a step, a guide or a force element brings, beside the pins of bodies that share a point.
+"""Joints that a step, a guide or a force element brings, beside the pins of bodies that share a point.
 
 Statics, mobility and drawing read these and know no kind of member by its name. Bodies that share a point are pinned to each
 other there without a word; a joint says what else is transmitted: across a guide, along a driven length, a drive's couple.
@@ -40,7 +40,7 @@ FRAME_SIDE = JointSide()
 @refuses_changes
 @dataclass(frozen=True)
 class Driven:
-    """A quantity that a joint drives: the force along `along` (a letter of what the joint holds) is conjugate to `sign` times it."""
+    """A quantity that a joint drives: the force along `along` (a letter of its directions) is conjugate to `sign` times it."""
 
     quantity: Quantity
     along: str
@@ -50,7 +50,7 @@ class Driven:
 @final
 @immutable
 class Joint:
-    """What the body `on` gets from the body `by` at a point, in the directions that it `holds`.
+    """A joint at a point, by which the body `by` holds the body `on` in the directions `holds`.
 
     `holds` are letters: x, y (a pin), n across the joint's line, t along it, c a couple. `line` gives the line in a reading. The force acts
     at the line's origin, such as the mesh of two gears, whatever point names the joint; without a line, and where the point runs on the
@@ -86,7 +86,7 @@ class Jointed(Member):
         return ()
 
     def constraints(self, where: Where) -> tuple[Scalar, ...]:
-        """Return what must vanish where it holds, in every reading; empty for a free construction, and for what holds nothing."""
+        """Return the residuals that vanish where the joint holds, in every reading; empty for a free construction and for no joint."""
         return ()
 
 

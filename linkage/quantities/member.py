@@ -1,4 +1,4 @@
-"""What a mechanism's class may bind to a name, and how members refer to each other: by that name."""
+"""Members: everything that a mechanism's class may bind to a name, and how members refer to each other by that name."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ class Member:
         object.__delattr__(self, name)
 
     def _check_free(self, name: str) -> None:
-        """Raise DefinitionError for a change of what a class was made of."""
+        """Raise DefinitionError for a change of a member whose class is made already."""
         if self._class:
             what = f"{self._class}.{self.name}.{name} = ..."
             remedy = f"write a subclass, class Other({self._class}): {self.name} = ..."
@@ -93,11 +93,11 @@ class Member:
         return self._name
 
     def parts(self) -> tuple[Reference, ...]:
-        """Return what this member is built from, names or members: those that `expects` lists, unless it says otherwise."""
+        """Return the references this member is built from, names or members: those in `expects`, unless a subclass says otherwise."""
         return tuple(getattr(self, attribute) for attribute, _ in self.expects)
 
     def variables(self) -> tuple[tuple[str, float, str, str], ...]:
-        """Return the design variables this member brings: name, default [SI], what it measures, display unit or ""."""
+        """Return the design variables this member brings: name, default [SI], kind of measure, display unit or ""."""
         return ()
 
     def having(self, values: Mapping[str, float]) -> Self:
@@ -116,7 +116,7 @@ class Member:
     """Whether it is a point of the frame."""
 
     def bind(self, name: str, table: Any) -> Self:
-        """Return this member with its name, the names of what it hangs from and its dimensions settled."""
+        """Return this member with its name, the names of its references and its dimensions settled."""
         return self
 
     def coordinates(self) -> tuple[tuple[str, Any], ...]:
@@ -143,12 +143,12 @@ class Member:
         return tuple(angle for angle in (getattr(self, attribute) for attribute in self.radians) if angle is not None)
 
     def examine(self, members: Mapping[str, Member], title: str) -> None:
-        """Raise DefinitionError for what only the whole class tells to be wrong: its members by name, its title."""
+        """Raise DefinitionError for faults that show only in the whole class: its members by name, its title."""
         for fault in self.faults(members):
             raise DefinitionError(f"{title}: {self.name} = {self}: {fault}.")
 
     def faults(self, members: Mapping[str, Member]) -> Iterator[str]:
-        """Yield what of it does not fit the members of its class, by name, with the remedy."""
+        """Yield the faults of this member among the members of its class, by name, each with the remedy."""
         yield from ()
 
     def among(self, members: Mapping[str, Member]) -> Self:
@@ -156,7 +156,7 @@ class Member:
         return self
 
     def inner(self, name: str, members: Mapping[str, Member]) -> Member | None:
-        """Return what this member holds by a name of its own, as `lift.length` is meant; None where there is no such thing."""
+        """Return a quantity or point that this member holds by a name of its own, as in `lift.length`; None where there is none."""
         return None
 
     def cuts(self, members: Mapping[str, Member]) -> tuple[str, ...]:
@@ -203,7 +203,7 @@ NamedMembers: TypeAlias = Mapping[str, Member]
 
 @lru_cache(maxsize=256)
 def signature_of(kind: Hashable) -> tuple[Signature, int, float]:
-    """Return what a kind of member is given, and how many arguments in order will do by themselves, least and most."""
+    """Return the signature of a kind of member, and the least and the largest number of positional arguments that suffice."""
     taken = signature(kind.__init__)  # type: ignore[misc]
     _, *parameters = taken.parameters.values()
     needed = [each for each in parameters if each.default is Parameter.empty and each.kind is not Parameter.VAR_KEYWORD]
@@ -249,7 +249,7 @@ def joined_names(*points: str) -> str:
 
 
 def body_name(points: Iterable[str]) -> str:
-    """Return what a body is called by its points: `OBC`; `lower.OBC` where all are of one part, else the points with blanks."""
+    """Return a body's name from its points: `OBC`; `lower.OBC` where all are of one part, else the points with blanks."""
     found = tuple(points)
     mixed = len({point.rpartition(".")[0] for point in found}) > 1
     return " ".join(found) if mixed else joined_names(*found)
@@ -340,7 +340,7 @@ class Tabulated(Protocol):
 
     @property
     def name(self) -> str:
-        """What equations call it."""
+        """Its name in equations."""
 
     @property
     def ends(self) -> tuple[float, float] | None:
@@ -356,7 +356,7 @@ class Tabulated(Protocol):
 
 
 class Where(Protocol):
-    """A reading of the mechanism: it knows where the points are and what the quantities amount to.
+    """A reading of the mechanism: it knows the places of points and the values of quantities.
 
     What a reading only notes is here as it is worked out by itself.
     """
@@ -392,7 +392,7 @@ class Where(Protocol):
         """Return a guide's line."""
 
     def at_pose(self, quantity: Reference, strokes: Mapping[str, float]) -> Scalar:
-        """Return what a quantity is at one pose of the strokes; those that are not named are at the sketch."""
+        """Return the value of a quantity at one pose of the strokes; strokes that are not named are at the sketch."""
 
     def angle_of(self, vector: Vec) -> Scalar:
         """Return a vector's direction [rad]."""
@@ -409,7 +409,7 @@ class Where(Protocol):
         """Return the vector from one point to another [m], noted as one whose direction is taken."""
 
     def curve(self, curve: Tabulated, x: Scalar, order: int = 0) -> Scalar:
-        """Return what a table gives for x, or its derivative of that order; NaN outside it."""
+        """Return the value of a table at x, or its derivative of that order; NaN outside its range."""
         return curve.value(x, order)
 
     def link_length(self, P: str, Q: str) -> Scalar:

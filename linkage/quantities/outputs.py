@@ -1,4 +1,4 @@
-"""What is read off a mechanism: directions, distances and coordinates, as quantities like any other."""
+"""Outputs of a mechanism: directions, distances and coordinates, as quantities like any other."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def label(reference: Reference) -> str:
 
 
 class Output(Quantity):
-    """What is read off points: a direction, a distance or a coordinate, in the axes of the frame or of a part."""
+    """An output of points: a direction, a distance or a coordinate, in the axes of the frame or of a part."""
 
     measures = "length"
     axes = FRAME_AXES
@@ -150,7 +150,7 @@ def y(P: Reference) -> Quantity:
 @final
 @immutable
 class AtPose(Quantity):
-    """What a quantity is at one pose of the strokes, whatever the pose; strokes that are not named are at the sketch.
+    """The value of a quantity at one pose of the strokes, the same at all poses; strokes that are not named are at the sketch.
 
     Inputs that are `unmoved` are 0 there.
     """
@@ -176,7 +176,7 @@ class AtPose(Quantity):
 @final
 @immutable
 class InnerQuantity(Quantity):
-    """What a member holds by a name of its own, as the class tells it: `lift.length`."""
+    """A quantity that a member holds by a name of its own, written by the class: `lift.length`."""
 
     owner: Reference
     own: str

@@ -27,7 +27,7 @@ TAKEN = (
 
 
 class Arithmetic(Operators[Any, Any], ABC):
-    """The base of what is added, multiplied and given to NumPy's functions beside numbers and quantities. A subclass says `applied`."""
+    """The base of values with arithmetic and NumPy's functions, beside numbers and quantities. A subclass defines `applied`."""
 
     def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: object, **options: object) -> Any:
         name = {"true_divide": "divide", "fabs": "absolute"}.get(ufunc.__name__, ufunc.__name__)
@@ -127,7 +127,7 @@ CHOICE = "choose by np.maximum or np.minimum, or make two classes of it"
 @final
 @immutable
 class PoseCondition:
-    """A comparison of what has a value at every pose: `x("T") <= 4`, kept at some poses and not at others; for `Over(..., only=[...])`.
+    """A comparison that holds at some poses and not at others: `x("T") <= 4`; for `Over(..., only=[...])`.
 
     A quantity or a request stands on its left or on its right, by their names too.
     """
@@ -144,7 +144,7 @@ class PoseCondition:
 
     @property
     def margin(self) -> Any:
-        """What is zero or above at the poses that keep it: a quantity or a request."""
+        """A quantity or a request that is zero or above at the poses that keep it."""
         left, right = (quantity(each) if isinstance(each, str) else each for each in (self.left, self.right))
         return left - right if self.symbol == ">=" else right - left
 
@@ -169,7 +169,7 @@ class Quantity(Operators["Quantity | float | str", "Quantity"], Member):
 
     @property
     def measures(self) -> str:
-        """What it measures where that is plain from its rule: `angle`, `length`, or "" for a plain number."""
+        """The kind of measure where the rule tells it: `angle`, `length`, or "" for a plain number."""
         return ""
 
     @abstractmethod
@@ -183,7 +183,7 @@ class Quantity(Operators["Quantity | float | str", "Quantity"], Member):
 
     @property
     def identity(self) -> Hashable:
-        """What tells this quantity from others of the same mechanism: its name, else itself."""
+        """A hashable key among the quantities of one mechanism: its name, else itself."""
         return self.name or self
 
     @property
@@ -206,11 +206,11 @@ class Quantity(Operators["Quantity | float | str", "Quantity"], Member):
         return -self
 
     def text(self, measures: str = "") -> str:
-        """Return this as it is written where it stands for what `measures` says: numbers of an `angle` are in degrees."""
+        """Return this as it is written in source; with `measures` "angle", numbers are in degrees."""
         return str(self)
 
     def applied(self, function: str, *operands: Operand) -> Quantity:
-        """Return what NumPy's function of that name makes of quantities; NotImplemented beside what calculates with quantities."""
+        """Apply NumPy's function of that name to quantities; NotImplemented beside other classes that calculate with quantities."""
         if any(isinstance(each, Arithmetic) for each in operands):
             return NotImplemented  # type: ignore[no-any-return]
         given = [quantity(each) for each in operands]
@@ -240,7 +240,7 @@ class Quantity(Operators["Quantity | float | str", "Quantity"], Member):
     __mod__ = __rmod__ = __floordiv__ = __rfloordiv__ = __matmul__ = __rmatmul__ = __divmod__ = __rdivmod__ = __round__ = _not_provided
 
     def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: Operand, **options: object) -> Quantity:
-        """Return what NumPy's numbers and functions make of quantities: np.sqrt(L), np.float64(2) * L."""
+        """Apply NumPy's function to quantities: np.sqrt(L), np.float64(2) * L."""
         name = ufunc.__name__
         if any(isinstance(each, Arithmetic) for each in inputs):
             return NotImplemented  # type: ignore[no-any-return]
@@ -252,7 +252,7 @@ class Quantity(Operators["Quantity | float | str", "Quantity"], Member):
 
 
 class Expression(Quantity):
-    """What consists of its parts alone, joined by a `symbol`: where these are the same, it is the same."""
+    """A quantity made of its parts joined by a `symbol`: equal parts and an equal symbol make an equal quantity."""
 
     symbol: str
 
@@ -341,7 +341,7 @@ class Ref(Quantity):
 
 
 def stands_for(members: Mapping[str, Any], given: object) -> Any:
-    """Return what a name or a reference stands for among some members, in the end; a name that is none of them as it is."""
+    """Resolve a name or a reference among some members to its final member; an unknown name is returned unchanged."""
     while isinstance(given, (str, Ref)):
         name = given.target if isinstance(given, Ref) else given
         if name not in members:

@@ -74,7 +74,7 @@ class Guide(Jointed):
         return Line(origin, self.axes.vector(where, Vec(*where.turn(angle))))
 
     def joints(self) -> tuple[Joint, ...]:
-        """Return what keeps the carrier of a guide of a given direction from turning, where it goes through a moving point."""
+        """Return the joint that keeps the carrier of a guide in a given direction through a moving point from turning."""
         if self.P is None or self.angle is None:
             return ()
         P = name_of(self.P)

@@ -1,4 +1,4 @@
-"""What the vector method's primitives keep by construction: which points move as one, which lengths and turns are driven.
+"""Constraints that the vector method's primitives keep by construction: points that move as one, driven lengths and turns.
 
 Nothing is measured here. A direction is a sum of angles, a length a sum of lengths, both by name. Points are one body where vectors join
 them whose lengths follow no stroke and whose directions differ by angles that follow none. A turn by a cosine-rule angle closes a
@@ -34,7 +34,7 @@ Terms: TypeAlias = frozenset[tuple[Hashable, float]]
 @final
 @dataclass(frozen=True)
 class Form:
-    """A sum: multiples of what is told apart by name, and a number [SI]."""
+    """A linear sum: multiples of terms with a key each, and a number [SI]."""
 
     terms: Terms = frozenset()
     number: float = 0.0
@@ -70,7 +70,7 @@ class TurningBody:
 
 
 def with_bodies(members: Mapping[str, Member], lengths: Mapping[frozenset[str], Quantity]) -> dict[str, Member]:
-    """Return bound members, in order, whose offset points know what they keep by construction; `lengths` are those that labels give."""
+    """Return bound members, in order, whose offset points have their constraints; `lengths` are those that labels give."""
     if not any(isinstance(member, Offset) for member in members.values()):
         return dict(members)
     found = Construction(members, lengths)
@@ -137,7 +137,7 @@ class Construction:
         self.bodies = [each for each in self.bodies if each not in shared[1:]] + ([] if shared else [body])
 
     def _offset(self, X: str, P: str, by: Reference) -> OffsetLinks:
-        """Return what the point X = P + vector keeps."""
+        """Return the constraints that the point X = P + vector keeps."""
         arrow = self.arrow(by)
         way, length = self.direction(arrow), self.length(arrow)
         turns, behind = self.moving(way), self.behind(length)
@@ -170,7 +170,7 @@ class Construction:
         return OffsetLinks((), sides, sides) if behind or known is not None else OffsetLinks(((P, X),), sides)
 
     def _at_home(self, X: str, P: str, home: TurningBody, arrow: Arrow) -> OffsetLinks:
-        """Return what a point keeps that is offset in the direction of a body at P: it is part of it, or slides along it."""
+        """Return the constraints of a point offset in the direction of a body at P: it is part of the body, or slides along it."""
         length, by = self.length(arrow), home.pair(P)
         if self.is_driven(length) and by is not None:
             return self._telescope(X, P, home.turns, by, arrow, None)
@@ -185,7 +185,7 @@ class Construction:
         return OffsetLinks(((P, Y, X),), settled=True, beside=(Y, self.arrows[start, end], sign))
 
     def _telescope(self, X: str, P: str, turns: Terms, by: tuple[str, ...], arrow: Arrow, angle: Quantity | None) -> OffsetLinks:
-        """Return what an arm keeps that a stroke moves along its body."""
+        """Return the constraints of an arm that a stroke moves along its body."""
         self.bodies.append(TurningBody(turns, [X], root=P))
         known, ends = self._known(arrow), by or tuple(self.frame.points[:2])
         return OffsetLinks(by=ends, angle=angle, length=Length(arrow) if known is None else known, settled=True)
@@ -291,7 +291,7 @@ class Construction:
         return self.named[given.name]
 
     def _sum(self, given: Quantity) -> Form:
-        """Return a quantity as a sum, by what it is made of."""
+        """Return a quantity as a linear sum of its terms."""
         match given:
             case Number():
                 return Form(number=given.number)
@@ -325,7 +325,7 @@ class Construction:
         return self._atom((given.symbol, a, b), self.behind(a) | self.behind(b))
 
     def _other(self, given: Quantity) -> Form:
-        """Return what has no simpler form: a stroke, a dimension, a coordinate, a function."""
+        """Return a quantity without a simpler form as a term: a stroke, a dimension, a coordinate, a function."""
         if isinstance(given, (Stroke, CurveValue)):
             self.strokes.add(given.name or str(given))
         if isinstance(given, (Stroke, Variable)) or not given.parts():
@@ -347,16 +347,16 @@ class Construction:
         return self._resolved(found) if isinstance(found, Ref) and found is not given else found
 
     def _atom(self, key: Hashable, follows: set[str] | frozenset[str]) -> Form:
-        """Return what stands for itself in a sum."""
+        """Return a sum of one term."""
         self.follows[key] = frozenset(follows)
         return Form(frozenset({(key, 1.0)}))
 
     def behind(self, form: Form) -> frozenset[str]:
-        """Return what a sum follows: strokes, points that move; nothing where it is constant."""
+        """Return the strokes and moving points that a sum depends on; empty where it is constant."""
         return reduce(frozenset.union, (self.follows[key] for key, _ in form.terms), frozenset())
 
     def is_driven(self, form: Form) -> bool:
-        """Return whether a sum follows strokes as a drive does: in proportion, or by a table. What is worked out of them is no drive."""
+        """Return whether a sum follows strokes as a drive does, in proportion or by a table; other functions of strokes are no drives."""
         moving = [key for key, _ in form.terms if self.follows[key]]
         return bool(moving) and all(key in self.strokes and self.follows[key] == {STROKE} for key in moving)
 

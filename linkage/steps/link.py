@@ -42,7 +42,7 @@ class Link(Member):
             table.dimension(slot, spelling, value, f"{self.name} = {self}")
 
     def fitted(self) -> list[tuple[Slot, str, Operand]]:
-        """Return what each label stands for, its spelling and its value; DefinitionError for one that does not fit the points."""
+        """Return the slot, spelling and value of each label; DefinitionError for one that does not fit the points."""
         found = [(match({spelling: value}, self.slots(), f"{self.name} = {self}"), value) for spelling, value in self.labels.items()]
         return [(slot, spelling, value) for each, value in found for slot, spelling, _, _ in each.values()]
 

@@ -83,7 +83,7 @@ class OnLink(Step):
         return () if self.QX is UNBOUND else self.triangle_sides(where, where.link_length(self.P, self.Q))
 
     def joints(self) -> tuple[Joint, ...]:
-        """Return what holds the arm that a driven label moves: along it, across it and against turning."""
+        """Return the joint of an arm that a driven label moves: it holds along the arm, across it and against turning."""
         P, Q = self.P, self.Q
 
         def line(where: Where) -> Line:

@@ -94,7 +94,7 @@ class Group(Member):
 
     @property
     def inputs(self) -> tuple[str, ...]:
-        """The names of what its solution supplies: coordinates [m] and the sine that tells how near it is to a singular pose."""
+        """The names of its solution's inputs: coordinates [m], and the sine that tells how near it is to a singular pose."""
         return (*(f"{pin}.{axis}" for pin in self.pins for axis in "xy"), f"{self.name}.sine")
 
     def in_radians(self) -> tuple[Quantity, ...]:
@@ -111,7 +111,7 @@ class Group(Member):
         return (*outside, *(each for each in guides if not (isinstance(each, Guide) and set(each.points) & set(self.pins))))
 
     def constraints(self, where: Where) -> tuple[Scalar, ...]:
-        """Return what must vanish: a residual a rod, two a rigidly attached point, one a slide."""
+        """Return the residuals that vanish: one a rod, two a rigidly attached point, one a slide."""
         found: list[Scalar] = []
         for rod in self.rods:
             length = where.value(rod.length)

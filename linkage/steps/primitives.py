@@ -52,7 +52,7 @@ class Vector(Arrow):
 
 
 class Axis(Arrow):
-    """The unit vector of the x axis: what a crank's arm is turned from."""
+    """The unit vector of the x axis, from which a crank's arm is turned."""
 
     is_directed = True
 
@@ -151,7 +151,7 @@ class CosineAngle(Quantity):
 @final
 @immutable
 class OffsetLinks:
-    """What an offset point keeps by construction; nothing where it is a mere construction.
+    """The constraints that an offset point keeps by construction; empty for a mere construction.
 
     `groups` are points that move as one, `sides` its distances from other points, `rods` those of them that strokes and dimensions
     give; `apex` is the far end of the base where it is the apex of a triangle. `by` are two points of the body that a drive acts from,
@@ -171,7 +171,7 @@ class OffsetLinks:
 
 
 class Offset(Point):
-    """The point P + vector [m]. What it `keeps` by construction the class finds, from how its vectors are built."""
+    """The point P + vector [m]. The class finds the constraints `keeps` from the construction of its vectors."""
 
     keeps = OffsetLinks()
     expects = (("P", "point"), ("by", "vector"))
@@ -204,7 +204,7 @@ class Offset(Point):
         return tuple(where.at(end) - X for end in ends) if self.keeps.apex else ()
 
     def constraints(self, where: Where) -> tuple[Scalar, ...]:
-        """Return the equations of what it keeps: of a body that it lies on it, of a drive its place, of two-point members their lengths."""
+        """Return the equations of its constraints: it lies on its body, a drive gives its place, two-point members have their lengths."""
         P, X = where.at(self.P), where.at(self.name)
         if self.keeps.settled:
             arm = where.vector(self.by)
@@ -219,7 +219,7 @@ class Offset(Point):
         return tuple((way.square() - length * length) * 0.5 for way, length in lengths)
 
     def joints(self) -> tuple[Joint, ...]:
-        """Return what a drive holds that turns its vector or pushes it out."""
+        """Return the joint of a drive that turns its vector or pushes it out."""
         name, start, keeps = self.name, name_of(self.P), self.keeps
         turned = () if keeps.angle is None else (Driven(keeps.angle, "c"),)
         by = JointSide(keeps.by)

@@ -91,7 +91,7 @@ class Point(Jointed):
         return f"{type(self).__name__}({', '.join(map(label, self.parts()))})"
 
     def constraints(self, where: Where) -> tuple[Scalar, ...]:
-        """Return what must vanish at this point's place, in every reading: that it lies where it is placed, unless a step knows better.
+        """Return the residuals that vanish at this point's place, in every reading: place minus rule, unless a step overrides it.
 
         A point that closes a loop says the equations whose root `place` chooses; a free construction says none.
         """
@@ -131,11 +131,11 @@ class Point(Jointed):
         return ()
 
     def shortage(self, where: Where) -> tuple[str, Scalar]:
-        """Return what is too short to place this point, in words, and by how much [m]."""
+        """Return which length is too short to place this point, in words, and by how much [m]."""
         return "its point lies nowhere", float("nan")
 
     def outline(self, where: Where) -> tuple[Contour, ...]:
-        """Return what is drawn of this step beside bodies, guides and pins."""
+        """Return the contours drawn of this step beside bodies, guides and pins."""
         return ()
 
 

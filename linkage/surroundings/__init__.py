@@ -1,4 +1,4 @@
-"""What stands around a mechanism and is only drawn: a wheel, the ground, a bucket, a photograph."""
+"""Surroundings of a mechanism that are only drawn: a wheel, the ground, a bucket, a photograph."""
 
 from ..star import declare_public
 from .outline import CircleOutline as CircleOutline

@@ -1,4 +1,4 @@
-"""Outlines of what stands around a mechanism: drawn with it, fixed to the frame or carried by a body, and never computed with.
+"""Outlines of surroundings: drawn with the mechanism, fixed to the frame or carried by a body, and never computed with.
 
 An outline's coordinates are those of what carries it. On two points, `on=("B", "C")`, the first is the origin and x goes to the
 second; on one point, `on="T"`, the axes keep the frame's directions; on nothing they are the frame's own.
@@ -114,7 +114,7 @@ class Outline(Member):
         return self.renewed(points=points[::-1] if axes.mirrored and self.hatched else points)
 
     def lines(self, value: Value) -> tuple[Array, ...]:
-        """Return its lines in the axes of what carries it, shape (n, 2) each [m]; a closed one does not repeat its first corner."""
+        """Return its lines in the axes of its carrier, shape (n, 2) each [m]; a closed one does not repeat its first corner."""
         return (numbers_at(self.points, value),)
 
     def under(self, value: Value) -> tuple[str, Array, float] | None:
@@ -122,7 +122,7 @@ class Outline(Member):
         return None
 
     def options(self) -> dict[str, str]:
-        """Return what is written behind its corners, in so far as it is not the usual."""
+        """Return the keywords written behind its corners, without the defaults."""
         words = {"closed": "False"} if not self.closed else {} if self.filled else {"filled": "False"}
         return words | ({"hatched": "True"} if self.hatched else {})
 
@@ -190,7 +190,7 @@ class LineOutline(Outline):
 
 
 class PlacedFile(Outline):
-    """The base of what is read from a file as it is drawn: where its origin stands, and how it is turned."""
+    """The base of outlines from a file: their origin's place and their angle."""
 
     form: ClassVar[str] = ""
 
@@ -407,7 +407,7 @@ def dxf_lines(path: str, layers: Sequence[str] = ()) -> list[npt.NDArray[np.floa
 
 
 def unblocked(space: Any, path: str, around: tuple[str, ...] = ()) -> Iterator[Any]:
-    """Yield the entities of a space, inserted blocks and what is in them; FileError for one that stands in itself, or too deep in others.
+    """Yield the entities of a space and of its inserted blocks; FileError for a block within itself, or nested too deep.
 
     `around` names the blocks that the space stands in, from the outermost one.
     """

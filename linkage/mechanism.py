@@ -86,7 +86,7 @@ def played_along(motion: Motion, at: object) -> tuple[Mechanism, Motion]:
 
 
 def verdicts_of(machine: Mechanism, judge: Judge, motion: Motion | None = None) -> list[Verdict]:
-    """Return what a judge and the machine's own rules say; asked again, in other words or units, the judge looks for nothing anew."""
+    """Return the verdicts of a judge and of the machine's rules; asked again in other words or units, the judge searches nothing."""
     fault: Verdict | None = from_above(HELD)(judge)
     try:
         own: object = machine.rules(judge.places[0].sampled if motion is None else motion)
@@ -111,7 +111,7 @@ def check_motion(machine: Mechanism, motion: object, what: str) -> None:
 
 @final
 class ClassBody(dict[str, object]):
-    """What stands in the body of a class, line by line: a name that has a member takes no other one, which would lose the first."""
+    """The body of a class while it is read: a name with a member takes no other one, which would lose the first."""
 
     def __init__(self, title: str) -> None:
         super().__init__()
@@ -137,7 +137,7 @@ def as_line(value: object) -> str:
 
 @final
 class MechanismType(ABCMeta):
-    """The class of the classes of mechanism: what a class is made of does not change once it is made."""
+    """The class of the classes of mechanism: a class does not change once it is made."""
 
     plan: Plan
 
@@ -157,7 +157,7 @@ class MechanismType(ABCMeta):
         super().__delattr__(name)
 
     def _check_made(cls, name: str, what: str, is_member: bool = False) -> None:
-        """Raise DefinitionError for a change of what the class is made of."""
+        """Raise DefinitionError for a change of the class once it is made."""
         if is_member or name == "plan" or isinstance(getattr(cls, name, None), Member) or name in cls.plan.members:
             remedy = f"write a subclass, class Other({cls.__name__}): {name} = ..."
             raise DefinitionError(f"{cls.__name__}.{name} {what}: {cls.__name__} is worked out already and would not follow; {remedy}.")
@@ -227,7 +227,7 @@ class Mechanism(Shown, metaclass=MechanismType):
         return self.plan.table.settings(dimensions)
 
     def __getattr__(self, name: str) -> Any:
-        """Raise AttributeError, with what may have been meant: a dimension goes by `machine["OB"]`."""
+        """Raise AttributeError with a suggestion: a dimension is read by `machine["OB"]`."""
         title = type(self).__name__
         if name == "_values":
             raise DefinitionError(f"{title}: its own __init__ does not call super().__init__(**dimensions); let it do that first.")
@@ -390,7 +390,7 @@ class Mechanism(Shown, metaclass=MechanismType):
         return columns_of(motion)
 
     def verdicts(self, motion: Motion | None = None, *, over: object = None, acting: Acting | None = None) -> list[Verdict]:
-        """Return what an engineer should know of this design, as `Verdict`s and `Remark`s; of a batch, how many designs fail.
+        """Return the verdicts on this design, as `Verdict`s and `Remark`s; of a batch, how many designs fail.
 
         Of a motion over all that it covers, without one over `overs` or what is given as `over`; under all load cases that occur, in all
         movements, on both sides of cylinders. The first is `held` where the machine is not: there are no forces then. Then come whether it
@@ -403,12 +403,12 @@ class Mechanism(Shown, metaclass=MechanismType):
         return verdicts_of(self, self.judge(over if motion is None else motion, acting), motion)
 
     def rules(self, motion: Motion) -> Sequence[str]:
-        """Return what this machine's own rules say of a motion, added to the general ones: `Verdict`s; a plain sentence is a `Remark`."""
+        """Return this machine's own verdicts on a motion, in addition to the general ones: `Verdict`s; a plain sentence is a `Remark`."""
         return []
 
     @property
     def overs(self) -> tuple[Over, ...]:
-        """Where this machine is looked at: what its class declares as `Over`s, else the box of all strokes."""
+        """The domains of this machine: the `Over`s that its class declares, else the box of all strokes."""
         return tuple(self.plan.of_kind(Over).values()) or (Over(),)
 
     def answers(
@@ -427,7 +427,7 @@ class Mechanism(Shown, metaclass=MechanismType):
         return ShownList(judge.answers(questions))
 
     def judge(self, over: object = None, acting: Acting | None = None) -> Judge:
-        """Return who answers questions of this design, over what is given or what it runs."""
+        """Return the judge who answers questions of this design, over given domains or its own."""
         declared = {each.name: each for each in self.overs if each.name}
         overs: list[Over | Motion] = []
         given: Sequence[object] = self.overs if over is None else over if isinstance(over, (list, tuple)) else (over,)
@@ -444,11 +444,11 @@ class Mechanism(Shown, metaclass=MechanismType):
         return Judge(self.plan, self._values, overs, acting, self)
 
     def featured(self) -> Featured:
-        """Return what pictures show of this design where nothing else is asked for: `about`, unless a machine says more here."""
+        """Return the features that pictures of this design show by default: `about`, unless a machine defines more here."""
         return self.about
 
     def formulas(self, written: Formulas) -> None:
-        """Write what the equations of forces say beyond the driving forces: that of its elements. A machine replaces it by its own."""
+        """Write the equations of forces beyond the driving forces: those of its elements. A machine replaces them by its own."""
         for element in self.plan.of_kind(ForceElement).values():
             if not element.feeds(self.plan.members):
                 element.formulas(written)
@@ -487,7 +487,7 @@ class Mechanism(Shown, metaclass=MechanismType):
 
     @property
     def freedom(self) -> Mobility:
-        """The mobility by rank and by count, with the links that are redundant and what is loose while the drives are locked, in words."""
+        """The mobility by rank and by count, with redundant links and the bodies that are loose while the drives are locked, in words."""
         found = mobility(self.plan)
         return found if found.dead else replace(found, loose=from_above(LOOSE)(self.plan).bodies)
 
@@ -552,7 +552,7 @@ def declared(cls: type) -> dict[str, Member]:
 
 
 def idle_stroke(plan: Plan, stroke: str) -> DefinitionError:
-    """Return the error for a stroke that no point follows: what follows it, and how that is to move a point."""
+    """Return the error for a stroke that no point follows: its followers, and how a point can follow it."""
     following = {name: member for name, member in plan.members.items() if name != stroke and stroke in plan.reaches(name)}
     text = f"{plan.title}: the stroke {stroke} moves nothing"
     if not following:
@@ -583,7 +583,7 @@ def check_bindable(name: str, what: str) -> None:
 
 
 def check_no_member(title: str, name: str, value: object) -> None:
-    """Raise DefinitionError for what was meant as a member and is none: its class, or members in a list or behind a comma too many."""
+    """Raise DefinitionError for a member written by mistake as none: its class, members in a list, or a comma too many."""
     if isinstance(value, type) and issubclass(value, Member):
         raise DefinitionError(f"{title}.{name} = {value.__name__} is the class, no member; write {name} = {value.__name__}(...).")
     machine = value if isinstance(value, type) else type(value)

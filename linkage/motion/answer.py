@@ -1,4 +1,4 @@
-"""What the judge finds: a value and its place, in which load case and movement, whether a condition is kept, and what has no value."""
+"""Answers of the judge: a value and its place, the load case and movement, whether a condition is kept, and places without a value."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ LOST_SHARE = "lost share"
 @final
 @dataclass(frozen=True, eq=False)
 class Lost:
-    """What has no value where it was asked for: its share of the places, the deepest of them [m or rad], and what is missing there.
+    """Places without a value: their share, the deepest of them [m or rad], and the missing length there.
 
     `time` is the instant of the deepest [s] over a path in time, else NaN.
 
@@ -56,7 +56,7 @@ PER_DESIGN = ("value", "ok", "status", "case", "direction", "drive", "side", "ov
 @final
 @dataclass(frozen=True, eq=False)
 class Answer:
-    """What the judge answers to one question: the worst over all that was looked at. Of a batch arrays over its designs.
+    """The judge's answer to one question: the worst over all places that were looked at. For a batch, arrays over its designs.
 
     `value` [SI], infinite where it is unbounded and NaN where there is none; `ok` True, False or None, for a bare measure and where
     nothing is left to judge, which `status` says. `strokes` say where [m or rad], `case`, `direction`, `drive`, `side` and `over` in which
@@ -162,7 +162,7 @@ class Answer:
 
     @property
     def batch_words(self) -> str:
-        """What is found of several designs, in words: the least and the greatest value, or how many are not assembled."""
+        """The answer for several designs, in words: the least and the greatest value, or how many are not assembled."""
         values = np.asarray(self.value, float)
         if self.measures == LOST_SHARE:
             lost = int((values > 0.0).sum())
@@ -180,7 +180,7 @@ class Answer:
 
     @property
     def lost_words(self) -> str:
-        """What is lost, in words."""
+        """The lost places, in words."""
         share = said("{share} of the places is lost", share=share_text(self.lost.share))
         return f"{share}: {self.lost.sentence}" if self.lost.sentence else share
 

@@ -34,7 +34,7 @@ def point_by_time(
 
 
 def stays(known: object, given: object) -> bool:
-    """Return whether what is given is what was known, and cannot have changed meanwhile: a number, a name, an array that is read-only."""
+    """Return whether an argument is the known object and cannot have changed: a number, a name, an array that is read-only."""
     fixed = not given.flags.writeable if isinstance(given, np.ndarray) else given is None or isinstance(given, str | float | int)
     return known is given and fixed
 

@@ -1,4 +1,4 @@
-"""How near a pose is to a singular one, what that leaves of a result, and what is said about it.
+"""Conditioning: how near a pose is to a singular one, the digits left in a result, and the words of errors and warnings.
 
 Where two links that close a loop come into line, a velocity ratio is off by about 0.1-0.3 eps cond^2, with cond the condition of the
 scaled constraint Jacobian: (1 + cos) / sin of the angle between the links. Where the loop's other side is longer than its links the
@@ -41,7 +41,7 @@ LEAST = 1e-3
 @final
 @dataclass(frozen=True, eq=False)
 class Rounding:
-    """What rounding leaves of the nodes of some results: their program, the groups' pins in it, and the machine's size."""
+    """Rounding errors of the nodes of some results: their program, the groups' pins in it, and the machine's size."""
 
     nodes: tuple[tuple[Node, ...], ...]
     iterated: tuple[Iterated, ...]
@@ -49,11 +49,11 @@ class Rounding:
 
     @classmethod
     def of(cls, plan: Plan, nodes: Iterable[tuple[Node, ...]]) -> Rounding:
-        """Return what rounding leaves of nodes of a plan's program, those of each result together."""
+        """Return the rounding of nodes of a plan's program, those of each result together."""
         return cls(tuple(nodes), iterated(plan), plan.trace.graph.node(plan.trace.extent))
 
     def at(self, inputs: Mapping[str, Numbers], among: Sequence[int]) -> list[PrecisionLeft]:
-        """Return what is left of some of the results at poses, inputs as floats or (n,)."""
+        """Return the precision left in some of the results at poses, inputs as floats or (n,)."""
         chosen = [self.nodes[k] for k in among]
         values, errors = scatter([*(node for each in chosen for node in each), self.extent], inputs, self.iterated)
         ends = list(accumulate(map(len, chosen), initial=0))
@@ -90,7 +90,7 @@ class PrecisionLeft:
 
     @property
     def length(self) -> PrecisionLeft:
-        """The length of what the rows are the components of, as one row."""
+        """The length of the vector whose components are the rows, as one row."""
         return PrecisionLeft(np.hypot.reduce(self.values, axis=0)[None], np.hypot.reduce(self.errors, axis=0)[None], self.size)
 
 
@@ -130,7 +130,7 @@ class Conditioning:
         return replace(self, conditions=conditions, spans=spans, error=self.error[mask])
 
     def culprit(self) -> tuple[str, str, bool]:
-        """Return the member that comes nearest to a singular pose, what is said of it, and whether its loop does, by that one's condition.
+        """Return the member nearest to a singular pose, its condition in words, and whether its loop is in line.
 
         Else it is by the least span of a direction that it takes, in parts of the machine's size. No name where what has none takes the
         direction, and no words where nothing comes near.
@@ -214,7 +214,7 @@ def lost_places(found: Conditioning, mask: Mask, strokes: Mapping[str, object]) 
 
 
 def is_or_are(what: str) -> str:
-    """Return "is" or "are" for what opens a sentence: `The joint forces`, `The ratio of BS`."""
+    """Return "is" or "are" for the subject of a sentence: `The joint forces`, `The ratio of BS`."""
     return "are" if what.split(" of ")[0].endswith("s") else "is"
 
 
@@ -229,7 +229,7 @@ def crosses(motion: MotionLike, name: str) -> bool:
 
 
 def warn_near(found: Conditioning, what: str, be: str = "is") -> None:
-    """Warn of poses next to a singular one, with the estimate of what is lost; `found` is of these alone."""
+    """Warn of poses next to a singular one, with the estimate of the lost precision; `found` is of these alone."""
     plan, (name, near, in_line), estimate = found.plan, found.culprit(), float(np.max(found.error))
     how = f"{be} near a dead point ({near})" if in_line else near
     who = f"{name_or_pins(plan, name) if name else 'it'} {how}" if how else ""

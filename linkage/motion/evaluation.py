@@ -1,4 +1,4 @@
-"""Requests over a grid of poses, by one program: what guards clear is taken as it is, the rest is looked at closely.
+"""Requests over a grid of poses, by one program: poses that guards clear are taken as they are, the others are examined closely.
 
 A close look places the poses at a dead point to rounding, and tells where a request cannot be built, has lost its digits near a singular
 pose, has no value, or rests on another law than the one traced. What is said of that, and whether it is an error, is up to who asks.
@@ -40,7 +40,7 @@ class BulkProgram:
 
     @classmethod
     def of(cls, plan: Plan, requests: Sequence[Request]) -> BulkProgram:
-        """Return the program of requests that are bound to a plan, made once; guards watch what they are built from."""
+        """Return the program of requests that are bound to a plan, made once; guards watch the members they are built from."""
         return plan.made(("bulk", tuple([each.key for each in requests])), lambda fork: cls.compiled_on(fork, requests))
 
     @classmethod
@@ -90,7 +90,7 @@ def members_behind(plan: Plan, requests: Sequence[Request]) -> set[str]:
 
 
 def assumed_of(plan: Plan, requests: Sequence[Request]) -> list[Node]:
-    """Return what requests take to be above zero."""
+    """Return the nodes that requests assume to be above zero."""
     return [node for each in requests for node in each.notes(plan).assumed]
 
 
@@ -133,11 +133,11 @@ class Evaluation:
 
     @cached_property
     def program(self) -> BulkProgram:
-        """The kernel of the requests and what its rows are."""
+        """The kernel of the requests and the meaning of its rows."""
         return BulkProgram.of(self.grid.plan, self.requests)
 
     def run(self, out: FloatArray | None = None, among: Mask | None = None) -> tuple[list[FloatArray], CloseLook | None]:
-        """Return one array a request, NaN where it has no value, and what a close look tells; None where all is clear.
+        """Return one array a request, NaN without a value, and the close look; None where all guards are clear.
 
         The arrays are rows of `out` (rows, m, n) where it is given. `among` (m, n) are the poses that are looked at closely.
         """
@@ -303,7 +303,7 @@ def keeps_digits(plan: Plan, requests: Sequence[Request], inputs: Mapping[str, A
 
 
 def coarse_look(plan: Plan, requests: Sequence[Request]) -> tuple[Kernel, list[int]]:
-    """Return the kernel of the size, of what tells the requests' errors, the same disturbed and the least parts; and each one's number."""
+    """Return the kernel of the size, the requests' error nodes, the same disturbed and the least parts; and the number of nodes of each."""
     own = [each.rounded(plan) for each in requests]
     flat = [node for each in own for node in each]
     least = [plan.trace.least_part(each.names(plan)) for each in requests]
@@ -311,7 +311,7 @@ def coarse_look(plan: Plan, requests: Sequence[Request]) -> tuple[Kernel, list[i
 
 
 def of_all(name: str, plan: Plan, requests: Sequence[Request], make: Callable[[Plan, Sequence[Request]], Made]) -> Made:
-    """Return what is made once of requests together: of laws, which take long to trace, from a program that all looks share."""
+    """Return an object made once of requests together; laws take long to trace, so their program is shared by all looks."""
     made = plan.made_beside if any(Trait.OF_LAWS in each.traits for each in requests) else plan.made
     return made((name, *(each.key for each in requests)), lambda twin: make(twin, requests))
 
@@ -325,7 +325,7 @@ def examined(
 
 
 def _conditioned(plan: Plan, what: Request, reading: ArrayReading, left: PrecisionLeft) -> Conditioning:
-    """Return how far poses are from singular ones for one request; what it notes itself in the reading counts for no other."""
+    """Return the conditioning of one request at poses; its own notes in the reading count for no other."""
     what.read_own(reading)
     error = what.error(plan, left)
     found = conditioning(plan, reading, what.differentiated(plan), what.names(plan), error, DOUBTFUL if what.order else ROUGH)

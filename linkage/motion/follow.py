@@ -96,7 +96,7 @@ def start_of(places: Places, start: Any) -> FloatArray:
 @final
 @dataclass(frozen=True, eq=False)
 class Route:
-    """The places of a path, what is wanted at each (n, t)."""
+    """The places of a path, with the targets' values at each (n, t)."""
 
     places: Places
     goals: FloatArray
@@ -136,7 +136,7 @@ class Route:
         return [bool(each) for each in self.places.angles]
 
     def off(self, values: Sequence[float], goal: Sequence[float]) -> list[float]:
-        """Return what is missing to a goal [SI], angles the shorter way round."""
+        """Return the difference to a goal [SI], angles the shorter way round."""
         return [
             (b - a) - TURN * round((b - a) / TURN) if is_angle else b - a
             for a, b, is_angle in zip(values, goal, self.angles, strict=True)
@@ -224,7 +224,7 @@ class Route:
         return None
 
     def is_met(self, missing: Sequence[float], noise: float = 1.0) -> bool:
-        """Return whether what is missing to a goal is nothing but rounding, of which there may be so many times as much as elsewhere."""
+        """Return whether the difference to a goal is only rounding; `noise` is how many times the usual rounding is allowed."""
         return all(-noise * least <= each <= noise * least for each, least in zip(missing, self.tolerance, strict=True))
 
     def past(self, strokes: FloatArray) -> FloatArray:
@@ -242,7 +242,7 @@ class Route:
 @final
 @dataclass(frozen=True, eq=False)
 class TrackedPose:
-    """A pose on the way: its strokes, what they give, the slopes and their determinant, whose sign tells two branches apart."""
+    """A pose on the way: its strokes, values and slopes, and their determinant, whose sign tells two branches apart."""
 
     strokes: list[float]
     values: list[float]

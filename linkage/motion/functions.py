@@ -186,7 +186,7 @@ def at_few_poses(
 
 
 def checked_out(grid: Grid, rows: int, out: FloatArray) -> FloatArray:
-    """Return the array that takes so many rows of results; DefinitionError for what cannot."""
+    """Return the array for so many rows of results; DefinitionError for an array of another type or shape."""
     shape = (rows, *grid.shape)
     if not isinstance(out, np.ndarray) or out.dtype != np.float64 or out.shape != shape or not out.flags.c_contiguous:
         given = f"{out.dtype} {out.shape}" if isinstance(out, np.ndarray) else repr(out)

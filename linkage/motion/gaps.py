@@ -113,7 +113,7 @@ class Piece:
 @final
 @dataclass(frozen=True)
 class BodyShape:
-    """What stands for a body: its points, each for itself in the frame, or an outline."""
+    """The shape of a body: its points, each for itself in the frame, or an outline."""
 
     points: tuple[str, ...]
     each_alone: bool = False
@@ -121,7 +121,7 @@ class BodyShape:
 
     @property
     def parts_behind(self) -> tuple[Member | str, ...]:
-        """What it is built from."""
+        """The members it is built from."""
         return self.points if self.outline is None else (self.outline, *self.points)
 
     def pieces(self, plan: Plan, where: Reading, pick: Pick) -> list[Piece]:

@@ -184,7 +184,7 @@ def varies(value: Any) -> bool:
 
 
 class MotionLike(Poses, Protocol):
-    """What limits, conditions and requests ask of a motion, which itself is made with them; see `Motion`."""
+    """A motion as limits, conditions and requests read it, which `Motion` itself imports; see `Motion`."""
 
     plan: Plan
     reached: Mask
@@ -350,7 +350,7 @@ RECENT = 256
 
 
 def recalled(motion: MotionLike, what: Hashable, make: Callable[[], Made]) -> Made:
-    """Return what follows from one design, the strokes, their courses and `what` alone, made once for equal ones; of a batch each time.
+    """Return a value that depends on one design, the strokes, their courses and `what` alone, cached; of a batch made each time.
 
     It is taken for what `make` returns anew: nothing in it may change, and nothing in it hangs on what was asked before.
     """

@@ -83,7 +83,7 @@ class Instants:
 
     @cached_property
     def key(self) -> bytes:
-        """What tells it from the same strokes passed otherwise."""
+        """A key in bytes: equal for equal strokes passed at equal rates and accelerations."""
         known = [self.time, *self.rates.values(), *self.accelerations.values()]
         parts = [self.breaks.tobytes(), *(each.key for each in self.courses.values()), *(np.asarray(each).tobytes() for each in known)]
         return blake2b(b"".join(parts), digest_size=16).digest()

@@ -113,26 +113,26 @@ class Sought:
 
     @property
     def request(self) -> Any:
-        """What is looked for."""
+        """The request to search."""
         return self.piece.reciprocal if self.is_reciprocal else self.piece.below if self.stays_at_zero else self.piece.request
 
     @property
     def stays_at_zero(self) -> bool:
-        """Whether what is looked for goes on below zero, where the request does not."""
+        """Whether the searched request continues below zero, where the request itself does not."""
         return self.piece.below is not None and isinstance(self.leaf, Most)
 
     def search_key(self, plan: Plan) -> Hashable:
-        """Return what tells what is looked for from anything else, whoever asks; None where that may change, as a function does."""
+        """Return a cache key for the search, or None if it cannot be cached, as for a function."""
         found = "nothing" if self.request is nothing else plain_identity(plan, self.request)
         return None if found is None else (found, self.sense, self.is_reciprocal, self.stays_at_zero)
 
     @property
     def sought(self) -> float:
-        """1.0 where the greatest value of what is looked for is the worst, else -1.0."""
+        """1.0 where the greatest value of the searched request is the worst, else -1.0."""
         return 1.0 if self.is_reciprocal else self.sense
 
     def value(self, highest: FloatArray) -> FloatArray:
-        """Return its worst value from the highest of what is looked for times its sense; NaN where it has no bound anywhere."""
+        """Return its worst value from the highest of the searched request times its sense; NaN where it has no bound anywhere."""
         if self.is_reciprocal:
             with np.errstate(all="ignore"):
                 return np.asarray(np.where(highest > 0.0, 1.0 / highest, np.nan))
@@ -154,14 +154,14 @@ class WorstPiece:
 
     @property
     def mover(self) -> Hashable:
-        """What moves in its direction: a cylinder's name, None for a stroke or a path."""
+        """The drive of its direction: a cylinder's name, None for a stroke or a path."""
         quantity = self.row.leaf.quantity
         return quantity.mover if isinstance(quantity, Request) else None
 
 
 @final
 class Domain:
-    """One `Over` of some designs: the motion that covers it, and what is lost there."""
+    """One `Over` of some designs: the motion that covers it, and its lost places."""
 
     def __init__(self, plan: Plan, designs: Mapping[str, Numbers], over: Over | Motion) -> None:
         given = over if isinstance(over, Motion) else None
@@ -244,7 +244,7 @@ class Domain:
         return Motion(self.plan, self.designs, instants.strokes, unreachable, over=self.over, instants=instants)
 
     def as_it_runs(self, quantity: Any) -> Any:
-        """Return what is looked for as a program takes it: over a path in time forces at rates and accelerations that are inputs.
+        """Return a quantity as a program takes it: over a path in time, forces at rates and accelerations that are inputs.
 
         None where it says itself how it moves, so that it has no program there.
         """
@@ -274,7 +274,7 @@ class Domain:
         return dict.fromkeys(self.running, 1.0 / steps)
 
     def situations(self, request: object, acting: Acting) -> list[Situation]:
-        """Return the load cases and movements in which a request is judged here; one without anything for what is of no force."""
+        """Return the load cases and movements in which a request is judged here; one empty situation unless it is of force."""
         if not isinstance(request, Request):
             return [Situation()]
         movements = request.movements(self.plan, rubs(self.plan, self.motion, acting))
@@ -309,7 +309,7 @@ class Domain:
         return [name]
 
     def extremes(self, rows: Sequence[Sought]) -> tuple[list[WorstPiece], Coverage]:
-        """Return the worst of every row, and what was seen on the way; of equal designs it is looked for once."""
+        """Return the worst of every row, and the coverage of the search; equal designs are searched once."""
         identities = [row.search_key(self.plan) for row in rows]
         if self.over.only or None in identities:
             return self.searched(rows)
@@ -351,7 +351,7 @@ class Domain:
             return least_margins(self.motion, self.over.kept if self.over.only else None)
 
     def lost(self, seen: Coverage) -> Lost:
-        """Return what cannot be assembled of the places asked for, of one design: what the grid sees, and holes between its places."""
+        """Return the lost places of one design: those on the grid, and holes between its places."""
 
         def of_design(value: PerDesign) -> float:
             return float(np.asarray(value)[seen.design])
@@ -378,7 +378,7 @@ class Domain:
 
 
 def rubs(plan: Plan, motion: Motion, acting: Acting) -> bool:
-    """Return whether there is friction among the loads, or what acts otherwise while it moves."""
+    """Return whether the loads have friction, or act otherwise in motion than at rest."""
     given = acting.loads if isinstance(acting.loads, (list, tuple)) else [acting.loads]
     listed = plan.of_kind(ForceElement).values() if acting.loads is None else given
     elements = [plan.members.get(each) if isinstance(each, str) else each for each in listed]
@@ -404,7 +404,7 @@ def case_named(plan: Plan, case: object) -> str:
 @final
 @dataclass(eq=False)
 class Coverage:
-    """What was seen on the first grid: shares of its places that are lost, outside, and of each row without a value, or without a bound.
+    """Counts on the first grid: shares of its places that are lost or outside, and of each row without a value, or without a bound.
 
     Shares are arrays over the designs, of rows (rows, ...).
     """
@@ -420,7 +420,7 @@ class Coverage:
     design: tuple[int, ...] = ()
 
     def of_design(self, design: tuple[int, ...]) -> Coverage:
-        """Return what was seen of one design, by its place in a batch."""
+        """Return the coverage of one design, by its place in a batch."""
         deepest = {name: float(value[design]) for name, value in self.deepest.items()}
         lost, outside = (float(np.asarray(each)[design]) for each in (self.lost_share, self.outside))
         time = float(np.broadcast_to(self.time, np.shape(self.lost_share))[design])
@@ -445,7 +445,7 @@ class Asked:
         return self.place.over.kept(motion)
 
     def row(self, function: int) -> Asked:
-        """Return one row as a function of its own; what it looks at is counted with the others."""
+        """Return one row as a function of its own; its looks are counted with the others."""
         if function not in self._rows:
             self._rows[function] = Asked(self.place, [self.rows[function]])
             self._rows[function].seen = self.seen
@@ -463,7 +463,7 @@ class Asked:
         return values
 
     def values(self, motion: Motion) -> tuple[FloatArray, Mask]:
-        """Return the rows' values over a motion, and where they have no bound: one kernel for what has a program, the rest by itself."""
+        """Return the rows' values over a motion, and where they have no bound: one kernel for rows with a program, others alone."""
         values, unlimited = np.full((len(self.rows), *motion.shape), np.nan), np.zeros((len(self.rows), *motion.shape), bool)
         with unwarned(), np.errstate(all="ignore"):
             if self._bound:
@@ -528,7 +528,7 @@ def reached_grid(motion: Motion) -> Grid:
 
 
 def gaps_kernel(plan: Plan, bound: Request) -> Kernel:
-    """Return the kernel of what is below zero where a request has no bound."""
+    """Return the kernel of nodes that are below zero where a request has no bound."""
     bound.nodes(plan)  # its gaps are known then
     return Kernel([*bound.gaps(plan)])
 
@@ -622,7 +622,7 @@ class Judge:
         self._lost: dict[Any, Lost] = {}
 
     def lost_allowed(self) -> Judge:
-        """Return the judge of the same for whom places that are lost are part of the machine; what is known already both know."""
+        """Return this judge with lost places taken as part of the machine; both share all known results."""
         found, found_places = copy(self), tuple(map(copy, self.places))
         for place in found_places:
             place.over = place.over.renewed(lost=ALLOWED)
@@ -642,7 +642,7 @@ class Judge:
 
     @cached_property
     def anywhere(self) -> Domain:
-        """The box of all strokes and all load cases, for what is asked at poses of its own."""
+        """The box of all strokes and all load cases, for questions at poses of their own."""
         return Domain(self.plan, self.designs, Over())
 
     @property
@@ -729,7 +729,7 @@ class Judge:
         return [self.reached() if isinstance(question, Reachable) else self.worst(question, each) for question, each in held]
 
     def find(self, number: int, leaves: Sequence[Leaf]) -> None:
-        """Look for the worst of some leaves over one `Over`, by its number, in one pass; what was found before is known."""
+        """Find the worst of some leaves over one `Over`, by its number, in one pass; known results are reused."""
         place, known = self.places[number], self._found[number]
         asked = {key: leaf for leaf in leaves if (key := leaf_key(self.plan, leaf)) not in known}
         rows = {key: self.sought(leaf, self.anywhere if isinstance(leaf, At) else place) for key, leaf in asked.items()}
@@ -825,7 +825,7 @@ class Judge:
         return made
 
     def lost(self, candidate: Candidate) -> Lost:
-        """Return what is lost of the places that a candidate of one design is about."""
+        """Return the lost places of a candidate of one design."""
         seen = candidate.seen
         if seen is not None:
             key = (id(candidate.place), seen.design)
@@ -840,7 +840,7 @@ class Judge:
         return Lost(1.0, strokes, " ".join(str(error).split()) if error is not None else "")
 
     def worst(self, question: object, constraints: Sequence[object]) -> Answer:
-        """Return the answer to a question: the worst of what it is in every situation over every `Over`, of a batch for every design."""
+        """Return the answer to a question: its worst in every situation over every `Over`, for a batch per design."""
         count = len(self.places) if any(not is_at_poses(one) for one in constraints) else 1
         candidates = [each for number in range(count) for one in constraints for each in self.candidates(one, number)]
         if not candidates:
@@ -854,7 +854,7 @@ class Judge:
         return of_batch(each_of, shape) if shape else each_of[0]
 
     def answered(self, question: object, candidates: Sequence[Candidate], margins: FloatArray) -> Answer:
-        """Return the answer of one design, with what has to be named as there are several."""
+        """Return the answer of one design, with the names of load case, movement and `Over` where there are several."""
         is_bare = isinstance(question, Measure)
         lost = next(filter(None, map(self.lost, candidates)), NONE_LOST)
         fatal = [
@@ -932,7 +932,7 @@ def of_batch(each_of: Sequence[Answer], shape: tuple[int, ...]) -> Answer:
 
 
 def nothing(motion: Motion) -> FloatArray:
-    """Return zeros: what is looked at where only the places themselves are asked about."""
+    """Return zeros, for questions about the places alone."""
     return np.zeros(motion.shape)
 
 
@@ -953,7 +953,7 @@ def questions_of(plan: Plan, given: object) -> list[Any]:
 
 
 def leaves_of(question: Any) -> tuple[Leaf, ...]:
-    """Return what is taken over the strokes by a constraint or a measure."""
+    """Return the measures over the strokes in a constraint or a measure."""
     found: tuple[Leaf, ...] = (question.margin if isinstance(question, Constraint) else question).leaves
     return found
 
@@ -965,7 +965,7 @@ def is_at_poses(question: object) -> bool:
 
 
 def leaf_key(plan: Plan, leaf: Leaf) -> Hashable:
-    """Return what tells a leaf from others as long as it lives."""
+    """Return a key of a leaf, valid as long as it lives."""
     quantity = leaf.quantity
     inner = (key_of(plan, quantity.quantity), quantity.over, quantity.sense) if isinstance(quantity, Worst) else key_of(plan, quantity)
     strokes = tuple(leaf.strokes.items()) if isinstance(leaf, At) else ()
@@ -973,12 +973,12 @@ def leaf_key(plan: Plan, leaf: Leaf) -> Hashable:
 
 
 def plain_identity(plan: Plan, quantity: object) -> Hashable:
-    """Return what tells a quantity or a request from others; None for a function of a motion, and for what may change."""
+    """Return a key of a quantity or a request; None for a function of a motion, and for one that may change."""
     return identity_of(plan, quantity) if is_quantity(quantity) else None
 
 
 def key_of(plan: Plan, quantity: object) -> Hashable:
-    """Return what tells a piece from others as long as it lives."""
+    """Return a key of a piece, valid as long as it lives."""
     identity = plain_identity(plan, quantity)
     return id(quantity) if identity is None else identity
 
@@ -1015,7 +1015,7 @@ def situation_found(chosen: Sequence[WorstPiece]) -> Situation:
 
 
 def valued(question: Any, number: Callable[[Leaf], FloatArray]) -> tuple[FloatArray, FloatArray]:
-    """Return a question's value, and its margin: below zero where it is not kept; of a bare measure what makes the worst the least."""
+    """Return a question's value, and its margin: below zero where it is not kept; for a bare measure, greatest at the best value."""
     if isinstance(question, Measure):
         value = np.asarray(question.of(number), float)
         return value, value if isinstance(question, Least) else -value
@@ -1027,7 +1027,7 @@ def valued(question: Any, number: Callable[[Leaf], FloatArray]) -> tuple[FloatAr
 
 
 def measures_of(plan: Plan, question: object) -> str:
-    """Return what the value of a question measures, where that is plain."""
+    """Return the kind of a question's value, "" where it is not plain."""
     measure = question.left if isinstance(question, Constraint) else question
     if not isinstance(measure, Leaf) or isinstance(measure, Integral):
         return ""

@@ -1,4 +1,4 @@
-"""What can be said of any motion: whether it is assembled, how far it goes, its dead points, and what its members say of themselves."""
+"""Verdicts on any motion: whether it is assembled, how far it goes, its dead points, and its members' own verdicts."""
 
 from __future__ import annotations
 
@@ -63,11 +63,11 @@ class HasVerdicts(Member):
     """What a page calls it above its verdicts, in English as the catalogues have it."""
 
     def questions(self, judge: Judge) -> list[Question]:
-        """Return what its verdicts ask of every machine, so that all members' questions are looked at in one pass."""
+        """Return the questions of its verdicts, so that one pass over the machine answers those of all members."""
         return list(self.conditions(judge).values())
 
     def conditions(self, judge: Judge) -> Mapping[str, Condition]:
-        """Return those of its rules that are plain conditions, by the rules' names: what a page asks of a design that is changed."""
+        """Return those of its rules that are plain conditions, by the rules' names; a live page evaluates them for a changed design."""
         return {}
 
     def page_words(self, judge: Judge) -> Mapping[str, PageWords]:
@@ -75,7 +75,7 @@ class HasVerdicts(Member):
         return {}
 
     def load_limits(self, judge: Judge) -> Mapping[str, Condition]:
-        """Return those conditions that limit a load in charts: all of them, but for what the bounds of forces say already."""
+        """Return those conditions that limit a load in charts: all, except those that the bounds of forces contain already."""
         return self.conditions(judge)
 
     def load_remarks(self, judge: Judge) -> Mapping[str, Condition]:
@@ -88,7 +88,7 @@ class HasVerdicts(Member):
 
     @abstractmethod
     def verdicts(self, judge: Judge) -> list[Verdict]:
-        """Return what an engineer should know of it: what the judge answers over all that the machine runs, of one design.
+        """Return its verdicts on one design, over all that the machine runs.
 
         Where several members follow the same rule the machine adds their names to it.
         """
@@ -99,7 +99,7 @@ HELD, DRIVES, PACE = "linkage.statics:held_verdict", "linkage.statics:drive_rema
 
 
 def judge_verdicts(judge: Judge, fault: str = "") -> list[Verdict]:
-    """Return what can be said of any machine over all that it runs, and where it is not as drawn; of a batch, how many designs fail.
+    """Return the verdicts on any machine over all that it runs, and differences from its drawing; of a batch, how many designs fail.
 
     Where there are no forces, for a `fault` of the machine, only what is said of places.
     """
@@ -117,7 +117,7 @@ def judge_verdicts(judge: Judge, fault: str = "") -> list[Verdict]:
 
 
 def verdict_questions(judge: Judge) -> list[Question]:
-    """Return what the verdicts on one design ask, so that all of it is looked at in one pass."""
+    """Return the questions of all verdicts on one design, so that one pass answers them."""
     members = speakers(judge.plan, HasVerdicts).values()
     return [reachable, *transmissions(judge).values(), *(each for member in members for each in member.questions(judge))]
 
@@ -129,7 +129,7 @@ def over_time(judge: Judge, asked: Condition) -> Answer | None:
 
 
 def valued_everywhere(verdict: Verdict) -> Verdict:
-    """Return a verdict; one that is kept as a fault where what it rests on has no value at some places that are assembled."""
+    """Return a verdict; a kept rule becomes a fault where its quantity has no value at some assembled places."""
     lost = verdict.answer.lost if verdict.ok and verdict.answer is not None else NONE_LOST
     if not lost or lost.strokes:
         return verdict
@@ -150,7 +150,7 @@ def geometry_verdicts(judge: Judge) -> list[Verdict]:
 
 
 def dead_points_over(judge: Judge) -> list[Verdict]:
-    """Return what stops or turns a motion along each stroke, or in a box, over every place; in one row the nearest dead points beyond."""
+    """Return the stops and turns of a motion along each stroke, or in a box, in every place; the nearest dead points beyond in one row."""
     found, nearest = dict[tuple[str, str], list[Verdict]](), dict[tuple[str, bool], tuple[float, str]]()
     for place in [place for place in judge.places if place.motion.reached.any()] or judge.places[:1]:
         spans = {name: (float(np.min(value)), float(np.max(value))) for name, value in place.motion.strokes.items()}
@@ -172,7 +172,7 @@ def dead_points_over(judge: Judge) -> list[Verdict]:
 
 
 def in_line(place: Domain) -> dict[tuple[int, ...], str]:
-    """Return the loops that come into line among what is looked at and is assembled there, in words, of each design that has such."""
+    """Return the loops that come into line at assembled places, in words, of each design that has such."""
     found: dict[tuple[int, ...], str] = {}
     for each in place.margins:
         flat = np.asarray((each.value <= IN_LINE**2) & ~np.asarray(each.is_hole)) & (each.kind in ("links", "guides"))
@@ -192,7 +192,7 @@ def is_pushed(judge: Judge, stroke: str) -> bool:
 
 
 def assembly_verdicts(judge: Judge) -> list[Verdict]:
-    """Return whether it is assembled wherever it runs; where not, how much is lost, what is missing in the deepest place, a remedy."""
+    """Return whether it is assembled wherever it runs; if not, the lost share, the missing length in the deepest place, a remedy."""
     if not judge.plan.strokes or not judge.plan.moving:
         return []
     answer = judge.answer(reachable)
@@ -227,7 +227,7 @@ def nearest_dead_points(limits: StrokeLimits, span: tuple[float, float]) -> Iter
 
 
 def dead_point_verdicts(limits: StrokeLimits, span: tuple[float, float], pushed: bool) -> Iterator[Verdict]:
-    """Yield what stops or turns a motion along one stroke, within the part that runs.
+    """Yield the stops and turns of a motion along one stroke, within the part that runs.
 
     At an end it is a fault where it is `pushed` by a cylinder, which cannot start from there.
     """
@@ -254,7 +254,7 @@ def dead_point_verdicts(limits: StrokeLimits, span: tuple[float, float], pushed:
 
 
 def place_of(limits: StrokeLimits, value: float, what: str) -> str:
-    """Return what is at a place along a stroke [m or rad] in words: `B at S = 0.1234 m`."""
+    """Return a place along a stroke [m or rad] in words: `B at S = 0.1234 m`."""
     return said("{what} at {stroke} = {value}", what=what, stroke=limits.stroke, value=place_text(value, limits.unit))
 
 
@@ -280,7 +280,7 @@ def transmission_remarks(judge: Judge) -> list[Remark]:
 
 
 def member_verdicts(judge: Judge, fault: str = "") -> list[Verdict]:
-    """Return what the members that judge themselves say; with their names where several follow the same rule.
+    """Return the verdicts of members that judge themselves; with their names where several follow the same rule.
 
     Those that ask for forces where these are refused for a `fault` say nothing.
     """
@@ -296,7 +296,7 @@ def member_verdicts(judge: Judge, fault: str = "") -> list[Verdict]:
 
 
 def batch_verdicts(judge: Judge, fault: str = "") -> list[Verdict]:
-    """Return, rule by rule, how many designs of a batch fail, with what is said of the first of these."""
+    """Return, rule by rule, how many designs of a batch fail, with the verdict on the first of these."""
     reached = [place.motion.reached.reshape(-1, int(np.prod(place.motion._stroke_shape))) for place in judge.places]
     whole, total = np.all([each.all(axis=1) for each in reached], axis=0), len(reached[0])
     lost = np.flatnonzero(~whole)
@@ -340,7 +340,7 @@ def batch_dead_points(judge: Judge, total: int) -> list[Verdict]:
 
 
 def range_words(answers: Sequence[Answer]) -> str:
-    """Return from what to what the worst values of several designs go, in words; empty where all have the same."""
+    """Return the range of the worst values of several designs, in words; empty where all have the same."""
     low, high = (pick(answers, key=lambda each: each.value, default=None) for pick in (min, max))
     if low is None or high is None or low.amount == high.amount:
         return ""
@@ -351,7 +351,7 @@ def range_words(answers: Sequence[Answer]) -> str:
 
 
 def limits_over(motion: Motion, overs: Sequence[Over | Motion] = (Over(),)) -> Limits:
-    """Return the limits along every stroke of one design, and what is lost over the box of all, or over what is given."""
+    """Return the limits along every stroke of one design, and the lost share over the given places, by default the box of all."""
     strokes = stroke_search.limits(motion)
     if not strokes:
         return strokes
@@ -426,7 +426,7 @@ def covered(place: Domain, motion: Motion) -> Mask:
 
 
 def pose_sentence(motion: Motion) -> str:
-    """Return what is out of bounds at a pose, in words.
+    """Return the rules that a pose breaks, in words.
 
     Parameters
     ----------
@@ -471,7 +471,7 @@ def over_pose(motion: Motion, cases: Sequence[str] | None) -> Over:
 
 
 def answers_at(judge: Judge) -> tuple[dict[str, Answer], list[str]]:
-    """Return what a judge answers to the conditions of all members, by their rules, and those that have no answer."""
+    """Return a judge's answers to the conditions of all members, by their rules, and the rules without an answer."""
     asked = []
     with unwarned():
         for name, member in speakers(judge.plan, HasVerdicts).items():

@@ -328,7 +328,7 @@ def stroke_number(value: float, unit: str, digits: int = 9) -> str:
 
 
 def stroke_measure(plan: Plan, name: str) -> str:
-    """Return what a stroke measures: "angle" or "length"."""
+    """Return the kind of a stroke: "angle" or "length"."""
     return UNITS[stroke_unit(plan, name)][1]
 
 

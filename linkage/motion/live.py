@@ -1,4 +1,4 @@
-"""A machine as JavaScript for a page that computes: positions, outputs and forces over strokes, of any design, with what cannot be reached.
+"""A machine as JavaScript for a live page: positions, outputs and forces over strokes, of any design, with places out of reach.
 
 The text is one program: what is asked for, what tells that a member cannot be placed, and how near every loop is to a dead point, from
 shared subexpressions, as `compact` writes them. Pins that are found by iteration and angles that are followed come by the rules that are
@@ -33,7 +33,7 @@ REGULAR = (1.0 + math.sqrt(1.0 - 0.3**2)) / 0.3
 @final
 @dataclass(frozen=True)
 class LiveText:
-    """JavaScript of a machine, and what stands in it.
+    """JavaScript of a machine, and the names of its parts.
 
     `rows` says where each thing asked for stands among the values, (first row, how many); `left_out` why others do not; `dimensions` and
     `strokes` name the arguments in their order.
@@ -47,7 +47,7 @@ class LiveText:
 
 
 def live_text(plan: Plan, requests: Mapping[str, RequestLike], name: str = "engine") -> LiveText:
-    """Return JavaScript `const engine=...;` that sweeps a machine in a page; what no program gives is left out, with the reason.
+    """Return JavaScript `const engine=...;` that sweeps a machine in a page; requests without a program are left out, with the reason.
 
     `engine.sweep(d, strokes, rates)` takes a design and an array for each stroke; with requests at rates also for the rate of each stroke,
     and behind these for its acceleration, without them it stands still. It gives `values`, an array for each row. `reason` is 0 where a
@@ -78,7 +78,7 @@ def live_source(plan: Plan, requests: Sequence[Request], name: str, design: Mapp
 
 
 def live_program(plan: Plan, requests: tuple[Request, ...]) -> tuple[str, str, tuple[str, ...]]:
-    """Return the text that declares `sweep`, what else is declared beside it, and the dimensions in their order, made once."""
+    """Return the text that declares `sweep`, further declarations, and the dimensions in their order, made once."""
     return plan.made(("live", tuple(each.key for each in requests)), lambda twin: live_program_on(twin, requests))
 
 
@@ -134,13 +134,13 @@ def live_program_on(plan: Plan, requests: Sequence[Request]) -> tuple[str, str, 
 
 
 def part_text(name: str) -> str:
-    """Return a file of this room without what only its readers need: comments, the beginnings and the ends of lines."""
+    """Return a file of this room without its comments and the blanks at the ends of lines."""
     lines = (line.strip() for line in files(__package__).joinpath(name).read_text(encoding="utf-8").splitlines())
     return "".join(line for line in lines if not line.startswith("//"))
 
 
 def true_nodes(plan: Plan, what: Request) -> list[Node]:
-    """Return a request's nodes, NaN where what they are true under does not hold: the text can look nothing up."""
+    """Return a request's nodes, NaN where their assumptions do not hold, since a page has no close look."""
     nodes = what.nodes(plan)
     truths = [*what.notes(plan).assumed, *what.gaps(plan)]
     holds = reduce(lambda a, b: a.graph.apply("minimum", a, b), truths) if truths else None
@@ -163,7 +163,7 @@ def clipped(plan: Plan, nodes: Sequence[Node]) -> list[Node]:
 
 
 def checks_of(plan: Plan) -> Iterator[tuple[str, Node]]:
-    """Yield what is finite where a member can be placed, in the order of construction, with its name."""
+    """Yield a node that is finite where a member can be placed, with the member's name, in the order of construction."""
     trace, graph = plan.trace, plan.trace.graph
     for name, member in plan.members.items():
         for owner, length in plan.following:
@@ -189,7 +189,7 @@ def gaps_of(plan: Plan, names: Sequence[str]) -> list[Node]:
 
 
 def missing_at(plan: Plan, name: str) -> Node:
-    """Return by how much the sides of a member's triangle are too short, or what else it tells [m]."""
+    """Return by how much the sides of a member's triangle are too short, or the shortage that it defines [m]."""
     member, trace = plan.members[name], plan.trace.view()
     graph, sides = trace.graph, member.sides(trace)
     if sides:

@@ -144,7 +144,7 @@ class ManyPlaces:
         self, start: PlacePoses, goals: FloatArray, outs: FloatArray, *, damped: bool | str = True, iterations: int = ITERATIONS,
         order: Index | None = None,
     ) -> tuple[PlacePoses, Mask]:  # fmt: skip
-        """Return where steps of Newton lead from some poses to what their places want (places, t), and which have met it.
+        """Return the poses to which Newton's steps lead from some poses towards their places' goals (places, t), and which have met them.
 
         The spare strokes stay. Those that do not settle go on with damped steps inside the ranges, where `damped`; "unsettled" are those
         alone that have not left the ranges. Without damping each may have its strokes in an `order` of its own (n, k).
@@ -214,7 +214,7 @@ def spared(every: Places, count: int) -> tuple[str, ...]:
 @final
 @dataclass(frozen=True, eq=False)
 class PlaceGrid:
-    """A grid of strokes with what the targets are there (t, n): axes of the strokes that are solved for, and of those to spare.
+    """A grid of strokes with the targets' values there (t, n): axes of the strokes that are solved for, and of those to spare.
 
     `unit` are its places (n, k), the spare strokes running slowest.
     """

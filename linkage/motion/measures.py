@@ -54,7 +54,7 @@ class Measure(Arithmetic):
     @property
     @abstractmethod
     def leaves(self) -> tuple[Leaf, ...]:
-        """What is taken over the stroke, each once."""
+        """The leaves over the stroke in this measure, each once."""
 
     @abstractmethod
     def of(self, value: Callable[[Leaf], Any]) -> Any:
@@ -71,7 +71,7 @@ class Measure(Arithmetic):
         return 9
 
     def applied(self, function: str, *operands: Any) -> Measure:
-        """Return what an operation makes of measures and numbers; DefinitionError for any other of NumPy's functions."""
+        """Apply an operation to measures and numbers; DefinitionError for any other of NumPy's functions."""
         if function == "negative":
             return CombinedMeasure("*", Given(-1.0), self)
         if function not in SYMBOLS:
@@ -107,7 +107,7 @@ Operand: TypeAlias = "Measure | float"
 
 
 def as_measure(given: object) -> Measure:
-    """Return a measure, a number as one; DefinitionError for what has a value at every pose and no single one for a design."""
+    """Return a measure, also of a number; DefinitionError for a value per pose, without a single one for a design."""
     if isinstance(given, Measure):
         return given
     if is_number(given):
@@ -120,7 +120,7 @@ def as_measure(given: object) -> Measure:
 @final
 @dataclass(frozen=True, eq=False, repr=False)
 class Given(Measure):
-    """A number [SI]; `measures` is what it measures, "length", where it was written with a unit."""
+    """A number [SI]; `measures` is its kind, "length", where it was written with a unit."""
 
     value: float
     measures: str = ""
@@ -174,7 +174,7 @@ class CombinedMeasure(Measure):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Leaf(Measure):
-    """What is taken of one quantity over the stroke; `sense` is 1.0 of the greatest value, -1.0 of the least, else 0.0."""
+    """A measure of one quantity over the stroke; `sense` is 1.0 of the greatest value, -1.0 of the least, else 0.0."""
 
     quantity: MeasuredQuantity
     word: ClassVar[str] = ""
@@ -312,7 +312,7 @@ def is_quantity(value: object) -> TypeGuard[str | Quantity | Request]:
 
 
 def require_quantity(quantity: object, word: str) -> Any:
-    """Return what is a quantity; DefinitionError for anything else."""
+    """Return a quantity; DefinitionError for anything else."""
     if isinstance(quantity, Measure):
         raise DefinitionError(f"{word}({quantity}): {quantity} is one number of a design already.")
     if isinstance(quantity, type) or not (is_quantity(quantity) or isinstance(quantity, Worst) or callable(quantity)):
@@ -343,11 +343,11 @@ def as_typed(text: str) -> str:
 
 
 class Condition(ABC):
-    """What a design must keep."""
+    """A condition on a design."""
 
     @abstractmethod
     def constraints(self, machine: Any) -> tuple[Constraint, ...]:
-        """Return the constraints that it is, for a machine; none for what every search keeps anyway."""
+        """Return its constraints for a machine; none for a condition that every search keeps anyway."""
 
     def __repr__(self) -> str:
         return str(self)
@@ -372,7 +372,7 @@ class Constraint(Condition):
 
     @property
     def margin(self) -> Measure:
-        """What is zero or above where the condition is kept; zero where it is an equation."""
+        """A measure that is zero or above where the condition is kept; zero where it is an equation."""
         swapped = self.symbol == "<="
         return CombinedMeasure("-", *((self.right, self.left) if swapped else (self.left, self.right)))
 
@@ -559,7 +559,7 @@ class MeasureKind:
 
     @property
     def name(self) -> str:
-        """What it is called, "length"; an angle beside others counts as a number, as in a work. "" for what has no name."""
+        """Its name, "length"; an angle beside others counts as a number, as in a work. "" for a kind without a name."""
         length, force, _, time = self.powers
         among = [self.powers] + ([(length, force, 0.0, time)] if (length, force) != (0.0, 0.0) else [])
         return next((name for each in among for name, powers in KINDS.items() if powers == each), "")
@@ -569,7 +569,7 @@ class MeasureKind:
 
 
 def measure_of(plan: Plan, quantity: object) -> str:
-    """Return what a quantity measures: "length", "angle", "force", "pressure", or "" where that is not known."""
+    """Return the kind of a quantity: "length", "angle", "force", "pressure", or "" where that is not known."""
     if isinstance(quantity, Leaf) and not isinstance(quantity, Integral):
         return measure_of(plan, quantity.quantity)
     known = stands_for(plan.members, quantity)
@@ -636,7 +636,7 @@ def kind_of_quantity(plan: Plan, quantity: object) -> MeasureKind | None:
 
 
 def kind_called(name: str) -> MeasureKind | None:
-    """Return the kind by what it is called, "length"; None for any other name."""
+    """Return the kind of that name, "length"; None for any other name."""
     return MeasureKind(KINDS[name]) if name in KINDS else None
 
 
@@ -694,7 +694,7 @@ def common_kind(plan: Plan, what: str, left: MeasureKind | None, right: MeasureK
 
 
 def check_kinds(plan: Plan, measures: Iterable[Measure], constraints: Iterable[Constraint]) -> None:
-    """Raise DefinitionError where measures or conditions add or compare what differs in kind."""
+    """Raise DefinitionError where measures or conditions add or compare different kinds."""
     for each in measures:
         kind_of_measure(plan, each)
     for constraint in constraints:
@@ -710,7 +710,7 @@ def check_condition(plan: Plan, condition: PoseCondition) -> None:
 
 
 def measure_unit(plan: Plan, measure: Measure | Constraint) -> str:
-    """Return the unit that a measure, or both sides of a condition, are shown in; "" for a plain number and what is not known.
+    """Return the display unit of a measure, or of both sides of a condition; "" for a plain number and an unknown kind.
 
     >>> from linkage import *
     >>> from mechanisms.three_point_hitch import ThreePointHitch

@@ -1,4 +1,4 @@
-"""Where everything is, over designs and strokes; and what follows from it."""
+"""Motions: the places of all points over designs and strokes, and the quantities derived from them."""
 
 from __future__ import annotations
 
@@ -160,7 +160,7 @@ class Motion(Shown):
 
     @property
     def over(self) -> Over:
-        """Where it is looked at: what it was swept over, else one stroke's range, the path of several in one axis, the box of a grid.
+        """Its domain: the `Over` it was swept over, else one stroke's range, the path of several in one axis, the box of a grid.
 
         DefinitionError where each design of a batch has strokes of its own: there is no one place to look at.
         """
@@ -202,18 +202,18 @@ class Motion(Shown):
         return f"<Motion of {self.plan.title}: {poses}, {reached}{''.join(f', interrupted: {each}' for each in self.interruptions or ())}>"
 
     def __contains__(self, name: object) -> bool:
-        """Whether a name is that of a point, a vector or a quantity: what `motion[name]` gives."""
+        """Whether `motion[name]` gives a value: a name of a point, a vector or a quantity."""
         return isinstance(name, str) and isinstance(self.plan.members.get(name), (Point, Arrow, Quantity))
 
     def __iter__(self) -> NoReturn:
-        """Raise DefinitionError: its poses are the last axes of what it gives."""
+        """Raise DefinitionError: poses are the last axes of its arrays, so it is not iterated."""
         text = f"{self.plan.title}: a motion is not gone through pose by pose"
         raise DefinitionError(f'{text}; its poses are the last axis of what it gives, such as motion["G"].')
 
     if not TYPE_CHECKING:  # a name that is not there shall be found before it runs
 
         def __getattr__(self, name: str) -> Any:
-            """Raise AttributeError, with what may have been meant: a point, a vector or an output goes by `motion["G"]`."""
+            """Raise AttributeError with a suggestion: a point, a vector or an output is read by `motion["G"]`."""
             is_member = "plan" in vars(self) and name in self.plan.members
             remedy = f'what the class calls {name} is motion["{name}"]' if is_member else "a point or an output goes by motion[name]"
             raise AttributeError(f"A motion has no attribute {name!r}; {remedy}.", name=name, obj=self)
@@ -322,7 +322,7 @@ class Motion(Shown):
         return self._finite(np.where(self.reached & ~refused, self._evaluated(what), np.nan), refused, words)
 
     def sketched(self, quantity: Quantity) -> FloatArray:
-        """Return what a quantity is at the sketch pose of each design [SI], shaped to broadcast against results."""
+        """Return the value of a quantity at the sketch pose of each design [SI], shaped to broadcast against results."""
         strokes = {name: np.asarray(value) for name, value in self.plan.sketch_strokes.items()}
         found = Motion(self.plan, self.designs, strokes, "nan").value(quantity)
         return found.reshape((*self._design_shape, *(1,) * len(self._stroke_shape)))
@@ -459,7 +459,7 @@ class Motion(Shown):
         return self._rates(title, names, np.array(slopes), np.array(wanted), np.array(sizes))
 
     def _rates(self, title: str, names: Sequence[str], slopes: FloatArray, wanted: FloatArray, sizes: FloatArray) -> dict[str, FloatArray]:
-        """Return the rates by slopes (n, n, ...) of n values by the strokes, what is wanted of them and their sizes (n, ...)."""
+        """Return the rates from slopes (n, n, ...) of n values by the strokes, the wanted rates and their sizes (n, ...)."""
         matrix, right = np.moveaxis(slopes, (0, 1), (-2, -1)), np.moveaxis(wanted, 0, -1)[..., None]
         spans = np.array([abs(stroke.end - stroke.start) for stroke in self.plan.strokes.values()])
         sizes, known = np.moveaxis(sizes, 0, -1), np.asarray(np.isfinite(matrix).all(axis=(-2, -1)))
@@ -476,7 +476,7 @@ class Motion(Shown):
         return {stroke: np.asarray(found[..., place], float) for place, stroke in enumerate(self.strokes)}
 
     def _natural_size(self, measured: Member | str) -> FloatArray:
-        """Return what places and lengths are compared with, the size of the machine [m], other values with 1."""
+        """Return the size that errors are compared with: for places and lengths that of the machine [m], for other values 1."""
         extent = self.plan.made(("extent",), lambda fork: Kernel([fork.trace.graph.node(fork.trace.extent)]))
         size = np.asarray(np.sqrt(self._grid.full(extent(self._grid.flat, size=self._grid.size).values)[0]))
         found = natural_size(measured, size) if isinstance(measured, Member) else size if measured == "length" else None
@@ -557,7 +557,7 @@ class Motion(Shown):
     # -- how far it goes, and other strokes --------------------------------------------------------------
 
     def limits(self) -> Limits:
-        """Return, for every stroke, how far it can go and what stops it; printed as sentences.
+        """Return, for every stroke, how far it can go and where it stops; printed as sentences.
 
         These are reachable intervals, dead points and the steps that stop there, change points, and least transmission angles. For the
         `box` of all declared strokes they say what is lost in it, and how clear each loop stays of its dead point, with the place. One
@@ -567,7 +567,7 @@ class Motion(Shown):
 
     @cached_property
     def interruptions(self) -> tuple[Interruption, ...] | None:
-        """What interrupts the way between the least and the greatest stroke, in order: stretches out of reach and change points.
+        """The interruptions between the least and the greatest stroke, in order: stretches out of reach and change points.
 
         Empty where nothing does; it then leads from every pose to every other. None where it is not looked for: of batches and
         of several strokes. Asked with unreachable="raise", a motion that is interrupted is refused.
@@ -775,13 +775,13 @@ class Motion(Shown):
             conditions.warn_near(near(doubtful), f"{words} {where_words(self.plan, doubtful, self.strokes)}")
 
     def _once(self, key: Hashable, make: Callable[[], Made]) -> Made:
-        """Return what several ask of these poses, such as all joint forces in one situation, made once and kept with the motion."""
+        """Return a result that several callers share, such as all joint forces in one situation, made once and cached."""
         if key not in self._kept:
             self._kept[key] = make()
         return cast(Made, self._kept[key])
 
     def __getstate__(self) -> dict[str, Any]:
-        """Return what pickle keeps: what was worked out once for several is worked out again."""
+        """Return the state for pickle, without cached results."""
         return vars(self) | {"_kept": {}}
 
     # -- read on arrays ----------------------------------------------------------------------------------
@@ -822,7 +822,7 @@ class Motion(Shown):
 def each_at_its_stroke(
     plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, Any], like: Motion | None = None, at: Any = slice(None)
 ) -> Motion:
-    """Return the poses of m designs, each at a stroke of its own; a position has the shape (2, m), what is out of reach is NaN.
+    """Return the poses of m designs, each at a stroke of its own; a position has the shape (2, m), poses out of reach are NaN.
 
     `designs` and `strokes` are floats or arrays (m,) [SI]. There is no stroke along which angles could be followed: they lie
     within 180 deg of those of the poses `at` (m,) of another motion, `like`, or of zero.
@@ -835,11 +835,11 @@ def each_at_its_stroke(
 
 
 class OnePose:
-    """The base of what stands for all poses of a motion while a program is made of what is asked of it: its numbers have no value yet."""
+    """The base of traced motions, which replace all poses while a program is made; their numbers have no value yet."""
 
 
 def require_motion(given: object) -> Motion:
-    """Return the motion that was given, or what stands for one while a program is made; DefinitionError for anything else."""
+    """Return a motion, or a traced one; DefinitionError for anything else."""
     if not isinstance(given, (Motion, OnePose)):
         raise DefinitionError(f"{given!r:.60} is no motion; give machine.sweep(...) or machine.at(...).")
     return cast(Motion, given)

@@ -47,7 +47,7 @@ ALLOWED = "allowed"
 
 @final
 class Over(Member):
-    """Where a machine is looked at. Declared in the class it is what the machine really runs: `loading = Over.path(phi=[...], t=[...])`.
+    """The domain of a machine. Declared in the class it is where the machine really runs: `loading = Over.path(phi=[...], t=[...])`.
 
     `machine.sweep(101, over="loading")` is the motion along it: what is drawn, animated and reported of that motion runs there.
 
@@ -120,7 +120,7 @@ class Over(Member):
     def _hold(
         self, shape: str, strokes: Mapping[str, object], only: object, cases: object, lost: object, time: object = None
     ) -> None:
-        """Keep what was given; DefinitionError for a wrong stroke, condition, case or word."""
+        """Store the arguments; DefinitionError for a wrong stroke, condition, case or word."""
         if "time" in strokes:
             what = f"Over{'' if shape == 'box' else f'.{shape}'}(time={cited(strokes['time'])})"
             raise DefinitionError(f"{what}: time is that of a path; write Over.path(time=..., ...), no box and no poses.")
@@ -150,7 +150,7 @@ class Over(Member):
         return ()
 
     def examine(self, members: Mapping[str, Member], title: str) -> None:
-        """Raise DefinitionError for strokes and load cases that a class has not, and for conditions on what it has not."""
+        """Raise DefinitionError for unknown strokes and load cases, and for conditions on unknown members."""
         strokes = [name for name, each in members.items() if isinstance(each, Stroke)]
         self.check(title, strokes, [name for name, each in members.items() if isinstance(each, LoadCase)])
         for each in self.only:
@@ -224,7 +224,7 @@ class Over(Member):
         return min(found), max(found)
 
     def numbers(self, given: Any, plan: Plan, number: Callable[[str | Quantity], float]) -> Any:
-        """Return what a stroke is given as numbers [m or rad], a list of several; DefinitionError for what follows a stroke."""
+        """Return a stroke's value as numbers [m or rad], a list of several; DefinitionError for a quantity that follows a stroke."""
         if isinstance(given, tuple):
             return [self.numbers(each, plan, number) for each in given]
         if is_number(given):
@@ -340,7 +340,7 @@ class Run:
         return {**self.held, **strokes}, {name: np.diff(way)[leg] for name, way in self.ways.items()}
 
     def over(self, shares: FloatArray) -> dict[str, Any]:
-        """Return all strokes at shares of the way, shape (n,), 0 to 1: what `at` takes; the values passed are among them.
+        """Return all strokes at shares of the way, shape (n,), 0 to 1, as `at` takes them; the given values are among them.
 
         Of poses apart these are the poses.
         """
@@ -359,7 +359,7 @@ class Run:
         return self.instants is not None or len(self.ways) > 1 or len(self.ways[self.stroke]) != 2
 
     def divided(self, count: int) -> dict[str, Any]:
-        """Return all strokes at so many poses or a few more: what is passed, and as many poses between any two of them."""
+        """Return all strokes at so many poses or a few more: the given values, and equally many poses between any two of them."""
         if self.instants is not None:
             return self.instants.shares(np.linspace(0.0, 1.0, count)).strokes
         legs = len(self.ways[self.stroke]) - 1
@@ -381,7 +381,7 @@ def is_end(value: object) -> bool:
 
 
 def box_ends(name: str, value: object) -> Any:
-    """Return what a stroke of a box is given: a number, a quantity or its name, or two of such; DefinitionError for anything else."""
+    """Return the value of a stroke of a box: a number, a quantity or its name, or two of these; DefinitionError for anything else."""
     if isinstance(value, (list, tuple, np.ndarray)):
         if len(value) == 2 and all(map(is_end, value)):
             return tuple(amount_or_float(each) if is_number(each) else each for each in value)
@@ -396,7 +396,7 @@ def box_ends(name: str, value: object) -> Any:
 
 
 def place_values(shape: str, name: str, value: object) -> Any:
-    """Return what a stroke of a path is given: numbers or quantities in their order, or one where it is held."""
+    """Return the values of a stroke of a path: numbers or quantities in their order, or one where it is constant."""
     if is_end(value) and not is_number(value):
         return value
     if isinstance(value, (Course, Curve)):

@@ -190,7 +190,7 @@ class Places:
 
     @cached_property
     def sizes(self) -> FloatArray:
-        """The natural size of what each target measures [SI], shape (t,): of a length that of the machine, of an angle 1."""
+        """The natural size of each target's quantity [SI], shape (t,): of a length that of the machine, of an angle 1."""
         kinds = [measure_of(self.plan, each.quantity) for each in self.targets]
         other = [max(float(np.max(np.abs(each.value))), each.miss(self.plan, 0.0)) for each in self.targets]
         known = {"length": self.size, "angle": 1.0}
@@ -218,7 +218,7 @@ class Places:
         return self.every((self.low + unit * self.span).T)
 
     def kernel_values(self, kernel: Kernel, unit: FloatArray) -> FloatArray:
-        """Return what a kernel gives at unit coordinates (n, k), shape (outputs, n); NaN out of reach."""
+        """Return a kernel's values at unit coordinates (n, k), shape (outputs, n); NaN out of reach."""
         return kernel(self.inputs((self.low + unit * self.span).T), way=way_of(len(unit)), size=(1, len(unit))).values[:, 0]
 
     def values(self, unit: FloatArray) -> FloatArray:
@@ -239,7 +239,7 @@ class Places:
         return np.maximum(side * wide, turn * np.where(self.turning, wide * self.span / TURN, 0.0))
 
     def off(self, values: FloatArray, wanted: FloatArray) -> FloatArray:
-        """Return by how much values (n, t) exceed what is wanted (t,) [SI], angles the shorter way round."""
+        """Return by how much values (n, t) exceed the wanted ones (t,) [SI], angles the shorter way round."""
         miss = values - wanted
         if self.angles.any():
             miss[:, self.angles] -= TURN * np.round(miss[:, self.angles] / TURN)
@@ -266,7 +266,7 @@ class Places:
     # -- words -------------------------------------------------------------------------------------------
 
     def shown(self, wanted: FloatArray) -> str:
-        """Return what is wanted (t,) in words: `x(M) = 2500 mm, tilt = 5 deg`."""
+        """Return the wanted values (t,) in words: `x(M) = 2500 mm, tilt = 5 deg`."""
         each = zip(self.bound, wanted.tolist(), self.targets, strict=True)
         return ", ".join(f"{name} = {show(value, target.shown_in(self.plan))}" for name, value, target in each)
 
@@ -291,7 +291,7 @@ class Places:
 
 
 def traced_target(plan: Plan, target: Target, title: str) -> Request:
-    """Return what a target is of, bound to a plan; DefinitionError for what has no slopes in the program, and for other units."""
+    """Return a target's quantity, bound to a plan; DefinitionError for one without slopes in the program, and for other units."""
     target.check(plan)
     found = traced(plan, target.quantity)
     if found is None:
@@ -385,7 +385,7 @@ class Found:
 
 
 def beyond(places: Places, wanted: FloatArray) -> Found:
-    """Return the unit coordinates outside the ranges that give what is wanted, the least far out first.
+    """Return the unit coordinates outside the ranges that meet the wanted values, the least far out first.
 
     It is looked one range beyond either end, a crank over a whole turn.
     """
@@ -398,7 +398,7 @@ def beyond(places: Places, wanted: FloatArray) -> Found:
 
 
 def unmet_words(places: Places, wanted: FloatArray, near: Found) -> str:
-    """Return why nothing in the ranges of the strokes gives what is wanted: the pose beyond them, and how far off the nearest one is."""
+    """Return why no strokes in their ranges meet the targets: the pose beyond them, and how far off the nearest one is."""
     past = beyond(places, wanted)
     if not len(near.unit) and not len(past.unit):
         return said("no strokes that were looked at can be assembled.")
@@ -420,7 +420,7 @@ def unmet_words(places: Places, wanted: FloatArray, near: Found) -> str:
 @final
 @dataclass(frozen=True, eq=False)
 class BranchSearch:
-    """What is looked for in a box of unit coordinates, from -out to 1 + out."""
+    """A search of solutions in a box of unit coordinates, from -out to 1 + out."""
 
     places: Places
     wanted: FloatArray
@@ -497,7 +497,7 @@ class BranchSearch:
         return starts
 
     def border_starts(self) -> FloatArray:
-        """Return where to start next to what cannot be assembled, unit coordinates (n, k): where lines of the grid end, the nearest first.
+        """Return starts next to unassembled places, unit coordinates (n, k), the nearest first: where lines of the grid end.
 
         There values change as roots do, and steps go well from the border inwards, not towards it.
         """
@@ -555,7 +555,7 @@ class BranchSearch:
         return np.asarray((np.abs(found.off) <= MET * self.places.sizes).all(axis=1))
 
     def _beside(self, found: Found, scale: FloatArray) -> Found:
-        """Return what is found on the other side of branches that have another one close by, where the slopes lose a rank between them.
+        """Return the twins of branches that have another one close by, where the slopes lose a rank between them.
 
         It is as far beyond the place where the least singular value would be zero, by how it changes along its own direction.
         """
@@ -597,7 +597,7 @@ class BranchSearch:
 
     @np.errstate(all="ignore")
     def nearest(self) -> Found:
-        """Return the place at which least is missing by what each target may miss; none where nothing can be assembled.
+        """Return the place with the least difference, in units of the targets' tolerances; none where nothing can be assembled.
 
         It starts where least is missed on the grid: from the best, and those that no neighbour improves on.
         """
@@ -662,7 +662,7 @@ class Target:
         return isinstance(self.value, np.ndarray)
 
     def check(self, plan: Plan) -> None:
-        """Raise DefinitionError for a value, `within` or a stroke in a unit of another kind than what they are of."""
+        """Raise DefinitionError for a value, `within` or a stroke in a unit of another kind than its quantity."""
         kind = measure_of(plan, self.quantity)
         for what, value in (("", self.given), (": within", self.within)):
             if kind:
@@ -671,7 +671,7 @@ class Target:
             require_kind(plan, name, value, f"{plan.title}: Target({quantity_cited(self.quantity)}, ...): {name}")
 
     def miss(self, plan: Plan, value: float) -> float:
-        """Return how far off it may be where it is to have a value [SI]: `within`, or what is usual of what it measures."""
+        """Return its tolerance [SI]: `within`, or the default of its kind."""
         kind = measure_of(plan, self.quantity)
         return self.within or {"length": 1.0 * mm, "angle": 0.1 * deg}.get(kind, 1e-3 * abs(value) or 1e-3)
 
@@ -681,12 +681,12 @@ class Target:
 
 
 def quantity_cited(quantity: object) -> str:
-    """Return what a target is of as it is written in a message: `'tilt'`, `x(M)`."""
+    """Return a target's quantity as it is written in a message: `'tilt'`, `x(M)`."""
     return str(quantity) if isinstance(quantity, (Quantity, Request)) else cited(quantity)
 
 
 def targets_given(given: object, title: str, example: str) -> Sequence[Target]:
-    """Return what is a list of targets, one at least; DefinitionError for anything else."""
+    """Return a list of targets, one at least; DefinitionError for anything else."""
     if not isinstance(given, (list, tuple)) or not given or not all(isinstance(each, Target) for each in given):
         raise DefinitionError(f"{title}: {cited(given)}: a list of targets is expected, {example}.")
     return given
@@ -804,7 +804,7 @@ def rows_of_branches(places: Places, found: Found) -> StrokeRows:
 
 
 def met_words(places: Places, found: Found, condition: FloatArray, wanted: FloatArray) -> str:
-    """Return the strokes that give what is wanted, in words; warn of those next to a dead point."""
+    """Return the strokes that meet the targets, in words; warn of those next to a dead point."""
     strokes = [places.stroke_words(each) for each in places.low + found.unit * places.span]
     parts = {"wanted": places.shown(wanted), "strokes": said(" or with ").join(strokes[:TOLD])}
     text = said("{wanted}: with {strokes}.", **parts)

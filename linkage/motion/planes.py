@@ -1,4 +1,4 @@
-"""The planes that bodies lie in, side by side across the machine, and the clearance of what lies in one plane.
+"""The planes that bodies lie in, side by side across the machine, and the clearances within one plane.
 
     |  boom  |        a body of one plane never touches one of another; in one plane bodies are to stay apart,
     |  | rod |        and a pin that joins bodies of two planes passes through those between them
@@ -76,7 +76,7 @@ class Planes(HasVerdicts):
         return {}
 
     def verdicts(self, judge: Judge) -> list[Verdict]:
-        """Return whether everything in one plane stays apart wherever the machine runs, with what comes nearest, and where."""
+        """Return whether everything in one plane stays apart wherever the machine runs, with the nearest pair and its place."""
         if not pairs_of(judge.plan):
             return [Verdict("clearance", True, said("no two bodies lie in one plane that share no pin."))]
         answer = judge.answer(least(clearance()))
@@ -160,7 +160,7 @@ def bodies_of(plan: Plan) -> list[str]:
 
 
 def pairs_of(plan: Plan) -> dict[Pair, bool]:
-    """Return what must stay apart, each pair with whether the width of bars counts: bodies of a common plane, and pins that pass it."""
+    """Return the pairs that must stay apart, with whether the width of bars counts: bodies of a common plane, and pins that pass it."""
     listed, bodies = planes_of(plan).planes, bodies_of(plan)
     known = {id_of(plan, name): name for name in bodies}
     planes: dict[str, set[int]] = {name: set() for name in bodies}
@@ -185,7 +185,7 @@ def pairs_of(plan: Plan) -> dict[Pair, bool]:
 
 
 def id_of(plan: Plan, name: str) -> frozenset[str] | str:
-    """Return what tells a body from others, whatever it is called: its points; of an outline its name."""
+    """Return a key of a body, whatever its name: its points; of an outline its name."""
     shape = shape_named(plan, name)
     return name if shape.outline is not None else frozenset(shape.points)
 
@@ -207,7 +207,7 @@ def depth_words(plan: Plan, one: str, other: str, size: str) -> str:
 
 
 def in_pieces(plan: Plan, name: str) -> bool:
-    """Return whether what a name stands for is no single convex piece, so that two of them may cross deeper than any two of its pieces.
+    """Return whether a body is no single convex piece, so that two of them may cross deeper than any two of their pieces.
 
     It is a concave outline, one whose form follows dimensions, or one of several outlines of a body.
     """
@@ -228,7 +228,7 @@ def outlines_on(plan: Plan, points: tuple[str, ...]) -> list[str]:
 
 
 def pair_at(motion: Motion, chosen: tuple[Pair, ...] | None = None) -> tuple[Pair, float]:
-    """Return the pair that comes nearest at a motion's first pose, and what of their gap the width of bars takes [m]."""
+    """Return the pair that comes nearest at a motion's first pose, and the bars' width in their gap [m]."""
     widths = dict.fromkeys(chosen or (), 0.0)
     if chosen is None:
         width = float(np.ravel(motion.value(width_of(motion.plan)))[0])

@@ -140,7 +140,7 @@ class Region:
 
     @property
     def box(self) -> FloatArray:
-        """The least and the greatest coordinates of what is allowed, infinite where only shapes are forbidden, shape (2, 2)."""
+        """The least and the greatest coordinates of the allowed region, infinite where only shapes are forbidden, shape (2, 2)."""
         if not self.within:
             return np.array([[-np.inf, -np.inf], [np.inf, np.inf]])
         boxes = np.array([each.box for each in self.within])

@@ -1,4 +1,4 @@
-"""Requests: what is asked of a mechanism, and what it is once it is bound to a plan.
+"""Requests: quantities that a user asks of a mechanism, and their form bound to a plan.
 
 A position, an output, a ratio, a force, a condition is one request: nodes of the program, the members it is built from, what is said
 where it has no value, and the error that rounding leaves of it. Kernels, functions, texts and gradients know nothing else.
@@ -33,7 +33,7 @@ from .strokes import checked_name, order_of
 
 
 class Trait(Flag):
-    """What holds of a request beside its values."""
+    """Properties of a request beside its values."""
 
     OF_STROKES = auto()
     """The directions of motion it is judged in are those of a stroke, which has to be named; else its own, as a cylinder's."""
@@ -65,11 +65,11 @@ class Request(Arithmetic):
     # -- as it is written --------------------------------------------------------------------------------
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Return what pickle writes of the request, nested functions too."""
+        """Return the state for pickle, nested functions too."""
         return object_of, (type(self), {name: picklable(value) for name, value in vars(self).items()})
 
     def identity(self, plan: Plan) -> Hashable:
-        """Return what tells it from others of the same plan as long as what it holds lives; None where what it holds may change."""
+        """Return a key among the requests of one plan, valid as long as its values live; None where they may change."""
         return None
 
     def bound(self, plan: Plan) -> Request:
@@ -81,11 +81,11 @@ class Request(Arithmetic):
 
     @property
     def measures(self) -> str:
-        """What it measures where that is plain: `angle`, `length`, `force`, `pressure`, or "" for a plain number."""
+        """The kind of its value where that is plain: `angle`, `length`, `force`, `pressure`, or "" for a plain number."""
         return ""
 
     def measured(self, plan: Plan) -> str:
-        """Return what it measures in a plan, where that hangs on it: of a drive `force` or `moment`."""
+        """Return the kind of its value in a plan: of a drive `force` or `moment`."""
         return self.measures
 
     def of(self, motion: MotionLike) -> FloatArray:
@@ -93,7 +93,7 @@ class Request(Arithmetic):
         return motion._requested(self)
 
     def applied(self, function: str, *operands: Any) -> Any:
-        """Return what NumPy's function of that name makes of requests, quantities and numbers; a point's two parts go each for itself."""
+        """Apply NumPy's function of that name to requests, quantities and numbers; a point's two parts are taken one by one."""
         if any(isinstance(each, Arithmetic) and not isinstance(each, Request) for each in operands):
             return NotImplemented
         return Combined(function, tuple(map(operand, operands)))
@@ -126,12 +126,12 @@ class Request(Arithmetic):
 
     @property
     def traits(self) -> Trait:
-        """What holds of it beside its values."""
+        """Its properties beside its values."""
         return NO_TRAIT
 
     @property
     def mover(self) -> Hashable:
-        """What moves in these directions: a cylinder's name; None for a stroke or a path."""
+        """The drive of its directions: a cylinder's name; None for a stroke or a path."""
         return None
 
     def pieces(self, plan: Plan) -> tuple[SmoothPiece, ...]:
@@ -146,17 +146,17 @@ class Request(Arithmetic):
 
     @property
     def key(self) -> Hashable:
-        """What tells this request from others of the same plan."""
+        """A hashable key among the requests of one plan."""
         return self
 
     @property
     def sentence(self) -> str:
-        """What it is, in a sentence: `the ratio of G by S`; as text it is what one writes, `ratio(G)`."""
+        """Its name in a sentence: `the ratio of G by S`; its string is the code that one writes, `ratio(G)`."""
         return str(self)
 
     @property
     def traced_with(self) -> Hashable:
-        """What tells the requests whose program is traced in one with this one's: where one of them can be, all can.
+        """A key of the requests that are traced in one program with this one: where one of them can be, all can.
 
         None for one that was traced when it was bound.
         """
@@ -174,7 +174,7 @@ class Request(Arithmetic):
         """Raise the error of a motion's poses where it has no value; nothing where it has one at all of them, or another refuses it."""
 
     def notes(self, plan: Plan) -> Notes:
-        """Return what its nodes are true under."""
+        """Return the conditions under which its nodes are true."""
         return Notes()
 
     @property
@@ -196,7 +196,7 @@ class Request(Arithmetic):
         return ()
 
     def read_own(self, reading: ArrayReading) -> None:
-        """Work out in an eager reading what is its own, so that its directions are noted; of most there is nothing."""
+        """Evaluate its own quantities in an eager reading, so that their directions are noted; most requests have none."""
 
     @property
     def regular(self) -> float:
@@ -204,18 +204,18 @@ class Request(Arithmetic):
         return NEAR**2 if self.order else PLACES
 
     def rounded(self, plan: Plan) -> tuple[Node, ...]:
-        """Return the nodes whose rounding tells its error: its own, and what these are compared with."""
+        """Return the nodes whose rounding tells its error: its own, and those they are compared with."""
         return self.nodes(plan)
 
     def scale(self, plan: Plan, left: PrecisionLeft) -> FloatArray:
-        """Return what a component's error is compared with where that is smaller [SI], from what rounding leaves of its nodes.
+        """Return the size that a component's error is compared with where the component is smaller [SI], from its nodes' precision.
 
         Shape (n,), or (rows, n) where each component has its own.
         """
         return np.full(left.size.shape, SMALL)
 
     def error(self, plan: Plan, left: PrecisionLeft) -> FloatArray:
-        """Return the relative error to expect, shape (n,), from what rounding leaves of those nodes."""
+        """Return the relative error to expect, shape (n,), from the precision of those nodes."""
         return left.relative(self.scale(plan, left))
 
 
@@ -225,7 +225,7 @@ RequestLike: TypeAlias = str | Member | Request
 @final
 @dataclass(frozen=True, eq=False)
 class SmoothPiece:
-    """A smooth piece of a question: what has a value at every pose, and the side of the cylinder that it is of, "" for none.
+    """A smooth piece of a question: a value per pose, and the side of the cylinder that it belongs to, "" for none.
 
     `reciprocal` is one over it, where that goes on smoothly through zero where the request has no bound: then its greatest value is looked
     for in the place of the request's least. `below` is the same as the request above zero, and goes on smoothly below zero, where the
@@ -275,7 +275,7 @@ def may_be_unlimited(quantity: object) -> bool:
 
 
 def identity_of(plan: Plan, request: RequestLike) -> Hashable:
-    """Return what tells something asked for from others; None for a quantity that only itself is, and for what may change."""
+    """Return a key of a request; None for a quantity without one, and for one that may change."""
     if type(request) is str:
         return request
     if isinstance(request, Request):
@@ -290,7 +290,7 @@ def identity_of(plan: Plan, request: RequestLike) -> Hashable:
 
 
 def identities_of(plan: Plan, requests: Sequence[RequestLike]) -> Hashable:
-    """Return what tells a list of requests from others; None where one has none, or holds loads that were given, or it is no list."""
+    """Return a key of a list of requests; None where one has none, or holds loads of its own, or it is no list."""
     found = tuple([identity_of(plan, each) for each in requests]) if type(requests) in (list, tuple) else (None,)
     return None if None in found or holds_given(found) else found
 
@@ -304,7 +304,7 @@ def known_bound(plan: Plan, requests: Sequence[RequestLike]) -> tuple[Request, .
 
 
 def holds_given(identity: Hashable) -> bool:
-    """Return whether an identity tells loads that were given: what is bound holds them, and must not keep them alive."""
+    """Return whether a key holds a user's loads; bound requests hold them, and must not keep them alive."""
     return isinstance(identity, ref) or (type(identity) is tuple and any(type(each) is not str and holds_given(each) for each in identity))
 
 
@@ -450,7 +450,7 @@ SMALL = 1e-9
 
 
 def natural_size(member: Member, size: FloatArray) -> FloatArray | None:
-    """Return what a position, a length or an angle is compared with: the machine's size [m], or 1 rad; None for other quantities."""
+    """Return the size that a position, a length or an angle is compared with: the machine's [m], or 1 rad; None for other quantities."""
     measures = member.measures if isinstance(member, Quantity) else "length"
     return size if measures == "length" else np.ones_like(size) if measures == "angle" else None
 
@@ -470,7 +470,7 @@ LIKE_ITS_PARTS = ("add", "subtract", "negative", "absolute", "minimum", "maximum
 @final
 @dataclass(frozen=True)
 class Combined(Request):
-    """What one of NumPy's functions makes of requests, quantities and numbers at every pose. Bound, its parts are requests and numbers.
+    """One of NumPy's functions of requests, quantities and numbers, per pose. Bound, its parts are requests and numbers.
 
     `text` is what was written, of one that is bound, or that has a name of its own.
     """
@@ -634,7 +634,7 @@ NUMPY: Mapping[str, Callable[..., Any]] = MappingProxyType({name: getattr(np, na
 
 
 def operand(given: Any) -> Request | Quantity | float:
-    """Return what a request is calculated with: a request, a quantity or its name, or a number."""
+    """Return an operand of a request: a request, a quantity or its name, or a number."""
     if isinstance(given, Request):
         return given
     found = quantity(given.item() if isinstance(given, np.ndarray) and given.ndim == 0 else given)
@@ -655,7 +655,7 @@ def bracketed(part: Request | Quantity | float, binding: int) -> str:
 @final
 @dataclass(frozen=True)
 class MotionFunction(Request):
-    """A function of a motion that hangs on the motion alone, as something to ask for: what it was asked of a design is known again."""
+    """A function of a motion that depends on the motion alone, as a request; its results are cached for a design."""
 
     function: Callable[[Any], Any]
     measures: str = ""
@@ -679,7 +679,7 @@ class MotionFunction(Request):
 @final
 @dataclass(frozen=True, eq=False, kw_only=True)
 class NodeRequest(Request):
-    """A request that needs no class: functions of a plan say its nodes and the members it is built from, and refuse what is not there.
+    """A request without a class of its own: functions of a plan give its nodes and the members it is built from, or refuse it.
 
     `text` is what one writes, `sentence` what is said of it where that is something else, and `key` tells it from others. What it is
     built from is `parts`: where one of these has no identity, it has none either. Where all that hangs on the plan, `bound_by` returns
@@ -760,7 +760,7 @@ MINOR = 1e-3
 
 
 def point_ratios(members: Set[str]) -> NodeRequest:
-    """Return the ratios of all moving points among some members by all strokes: what forces go through."""
+    """Return the ratios of all moving points among some members by all strokes, from which forces are computed."""
     among = frozenset(members)
 
     def nodes(plan: Plan) -> tuple[Node, ...]:
@@ -782,7 +782,7 @@ def point_ratios(members: Set[str]) -> NodeRequest:
 
 
 def places_of(points: tuple[str, ...]) -> NodeRequest:
-    """Return the places of some points together: what a motion works out first."""
+    """Return the places of some points together, a motion's first results."""
 
     def error(left: PrecisionLeft) -> FloatArray:
         with np.errstate(all="ignore"):
@@ -813,7 +813,7 @@ def slope(what: Request, by: tuple[str, ...]) -> NodeRequest:
 
 
 def switches_of(plan: Plan, what: Request, names: Sequence[str]) -> tuple[Kernel, list[str]]:
-    """Return the kernel of what is above zero where laws behind a request change with one of some dimensions, and words for each."""
+    """Return the kernel of nodes above zero where laws behind a request change with some dimensions, and words for each."""
     inputs = [plan.trace.inputs[name] for name in names]
     touched = [
         (switch, f"{name}: the law of {owner} compares what follows {name} with a number")

@@ -307,7 +307,7 @@ def require_function(motion: Any, f: Any) -> None:
 
 
 def values_of(f: Function, motion: Motion, *, everywhere: bool = False) -> FloatArray:
-    """Return what a function gives at every pose, shape (..., *motion.shape); NaN out of reach, unless it is asked for `everywhere`.
+    """Return a function's values at every pose, shape (..., *motion.shape); NaN out of reach, unless `everywhere`.
 
     Nearness to a dead point is not reported.
     """
@@ -325,7 +325,7 @@ def values_of(f: Function, motion: Motion, *, everywhere: bool = False) -> Float
 
 @final
 class OnLegs:
-    """A function of the poses on a motion's way, of K quantities and D designs; `look` is what a search asks.
+    """A function of the poses along a motion's way, of K quantities and D designs; a search calls `look`.
 
     The samples are worked out once, at the same strokes for all designs; poses between them take their angles from these.
     """

@@ -268,7 +268,7 @@ class StrokeLine:
         return np.asarray(low + (high - low) * np.linspace(0.0, 1.0, GRID * max(1, int(np.ceil(turns))) + 1))
 
     def interruptions(self, low: float, high: float) -> tuple[Interruption, ...]:
-        """Return what interrupts the way between two values of the stroke, in their order."""
+        """Return the interruptions between two values of the stroke, in their order."""
         if not (self.clearances.loops and high > low):
             return ()
         x = self.grid(low, high)
@@ -280,7 +280,7 @@ class StrokeLine:
         return self._narrowed(x, seen, bends)
 
     def _narrowed(self, x: FloatArray, seen: FloatArray, bends: FloatArray) -> tuple[Interruption, ...]:
-        """Return what interrupts the way, from the grid on."""
+        """Return the interruptions, narrowed down from the grid."""
         noise = self.rounding(x)
         tops = np.fmax.reduce(seen, axis=1)
         tells = np.array([loop.kind != "length" for loop in self.clearances.loops])
@@ -351,7 +351,7 @@ def is_watched(motion: MotionLike) -> bool:
 
 
 def interruptions(motion: MotionLike) -> tuple[Interruption, ...]:
-    """Return what interrupts the way of one design along its one stroke, between the least and the greatest of its poses.
+    """Return the interruptions of one design along its one stroke, between the least and the greatest of its poses.
 
     A stretch where nothing does is kept, of the last designs that were asked for, so that poses in it are not looked at again.
     """
@@ -371,7 +371,7 @@ def interruptions(motion: MotionLike) -> tuple[Interruption, ...]:
 
 
 def refuse_interrupted(motion: MotionLike) -> None:
-    """Raise the error of what interrupts a sweep between its poses: a stretch out of reach, or a change point.
+    """Raise the error of an interruption between the poses of a sweep: a stretch out of reach, or a change point.
 
     A loop that a declared side keeps on one branch would turn back at a change point, which no machine does.
     """
@@ -468,7 +468,7 @@ INNER = np.arange(1, PARTS) / PARTS
 @final
 @dataclass(frozen=True)
 class Interruption:
-    """What interrupts the way along a stroke: from `low` to `high` [m or rad] a step cannot be assembled; equal at a change point."""
+    """An interruption along a stroke: from `low` to `high` [m or rad] a step cannot be assembled; equal at a change point."""
 
     stroke: str
     unit: str
@@ -524,7 +524,7 @@ class Clearances:
 def divided(
     look: Callable[[FloatArray], FloatArray], x: FloatArray, seen: FloatArray, bends: FloatArray, noise: FloatArray, rows: Mask
 ) -> tuple[FloatArray, FloatArray]:
-    """Return all values looked at, in order, and what was seen there, shape (loops, n): intervals divided where a loop may reach zero."""
+    """Return all strokes looked at, in order, and the values there, shape (loops, n): intervals divided where a loop may reach zero."""
     wide = np.pad(np.where(np.isfinite(bends), bends, 0.0), ((0, 0), (2, 2)), mode="edge")
     bend = np.maximum.reduce([wide[:, k : k + x.size - 1] for k in range(4)])
     left, right, first, last = x[:-1], x[1:], seen[:, :-1], seen[:, 1:]

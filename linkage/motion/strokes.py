@@ -159,7 +159,7 @@ def rates_of(what: str, given: object, motion: MotionLike, *, gaps: bool = False
 
 
 def strokes_named(what: str, given: object, plan: Plan) -> dict[str, Any]:
-    """Return what is given for strokes by name. Raise DefinitionError for another type, an unknown stroke, and an amount of another kind.
+    """Return values of strokes by name. Raise DefinitionError for another type, an unknown stroke, and an amount of another kind.
 
     An amount in the unit of the stroke stands for so much a second: `12 * deg` is 12 deg/s.
     """

@@ -63,7 +63,7 @@ class Column:
 
     @classmethod
     def of(cls, motion: Motion, request: RequestLike, unit: str | None = None, name: str = "", digits: int = 4) -> Column:
-        """Return what is asked of a motion as a column, one number a pose: `Column.of(motion, pressure("lift"), "bar")`.
+        """Return a request over a motion as a column, one number a pose: `Column.of(motion, pressure("lift"), "bar")`.
 
         Without a unit it is in the one that its kind is shown in, deg, m, kN or bar, without a name under what was asked.
         """
@@ -127,13 +127,13 @@ Kind = TypeVar("Kind", bound=Member)
 
 
 def from_above(place: str) -> Any:
-    """Return what is written in a room above, "module:name": the room is loaded when it is first asked."""
+    """Return an object of a room above, "module:name"; the room is loaded when it is first asked."""
     module, name = place.split(":")
     return getattr(import_module(module), name)
 
 
 def speakers(plan: Plan, kind: type[Kind]) -> dict[str, Kind]:
-    """Return the members of a plan that show or judge themselves, `Tabled` or `HasVerdicts`, and what does so for others, by name."""
+    """Return the members of a plan that show or judge themselves, `Tabled` or `HasVerdicts`, or the objects in their place, by name."""
     found: dict[str, Kind] = {}
     for name, member in plan.members.items():
         speaker: object = member
@@ -165,7 +165,7 @@ class Tabled(Member):
         return self.columns(motion) if case is None and direction is None else []
 
     def gauges(self, plan: Plan) -> Mapping[str, Request]:
-        """Return what a live page shows of it beside its columns, by its name.
+        """Return its further values for a live page beside its columns, by their names.
 
         Its `pressure` [Pa] and the greatest that it may have, `most`; its `closed` length and its `stroke` [m].
         """

@@ -86,7 +86,7 @@ class Jointed(Member):
         return ()
 
     def constraints(self, where: Where) -> tuple[Scalar, ...]:
-        """Return the residuals that vanish where the joint holds, in every reading; empty for a free construction and for no joint."""
+        """Return the residuals that vanish where the joint holds, in every reading; empty for a free construction."""
         return ()
 
 

@@ -25,7 +25,7 @@ FLOORS = (
     ("statics",),
     ("formulas", "study", "synthesis", "files", "sketch"),
     ("pictures", "reports"),
-    ("documents", "exports", "notebook"),
+    ("documents", "exports", "notebook", "board"),
     ("cli",),
 )
 FLOOR = {room: number for number, rooms in enumerate(FLOORS) for room in rooms}
@@ -42,7 +42,7 @@ MAY_PRINT = {"cli", "demo"}
 HEAVY = {"PIL", "imageio_ffmpeg", "matplotlib", "networkx", "numba", "pydantic", "rich", "scipy", "sympy"}
 OPTIONAL = {"dask", "distributed", "ezdxf", "pymoo", "typst", "xlsxwriter"}  # extras: there may be nothing to import
 HEAVY_ROOMS = {
-    f"linkage.{room}" for room in ("formulas", "study", "synthesis", "pictures", "reports", "files", "sketch", "exports", "documents")
+    f"linkage.{room}" for room in ("formulas", "study", "synthesis", "pictures", "reports", "files", "sketch", "exports", "documents", "board")
 }
 
 

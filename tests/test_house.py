@@ -42,7 +42,8 @@ MAY_PRINT = {"cli", "demo"}
 HEAVY = {"PIL", "imageio_ffmpeg", "matplotlib", "networkx", "numba", "pydantic", "rich", "scipy", "sympy"}
 OPTIONAL = {"dask", "distributed", "ezdxf", "pymoo", "typst", "xlsxwriter"}  # extras: there may be nothing to import
 HEAVY_ROOMS = {
-    f"linkage.{room}" for room in ("formulas", "study", "synthesis", "pictures", "reports", "files", "sketch", "exports", "documents", "board")
+    f"linkage.{room}"
+    for room in ("formulas", "study", "synthesis", "pictures", "reports", "files", "sketch", "exports", "documents", "board")
 }
 
 

@@ -14,7 +14,7 @@
    drawing that `check` has nothing against, names that are there, and a new name that `nameFault` has nothing against.
    The page defines `say(text, values)`, and gives `model.reserved` the words that no member may be called. */
 const model = (() => {
-  const { abs, hypot, max } = Math, PARTS = ["points", "links", "slides", "drives", "weights"];
+  const { abs, hypot, max, min } = Math, PARTS = ["points", "links", "slides", "drives", "weights"];
   const MOST = { entries: 300, letters: 40, metres: 1e6, bytes: 1e6 }, reserved = new Set();
   const isTable = (each) => each !== null && typeof each === "object" && !Array.isArray(each);
   const isLength = (each) => Number.isFinite(each) && abs(each) <= MOST.metres, isText = (each) => typeof each === "string";

@@ -15,9 +15,9 @@ from .settings import pair
 
 @Command(
     "import",
-    "a drawing, a table of points, or a file of Linkage, PMKS, PMKS+ or pylinkage as a machine",
+    "a drawing, a table of points, or a file of the board, Linkage, PMKS, PMKS+ or pylinkage as a machine",
     option("file", metavar="FILE", help=".csv, .linkage2, .txt, .json, .dxf, or a share address of PMKS+ in quotes"),
-    option("-o", "--output", metavar="FILE", help=".toml or .py for a machine, .csv, .linkage2 or .txt (PMKS) (default: NAME.toml)"),
+    option("-o", "--output", metavar="FILE", help=".toml or .py, .json (board), .csv, .linkage2, .txt (PMKS) (default NAME.toml)"),
     option("--scale", metavar="1mm", help="what 1 of the file is, where it has no unit or another one is meant"),
     option("--drive", nargs=2, action="append", metavar=("O", "A"), help="a crank: a fixed pin, and a pin of the link that turns about it"),
     option("--cylinder", nargs=2, action="append", metavar=("A", "B"), help="a cylinder between two pins"),

@@ -16,11 +16,12 @@ from ..files.names import shortened
 from ..mechanism import Mechanism
 from ..quantities import is_name, joined_names
 from ..units import parse, show
-from .machine_sketch import MachineSketch, Place, SketchDrive, SketchSlide, longer_side, noiseless
+from .machine_sketch import MachineSketch, Place, SketchDrive, SketchSlide, SketchWeight, longer_side, noiseless
 
 OFF_LINE = 1e-3
 """A point farther from its slide than so much of the size of the drawing is not on it."""
-WORDS = {"Mechanism", "Stroke", "drawn", "Ground", "Crank", "Pin", "Link", "Guide", "Slide", "deg", "sketch", *vars(Mechanism)}
+CALLED = "Mechanism", "Stroke", "drawn", "Ground", "Crank", "Pin", "Link", "Guide", "Slide", "Cylinder", "Weight", "deg", "sketch"
+WORDS = {*CALLED, *vars(Mechanism)}
 """What a member may not be called, because the file of the class says it already."""
 TURN = 2.0 * pi
 HALF = 0.5
@@ -71,6 +72,9 @@ class FoundMachine:
     left_out: list[str] = field(default_factory=list)
     line: int = 0
     """The line that is read, where the file has lines."""
+    whole: MachineSketch | None = None
+    """The sketch, where the file holds it as it is: all that is above but drives are its pieces."""
+    weights: dict[str, SketchWeight] = field(default_factory=dict)
 
     @property
     def here(self) -> str:
@@ -196,9 +200,9 @@ class FoundMachine:
         if self.left_out:
             self.notes.append(f"Left out: {few(self.left_out, '; ')}.")
         fixed = tuple(names[key] for key, point in self.points.items() if point.fixed)
-        return MachineSketch(
-            legal_name(title, {"Mechanism"}), places, fixed, links, slides, drives, notes=tuple(map(printable, self.notes))
-        )
+        weights = {legal_name(name, taken): SketchWeight(names[each.point], each.mass) for name, each in self.weights.items()}
+        title, notes = legal_name(title, {"Mechanism"}), tuple(map(printable, self.notes))
+        return MachineSketch(title, places, fixed, links, slides, drives, weights=weights, notes=notes)
 
     def named_drives(self, names: Mapping[str, str], places: Mapping[str, Place], taken: set[str]) -> Iterator[tuple[str, SketchDrive]]:
         """Yield the drives [SI] by their names; a note on a cylinder of which the file says no stroke."""

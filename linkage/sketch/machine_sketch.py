@@ -50,6 +50,8 @@ class SketchDrive:
         The ends of the stroke [m or rad].
     drawn : float
         The stroke at which the sketch is drawn [m or rad].
+    bore, rod : float, optional
+        Of a cylinder that carries load [m]: both, or neither.
     """
 
     kind: str
@@ -57,6 +59,25 @@ class SketchDrive:
     start: float
     end: float
     drawn: float = 0.0
+    bore: float | None = None
+    rod: float | None = None
+
+
+@final
+@dataclass(frozen=True)
+class SketchWeight:
+    """The weight of a mass at a point.
+
+    Parameters
+    ----------
+    point : str
+        The point.
+    mass : float
+        The mass [kg].
+    """
+
+    point: str
+    mass: float
 
 
 @final
@@ -80,6 +101,8 @@ class MachineSketch:
         What drives, by the name of its stroke.
     lengths : mapping of str to float
         Lengths that are given instead of measured [m], by their labels, such as those of `rounded`.
+    weights : mapping of str to SketchWeight
+        Masses at points, by the names of their loads.
     notes : tuple of str
         What reading it changed or left out, in sentences.
 
@@ -96,6 +119,7 @@ class MachineSketch:
     slides: Mapping[str, SketchSlide] = field(default_factory=dict)
     drives: Mapping[str, SketchDrive] = field(default_factory=dict)
     lengths: Mapping[str, float] = field(default_factory=dict)
+    weights: Mapping[str, SketchWeight] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
@@ -114,6 +138,7 @@ class MachineSketch:
         for name, slide in self.slides.items():
             yield f"the slide {name}", (slide.point, *(slide.along if isinstance(slide.along, tuple) else ()))
         yield from ((f"the drive {name}", drive.ends) for name, drive in self.drives.items())
+        yield from ((f"the weight {name}", (weight.point,)) for name, weight in self.weights.items())
 
     @property
     def size(self) -> float:
@@ -171,6 +196,9 @@ class MachineSketch:
             for name, each in self.slides.items()
         }
         found["slides"] = {name: {"point": each.point, "guide": f"line_{name}"} for name, each in self.slides.items()}
+        rams = {f"cylinder_{name}": drive for name, drive in self.drives.items() if drive.bore is not None}
+        found["hydraulics"] = {name: {"Cylinder": [*drive.ends], "bore": drive.bore, "rod": drive.rod} for name, drive in rams.items()}
+        found["loads"] = {name: {"Weight": weight.point, "mass": weight.mass} for name, weight in self.weights.items()}
         return {name: table for name, table in found.items() if table}
 
     def check_driven(self) -> None:
@@ -222,9 +250,10 @@ class MachineSketch:
         lines += [f"    {name} = Stroke({python_number(low)}, {python_number(high)})" for name, (low, high) in tables["strokes"].items()]
         lines += [f"    sketch = drawn({', '.join(f'{name}={value!r}' for name, value in tables['drawn']['sketch'].items())})", ""]
         lines += [f"    {name} = Ground({x!r}, {y!r})" for name, (x, y) in tables.get("ground", {}).items()]
-        for section in ("points", "pins", "links", "guides", "slides"):
+        for section in ("points", "pins", "links", "guides", "slides", "hydraulics", "loads"):
             lines += [f"    {name} = {python_member(section, table)}" for name, table in tables.get(section, {}).items()]
-        return "\n".join(["from linkage import *", "", "", *lines]) + "\n"
+        imports = ["from hydraulics import Cylinder"] * ("hydraulics" in tables) + ["from linkage import *"]
+        return "\n".join([*imports, "", "", *lines]) + "\n"
 
     # -- round numbers -------------------------------------------------------------------------------------
 
@@ -333,4 +362,8 @@ def python_member(section: str, table: Mapping[str, Any]) -> str:
                 quoted(table[name]) if isinstance(table[name], str) else f"{(*table[name],)!r}" for name in ("from", "to") if name in table
             ]
             return f"Guide({', '.join([*ends, *words])})"
+        case "hydraulics":
+            return f"Cylinder({', '.join(table['Cylinder'])}, bore={table['bore']!r}, rod={table['rod']!r})"
+        case "loads":
+            return f"Weight({table['Weight']}, mass={table['mass']!r})"
     return f"Slide({quoted(table['point'])}, {table['guide']})"

@@ -13,6 +13,7 @@ from ..disk import Place, read
 from ..errors import DefinitionError, FileError, ensure, unknown
 from ..files.names import shortened
 from ..files.source import FILE_BYTES, decoded
+from .board_json import ADDRESS, board_in_address, read_board
 from .dxf_layers import read_dxf
 from .found import FoundDrive, FoundMachine, ensure_file
 from .linkage_xml import read_linkage_xml
@@ -42,8 +43,8 @@ def read_sketch(
     Parameters
     ----------
     file : str or path
-        A table of points (.csv), a file of Linkage (.linkage2), PMKS (.txt), PMKS+ or pylinkage (.json), a drawing (.dxf); or the text
-        of a share address of PMKS+.
+        A table of points (.csv), a file of Linkage (.linkage2), PMKS (.txt), the board, PMKS+ or pylinkage (.json), a drawing (.dxf);
+        or the text of a share address of PMKS+.
     scale : float, optional
         What 1 of the file is [m]. By default as the file says.
     drives, cylinders : sequence of (str, str), optional
@@ -67,8 +68,11 @@ def read_sketch(
     is_drawing = str(file).lower().endswith(".dxf")
     ensure(is_drawing or not layers, f"{found.file}: --layer {', '.join(layers)}: only a drawing, .dxf, has layers; leave it out.")
     if scale is not None:
+        ensure(found.whole is None, f"{found.file}: a drawing of the board is in metres; leave out the scale.")
         ensure(isfinite(scale) and scale > 0.0, f"{found.file}: the scale is {scale!r}; say what 1 of the file is, such as 1mm.")
         found.unit = scale
+    if found.whole is not None and not (drives or cylinders):
+        return found.whole
     asked = [*(("crank", *ends) for ends in drives), *(("cylinder", *ends) for ends in cylinders)]
     if asked:
         found.drives = []
@@ -92,7 +96,7 @@ def is_address(text: str) -> bool:
     """Return whether a text is a share address, or what stands behind its ?."""
     query = address_text(text)
     begins = WEB.match(text), SHORT.match(query), re.match(r"j=[^&]*&l=", query)
-    return text.startswith(ENVELOPE) or any(begins)
+    return text.startswith(ENVELOPE) or text.rpartition("#")[2].startswith(ADDRESS) or any(begins)
 
 
 def content_of(file: Place, layers: Mapping[str, Sequence[str]]) -> tuple[FoundMachine, str]:
@@ -101,7 +105,7 @@ def content_of(file: Place, layers: Mapping[str, Sequence[str]]) -> tuple[FoundM
     if is_address(text):
         found = FoundMachine("the address")
         read_address(found, text)
-        return found, "Shared"
+        return found, found.whole.name if found.whole else "Shared"
     path = Path(file)
     suffix = path.suffix.lower()
     if suffix not in SUFFIXES:
@@ -116,7 +120,7 @@ def content_of(file: Place, layers: Mapping[str, Sequence[str]]) -> tuple[FoundM
     raw = read(path, FILE_BYTES + 1)
     if suffix == ".json":
         read_json(found, decoded(path.name, raw, True).data)
-        return found, title
+        return found, found.whole.name if found.whole else title
     ensure_file(len(raw) <= FILE_BYTES, f"{path.name}: the file is larger than {FILE_BYTES / 1e6:g} MB; a machine is a few kB.")
     content = text_of_bytes(raw)
     ensure_file(content.strip(), f"{path.name}: the file is empty.")
@@ -139,7 +143,9 @@ def read_address(found: FoundMachine, text: str) -> None:
     """Read a share address."""
     ensure_file(len(text) <= FILE_BYTES, f"{found.file}: it is longer than {FILE_BYTES} characters.")
     query = address_text(text.strip())
-    if text.startswith(ENVELOPE):
+    if ADDRESS in text:
+        read_json(found, decoded(found.file, board_in_address(found.file, text), True).data)
+    elif text.startswith(ENVELOPE):
         read_json(found, decoded(found.file, json_in_address(found.file, text).encode(), True).data)
     elif re.match(r"j=", query):
         read_old_address(found, query)
@@ -152,6 +158,8 @@ def read_address(found: FoundMachine, text: str) -> None:
 
 def json_reader(data: Mapping[str, Any]) -> Callable[[FoundMachine, Mapping[str, Any]], None] | None:
     """Return what reads a JSON file by its keys; None where no program is known that writes these."""
+    if "board" in data and "points" in data:
+        return read_board
     if data.get("version") == 2 and "bodies" in data and "attachments" in data:
         return read_plus_bodies
     if "j" in data and "l" in data:
@@ -164,7 +172,8 @@ def read_json(found: FoundMachine, data: object) -> None:
     reader = json_reader(data) if isinstance(data, dict) else None
     if reader is None:
         raise FileError(
-            f'{found.file}: it is no machine of PMKS+ ("j" and "l", or version 2 with "bodies") and none of pylinkage ("joints").'
+            f'{found.file}: it is no drawing of the board ("board" and "points"), no machine of PMKS+ ("j" and "l", or version 2 with '
+            '"bodies") and none of pylinkage ("joints").'
         )
     reader(found, data)  # type: ignore[arg-type]
 

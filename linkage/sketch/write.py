@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from ..errors import DefinitionError
+from ..errors import DefinitionError, ensure
+from .board_json import board_json
 from .linkage_xml import linkage_xml
 from .machine_sketch import MachineSketch
 from .pmks_text import pmks_text
@@ -13,6 +14,7 @@ from .points_csv import points_csv
 WRITERS: dict[str, Callable[[MachineSketch], str]] = {
     ".toml": MachineSketch.to_toml,
     ".py": MachineSketch.to_python,
+    ".json": board_json,
     ".csv": points_csv,
     ".linkage2": linkage_xml,
     ".txt": pmks_text,
@@ -28,7 +30,7 @@ def sketch_text(sketch: MachineSketch, suffix: str) -> str:
     sketch : MachineSketch
         The sketch.
     suffix : str
-        .toml or .py for a machine, .csv for a table of points and links, .linkage2 for Linkage, .txt for PMKS.
+        .toml or .py for a machine, .json for the board, .csv for a table of points and links, .linkage2 for Linkage, .txt for PMKS.
 
     Returns
     -------
@@ -42,4 +44,6 @@ def sketch_text(sketch: MachineSketch, suffix: str) -> str:
     """
     if suffix not in WRITERS:
         raise DefinitionError(f"{suffix or 'no ending'} says no kind of file; a sketch is written as {', '.join(WRITERS)}.")
+    is_held = suffix in (".toml", ".py", ".json") or not (sketch.weights or any(drive.bore for drive in sketch.drives.values()))
+    ensure(is_held, f"{sketch.name}: a {suffix} file has no word for weights, bores and rods; write .toml, .py or .json, or take them out.")
     return WRITERS[suffix](sketch)

@@ -111,6 +111,7 @@ const model = (() => {
     const drawing = empty(), taken = (each, keys) => Object.fromEntries(keys.filter((key) => each[key] !== undefined && each[key] !== null).map((key) => [key, each[key]]));
     for (const key of Object.keys(drawing)) if (given[key] !== undefined) drawing[key] = given[key];
     const KEYS = { slides: ["point", "along"], drives: ["kind", "ends", "start", "end", "drawn", "bore", "rod"], weights: ["point", "mass"] };
+    drawing.notes = drawing.notes.map((note) => note.replace(/(?! )[\p{C}\p{Z}]/gu, " "));
     for (const [part, keys] of Object.entries(KEYS)) drawing[part] = Object.fromEntries(Object.entries(drawing[part]).map(([name, each]) => [name, taken(each, keys)]));
     return { drawing, wrong };
   }

@@ -75,8 +75,9 @@ def colours(most: int = 0) -> str:
 
 
 def page_part(name: str) -> str:
-    """Return a file of this room."""
-    return files(__package__).joinpath(name).read_text(encoding="utf-8")
+    """Return a file of this room, or of another one, "board/board.html"."""
+    room, _, file = name.rpartition("/")
+    return files(f"linkage.{room or 'pictures'}").joinpath(file).read_text(encoding="utf-8")
 
 
 def source_hash(text: str) -> str:

@@ -145,7 +145,7 @@ function ram(each) {
   let low, high, u, least, mouth, seen;
   return (at) => {
     if (seen !== edition) {
-      seen = edition; [low, high] = span(P, Q); u = min(unit0, 0.12 * low); least = 2 * u;
+      seen = edition; [low, high] = each.range ? each.range.map((length) => length * zoom) : span(P, Q); u = min(unit0, 0.12 * low); least = 2 * u;
       mouth = min(max(least + high - low + 1.5 * u, 0.68 * low), max(0.68 * low, low - 1.2 * u));
       [0.62, 1.3, 0.42, 1.12, 1.5].forEach((half, i) => set(parts[i], { y: -off - half * u, height: 2 * half * u }));
       put(eye, 0, 1.4 * u); put(barrel, 1.4 * u, mouth); put(cap, mouth - 0.35 * u, mouth + 0.35 * u);

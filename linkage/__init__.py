@@ -11,7 +11,7 @@ from . import shown as _shown
 
 _LINES = Path(__file__).with_suffix(".pyi").read_text(encoding="utf-8")
 _ROOMS = {name: room for room, name in re.findall(r"^from ([\w.]+) import (\w+)", _LINES, re.MULTILINE)}
-_HEAVY = ("pictures", "formulas", "documents", "exports")
+_HEAVY = ("board", "pictures", "formulas", "documents", "exports")
 """Rooms with Matplotlib or SymPy behind them, which are loaded when a function of theirs is first called."""
 __all__ = [*_ROOMS]
 

@@ -1,5 +1,6 @@
 """The names of the front door, each with the room it comes from: what type checkers read, and `__init__.py` too."""
 
+from .board.page import drawing_board as drawing_board
 from .documents.reporting import report as report
 from .errors import AssemblyError as AssemblyError
 from .errors import DefinitionError as DefinitionError

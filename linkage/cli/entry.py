@@ -25,7 +25,7 @@ HOMES = {
     "list": "listing", "show": "show", "table": "table", "follow": "follow", "chart": "follow",
     "limits": "table", "forces": "table", "draw": "plot", "plot": "plot", "animate": "plot", "page": "report", "report": "report",
     "export": "export", "save": "export", "optimise": "optimise", "synthesise": "optimise", "study": "optimise", "new": "export",
-    "import": "import_file",
+    "import": "import_file", "board": "board",
 }  # fmt: skip
 """The built-in commands, in the order of the help, each with its file."""
 BUILT_IN = {name: EntryPoint(name, f"{__package__}.{home}:{name}_command", plugins.COMMANDS) for name, home in HOMES.items()}

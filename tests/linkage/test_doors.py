@@ -15,8 +15,8 @@ from tests.test_house import HEAVY, OPTIONAL
 
 ROOT = Path(__file__).parents[2]
 LATE = {
-    "animate": "pictures.film", "draw": "pictures.draw", "equations": "formulas.numbered", "export": "exports.export",
-    "page": "pictures.browser", "plot": "pictures.draw", "report": "documents.reporting",
+    "animate": "pictures.film", "draw": "pictures.draw", "drawing_board": "board.page", "equations": "formulas.numbered",
+    "export": "exports.export", "page": "pictures.browser", "plot": "pictures.draw", "report": "documents.reporting",
 }  # fmt: skip
 DOORS = ("animate", "draw", "equations", "page", "plot")
 SAY = f"print([type(getattr(linkage, name)).__name__ for name in {DOORS}], [type(name).__name__ for name in ({', '.join(DOORS)})])"

@@ -1,0 +1,325 @@
+"""The drawing board in headless Chromium: machines drawn from nothing by pointer and by keyboard, moved, undone, kept and opened."""
+
+import json
+from itertools import combinations
+from math import dist
+
+import pytest
+from numpy.testing import assert_allclose
+
+from linkage import drawing_board
+from linkage.files import load
+from tests.linkage.pictures.test_page import PHONE, Shown, chromium  # noqa: F401
+
+SWEPT = """() => {
+    const drawing = hydrolinkage.current();
+    return Object.keys(drawing.drives).map((name) => [name, hydrolinkage.solver.sweep(drawing, name, 25)]);
+}"""
+"""Every drive over its stroke."""
+NAMELESS = """() => [...document.querySelectorAll("button, input, select, textarea")]
+    .filter((each) => !each.hidden && !each.textContent.trim() && !each.ariaLabel && !each.closest("label")?.textContent.trim())
+    .map((each) => each.outerHTML)"""
+"""What a reader of screens has no word for."""
+
+
+@pytest.fixture(scope="module")
+def empty(tmp_path_factory):
+    """Return an empty board."""
+    return drawing_board(None, tmp_path_factory.mktemp("board") / "board.html")
+
+
+class Board(Shown):
+    """A board in a browser, its sheet by places in mm."""
+
+    def __enter__(self):
+        self("localStorage.clear()")
+        self.again()
+        return self
+
+    def again(self):
+        """Load the page anew, as a tab that was closed does."""
+        self.tab.reload()
+        self.tab.wait_for_selector("#live", state="attached")
+        while not self("window.hydrolinkage !== undefined"):
+            self.tab.wait_for_timeout(10)
+
+    @property
+    def drawing(self):
+        return self("hydrolinkage.current()")
+
+    def spot(self, x, y):
+        box = self.tab.locator("#mechanism").bounding_box()
+        left, top = self("([x, y]) => hydrolinkage.px(x, y)", [x / 1e3, y / 1e3])
+        return box["x"] + left, box["y"] + top
+
+    def use(self, tool, *places):
+        """Choose a tool and press places on the sheet [mm], or points by name."""
+        self.tab.locator(f"button[data-tool={tool}]").click()
+        self.press(*places)
+
+    def press(self, *places):
+        for each in places:
+            self.tab.mouse.click(*self.spot(*self.place(each)))
+
+    def place(self, each):
+        return [1e3 * part for part in self(f"hydrolinkage.state().places[{each!r}]")] if isinstance(each, str) else each
+
+    def drag(self, begin, end):
+        x, y = self.spot(*self.place(begin))
+        self.tab.mouse.move(x, y)
+        self.tab.mouse.down()
+        u, v = self.spot(*end)
+        for share in (0.25, 0.5, 0.75, 1.0):
+            self.tab.mouse.move(x + share * (u - x), y + share * (v - y))
+        self.tab.mouse.up()
+
+    def keys(self, *keys):
+        for each in keys:
+            self.tab.keyboard.press(each)
+
+    def field(self, label, text):
+        self.tab.locator("#fields").get_by_label(label, exact=True).fill(text)
+        self.tab.keyboard.press("Enter")
+
+    @property
+    def lengths(self):
+        """The lengths of all links and their plates' sides, at the pose that is shown."""
+        drawing = self.drawing
+        at = drawing["points"]
+        return {(P, Q): dist(at[P], at[Q]) for points in drawing["links"].values() for P, Q in combinations(points, 2)}
+
+    def choose(self, name):
+        self.tab.locator("#parts").get_by_role("button", name=name, exact=True).click()
+
+
+def four_bar(board):
+    """Draw a four-bar by the pointer alone."""
+    board.use("crank", (0, 0), (100, 60))
+    board.use("bar", (100, 60), (400, 300))
+    board.use("bar", (400, 300), (520, 0))
+    board.use("fix", (520, 0))
+
+
+def front_loader(board):
+    """Draw a front loader with two cylinders by the pointer alone."""
+    board.use("plate", (0, 600), (400, 300), (800, 200), (0, 600))
+    board.use("plate", (800, 200), (900, 400), (1040, 100), (800, 200))
+    board.use("fix", (0, 600))
+    board.use("cylinder", (100, 0), (400, 300))
+    board.use("fix", (100, 0))
+    board.use("cylinder", (200, 580), (900, 400))
+    board.use("fix", (200, 580))
+
+
+def slider_crank(board):
+    """Draw a slider-crank by the pointer alone."""
+    board.use("crank", (0, 0), (60, 60))
+    board.use("bar", (60, 60), (360, 0))
+    board.use("slide", (360, 0), (360, 0))
+
+
+def by_keys(board):
+    """Draw the four-bar by the keyboard alone."""
+    board.tab.locator("#mechanism").focus()
+
+    def to(x, y):
+        for _ in range(200):
+            here = board("hydrolinkage.state().cursor")
+            if here is None:
+                board.keys("ArrowUp")
+                continue
+            dx, dy = round(x - 1e3 * here[0], 6), round(y - 1e3 * here[1], 6)
+            if not dx and not dy:
+                return
+            board.keys("ArrowRight" if dx > 0 else "ArrowLeft" if dx < 0 else "ArrowUp" if dy > 0 else "ArrowDown")
+
+    board.keys("c")
+    for place in ((0, 0), (100, 60)):
+        to(*place)
+        board.keys("Enter")
+    for ends in (((100, 60), (400, 300)), ((400, 300), (520, 0))):
+        board.keys("b")
+        for place in ends:
+            to(*place)
+            board.keys("Enter")
+    board.keys("f", "Enter")
+
+
+def shape(drawing):
+    """Return how a drawing is joined, whatever its parts are called, and where its points stand [mm]."""
+    at = {name: tuple(round(1e3 * each) for each in place) for name, place in drawing["points"].items()}
+    return (
+        {*at.values()},
+        {at[name] for name in drawing["fixed"]},
+        {frozenset(at[name] for name in points) for points in drawing["links"].values()},
+        {(each["kind"], *(at[name] for name in each["ends"])) for each in drawing["drives"].values()},
+    )
+
+
+FOUR_BAR = (
+    {(0, 0), (100, 60), (400, 300), (520, 0)},
+    {(0, 0), (520, 0)},
+    {frozenset(ends) for ends in (((0, 0), (100, 60)), ((100, 60), (400, 300)), ((400, 300), (520, 0)))},
+    {("crank", (0, 0), (100, 60))},
+)
+
+
+def test_a_four_bar_by_pointer_and_by_keys_is_the_same(chromium, empty):  # noqa: F811
+    for draw in (four_bar, by_keys):
+        with Board(chromium, empty) as board:
+            draw(board)
+            assert shape(board.drawing) == FOUR_BAR, draw.__name__
+            assert board.text("#live").startswith("Mobility 1, drives: 1"), draw.__name__
+            assert board.said == [], draw.__name__
+            assert [each for each in board.asked if not each.startswith("file:")] == [], draw.__name__
+
+
+@pytest.mark.parametrize("draw", [four_bar, front_loader, slider_crank], ids=lambda draw: draw.__name__)
+def test_what_is_exported_moves_in_python_as_on_the_board(chromium, empty, draw, tmp_path):  # noqa: F811
+    with Board(chromium, empty) as board:
+        draw(board)
+        poses = board(SWEPT)
+        space = {}
+        exec(board.tab.locator("#text").input_value(), space)
+        machine = space["Machine"]()
+        for name, sweep in poses:
+            reached = [(value, at) for value, at in zip(sweep["values"], sweep["poses"], strict=True) if at][:-1]
+            assert len(reached) > 10, name
+            motion = machine.at(**{name: [value for value, _ in reached]}, **{each: 0.0 for each, _ in poses if each != name})
+            for point in machine.plan.points:
+                assert_allclose(motion[point].T, [at[point] for _, at in reached], atol=1e-9)
+        board.tab.locator("[data-form=toml]").click()
+        file = tmp_path / "machine.toml"
+        file.write_text(board.tab.locator("#text").input_value(), encoding="utf-8")
+        assert [*load(file)().plan.points] == [*machine.plan.points]
+        board.tab.locator("[data-form=link]").click()
+        address, before = board.tab.locator("#text").input_value(), board.drawing
+        board.tab.locator("#fresh").click()
+        assert board.drawing["points"] == {}
+        board.tab.locator("#text-in").fill(address)
+        board.tab.locator("#take").click()
+        assert board.drawing == before and board.said == []
+
+
+def test_undo_leads_to_the_empty_sheet_and_back(chromium, empty):  # noqa: F811
+    with Board(chromium, empty) as board:
+        front_loader(board)
+        full, count = board.drawing, 0
+        while board.tab.locator("#undo").is_enabled():
+            board.keys("Control+z")
+            count += 1
+        assert board.drawing["points"] == {} and board.drawing["drives"] == {} and count > 10
+        for _ in range(count):
+            board.keys("Control+Shift+Z")
+        assert board.drawing == full and board.tab.locator("#redo").is_disabled() and board.said == []
+
+
+def test_a_reload_keeps_the_work(chromium, empty):  # noqa: F811
+    with Board(chromium, empty) as board:
+        slider_crank(board)
+        board.tab.locator("#units").select_option("in")
+        before = board.drawing
+        board.again()
+        assert board.drawing == before and board.text("#live").startswith("Mobility 1, drives: 1")
+        assert board.tab.locator("#units").input_value() == "in"
+        for damage in ("{", "[]", '{"drawing":{"board":1,"name":"X","points":{"A":[0,"x"]}},"delivered":"null"}'):
+            board("(text) => localStorage.setItem(Object.keys(localStorage)[0], text)", damage)
+            board.again()
+            assert board.drawing["points"] == {} and board.said == [], damage
+
+
+def test_what_is_led_moves_and_no_link_is_stretched(chromium, empty):  # noqa: F811
+    with Board(chromium, empty) as board:
+        four_bar(board)
+        board.tab.locator("button[data-tool=move]").click()
+        before, drawn = board.lengths, board.drawing["points"]
+        board.drag("B", (-300, 500))
+        assert board.drawing["points"]["B"] != drawn["B"]
+        assert_allclose([*board.lengths.values()], [*before.values()], rtol=1e-9)
+        board.drag("C", (2000, 1500))
+        assert "short" in board.text("#message") or "long" in board.text("#message")
+        assert "mm" in board.text("#message")
+        assert_allclose([*board.lengths.values()], [*before.values()], rtol=1e-9)
+        board.tab.keyboard.down("Shift")
+        board.drag("B", (60, 100))
+        board.tab.keyboard.up("Shift")
+        assert board.drawing["points"]["B"] == [0.06, 0.1]
+        assert board.said == []
+
+
+def test_numbers_are_typed_with_units(chromium, empty):  # noqa: F811
+    with Board(chromium, empty) as board:
+        four_bar(board)
+        before = board.lengths
+        board.choose("link_B_C")
+        board.field("BC", "40 cm")
+        assert_allclose([*board.lengths.values()], [0.4 if pair == ("B", "C") else each for pair, each in before.items()], rtol=1e-9)
+        board.choose("link_A_B")
+        board.field("AB", "5 in")
+        assert_allclose(dist(*(board.drawing["points"][name] for name in "AB")), 0.127, rtol=1e-9)
+        board.field("AB", "three")
+        assert "three" in board.text("#message")
+        board.choose("D")
+        board.field("x", "0.5 m")
+        assert board.drawing["points"]["D"][0] == 0.5
+        board.field("Name", "Pivot")
+        assert "Pivot" in board.drawing["fixed"]
+        board.field("Name", "class")
+        assert "class is no name" in board.text("#message") and "Pivot" in board.drawing["points"]
+        board.use("cylinder", "B", (-200, -300))
+        board.field("Bore", "63")
+        board.field("Closed length", "250")
+        board.field("Stroke", "0.2 m")
+        drive = board.drawing["drives"]["S"]
+        assert (drive["bore"], drive["end"] - drive["start"]) == (0.063, 0.2) and 0 < drive["rod"] < 0.063
+        points = board.drawing["points"]
+        assert_allclose(dist(*(points[name] for name in drive["ends"])) - drive["drawn"], 0.25)
+        board.keys("Delete")  # in a field it is of the text
+        board.tab.locator("#fields").get_by_role("button", name="Delete").click()
+        assert [*board.drawing["drives"]] == ["phi"] and board.said == []
+
+
+def test_hostile_texts_are_inert(chromium, empty):  # noqa: F811
+    hostile = "<img src=x onerror=window.struck=1>"
+    good = {"board": 1, "name": "M", "points": {"A": [0, 0]}, "notes": [hostile]}
+    texts = [
+        "", "{", "null", "[]", "1e999", hostile, "javascript:window.struck=1", json.dumps(good | {"name": hostile}),
+        json.dumps(good | {"points": {hostile: [0, 0]}}), json.dumps(good | {"points": {"A": [1e300, 0]}}),
+        json.dumps(good | {"links": {"x": ["A", hostile]}}), json.dumps(good | {"drives": {"S": {"kind": hostile, "ends": ["A", "A"]}}}),
+        '{"board":1,"name":"M","points":{"__proto__":[0,0]},"fixed":[]}', "[" * 100_000,
+    ]  # fmt: skip
+    with Board(chromium, empty) as board:
+        four_bar(board)
+        before = board.drawing
+        for text in texts:
+            board.tab.locator("#text-in").fill(text)
+            board.tab.locator("#take").click()
+            assert board.drawing == before, text[:80]
+            assert board.text("#message"), text[:80]
+        board.tab.locator("#text-in").fill(
+            json.dumps(good | {"points": {"constructor": [0, 0], "toString": [0.1, 0]}, "links": {"valueOf": ["constructor", "toString"]}})
+        )
+        board.tab.locator("#take").click()
+        board.choose("valueOf")
+        board.tab.locator("#fields").get_by_role("button", name="Delete").click()
+        assert [*board.drawing["points"]] == ["constructor", "toString"] and board.drawing["links"] == {}
+        assert board("window.struck") is None and board.tab.locator("img").count() == 0 and board.said == []
+        assert [each for each in board.asked if not each.startswith("file:")] == []
+
+
+def test_every_tool_has_a_key_and_a_name(chromium, empty):  # noqa: F811
+    with Board(chromium, empty, PHONE) as board:
+        tools = board(
+            "[...document.querySelectorAll('button[data-tool]')].map((each) => [each.dataset.tool, each.getAttribute('aria-keyshortcuts')])"
+        )
+        assert len({key for _, key in tools}) == len(tools) >= 10
+        board.tab.locator("#mechanism").focus()
+        for tool, key in tools:
+            board.keys(key.lower())
+            assert board.tab.locator(f"button[data-tool={tool}]").get_attribute("aria-pressed") == "true", tool
+        board.keys("Escape")
+        slider_crank(board)
+        assert board(NAMELESS) == []
+        assert board("document.documentElement.scrollWidth") <= PHONE[0]
+        board.tab.locator("#language").click()
+        assert board("document.querySelector('h1').textContent") == "Чертёжная доска" and board.said == []

@@ -50,7 +50,7 @@ from ..reports import (
     run_of,
 )
 from ..units import SYSTEMS, UNITS, deg, display_unit, factor, shown_in, unit_system
-from .browser_file import EVENTS, MACHINE, START, PageData, page_part, page_text
+from .browser_file import EVENTS, MACHINE, START, PageData, page_part, page_text, tight
 from .browser_forces import force_arrows, page_situations, situated_requests, situated_rows
 from .browser_judge import LiveQuestions, course_data, rule_key, unit_data
 from .curves import WHOLE, Limit, as_curve, check_poses, limit_of, typeset
@@ -264,7 +264,8 @@ def page_data(requests: PageRequests, live: LiveText) -> PageData:
     columns = [column_data(name, each, live, requests) for name, each in requests.columns.items()]
     rows, index = {name: each[0] for name, each in live.rows.items()}, {name: place for place, name in enumerate(plan.points)}
     lines = {track.name: [rows[f"track {track.name} {k}"] for k in range(4)] for track in requests.scene.tracks}
-    run = requests.run
+    run, strokes, judge = requests.run, stroke_data(requests), requests.questions.data(live)
+    asked = [each[key]["unit"] for each in judge["questions"] for key in ("unit", "saysUnit") if key in each]
     depth = {index[name]: name.count(".") for name in plan.moving if name in index}
     with language("ru"):
         russian_title = plan.heading
@@ -272,7 +273,7 @@ def page_data(requests: PageRequests, live: LiveText) -> PageData:
         "count": requests.count,
         "dims": dims,
         "shown": [names.index(name) for name in shown_first(requests, dims)],
-        "strokes": stroke_data(requests),
+        "strokes": strokes,
         "run": len(machine.strokes) if run.is_path else list(machine.strokes).index(run.stroke),
         "columns": columns,
         "column": list(requests.columns).index(requests.column),
@@ -282,7 +283,7 @@ def page_data(requests: PageRequests, live: LiveText) -> PageData:
         "rows": {"points": [[rows[f"point {name}"] + axis for axis in (0, 1)] for name in plan.points]},
         "scene": scene_data(requests.scene, lines),
         "cylinders": cylinder_data(requests.scene, live, len(requests.situations)),
-        **unit_tables({*(each[3] for each in dims), *(str(each[1]) for each in columns)}),
+        **unit_tables({*(each[3] for each in dims), *(str(each[1]) for each in columns)}, {*asked, *(each["unit"] for each in strokes)}),
         "joints": [{"point": name, "row": rows[key]} for name in requests.motion._joints if (key := f"joint {name}") in rows],
         "arrows": [
             {"point": index[point], "x": x, "y": y} | ({"load": 1} if is_load else {})
@@ -303,7 +304,7 @@ def page_data(requests: PageRequests, live: LiveText) -> PageData:
         "steps": {name: opening(plan, name) for name in plan.points},
         "called": pins_called(plan),
         **verdicts_shown(requests),
-        "judge": requests.questions.data(live),
+        "judge": judge,
     }
 
 
@@ -333,23 +334,28 @@ def named_in_code(kind: type[Mechanism]) -> PageData:
 
 def machine_text(requests: PageRequests, live: LiveText, data: PageData, parts: Sequence[str], language: str) -> str:
     """Return the HTML of a page of a machine, with the program that works it out and the parts that a kind of page adds."""
-    most, text = max(requests.scene.colours, default=0), f"{live.text}\n{page_part('judge.js')}"
+    most, text = max(requests.scene.colours, default=0), f"{live.text}\n{tight(page_part('judge.js'))}"
     if any(place.instants is not None for place in requests.questions.judge.places):
-        text += page_part("judge_time.js")
+        text += tight(page_part("judge_time.js"))
     later = EVENTS if any("events" in each for each in data["strokes"]) else ()
     return page_text(requests.plan.heading, data, (*MACHINE, *parts, START, *later), language=language, most=most, text=text)
 
 
-def unit_tables(used: set[str]) -> PageData:
-    """Return what the page's script knows of units: the factors of those that are used, of all in each system, and their signs."""
+def unit_tables(used: set[str], beside: set[str]) -> PageData:
+    """Return what the page's script knows of units: the factors of those that are used, all that measure the same, and their signs.
+
+    Units `beside` these are shown, and have no factor here.
+    """
+    known = {*used, *beside, "bar", "mm", "kN"}
+    kinds = {measure for unit, (_, measure) in UNITS.items() if typeset(unit) in known}
     return {
         "units": {typeset(unit): factor(unit) for unit in ("", *UNITS) if typeset(unit) in used},
         "pressureUnit": unit_data("bar"),
         "length": unit_data("mm"),
         "force": unit_data("kN"),
         "signs": signs({*used, *map(shown_in, ("bar", "mm", "kN"))}),
-        "measures": {typeset(unit): [factor(unit), measure] for unit, (_, measure) in UNITS.items() if "jerk" not in measure},
-        "systems": {name: {measure: typeset(unit) for measure, unit in units.items()} for name, units in SYSTEMS.items()},
+        "measures": {typeset(unit): [factor(unit), measure] for unit, (_, measure) in UNITS.items() if measure in kinds},
+        "systems": {name: {measure: typeset(unit) for measure, unit in units.items() if measure in kinds} for name, units in SYSTEMS.items()},
         "systemNames": SYSTEM_NAMES,
     }
 
@@ -466,7 +472,7 @@ def column_data(name: str, found: LiveColumn, live: LiveText, requests: PageRequ
     for k in lost:
         given = requests.columns_in_time.get(k, {}).get(name) if k else column
         whole = [] if given is None else np.broadcast_to(np.asarray(given.values, float), (requests.count,)).tolist()
-        values |= {k: [float(f"{value:.10g}") if np.isfinite(value) else None for value in whole]} if whole else {}
+        values |= {k: [float(f"{value:.7g}") if np.isfinite(value) else None for value in whole]} if whole else {}
     return [*start, -1 if places is None else places, russian, values, why or reasons[0]]
 
 

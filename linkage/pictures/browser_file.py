@@ -26,8 +26,18 @@ MACHINE = ("machine.html", "page.css", "mechanism.js", "labels.js", "page.js", "
 START = "start.js"
 EVENTS = ("events.css", "events.js")
 """What a page with events on its way in time has behind all others."""
-SAID = re.compile(r'\bsay\("((?:[^"\\]|\\.)*)"|\bdata-(?:say|tip|name)="([^"]+)"')
+SAID = re.compile(r'(?:\bsay(?:\(| = )|\bdata-(?:say|tip|name)=)"((?:[^"\\]|\\.)*)"')
 """Where the program and the text of a page have what is translated."""
+INNER = r"`(?:[^`\\$]|\\.|\$(?!\{))*`"
+TEMPLATE = rf"`(?:[^`\\$]|\\.|\$(?!\{{)|\$\{{(?:[^`{{}}]|\{{[^`{{}}]*\}}|{INNER})*\}})*`"
+KEPT = re.compile(
+    rf"""("(?:[^"\\]|\\.)*"|{TEMPLATE.replace(INNER, TEMPLATE)}|(?<![\w)\]])(?<![\w)\]] )/(?:[^/\\\[]|\\.|\[(?:[^\]\\]|\\.)*\])+/)"""
+)
+"""What stays as it is in a program: texts, templates with templates in them, patterns."""
+NO_SPACE = re.compile(r" ?([{};,]) ?|(?<=:) ")
+"""Signs of a style about which no spaces are needed."""
+TIGHT = re.compile(r" ?([=<>&|?:,;(){}[\]*%!/]+) ?|(?<=[\w)\]]) ([-+]) (?=[\w(\[])")
+"""Signs of a program about which no spaces are needed."""
 
 
 def page_text(title: str, data: PageData, parts: Sequence[str], *, language: str, most: int = 0, text: str = "") -> str:
@@ -37,14 +47,15 @@ def page_text(title: str, data: PageData, parts: Sequence[str], *, language: str
     """
     known_name("Language", language, LANGUAGES, where="page(language=...)")
     body, css, own = ("\n".join(page_part(each) for each in parts if each.endswith(end)) for end in (".html", ".css", ".js"))
-    data = data | {"language": language, "words": {name: translations(name, said_in(body + own)) for name in LANGUAGES[1:]}}
-    program, loader = f'"use strict";{text}\n(async () => {{\n{bare(own)}}})();\n', page_part("loader.js")
-    css, body = bare(css), "\n".join(line.strip() for line in body.splitlines())
-    styles = f":root {{ {colours(most)} }}\n{css}"
+    sentences = said_in(body + own)
+    data = data | {"language": language, "words": {name: translations(name, sentences) for name in LANGUAGES}}
+    body, own = (SAID.sub(lambda found: found[0].replace(f'"{found[1]}"', f'"{sentences.index(found[1])}"'), each) for each in (body, own))
+    program, loader = f'"use strict";{text}\n(async () => {{\n{tight(own)}}})();\n', page_part("loader.js")
+    styles = NO_SPACE.sub(r"\1", f":root {{ {colours(most)} }}\n{bare(css)}")
     filled_in = {
         "LANGUAGE": language,
         "TITLE": escape(title),
-        "BODY": fill_template(body, {"TITLE": escape(title)}),
+        "BODY": packed(fill_template(bare(body), {"TITLE": escape(title)})),
         "STYLE": packed(styles),
         "STYLE_HASH": source_hash(styles),
         "LOADER": loader,
@@ -58,13 +69,13 @@ def page_text(title: str, data: PageData, parts: Sequence[str], *, language: str
 
 def said_in(text: str) -> list[str]:
     """Return what the program or the text of a page says, in English, each sentence once. `{gap}` and the like are filled in there."""
-    return list(dict.fromkeys(sentence or label for sentence, label in SAID.findall(text)))
+    return list(dict.fromkeys(SAID.findall(text)))
 
 
-def translations(name: str, sentences: Iterable[str]) -> dict[str, str]:
-    """Return sentences in a language, by the English."""
+def translations(name: str, sentences: Iterable[str]) -> list[str]:
+    """Return sentences in a language, in their order."""
     with spoken_language(name):
-        return {each: translated(each) for each in sentences}
+        return [translated(each) for each in sentences]
 
 
 def colours(most: int = 0) -> str:
@@ -90,9 +101,15 @@ def bare(text: str) -> str:
     return "\n".join(line.lstrip() for line in re.sub(r"(?m)^[ ]*/\*(?:[^*]|\*(?!/))*\*/[ ]*\n", "", text).splitlines() if line.strip())
 
 
+def tight(program: str) -> str:
+    """Return a program as `bare` does, and without the spaces about its signs."""
+    parts = KEPT.split(bare(program))
+    return "".join(part if k % 2 else TIGHT.sub(r"\1\2", part) for k, part in enumerate(parts))
+
+
 def packed(text: str) -> str:
     """Return a text compressed by zlib and written in 85 letters: half of what it is or less, and nothing in it begins an element."""
-    tried = [compressobj(9, memLevel=level) for level in (7, 8, 9)]  # which one packs best hangs on the text
+    tried = [compressobj(9, memLevel=level) for level in range(4, 10)]  # which one packs best hangs on the text
     found = min((each.compress(text.encode()) + each.flush() for each in tried), key=len)
     return b85encode(found).decode().replace("<", ",")
 

@@ -233,10 +233,9 @@ class LiveQuestions:
         else:
             rows = {"row": live.rows[name][0], "gaps": live.rows[f"{name} gaps"][0], "assumed": live.rows[f"{name} assumed"][0]}
         is_timed = place.instants is not None and is_of_force(row.leaf.quantity)
-        return rows | ({"timed": 1} if is_timed else {}) | {
-            "over": number, "sense": row.sought, "reciprocal": int(row.is_reciprocal), "stays": int(row.stays_at_zero),
-            "case": situation.case, "direction": situation.direction, "drive": situation.drive, "side": row.piece.side,
-        }  # fmt: skip
+        told = {"timed": int(is_timed), "reciprocal": int(row.is_reciprocal), "stays": int(row.stays_at_zero), "side": row.piece.side}
+        told |= {"case": situation.case, "direction": situation.direction, "drive": situation.drive}
+        return rows | {"over": number, "sense": row.sought} | {name: each for name, each in told.items() if each}
 
 
 def delivered_over(place: Domain, request: Request) -> list[DeliveredRow]:

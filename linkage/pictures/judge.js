@@ -78,11 +78,11 @@ const judging = (engine, { overs: all, questions, most, travel, near }, watched 
     const gone = found.some((each) => lost && lost[each.over].share && !overs[each.over].lost);
     if (!known.length) return { ok: lawless || gone || found.some((each) => each.lawless) ? false : null, kept: lawless ? false : null, value: NaN };
     const least = known.reduce((a, b) => (b.margin < a.margin ? b : a)), worst = known.find((each) => each.margin <= least.margin + TIE * least.size) ?? least;
-    const kept = worst.margin >= 0 && !lawless, several = (name) => new Set(found.map((each) => (each.at ? each.at[name] : ""))).size > 1;
+    const kept = worst.margin >= 0 && !lawless, several = (name) => new Set(found.map((each) => (each.at && each.at[name]) || "")).size > 1;
     /* Where it stands in words, of a place of one of its pieces. */
     const stood = (at, o, u) => {
       const sides = new Set(found.filter((each) => each.at && at && each.at.direction === at.direction).map((each) => each.at.side)).size > 1;
-      return { strokes: u === null ? null : strokesAt(o, u), case: several("case") ? at.case : "", direction: several("direction") ? at.direction : "", drive: new Set(found.map((each) => each.at && each.at.drive).filter(Boolean)).size > 1 ? at.drive : "", side: sides ? at.side : "", name: overs.length > 1 ? overs[o].name : "" };
+      return { strokes: u === null ? null : strokesAt(o, u), case: (several("case") && at.case) || "", direction: (several("direction") && at.direction) || "", drive: (new Set(found.map((each) => each.at && each.at.drive).filter(Boolean)).size > 1 && at.drive) || "", side: (sides && at.side) || "", name: overs.length > 1 ? overs[o].name : "" };
     };
     /* Another measure of the same question, of the worst pieces of its leaves, and where the first of these stands. */
     const beside = (tree) => {

@@ -7,7 +7,7 @@ const unpacked = async (id) => {
   return new Response(new Blob([bytes.buffer.slice(0, Math.floor(0.8 * text.length))]).stream().pipeThrough(new DecompressionStream("deflate"))).text();
 };
 const put = (kind, text) => document.body.append(Object.assign(document.createElement(kind), { textContent: text }));
-Promise.all(["style", "program"].map(unpacked)).then(
-  ([style, program]) => { put("style", style); put("script", program); },
+Promise.all(["body", "style", "program"].map(unpacked)).then(
+  ([body, style, program]) => { document.body.insertAdjacentHTML("afterbegin", body); put("style", style); put("script", program); },
   () => document.body.append("This page needs a browser of 2023 or later: Chrome or Edge 80, Safari 16.4, Firefox 113."),
 );

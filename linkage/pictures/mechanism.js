@@ -13,7 +13,7 @@ const rows = data.rows;
 let language = data.language;
 /* Return a sentence in the language chosen; where it is called it has the sentence as a literal, which is translated. */
 function say(text, given) {
-  const said = data.words[language]?.[text] ?? text;
+  const said = data.words[language][text];
   return given ? said.replace(/\{(\w+)\}/g, (_, name) => given[name]) : said;
 }
 const minus = (text) => (/^-[0.]*$/.test(text) ? text.slice(1) : text).replace("-", "\u2212");

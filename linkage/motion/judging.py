@@ -449,7 +449,9 @@ def pose_sentence(motion: Motion) -> str:
         return ""
     faults = [f"{rule} {pose_value(each)}" for rule, each in found.items() if each.ok is False]
     kept = said("all kept") if not unknown else said("{n} kept", n=len(found)) if found else ""
-    parts = [*filter(None, [", ".join(faults) or kept]), *([] if near else [said("outside what is judged")])]
+    here = ", ".join(faults) or kept
+    parts = [] if near else [said("outside what is judged")]
+    parts += [here if near else f"{said('if it were judged:')} {here}"] if here else []
     parts += [said("{n} not followed here: {rules}", n=len(unknown), rules=", ".join(unknown))] if unknown else []
     return f"{said('At this pose:')} {'; '.join(parts)}."
 

@@ -117,7 +117,7 @@ class PageRequests:
         self.count = self.motion.shape[0]
         self.scene = Scene(self.motion)
         self.judge = machine.judge(along if over is None else over)
-        self.situations, self.situation_of = page_situations(self.judge, self.run)
+        self.situations, self.situation_of = page_situations(machine, self.judge, self.run)
         self.arrows = force_arrows(machine, self.motion, self.situations)
         with language("en"):  # what is said otherwise in Russian is asked for apart
             self.featured = machine.featured()
@@ -355,7 +355,7 @@ def unit_tables(used: set[str], beside: set[str]) -> PageData:
         "force": unit_data("kN"),
         "signs": signs({*used, *map(shown_in, ("bar", "mm", "kN"))}),
         "measures": {typeset(unit): [factor(unit), measure] for unit, (_, measure) in UNITS.items() if measure in kinds},
-        "systems": {name: {measure: typeset(unit) for measure, unit in units.items() if measure in kinds} for name, units in SYSTEMS.items()},
+        "systems": {name: {kind: typeset(unit) for kind, unit in units.items() if kind in kinds} for name, units in SYSTEMS.items()},
         "systemNames": SYSTEM_NAMES,
     }
 

@@ -35,9 +35,9 @@ class PageSituation:
         return found if self.motion is None else cast(Asked, at_its_rates(self.motion, cast(Any, found)))
 
 
-def page_situations(judge: Judge, run: Run) -> tuple[list[PageSituation], list[int]]:
+def page_situations(machine: Mechanism, judge: Judge, run: Run) -> tuple[list[PageSituation], list[int]]:
     """Return the situations of a page, that of its first run first, and which of them each `Over` of the judge has."""
-    of_places = [PageSituation(case_shown(each), each.motion if each.instants is not None else None) for each in judge.places]
+    of_places = [PageSituation(case_shown(machine, each), each.motion if each.instants is not None else None) for each in judge.places]
     own = [each for each, place in zip(of_places, judge.places, strict=True) if place.over.title == run.title and each.motion is not None]
     first = own[0] if run.instants is not None and own else PageSituation(run.case)
     found = list(dict.fromkeys((first, *of_places)))
@@ -78,9 +78,7 @@ def force_arrows(machine: Mechanism, motion: Motion, situations: Sequence[PageSi
         kept = plan.made(("traced loads",), lambda twin: twin)
         traced = TracedMotion(kept, kept.trace.view())
         here: list[AnyMotion] = [traced, *(each.motion for each in situations if each.motion is not None)]
-        loads = dict.fromkeys(
-            (each.element, each.point) for one in here for each in applied_loads(one, PLAIN, rates_in(one, PLAIN)).loads
-        )
+        loads = dict.fromkeys((each.element, each.point) for one in here for each in applied_loads(one, PLAIN, rates_in(one, PLAIN)).loads)
     except LinkageError:  # no forces, or loads that have no program
         return []
     forces = [each for each in joints if each.has_force and each.place is None] if loads else []  # an arrow of the page begins at a point

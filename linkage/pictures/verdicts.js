@@ -183,7 +183,7 @@ let toldBefore = "";
 function rested() { judge(down.size ? DRAGGING : STILL); }
 function judge(n = STILL) {
   const found = verdicts(n), key = JSON.stringify([language, system, isChanged(), found]);
-  byId("looked").textContent = say("looked at {n} values a stroke, {count} poses", { n: known.n, count: known.count });
+  byId("looked").textContent = `${judgedOver()}: ${say("looked at {n} values a stroke, {count} poses", { n: known.n, count: known.count })}`;
   if (key === toldBefore) return;
   toldBefore = key;
   list(found);
@@ -311,23 +311,30 @@ function here() {
   const line = byId("here"), found = pose.reason[0] === 0 ? atPose() : null, key = JSON.stringify(found);
   if (key === hereBefore) return;
   hereBefore = key;
-  const parts = [make("b", { textContent: say("At this pose:") })];
+  const parts = [make("b", { textContent: say("At this pose:") })], add = (kind, textContent) => parts.push(make("span", { className: kind, textContent }));
+  const link = (id, kind, text, title) => {
+    const made = make("a", { href: "#verdicts", className: kind, textContent: text, title });
+    on(made, "click", (event) => { event.preventDefault(); showRow(id); });
+    parts.push(made);
+  };
   if (found) {
-    parts.push(...found.faults.map(({ q, rule, text, limit, case: acting }) => {
-      const link = make("a", { href: "#verdicts", className: "bad", textContent: `${rule} ${text}${acting ? ` (${acting})` : ""}`, title: limit ? say("limit {limit}", { limit }) : "" });
-      on(link, "click", (event) => { event.preventDefault(); showRule(q); });
-      return link;
-    }));
     const open = found.unknown.length;
-    if (!found.faults.length && (found.kept || !open)) parts.push(make("span", { className: "ok", textContent: open ? say("{n} kept", { n: found.kept }) : say("all kept") }));
-    if (!found.covered) parts.push(make("span", { className: "beyond", textContent: say("outside what is judged") }));
-    if (open) parts.push(make("span", { className: "open", textContent: say("{n} not followed here: {rules}", { n: open, rules: found.unknown.join(", ") }) }));
+    if (!found.covered) link("looked", "beyond", say("outside what is judged"), judgedOver());
+    if (!found.covered && (found.faults.length || found.kept)) add("open", say("if it were judged:"));
+    for (const { q, rule, text, limit, case: acting } of found.faults) link(`rule-${q}`, "bad", `${rule} ${text}${acting ? ` (${acting})` : ""}`, limit ? say("limit {limit}", { limit }) : "");
+    if (!found.faults.length && (found.kept || !open)) add(found.covered ? "ok" : "open", open ? say("{n} kept", { n: found.kept }) : say("all kept"));
+    if (open) add("open", say("{n} not followed here: {rules}", { n: open, rules: found.unknown.join(", ") }));
   }
   line.replaceChildren(...parts.flatMap((each) => [each, " "]));
 }
+/* Where the verdicts look: at what is declared, or in which box of strokes. */
+function judgedOver() {
+  const overs = asking.spans(vector(present)).map(({ name, ends }) => name || own.map((each, k) => `${each.name} = ${say("{from} to {to}", { from: shown(ends[k][0], each, 4), to: shown(ends[k][1], each, 4) })}`).join(", "));
+  return say("judged over {overs}", { overs: overs.join("; ") });
+}
 /* Unfold a rule and go to it. */
-function showRule(q) {
-  const row = byId(`rule-${q}`) || byId("verdicts");
+function showRow(id) {
+  const row = byId(id) || byId("verdicts");
   if (row.closest("details")) row.closest("details").open = true;
   row.scrollIntoView({ block: "center" });
   row.classList.add("shown");

@@ -14,7 +14,7 @@ from ..errors import DefinitionError, LinkageError, known_name, unwarned
 from ..language import said
 from ..loads import PLAIN, PLAIN_CASE, Acting, Case, LoadCase
 from ..mechanism import Mechanism
-from ..motion import Judge, Motion, Run, case_named, least, most, out_of_reach, require_motion
+from ..motion import Answer, Judge, Motion, Run, case_named, least, most, out_of_reach, require_motion
 from ..motion.judge import Domain
 from ..motion.measures import MeasuredQuantity
 from ..motion.requests import may_be_unlimited
@@ -45,8 +45,8 @@ def runs_of(machine: Mechanism, at: At | Motion = NOTHING, over: object = None, 
     Returns
     -------
     tuple of Run
-        One for each `Over`, in the first load case that occurs there, the machine's own loads where these do. Its path, its poses, the
-        stroke that runs in its box. Of a box in which several run it is the first of them, the others at the worst place of what the
+        One for each `Over`, in the machine's own loads where these occur there, else in the load case in which what the machine is about
+        is worst. Its path, its poses, the stroke that runs in its box. Of a box in which several run it is the first of them, the others at the worst place of what the
         machine is about. Where nothing is declared, or `at` says more, one run of the strokes that `at` gives two values or more, else of
         the first that it does not hold, the others in their middle.
 
@@ -74,7 +74,7 @@ def run_of(machine: Mechanism, at: At | Motion = NOTHING) -> Run:
 
 def run_over(machine: Mechanism, place: Domain, acting: Acting) -> Run:
     """Return the run over an `Over` of one design."""
-    plan, case = machine.plan, case_shown(place, acting)
+    plan, case = machine.plan, case_shown(machine, place, acting)
     strokes: dict[str, Sequence[float]] = {name: np.ravel(value).tolist() for name, value in place.motion.strokes.items()}
     running, worst = place.running, ""
     if place.over.shape == "box" and running:
@@ -84,18 +84,23 @@ def run_over(machine: Mechanism, place: Domain, acting: Acting) -> Run:
         running = (first,)
         if others:
             held = {name: 0.5 * (min(strokes[name]) + max(strokes[name])) for name in others}
-            worst, found = worst_place(machine, Run({first: ends}, {name: each[0] for name, each in strokes.items()} | held), place, acting)
-            strokes |= {name: [found.get(name, held[name])] for name in others}
+            middle = Run({first: ends}, {name: each[0] for name, each in strokes.items()} | held)
+            worst, answer = worst_answer(machine, machine.at(unreachable="nan", **middle.divided(3)), place, acting)
+            found = answer.strokes if answer is not None and np.all(np.isfinite([*answer.strokes.values()])) else {}
+            worst, strokes = worst if found else "", strokes | {name: [found.get(name, held[name])] for name in others}
     ways = {name: tuple(strokes[name]) for name in running}
     still = {name: values[0] for name, values in strokes.items() if name not in running}
     declared = place.over if place.instants is not None else None
     return Run(ways, still, place.over.title, case, place.over.shape == "poses", worst, declared, place.instants)
 
 
-def case_shown(place: Domain, acting: Acting = PLAIN) -> Case:
-    """Return the load case that an `Over` is shown in: the one asked for. Else it is the machine's own loads, or the first case there."""
+def case_shown(machine: Mechanism, place: Domain, acting: Acting = PLAIN) -> Case:
+    """Return the load case that an `Over` is shown in: the one asked for, else the machine's own loads, else the worst that occurs there."""
     cases = place.cases(PLAIN)
     case = (None if PLAIN_CASE in cases else cases[0]) if acting.case is None else acting.case
+    if case is not None and acting.case is None and len(cases) > 1:
+        _, answer = worst_answer(machine, machine.at(unreachable="nan", **place.motion.strokes), place, acting)
+        case = case if answer is None else answer.case or case
     return None if case == PLAIN_CASE else case
 
 
@@ -111,26 +116,24 @@ def in_case_words(plan: Plan, case: Case) -> str:
     return "" if known is None else said("in the case {case}", case=known.label if isinstance(known, LoadCase) else known)
 
 
-def worst_place(machine: Mechanism, middle: Run, place: Domain, acting: Acting) -> tuple[str, Mapping[str, float]]:
-    """Return the column that a machine is about, and the strokes of its worst place in a box; "" and no strokes where there is none.
+def worst_answer(machine: Mechanism, motion: Motion, place: Domain, acting: Acting) -> tuple[str, Answer | None]:
+    """Return the column that a machine is about, as it changes over a motion, and where it is worst over an `Over`; "" and None for none.
 
     Its worst side is that of its limit; of what may be without a limit, such as a reserve, the least; else the greatest.
     """
     with unwarned():
         try:
-            motion = machine.at(unreachable="nan", **middle.divided(3))
             column = column_among(machine, results(machine, motion), None)
             if column.request is None:
-                return "", {}
+                return "", None
             limit = tuple(machine.featured().limits.get(column.name, ()))
             is_least = may_be_unlimited(column.request)
             if limit:
                 is_least = limit[2:] == ("below",)
             side = (least if is_least else most)(cast(MeasuredQuantity, column.request))
-            answer = machine.judge(place.over, acting).lost_allowed().answer(side)
+            return column.name, machine.judge(place.over, acting).lost_allowed().answer(side)
         except LinkageError:
-            return "", {}
-    return (column.name, answer.strokes) if np.all(np.isfinite([*answer.strokes.values()])) and answer.strokes else ("", {})
+            return "", None
 
 
 def run_along(motion: Motion) -> tuple[Run, int]:

@@ -16,6 +16,7 @@ from linkage.documents.outcome import limits_section
 from linkage.documents.reporting import report_document, rule_share
 from linkage.documents.run import ReportSubject
 from linkage.motion import Request
+from linkage.pictures.browser_forces import page_situations
 from linkage.pictures.strokes import playback
 from linkage.reports import results, run_of, runs_of
 from linkage.units import UNITS, bar, deg, mm
@@ -54,6 +55,14 @@ class OfABox(Lift):
     about = Featured("reserve arm")
 
 
+class OfCases(Lift):
+    """A path and a box, each with two load cases and without the plain one."""
+
+    out = Over.path(S=[0.05, 0.15, 0.20], T=[0.05, 0.05, 0.12], cases=["empty", "heavy"])
+    field = Over(S=(0.05, 0.20), T=0.08, cases=["heavy", "empty"])
+    about = Featured("reserve boom", ["G"], {"reserve boom": (1.0, "too heavy", "below")})
+
+
 class OfPoses(Lift):
     """Poses with nothing between them, beside a path."""
 
@@ -67,7 +76,7 @@ class OfATurningBox(Lift):
     raising = Over(S=(0.04, 0.2), T=0.08)
 
 
-OWN = (OfPaths, OfABox, OfPoses, OfATurningBox)
+OWN = (OfPaths, OfABox, OfCases, OfPoses, OfATurningBox)
 
 
 def declaring():
@@ -227,6 +236,15 @@ def test_a_box_of_several_strokes_is_shown_at_its_worst_place():
     S, T = np.meshgrid(np.linspace(0.05, 0.20, 41), np.linspace(0.04, 0.15, 41), indexing="ij")
     found = OfABox().at(S=S, T=T)[reserve("arm", case="heavy")]
     assert_allclose(run.held["T"], T.ravel()[np.argmin(found)], atol=0.004)
+
+
+def test_of_several_load_cases_the_worst_is_shown_on_paper_and_on_pages():
+    """The boom has the least reserve under the heavy load, wherever that stands among the cases."""
+    design = OfCases()
+    assert [run.case for run in runs_of(design)] == ["heavy", "heavy"]
+    situations, numbers = page_situations(design, design.judge(), run_of(design))
+    assert [situations[k].case for k in numbers] == ["heavy", "heavy"]
+    assert [run.case for run in runs_of(design, acting=Acting(case="empty"))] == ["empty", "empty"]
 
 
 def test_an_animation_plays_the_first_run_and_poses_have_no_curve():

@@ -46,9 +46,9 @@ def runs_of(machine: Mechanism, at: At | Motion = NOTHING, over: object = None, 
     -------
     tuple of Run
         One for each `Over`, in the machine's own loads where these occur there, else in the load case in which what the machine is about
-        is worst. Its path, its poses, the stroke that runs in its box. Of a box in which several run it is the first of them, the others at the worst place of what the
-        machine is about. Where nothing is declared, or `at` says more, one run of the strokes that `at` gives two values or more, else of
-        the first that it does not hold, the others in their middle.
+        is worst. Its path, its poses, the stroke that runs in its box. Of a box in which several run it is the first of them, the others
+        at the worst place of what the machine is about. Where nothing is declared, or `at` says more, one run of the strokes that `at`
+        gives two values or more, else of the first that it does not hold, the others in their middle.
 
     Raises
     ------
@@ -95,7 +95,7 @@ def run_over(machine: Mechanism, place: Domain, acting: Acting) -> Run:
 
 
 def case_shown(machine: Mechanism, place: Domain, acting: Acting = PLAIN) -> Case:
-    """Return the load case that an `Over` is shown in: the one asked for, else the machine's own loads, else the worst that occurs there."""
+    """Return the load case that an `Over` is shown in: the one asked for, else the machine's own loads, else the worst of those there."""
     cases = place.cases(PLAIN)
     case = (None if PLAIN_CASE in cases else cases[0]) if acting.case is None else acting.case
     if case is not None and acting.case is None and len(cases) > 1:

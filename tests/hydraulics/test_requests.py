@@ -28,8 +28,6 @@ from tests.machines.test_tipper import assisted_list
 
 POSES = 5
 CASES = [
-    (ThreePointHitch, "lift", "G", ["OB", "M.x", "lift.bore", "circuit.mechanical_efficiency", "load.mass"]),
-    (MowerLift, "lift", "G", ["k_m", "bore"]),
     (HeaderBalancer, "lift", "", ["charge", "L_OB"]),
     (OnePressureTurned, "aux", "", ["aux.bore", "lift.rod"]),
     (Plough, "turn", "G", ["turn.bore", "line.back_pressure"]),
@@ -40,6 +38,8 @@ CASES = [
 def slow_cases():
     """Return more machines, each with a cylinder, a point that it lifts and dimensions."""
     return [
+        (ThreePointHitch, "lift", "G", ["OB", "M.x", "lift.bore", "circuit.mechanical_efficiency", "load.mass"]),
+        (MowerLift, "lift", "G", ["k_m", "bore"]),
         (Excavator, "arm", "H", ["arm.bore", "boom.rod"]),
         (ByAngles, "boom", "H", ["boom.bore", "bucket.rod"]),
         (Crane, "fold", "T", ["QL", "fold.bore"]),

@@ -108,7 +108,7 @@ def check_within(name, values, ends, digits=0.0):
     assert not finite.size or np.isnan(high) or finite.max() <= high + near, (name, finite.max(), high)
 
 
-@for_all("machine", OWN, slow=lambda: [LoadedFrontLoader, *declaring().values()])
+@for_all("machine", [OfPaths, OfPoses], slow=lambda: [OfABox, OfATurningBox, LoadedFrontLoader, *declaring().values()])
 def test_every_column_of_every_run_lies_within_what_is_judged(machine):
     design = machine()
     ends, seen = judged_ends(design), 0

@@ -232,6 +232,7 @@ def run(capsys):
 NAMED = "mechanisms.crane:Crane"
 
 
+@pytest.mark.slow
 def test_command_judges_a_crane_that_is_named_and_writes_the_map(run, tmp_path):
     code, text = run(NAMED, "--csv", str(tmp_path / "map.csv"))
     assert code == 0

@@ -346,12 +346,12 @@ def test_animation_is_written_silently_in_a_pipe(said, own):
 
 
 def test_an_animation_holds_a_stroke_or_runs_between_two_values(said, own):
-    code, out, _ = said("animate", "front_loader", "-o", "loader.html", "--count", "3", "--at", "tilt=100mm", "--at", "lift=0.1,300mm")
-    assert (code, out) == (0, "loader.html\n")
-    text = (own / "loader.html").read_text(encoding="utf-8")
+    code, out, _ = said("animate", "pantograph", "-o", "drawn.html", "--count", "3", "--at", "Y=50mm", "--at", "X=0.15,250mm")
+    assert (code, out) == (0, "drawn.html\n")
+    text = (own / "drawn.html").read_text(encoding="utf-8")
     (data,) = re.findall(r'<script id="data" type="text/plain">(.*?)</script>', text, re.DOTALL)
     strokes = {each["name"]: each for each in json.loads(decompress(b85decode(data.replace(",", "<"))))["strokes"]}
-    assert strokes["tilt"]["at"] == 0.1 and (strokes["lift"]["start"], strokes["lift"]["end"]) == (0.1, 0.3)
+    assert strokes["Y"]["at"] == 0.05 and (strokes["X"]["start"], strokes["X"]["end"]) == (0.15, 0.25)
 
 
 def test_a_curve_is_drawn_over_one_stroke_the_others_held(said, own):
@@ -586,7 +586,7 @@ def test_module_is_the_command():
     assert err.startswith("hydrolinkage: Command 'tabel' is unknown.") and err.count("\n") == 1
 
 
-@pytest.mark.parametrize("form", [[], ["--csv", "-"]])
+@first_daily(1, "form", [["--csv", "-"], []])
 def test_closed_pipe_is_silent(form):
     running = shell("-m", "linkage", "table", "mower_lift", "I", "--count", "100000", *form)
     assert running.stdout.readline()

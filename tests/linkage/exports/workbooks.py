@@ -1,27 +1,43 @@
-"""Workbooks read back and worked out again by other programs: LibreOffice, and the package `formulas`."""
+"""Workbooks and drawings read back, and worked out again by other programs: LibreOffice, and the package `formulas`.
+
+What reads them is loaded when it is needed, not when tests are collected: it takes a second.
+"""
 
 import shutil
 import subprocess
 from functools import cache
 
 import numpy as np
-import openpyxl
 import pytest
 
 OFFICE = shutil.which("soffice")
 needs_office = pytest.mark.skipif(OFFICE is None, reason="soffice is not installed (Debian: apt-get install libreoffice-calc)")
 
 
+def drawing(path):
+    """Return a drawing in DXF."""
+    import ezdxf
+
+    return ezdxf.readfile(path)
+
+
 @cache
 def stored(path):
     """Return the sheets with the values that stand in the file."""
-    return openpyxl.load_workbook(path, data_only=True)
+    return opened(path, data_only=True)
 
 
 @cache
 def written(path):
     """Return the sheets with their formulas."""
-    return openpyxl.load_workbook(path)
+    return opened(path)
+
+
+def opened(path, **options):
+    """Return a workbook of its own, which may be changed."""
+    import openpyxl
+
+    return openpyxl.load_workbook(path, **options)
 
 
 def by_office(folder, books):
@@ -32,7 +48,7 @@ def by_office(folder, books):
     bare, out = folder / "bare", folder / "out"
     bare.mkdir()
     for name, (path, changes) in books.items():
-        book = openpyxl.load_workbook(path)  # which keeps no values of formulas
+        book = opened(path)  # which keeps no values of formulas
         for sheet, cell, value in changes:
             book[sheet][cell] = value
         book.save(bare / f"{name}.xlsx")

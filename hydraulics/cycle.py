@@ -19,12 +19,13 @@ from linkage.disk import replacing_text
 from linkage.errors import DefinitionError
 from linkage.frozen import FrozenDict, immutable, read_only, refuses_changes
 from linkage.language import said
-from linkage.loads import Acting
+from linkage.loads import PLAIN_CASE, Acting
 from linkage.loads.element import ForceElement
 from linkage.motion import Instants, Judge, Motion, require_motion
 from linkage.motion.grid import recalled
 from linkage.motion.table import from_above
 from linkage.numeric import last_holding
+from linkage.quantities import name_of
 from linkage.units import show
 from linkage.verdict import Verdict
 
@@ -252,6 +253,25 @@ def unchanged(arrays: Mapping[str, Array]) -> Mapping[str, Array]:
     return FrozenDict({name: read_only(each) for name, each in arrays.items()})
 
 
+@final
+@dataclass(frozen=True, eq=False)
+class PumpRun:
+    """What a run found: its cycle, of which design and in which situation. It stands with the path that the run made."""
+
+    cycle: PumpCycle
+    designs: Mapping[str, Any]
+    acting: Acting
+
+    @staticmethod
+    def known(pump: ForceElement, place: Any, case: str) -> PumpCycle | None:
+        """Return the cycle of the run that made a path, of the same design in the same load case; None where there is none."""
+        run = place.over.found_in_run.get(pump.name)
+        if run is None or any(not np.array_equal(run.designs[name], value) for name, value in place.designs.items()):
+            return None
+        own = PLAIN_CASE if run.acting.case is None else name_of(run.acting.case)
+        return run.cycle if run.acting.loads is None and own == case else None
+
+
 def limits_of(pump: ForceElement, consumers: Consumers, there: Motion) -> PumpLimits:
     """Return what a pump can give: its own numbers, and the lowest of its pressure and the relief valves on its lines."""
     title = pump.name or "supply"
@@ -287,7 +307,8 @@ def cycles_over(pump: ForceElement, place: Any, acting: Acting) -> list[PumpCycl
         label = case if len(cases) > 1 else ""
         make = partial(cycle_over, pump, place, situation, label)
         is_own = acting.loads is None and (acting.case is None or isinstance(acting.case, str))  # the machine's loads, in a case of its own
-        found.append(recalled(place.motion, ("pump cycle", pump.name, case, label), make) if is_own else make())
+        run = PumpRun.known(pump, place, case) if is_own else None
+        found.append(run if run is not None else recalled(place.motion, ("pump cycle", pump.name, case, label), make) if is_own else make())
     return found
 
 

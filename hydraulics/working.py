@@ -18,6 +18,7 @@ from numpy.polynomial import chebyshev
 
 from linkage.checks import require, require_number, require_type
 from linkage.errors import AssemblyError, DefinitionError, ensure, known_name, unwarned
+from linkage.frozen import FrozenDict
 from linkage.language import said, with_and
 from linkage.loads import Acting
 from linkage.loads.element import ForceElement
@@ -36,6 +37,7 @@ from .cycle import (
     TO_INTEGRALS,
     PumpCycle,
     PumpEvent,
+    PumpRun,
     Stretch,
     is_smooth,
     limits_of,
@@ -442,13 +444,11 @@ def worked(
     over = Over.path(time=(begin, float(until)), cases=cases, **courses)
     instants = cast(Instants, over.instants(plan, lambda name: float("nan")))
     instants = instants.shares(np.linspace(0.0, 1.0, INSTANTS))
+    names, cylinders = [line.name for line in work.consumers.lines], [ram.name for ram in work.rams]
+    cycle = PumpCycle(pump.name or "supply", names, cylinders, stretches, work.limits, "" if cases is None else cases[0], events)
+    vars(over)["found_in_run"] = FrozenDict({work.pump.name: PumpRun(cycle, work.designs, acting or Acting())})
     found = PumpMotion(plan, work.designs, instants.strokes, "raise", over=over, instants=instants)
-    names = [line.name for line in work.consumers.lines]
-    cylinders = [ram.name for ram in work.rams]
-    label = "" if cases is None else cases[0]
-    vars(found).update(
-        events=tuple(events), cycle=PumpCycle(pump.name or "supply", names, cylinders, stretches, work.limits, label, events)
-    )
+    vars(found).update(events=tuple(events), cycle=cycle)
     return found
 
 

@@ -10,7 +10,7 @@ from ..errors import LinkageError
 from ..formulas import equations
 from ..formulas.numbered import Equations, SheetLine
 from ..language import said
-from ..loads import ForceElement
+from ..loads import Case, ForceElement
 from ..mechanism import Mechanism
 from .content import Block, Equality
 
@@ -41,10 +41,10 @@ def without_rounding(value: Any) -> Any:
     return 0.0 if abs(value) < 10.0**-DIGITS else float(value)
 
 
-def calculated(machine: Mechanism, pose: Mapping[str, float], start: int) -> FilledEquations:
-    """Return the equations of a design; without those of its forces where these have none."""
+def calculated(machine: Mechanism, pose: Mapping[str, float], start: int, case: Case = None) -> FilledEquations:
+    """Return the equations of a design in a load case; without those of its forces where these have none."""
     try:
-        found = equations(machine, start=start, forces=has_loads(machine))
+        found = equations(machine, start=start, forces=has_loads(machine), case=case if has_loads(machine) else None)
         return FilledEquations(found, pose, found.values(pose, DIGITS))
     except LinkageError as error:
         if not has_loads(machine):
@@ -58,8 +58,8 @@ def has_loads(machine: Mechanism) -> bool:
     return bool(machine.plan.of_kind(ForceElement))
 
 
-def calculation_blocks(found: FilledEquations, pose_words: str) -> Iterator[Block]:
-    """Yield the numbered equations with their numbers, and what is said of them."""
+def calculation_blocks(found: FilledEquations, pose_words: str, is_timed: bool) -> Iterator[Block]:
+    """Yield the numbered equations with their numbers, and what is said of them; `is_timed` are those of a path in time."""
     listing = found.listing
     yield said(
         "The equations of the vector method in the order in which they are solved; the numbers are those of {pose}. "
@@ -85,6 +85,8 @@ def calculation_blocks(found: FilledEquations, pose_words: str) -> Iterator[Bloc
             "Forces are without friction. P is a force downwards, F another one. Q is the force of a drive by virtual work, "
             "positive the way its stroke grows. T is what a member carries, positive where it pushes its ends apart."
         )
+        if is_timed:
+            yield said("They are those of slow motion: what masses do as they speed up stands in the tables and not in these equations.")
         about, given = listing.axles
         if about:
             yield said("R is what a support carries, by the moments about {support} and by the sum across the ground.", support=about)

@@ -177,7 +177,7 @@ def composed(
         limit_of(given, names[name].unit)
     path = named_points(machine, trace, "trace") if trace is not None else tuple(featured.path) or machine.plan.moving[-1:]
     look_ahead(subject)
-    found = calculated(machine, subject.pose, start)
+    found = calculated(machine, subject.pose, start, subject.run.case)
     verdicts, mark, judged = verdict_section(subject, bounds)
     broken = "; ".join(each.heading for each in judged if each.is_rule and each.ok is False)
     sections = (
@@ -190,7 +190,7 @@ def composed(
         of_source(inputs_section(subject, found.listing)),
         assumptions_section(subject),
         standards_section(subject, judged),
-        Section(said("Calculation"), tuple(calculation_blocks(found, subject.words(subject.pose)))),
+        Section(said("Calculation"), tuple(calculation_blocks(found, subject.pose_words, subject.run.instants is not None))),
         forces_section(subject),
         limits_section(subject),
         checks_section(subject, found.values),

@@ -18,7 +18,7 @@ from ..mechanism import Mechanism, require_mechanism
 from ..motion import Column, Judge, Motion, Request, Tabled, speakers, stroke_display_unit
 from ..motion.measures import MeasuredQuantity
 from ..quantities import Quantity
-from ..reports import At, Run, column_requests, is_column, motion_over, results, runs_of
+from ..reports import At, Run, column_requests, is_column, motion_over, results, run_words, runs_of
 from ..reports.results import asked_by_name
 from ..statics import PinForces, drive_force, pin_forces, pin_forces_under
 from ..units import UNITS, show
@@ -132,7 +132,7 @@ class ReportSubject:
             return True
         try:
             with unwarned():
-                pin_forces(self.machine.at(unreachable="raise", **strokes))
+                pin_forces(self.machine.at(unreachable="raise", **strokes), case=self.run.case)
         except SingularError:
             return False
         except LinkageError:  # it has no forces anywhere, and the report says why
@@ -147,6 +147,11 @@ class ReportSubject:
         """Return values of strokes as text: `S = 125 mm`."""
         units = {name: stroke_display_unit(self.machine.plan, name, "mm") for name in strokes}
         return ", ".join(f"{name} = {show(value, units[name], 6)}" for name, value in strokes.items())
+
+    @property
+    def pose_words(self) -> str:
+        """The pose whose numbers are filled in, with the run that it is of and its load case, as text."""
+        return ", ".join(filter(None, (self.words(self.pose), run_words(self.machine, self.run))))
 
     @property
     def domain(self) -> str:

@@ -95,7 +95,7 @@ class Calculation:
         moving = [name for name in (*outputs, *plan.moving[-1:]) if self.run.stroke in plan.reaches(name)]
         targets = [name for name in moving if name in written]
         try:
-            return equations(self.design, ratio=targets, wrt=self.run.stroke, forces=True)
+            return equations(self.design, ratio=targets, wrt=self.run.stroke, forces=True, case=self.run.case)
         except DefinitionError:
             pass
         found: list[str] = []
@@ -107,11 +107,11 @@ class Calculation:
                 self.left_out.append(str(error))
         forces = True
         try:
-            equations(self.design, forces=True)
+            equations(self.design, forces=True, case=self.run.case)
         except DefinitionError as error:
             self.left_out.append(str(error))
             forces = False
-        return equations(self.design, ratio=found, wrt=self.run.stroke, forces=forces)
+        return equations(self.design, ratio=found, wrt=self.run.stroke, forces=forces, case=self.run.case if forces else None)
 
     # -- columns ---------------------------------------------------------------------------------------
 
@@ -283,7 +283,7 @@ class LiveResult:
 
 def live_results(calculation: Calculation) -> list[LiveResult]:
     """Return the machine's table over the calculation's poses, each column with what gives it."""
-    table = results(calculation.design, calculation.motion)
+    table = results(calculation.design, calculation.motion, calculation.run.case)
     return FormulaSearch(calculation, table).found()
 
 
@@ -388,7 +388,7 @@ class FormulaSearch:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", SingularWarning)
                 motion, known = self.calculation.at_design(design, poses)
-                table = results(design, motion)
+                table = results(design, motion, self.calculation.run.case)
         except LinkageError:
             return None
         known |= {symbol: motion.strokes[name] for name, symbol in self.calculation.stroke_symbols.items()}

@@ -6,7 +6,7 @@ import io
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, final
 
@@ -86,10 +86,10 @@ class Exporter(ABC):
 
 
 def sheet_run(job: ExportJob) -> Run:
-    """Return the run of a workbook: the machine's first, under its own loads, that goes from one value to another; else one stroke's."""
-    runs = [run for run in runs_of(job.machine, job.at) if run.is_curve and run.instants is None and run.case is None]
-    straight = [run for run in runs if {*map(len, run.ways.values())} == {2}]
-    return straight[0] if straight else one_run(job.machine, job.at)
+    """Return the run of a workbook: the machine's first that goes from one value to another; else one stroke's, in its first load case."""
+    runs = runs_of(job.machine, job.at)
+    straight = (run for run in runs if run.is_curve and run.instants is None and {*map(len, run.ways.values())} == {2})
+    return next(straight, None) or replace(one_run(job.machine, job.at), case=runs[0].case)
 
 
 @final

@@ -23,6 +23,7 @@ from ..loads import PLAIN_CASE, LoadCase
 from ..motion import stroke_display_unit, stroke_unit
 from ..pictures.load_chart import ChartText
 from ..reports import column_among, dimension_unit
+from ..statics.applied import case_of
 from ..study import WorkingField
 from ..study.working_field import OUT_OF_REACH
 from ..units import deg, factor, g0, shown_in
@@ -158,7 +159,10 @@ class Sheets:
         text = f"Along {run.title or ', '.join(run.ways)}"
         cases = list(plan.of_kind(LoadCase))
         if cases:
-            text = f"{text}, under the machine's own loads, load case {PLAIN_CASE}; {', '.join(cases)} not in these sheets"
+            own = case_of(plan, run.case)
+            others = [name for name in (PLAIN_CASE, *cases) if name != (own.name or PLAIN_CASE)]
+            loads = f"in load case {own.label}" if run.case is not None else f"under the machine's own loads, load case {PLAIN_CASE}"
+            text = f"{text}, {loads}; {', '.join(others)} not in these sheets"
         return f"{text}."
 
     def _note(self, name: str, where: str) -> str:

@@ -19,12 +19,13 @@ from sympy.matrices.expressions.matmul import MatMul
 
 from ..errors import DefinitionError, ensure
 from ..frozen import immutable
-from ..loads import AT_REST, Acting, ForceElement, Rate, Rates, Support, TwoPinned, TwoPoint
+from ..loads import AT_REST, Acting, Case, ForceElement, Rate, Rates, Support, TwoPinned, TwoPoint
 from ..mechanism import Mechanism
 from ..motion import Motion, stroke_unit
 from ..motion.requests import stroke_of
 from ..quantities import Angle, Distance, Quantity, Reference, joined_names, name_of
-from ..statics import applied_loads, axle_load, standing_supports
+from ..statics import applied_elements, applied_loads, axle_load, standing_supports
+from ..statics.applied import AppliedElement, case_of
 from ..statics.holding import Holders, PressureLine, holders_of, same
 from ..vectors import FloatArray, Numbers, Scalar
 from .listing import GivenNumber, Listing, ListingLine
@@ -186,8 +187,8 @@ class ForceLines:
 
     shape: tuple[int, ...] = ()
 
-    def __init__(self, design: Mechanism, listing: Listing) -> None:
-        self.design, self.listing, self.plan = design, listing, design.plan
+    def __init__(self, design: Mechanism, listing: Listing, case: Case = None) -> None:
+        self.design, self.listing, self.plan, self.case = design, listing, design.plan, case
         self.inputs: Mapping[str, Scalar] = {name: listing.input(name) for name in listing.units}
         self.lines: list[ListingLine] = []
         self.givens: list[GivenNumber] = []
@@ -202,11 +203,13 @@ class ForceLines:
 
     def write_forces(self) -> None:
         """Write all lines; DefinitionError for what has no chain of derivatives, and for cylinders that hold strokes together."""
-        elements = self.plan.of_kind(ForceElement)
-        for element in elements.values():
-            if element.feeds(self.plan.members):
-                element.formulas(self)
-        acting = {name: list(self._acting(name, element)) for name, element in elements.items()}
+        shut = ", ".join(case_of(self.plan, self.case).shut_names)
+        ensure(not shut, f"{self.plan.title}: the load case shuts {shut}, and equations are of open lines; take thrust(motion, case=...).")
+        elements = {each.name: each for each in applied_elements(self.plan, Acting(case=self.case))}
+        for each in elements.values():
+            if each.element.feeds(self.plan.members):
+                each.element.formulas(self)
+        acting = {name: list(self._acting(each)) for name, each in elements.items()}
         pulled = [each for found in acting.values() for each in found]
         holders = holders_of(self.plan)
         chains = self._chains = {stroke: Chain(self, stroke, pulled, holders) for stroke in self.plan.strokes}
@@ -224,25 +227,30 @@ class ForceLines:
 
     # -- what acts -------------------------------------------------------------------------------------
 
-    def _acting(self, name: str, element: ForceElement) -> Iterator[Pulled]:
-        """Write what an element does at rest, and yield its loads; members with a thrust of their own are kept."""
+    def _acting(self, applied: AppliedElement) -> Iterator[Pulled]:
+        """Write what an element does at rest in the load case, and yield its loads; members with a thrust of their own are kept."""
+        name, element, factor = applied.name, applied.in_case, applied.factor
         if element.feeds(self.plan.members):
             return
         try:
             pushes, loads = element.pushes(self, Rates()), []
             loads = [] if pushes else element.loads(self)
-            terms = [(term(x), term(y)) for x, y in (np.asarray(each.force, object) for each in loads)]
-            thrusts = [scalar(each.thrust) for each in pushes]
+            forces = [np.asarray(each.force, object) for each in loads]
+            terms = [(counted_load(factor, term(x)), counted_load(factor, term(y))) for x, y in forces]
+            thrusts = [counted_load(factor, scalar(each.thrust)) for each in pushes]
         except Exception:  # whatever a law of a user's own stumbles on: it has numbers all the same
             yield from self._numbers(name)
             return
         for push, thrust in zip(pushes, thrusts, strict=True):
             if not self.equals(thrust, 0.0):
                 self.carry(push.member, thrust)
-        both = zip(loads, terms, strict=True)
-        live = [(load, parts) for load, parts in both if not all(self.equals(each, 0.0) for each in parts)]
-        for load, (x, y) in live:
-            yield self._pulled(name if len(live) == 1 else f"{name}_{load.point}", load.point, x, y)
+        live: dict[tuple[str, bool], tuple[Term, Term]] = {}  # at one point what is straight up or down, and all else, is one force each
+        for load, (x, y) in zip(loads, terms, strict=True):
+            if not (self.equals(x, 0.0) and self.equals(y, 0.0)):
+                key = name_of(load.point), self.equals(x, 0.0)
+                live[key] = (live[key][0] + x, live[key][1] + y) if key in live else (x, y)
+        for (point, _), (x, y) in live.items():
+            yield self._pulled(name if len(live) == 1 else f"{name}_{point}", point, x, y)
 
     def _pulled(self, title: str, point: str, x: Term, y: Term) -> Pulled:
         """Write the line of a load: a weight, an upward force, or a vector."""
@@ -257,15 +265,16 @@ class ForceLines:
 
     def _numbers(self, name: str) -> Iterator[Pulled]:
         """Keep what an element without a formula does as given numbers, told by the engine; yield its loads."""
-        acting = applied_loads(self._somewhere(), Acting([name]), AT_REST)
+        situation = Acting([name], case=self.case)
+        acting = applied_loads(self._somewhere(), situation, AT_REST)
         for place, thrust in enumerate(acting.thrusts):
-            value = given_thrust(name, place)
+            value = given_thrust(situation, place)
             self._thrusts[thrust.name] = cast(Term, self.given(f"T_{thrust.name}", value, "N"))
             self._members[thrust.name] = thrust.member
         for place, load in enumerate(acting.loads):
             point = load.point
             symbol = self.listing.names.force_vector(f"F_{name}" if len(acting.loads) == 1 else f"F_{name}_{point}")
-            self.givens.append(GivenNumber(symbol, given_load(name, place), unit_named("N")))
+            self.givens.append(GivenNumber(symbol, given_load(situation, place), unit_named("N")))
             yield Pulled(point, symbol, 0)
 
     def _somewhere(self) -> Motion:
@@ -325,7 +334,7 @@ class ForceLines:
     def _stand(self, acting: Mapping[str, Sequence[Pulled]]) -> None:
         """Write two axle loads of a vehicle: by the moments about its first support, and by the sum across the ground; others are given."""
         motion = self._somewhere()
-        supports = standing_supports(motion)
+        supports = standing_supports(motion, Acting(case=self.case))
         if not supports:
             return
         (first, start), *others = supports.items()
@@ -334,7 +343,7 @@ class ForceLines:
         pushes = {name: each.pushes_along(self) for name, each in supports.items()}
         self.about, self.shared = first, tuple(name for name in supports if name not in (first, second))
         for name in self.shared:
-            size = self.given(f"R_{name}", axle_load(name).of, "kN")
+            size = self.given(f"R_{name}", axle_load(name, case=self.case).of, "kN")
             across = across + size * inner(pushes[name], pushes[first])
             moment = moment + size * self._lever(start, supports[name].point, pushes[name])
         for each in (each for name, found in acting.items() if name not in supports for each in found):
@@ -452,14 +461,19 @@ def inner(a: FloatArray, b: FloatArray) -> Scalar:
     return a[0] * b[0] + a[1] * b[1]
 
 
-def given_thrust(name: str, place: int) -> Callable[[Motion], FloatArray]:
+def counted_load(factor: float, value: Term) -> Term:
+    """Return a load as its load case counts it."""
+    return value if factor == 1.0 else factor * value
+
+
+def given_thrust(situation: Acting, place: int) -> Callable[[Motion], FloatArray]:
     """Return what tells the thrust of an element over a motion [N]."""
-    return lambda motion: applied_loads(motion, Acting([name]), AT_REST).thrusts[place].thrust
+    return lambda motion: applied_loads(motion, situation, AT_REST).thrusts[place].thrust
 
 
-def given_load(name: str, place: int) -> Callable[[Motion], FloatArray]:
+def given_load(situation: Acting, place: int) -> Callable[[Motion], FloatArray]:
     """Return what tells a load of an element over a motion, shape (2, ...) [N]."""
-    return lambda motion: applied_loads(motion, Acting([name]), AT_REST).loads[place].force
+    return lambda motion: applied_loads(motion, situation, AT_REST).loads[place].force
 
 
 def whole_numbers(expr: sympy.Expr) -> sympy.Expr:

@@ -18,10 +18,12 @@ from ..checks import require, require_type, require_whole
 from ..errors import DefinitionError, ensure, known_name
 from ..frozen import immutable
 from ..language import translated
+from ..loads import Case
 from ..mechanism import Mechanism, declared, require_mechanism
 from ..motion.requests import stroke_of
 from ..plan import Part
 from ..shown import Shown
+from ..statics.applied import case_of
 from ..units import SI, UNITS, factor, shown_in
 from ..vectors import Numbers, Scalar
 from .forces import WORDS, ForceLines, LineDerivatives, lines_needed, symbols_behind
@@ -40,13 +42,15 @@ def equations(
     ratio: str | Sequence[str] = (),
     wrt: str | None = None,
     forces: bool = False,
+    case: Case = None,
 ) -> Equations:
     """Return a mechanism's equations, numbered from `start`, in the vector method's primitives: text, LaTeX, SymPy and numbers.
 
     `print(equations(hitch))` lists them. `numbers` fills the numbers in at the pose `at` (default: the start of each stroke). `ratio`
     names points and outputs whose derivatives by the stroke `wrt` are added; `forces` adds those of the loads, the driving forces by
-    virtual work, and what cylinders and circuits have, all without friction. Source of notation and order: Dyuzhev, Kotov,
-    Chuprynin, "Universality of the hitch of the power vehicle UES-2-250A" (Minsk, 2008), equations (4) to (27).
+    virtual work, and what cylinders and circuits have, all without friction. `case` is their load case, else the machine's own
+    loads act. Source of notation and order: Dyuzhev, Kotov, Chuprynin, "Universality of the hitch of the power vehicle UES-2-250A"
+    (Minsk, 2008), equations (4) to (27).
     """
     design = machine() if isinstance(machine, type) and issubclass(machine, Mechanism) else machine
     require_mechanism(design)
@@ -64,7 +68,8 @@ def equations(
     for target in targets:
         added = differentiated(design, listing, target, wrt)
         lines += by_parts([line for line in added if line.lhs not in {each.lhs for each in lines}], listing)
-    written = ForceLines(design, listing) if forces else None
+    require(case is None or forces, "case", case, "a load case is of the equations of forces; give forces=True too")
+    written = ForceLines(design, listing, case) if forces else None
     if written is not None:
         count = len(listing.lines)
         written.write_forces()
@@ -527,7 +532,8 @@ def legend(equations: Equations, listing: Listing, values: dict[str, str], force
     if listing.unknowns:
         lines.append(f"{', '.join(listing.unknowns)}: found together, so that the equations in which they stand hold.")
     if forces is not None:
-        lines += [*WORDS, *([f"Left out: the friction of {', '.join(forces.friction)}."] if forces.friction else [])]
+        own = [] if forces.case is None else [f"The loads are those of the load case {case_of(listing.plan, forces.case).label}."]
+        lines += [*own, *WORDS, *([f"Left out: the friction of {', '.join(forces.friction)}."] if forces.friction else [])]
         lines += [f"R: what a support carries, by the moments about {forces.about} and the sum across the ground."] if forces.about else []
         given = ", ".join(f"R_{name}" for name in forces.shared)
         lines += [f"{given}: they hang on how the supports give way, and are given numbers."] if given else []

@@ -303,7 +303,7 @@ class Domain:
             return [PLAIN_CASE]  # one that is not of the class acts by itself
         name = case_named(self.plan, acting.case)
         if name not in occurring:
-            where = self.over.name or str(self.over)
+            where = self.over.name or cited(self.over)
             what = f"{self.plan.title}: the load case {name} does not occur over {where}"
             raise DefinitionError(f"{what}, where there are {', '.join(occurring)}.")
         return [name]

@@ -69,6 +69,8 @@ class Over(Member):
     lost: str
     time: tuple[float, ...] | None
     """The instants of a path in time [s]: of each place, or those at which it begins and ends; None of any other."""
+    found_in_run: Mapping[str, Any] = FrozenDict()
+    """What a run that made this path found on its way, by the member that ran it; nothing of a path that is given."""
 
     def __init__(
         self, *, only: Sequence[PoseCondition] | PoseCondition = (), cases: Sequence[object] | None = None, lost: str = "",

@@ -115,9 +115,9 @@ def standing_of(motion: AnyMotion, acting: Acting, supports: Mapping[str, Suppor
     )  # fmt: skip
 
 
-def standing_supports(motion: Motion) -> dict[str, Support]:
-    """Return the supports that a vehicle stands on under its own loads; none for a machine that does not stand on any."""
-    return {} if standing_if_any(motion, PLAIN) is None else vehicle_of(motion.plan)
+def standing_supports(motion: Motion, acting: Acting = PLAIN) -> dict[str, Support]:
+    """Return the supports that a vehicle stands on in a situation; none for a machine that does not stand on any."""
+    return {} if standing_if_any(motion, acting) is None else vehicle_of(motion.plan)
 
 
 def standing_if_any(motion: AnyMotion, acting: Acting) -> Standing | None:

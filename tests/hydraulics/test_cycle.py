@@ -1,6 +1,7 @@
 """A working cycle as its users see it: programmes in files, the command, the chart, the table, the report's part, the live page."""
 
 import csv
+import pickle
 
 import numpy as np
 import pytest
@@ -141,6 +142,19 @@ def test_a_report_says_what_the_pump_gives_and_where_its_energy_goes():
     assert [row[0] for row in lines.rows] == ["supply", "first_line", "second_line"]
     assert energy.rows[0][1:] == (show(cycle.energy.pump, "kJ", 4), show(cycle.energy.pump, "kWh", 3))
     assert pump_of(TwoBlocks()).sections(TwoBlocks().judge()) == []
+
+
+def test_a_run_keeps_what_its_pump_gave_wherever_it_is_judged():
+    machine = CycledBlocks()
+    supply = machine.plan.members["supply"]
+    run = supply.run(machine, demands={"one.ram": 0.05, "two.ram": 0.05}, until=8.0)
+    told = run.cycle.verdict.sentence
+    assert told.startswith("gives ")  # a motion by itself has no pump: of it is said what it needs
+    for motion in (run, pickle.loads(pickle.dumps(run)), machine.sweep(31, over=run.over)):
+        assert supply.check(motion).verdict.sentence == told
+        assert told in [each.sentence for each in machine.verdicts(over=motion)]
+    other = machine.replaced(**{"one.ram.bore": 1.1 * machine["one.ram.bore"]})
+    assert supply.check(other.sweep(31, over=run.over)).verdict.sentence != told  # a path is given to another design
 
 
 def test_a_chart_shades_who_waits_and_numbers_the_events():

@@ -497,6 +497,10 @@ def test_a_report_says_how_a_machine_runs(tmp_path):
     quick, slow = (motion[thrust("lift", acting=Acting(case="full", inertia=inertia))][0] for inertia in (None, False))
     (row,) = [line for line in section.splitlines() if line.startswith("| thrust |")]
     assert f"{quick / 1e3:.4g} kN" in row and f"{slow / 1e3:.4g} kN" in row and f"| {quick / slow:.3g} |" in row
+    middle = machine.sweep(3, over="rise")[thrust("lift", acting=Acting(case="full", inertia=False))][1]  # the equations' pose and case
+    equations_said = text.partition(" Calculation\n")[2].partition("\n## ")[0]
+    assert "over rise, in the case full" in equations_said and "They are those of slow motion" in equations_said
+    assert f"{{{middle:.6g}}}" in equations_said
     report(Sudden(), tmp_path / "sudden.md", count=3)
     assert "No inertia is counted, over rise, in the case full: the rate of S jumps" in (tmp_path / "sudden.md").read_text(encoding="utf-8")
     assert " As it runs" not in (report(Pumped(), tmp_path / "box.md", over=Pumped.plan.members["box"])).read_text(encoding="utf-8")

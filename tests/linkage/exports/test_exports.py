@@ -25,6 +25,7 @@ from linkage import (
     Ground,
     LoadCase,
     Mechanism,
+    Over,
     Part,
     PinFriction,
     Stroke,
@@ -299,6 +300,11 @@ def test_sheets_say_where_they_run_and_under_which_loads(tmp_path):
     class Cased(Turned):
         heavy = LoadCase("heavy")
 
+    class Loaded(Cased):
+        turning = Over.path(phi=(0.5, 0.9), cases=["heavy"])
+
+    book = written(export(Loaded(), tmp_path / "loaded.xlsx", count=5))
+    assert book["Dimensions"]["A4"].value == "Along turning, in load case heavy; plain not in these sheets."
     book = written(export(Cased(), tmp_path / "cased.xlsx", count=5))
     said = "Along phi, under the machine's own loads, load case plain; heavy not in these sheets."
     assert book["Dimensions"]["A4"].value == said

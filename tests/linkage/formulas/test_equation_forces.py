@@ -5,7 +5,7 @@ import pytest
 import sympy
 from numpy.testing import assert_allclose
 
-from hydraulics import Cylinder, LiftCircuit
+from hydraulics import Cylinder, LiftCircuit, thrust
 from linkage import (
     LEFT,
     RIGHT,
@@ -13,12 +13,14 @@ from linkage import (
     Between,
     Crank,
     Damper,
+    DefinitionError,
     Dimension,
     Dyad,
     Force,
     Ground,
     Link,
     LinkMass,
+    LoadCase,
     Mechanism,
     Moment,
     OnLink,
@@ -32,6 +34,14 @@ from linkage import (
 )
 from linkage.formulas import equations
 from linkage.units import bar, deg, kgf, kgf_cm2, kN, mm
+from mechanisms.at_work.excavator import DiggingExcavator
+from mechanisms.at_work.forwarder import Forwarder
+from mechanisms.at_work.one_pump import PumpedExcavator
+from mechanisms.at_work.tail_lift import TailLift
+from mechanisms.at_work.telehandler import Telehandler
+from mechanisms.at_work.tipper import Tipper
+from mechanisms.at_work.tractor import PloughTractor, SpreaderTractor
+from mechanisms.at_work.wheel_loader import WheelLoader
 from mechanisms.header_balancer import HeaderBalancer, ImprovedBalancer
 from mechanisms.header_balancer.following import HeaderState
 from mechanisms.mower_lift import MowerLift
@@ -255,6 +265,36 @@ class Stacked(TwoStrokes):
 def test_several_strokes(machine):
     _, values = check_forces(machine())
     assert "I_G" not in values and {"Q_p", "Q_q"} <= set(values)
+
+
+def thrusts_in_case(machine, case):
+    """Yield the thrust of each cylinder by the equations of a load case, and by the engine, at one pose."""
+    design = machine()
+    strokes = {name: 0.4 * each.start + 0.6 * each.end for name, each in design.plan.strokes.items()}
+    motion, found = design.at(**strokes), equations(design, forces=True, case=case)
+    values = {name.partition("T_")[2]: value for name, value in found.values(strokes).items() if name.startswith("T_")}
+    for name in design.plan.of_kind(Cylinder):
+        if name in values:
+            yield values[name], motion[thrust(name, case=case)]
+
+
+@for_all(
+    "machine", [SpreaderTractor, Telehandler], slow=[PloughTractor, DiggingExcavator, PumpedExcavator, Forwarder, WheelLoader, Tipper],
+)  # fmt: skip
+def test_loads_are_those_of_the_load_case(machine):
+    for case in machine.plan.of_kind(LoadCase):
+        pairs = [*thrusts_in_case(machine, case)]
+        assert pairs
+        for written, told in pairs:
+            assert_allclose(written, told, rtol=1e-10, err_msg=case)
+        assert f"load case {machine.plan.members[case].label}" in str(equations(machine, forces=True, case=case))
+
+
+def test_a_load_case_is_of_forces_and_shuts_nothing():
+    with pytest.raises(DefinitionError, match="give forces=True too"):
+        equations(Telehandler, case="far")
+    with pytest.raises(DefinitionError, match="shuts tilting"):
+        equations(TailLift, forces=True, case="full")
 
 
 def test_pins_found_together_have_given_ratios():

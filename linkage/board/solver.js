@@ -190,23 +190,37 @@ const solver = (() => {
   const hypotOf = (a, b) => sqrt(a.reduce((sum, each, k) => sum + (each - b[k]) ** 2, 0));
   const placesOf = ({ names }, at) => Object.fromEntries(names.map((name, k) => [name, [at[2 * k], at[2 * k + 1]]]));
   const drawnStrokes = ({ drives }) => Object.fromEntries(Object.entries(drives).map(([name, each]) => [name, each.drawn]));
+  /* Return the pose at which some rows miss least while all others hold; null where these do not hold from there. */
+  function relaxed(system, from, values, given) {
+    const hard = { ...system, rows: system.rows.filter((_, k) => !given.has(k)) }, weights = system.rows.map((_, k) => (given.has(k) ? 1 : STRONG));
+    const cost = (at) => missed(system, at, values).reduce((sum, [miss], k) => sum + (given.has(k) ? miss * miss : 0), 0);
+    let at = closed(hard, from, values, 0.9);
+    for (let turn = 0, damping = 1e-3; at && turn < 100 && damping < 1e9; turn++) {
+      const next = closed(hard, moved(system, at, leastChange(system, missed(system, at, values), weights, damping)), values, 0.9), before = cost(at);
+      if (next && cost(next) < before) {
+        at = next; damping = max(damping / 4, 1e-6);
+        if (before - cost(at) < 1e-10 * before) break;
+      } else damping *= 5;
+    }
+    return at;
+  }
   /* Return which link or drive would have to give way for rows to be met that cannot be, and by how much. Others give way only where one is not enough. */
   function shortest(system, at, values, among) {
     const strong = system.rows.map((row) => (row.part === "links" ? 1 : STRONG)), given = new Set(), same = (k, j) => system.rows[k].part === system.rows[j].part && system.rows[k].name === system.rows[j].name;
-    let found = missed(system, levelled(system, at, values, strong), values), places = at, chosen = -1;
-    for (let turn = 0; turn < 4; turn++) {
+    const level = levelled(system, at, values, strong), found = missed(system, level, values);
+    let places = null, chosen = -1;
+    for (let turn = 0; turn < 4 && !places; turn++) {
       const next = among.filter((k) => !given.has(k)).reduce((best, k) => (best < 0 || abs(found[k][0]) > abs(found[best][0]) ? k : best), -1);
       if (next < 0) break;
       if (chosen < 0) chosen = next;
       among.forEach((k) => { if (same(k, next)) given.add(k); });
-      places = levelled(system, places, values, system.rows.map((_, k) => (given.has(k) ? 1 : STRONG)));
-      found = missed(system, places, values);
-      if (found.every(([miss], k) => given.has(k) || abs(miss) < 1e-3 * abs(found[chosen][0]) + 1e-9 * system.size)) break;
+      places = relaxed(system, level, values, given);
     }
+    places ||= level;
     if (chosen < 0) return null;
     const { part, name } = system.rows[chosen], ends = part === "links" ? system.drawing.links[name] : [], span = (all, P, Q) => hypot(all[2 * P] - all[2 * Q], all[2 * P + 1] - all[2 * Q + 1]);
     const pairs = ends.flatMap((A, k) => ends.slice(k + 1).map((B) => [system.index[A], system.index[B]])), stretches = pairs.map((pair) => span(places, ...pair) - span(system.start, ...pair));
-    const gap = pairs.length ? stretches.reduce((best, each) => (abs(each) > abs(best) ? each : best), 0) : found[chosen][0];
+    const gap = pairs.length ? stretches.reduce((best, each) => (abs(each) > abs(best) ? each : best), 0) : missed(system, places, values)[chosen][0];
     return abs(gap) > 1e-9 * system.size ? { part, name, gap } : null;
   }
   const rowsOf = (system, part) => system.rows.map((_, k) => k).filter((k) => system.rows[k].part === part);

@@ -331,8 +331,8 @@ def written(value: float) -> str:
 
 
 def noiseless(value: float) -> float:
-    """Return a number as it is written."""
-    return float(written(value))
+    """Return a number as it is written; zero without a sign."""
+    return float(written(value)) + 0.0
 
 
 def stroke_end(drive: SketchDrive) -> float | str:

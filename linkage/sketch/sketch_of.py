@@ -52,7 +52,7 @@ def sketch_of(machine: Mechanism | type[Mechanism], at: Mapping[str, float] | No
     ensure(not plan.of_kind(Part), f"{title}: it has parts; take the sketch of each machine by itself.")
     strokes: dict[str, Any] = {**plan.sketch_strokes, **(at or {})}
     motion = design.at(**strokes)
-    places = {name: (float(motion.x(name)), float(motion.y(name))) for name in plan.points}
+    places = {name: (float(motion.x(name)) + 0.0, float(motion.y(name)) + 0.0) for name in plan.points}  # zero has no sign
     joints = [(name, joint) for name, point in plan.points.items() for joint in point.joints() if plan.is_there(joint)]
     joints += [(each.name, joint) for group in plan.groups.values() for each in group.slides for joint in each.joints()]
     drives = dict(drives_of(design, joints, strokes))

@@ -52,7 +52,7 @@ class Program:
         pins, known = [self.graph.input(name, Level.POSE) for name in group.inputs[:-1]], programs.known
         given = [node for node in ancestors(known) if node.op == "input"]
         self.inputs, self.count = tuple(node.value for node in given), len(pins)
-        self.work, self.spent = 3 * len(programs.step.plan.pose), 0.0  # about how many operations a step is, and those done
+        self.work, self.spent = RUNS * len(programs.step.plan.pose), 0.0  # about how many operations a step is, and those done
         rows = [*state_rows(len(pins)), "goal", "limit", "largest", "ahead", "active", "last", "near", "settled", "stuck", "now", "extent"]
         rows += [name for letter in "gvy" for name in row_names(letter, len(pins))]
         rows += [name for letter, nodes in (("a", given), ("b", given), ("k", known)) for name in row_names(letter, len(nodes))]
@@ -178,10 +178,13 @@ class Program:
 
         return compiled_loop(self.compiled_text, "fill", arguments)
 
-    def is_compiled(self, lanes: float) -> bool:
-        """Return whether so many steps, and those before them, are done by compiled loops."""
-        self.spent += lanes * self.work
-        return pays_compiled(self.spent, "follow" in vars(self), lambda: self.compiled_text)
+    def is_compiled(self, ahead: float) -> bool:
+        """Return whether so many steps ahead, with those done before, are worth compiled loops."""
+        return pays_compiled(self.spent + ahead * self.work, "follow" in vars(self), lambda: self.compiled_text)
+
+    def count_step(self, lanes: int) -> None:
+        """Count a step of some lanes that was done by operations on arrays."""
+        self.spent += (lanes + LEAST_LANES) * self.work
 
 
 DRIVERS = '''
@@ -281,6 +284,8 @@ ROOM = 64
 """The places of a lane that memory is first made for."""
 FEW = 4
 """So many lanes are followed one by one in plain floats: an array operation on a few numbers costs more than a step."""
+RUNS, LEAST_LANES = 8, 1500
+"""A step runs the group's program about so often; on arrays it costs as much as one of so many lanes, and what these cost."""
 
 
 STEPS_KEPT = 1024
@@ -487,6 +492,8 @@ class GroupPath:
         if not whole:
             self._state[:, k] = state
         self._record.append((k[taken], np.array(state[: self._kept, taken])))
+        if (program := self._program()) is not None:
+            program.count_step(len(k))
 
     def _store(self) -> None:
         """Keep the places of all lanes one after the other."""
@@ -536,6 +543,8 @@ class GroupPath:
         program = self._compiled_program(len(lane))
         if program is not None:
             return self._between(lane, place, self._filled(program, lane, place))
+        if (made := self._program()) is not None:
+            made.count_step(len(lane))
         parts = []
         for block in (slice(k, k + BLOCK) for k in range(0, len(lane), BLOCK)):
             held = self._held(lane[block], place[block]) if inputs is None else self.newton.held(at_poses(inputs, block))

@@ -564,7 +564,7 @@ def hopeful_borders(box: SeenBox, alike: Index, known: FloatArray) -> Climbs:
     nearest = np.zeros(len(found), bool)
     nearest[order[np.flatnonzero(np.diff(point.reshape(-1)[order], prepend=-1))]] = True
     hope = found + np.abs(found - starts.value) + starts.bound
-    nearest &= (found > -np.inf) & (hope >= known[starts.function, starts.design])
+    nearest &= (found > -np.inf) & (hope > known[starts.function, starts.design])  # what is the same everywhere gains nothing there
     going = replace(starts, unit=places[:, 0], centre=places[:, 0], value=found, half=0.5 * starts.half)
     order = np.flatnonzero(nearest)
     row = (going.function * D + going.design)[order]

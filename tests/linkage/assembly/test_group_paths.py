@@ -185,6 +185,24 @@ def test_small_pivots_change_nothing(few, monkeypatch):
     check_same(solved(1), expected)
 
 
+def test_all_steps_count_towards_a_compiled_loop(monkeypatch):
+    """Short ways to a dead point take many steps, and a step of few lanes costs as much as one of many."""
+    steps, work = [0], []
+    taken = group_continuation.GroupPath._step
+
+    def counted(path, lanes):
+        steps[0] += 1
+        taken(path, lanes)
+
+    monkeypatch.setattr(group_continuation.GroupPath, "_step", counted)
+    monkeypatch.setattr(group_continuation, "pays_compiled", lambda done, *_: work.append(done))
+    machine = StephensonThreeFar(DF=0.1006 + np.linspace(-1e-3, 1e-3, 12))
+    for end in (170.0, 171.0):
+        machine.at(psi=np.linspace(LOW, np.radians(end), 40), unreachable="nan")
+    program = machine.plan.made(("lanes", "group1"), lambda _: None)
+    assert steps[0] > 20 and work[-1] > 0.4 * steps[0] * group_continuation.LEAST_LANES * program.work
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(3))
 def test_compiled_paths_are_the_same(seed):

@@ -125,6 +125,17 @@ def test_functions_together_cost_few_poses():
     assert box.count < 1.05 * box.side**3
 
 
+def test_what_is_the_same_everywhere_is_not_followed_along_the_border():
+    """Where half of a box is missing, each such place costs as much as the way to it: what never changes asks for it once."""
+    poses = {}
+    for slope in (0.0, 1.0):
+        box = InUnitBox(2, lambda x, slope=slope: np.where(x.sum(axis=-1) < 1.03, 2.0 + slope * x[..., 0], np.nan))
+        value, _, _ = highest_in(box)
+        assert value.item() == pytest.approx(2.0 + slope, abs=1e-9)
+        poses[slope] = box.count - box.side**2
+    assert poses[0.0] < 0.6 * poses[1.0]
+
+
 @for_all("seed", range(1), slow=range(1, 30))
 @for_all("k", [2, 3])
 def test_a_box_turned_and_mirrored_is_the_same(k, seed):

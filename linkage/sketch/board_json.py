@@ -23,7 +23,8 @@ ADDRESS = f"board:{BOARD}."
 
 def board_tables(sketch: MachineSketch) -> dict[str, Any]:
     """Return a sketch as the tables of the board's file."""
-    return {"board": BOARD} | json.loads(json.dumps(asdict(sketch), allow_nan=False))
+    found: dict[str, Any] = json.loads(json.dumps(asdict(sketch), allow_nan=False))
+    return {"board": BOARD} | found
 
 
 def board_json(sketch: MachineSketch) -> str:

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from ..errors import DefinitionError, ensure
+from ..loads import TwoPoint, Weight
 from ..mechanism import Mechanism, require_mechanism
 from ..motion import Motion
 from ..numeric.convex import corner_turn
 from ..plan import Part
-from ..quantities import FRAME_SIDE, Dimension, Joint, Quantity, Stroke
+from ..quantities import FRAME_SIDE, Dimension, Joint, Quantity, Stroke, name_of
 from ..steps import Drawn, Group, Slide
-from .machine_sketch import MachineSketch, SketchDrive, SketchSlide
+from .machine_sketch import MachineSketch, SketchDrive, SketchSlide, SketchWeight
 
 ONE_TO_ONE = 1e-12
 """A driven length or angle follows its stroke one to one where its slope is 1 to so much."""
@@ -35,7 +37,7 @@ def sketch_of(machine: Mechanism | type[Mechanism], at: Mapping[str, float] | No
     Returns
     -------
     MachineSketch
-        Its points where they are at these strokes. A note names what it does not hold: loads, outputs, outlines.
+        Its points where they are at these strokes. A note names what it does not hold: other loads, outputs, outlines.
 
     Raises
     ------
@@ -68,9 +70,28 @@ def sketch_of(machine: Mechanism | type[Mechanism], at: Mapping[str, float] | No
     held = {*frame, *(point for points in links.values() for point in points), *(slide.point for slide in slides.values())}
     loose = [name for name in plan.points if name not in held]
     ensure(not loose, f"{title}: the sketch has no word for what holds {', '.join(loose)}; it is on no link and no slide.")
-    others = [name for name, each in plan.members.items() if each.kind not in NOT_TOLD and not is_found_anew(each)]
+    weights, rams = dict(weights_of(design)), dict(rams_of(design, drives))
+    drives |= {name: replace(drives[name], bore=bore, rod=rod) for name, bore, rod in rams.values()}
+    told = {*weights, *rams}
+    others = [name for name, each in plan.members.items() if each.kind not in NOT_TOLD and not is_found_anew(each) and name not in told]
     notes = (f"Not in the sketch of {title}: {', '.join(others)}.",) if others else ()
-    return MachineSketch(title, places, frame, links, slides, drives, notes=notes)
+    return MachineSketch(title, places, frame, links, slides, drives, weights=weights, notes=notes)
+
+
+def weights_of(design: Mechanism) -> Iterator[tuple[str, SketchWeight]]:
+    """Yield the weights of a number of kilograms that hang straight down, by their names."""
+    for name, each in design.plan.of_kind(Weight).items():
+        if f"{name}.mass" in design.dimensions and each.gravity == Weight.gravity:
+            yield name, SketchWeight(name_of(each.point), float(design.dimensions[f"{name}.mass"]))
+
+
+def rams_of(design: Mechanism, drives: Mapping[str, SketchDrive]) -> Iterator[tuple[str, tuple[str, float, float]]]:
+    """Yield single cylinders that are driven, by their names: the drive, bore and rod [m]."""
+    for name, each in design.plan.of_kind(TwoPoint).items():
+        bore, rod = (float(design.dimensions.get(f"{name}.{part}", 0.0)) for part in ("bore", "rod"))
+        stroke = next((stroke for stroke, drive in drives.items() if {*drive.ends} == {*each.ends} and drive.kind == "cylinder"), None)
+        if bore and rod and stroke is not None and vars(each).get("count") == 1:
+            yield name, (stroke, bore, rod)
 
 
 def is_found_anew(member: object) -> bool:

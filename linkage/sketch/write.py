@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from ..errors import DefinitionError, ensure
+from ..errors import DefinitionError
 from .board_json import board_json
 from .linkage_xml import linkage_xml
 from .machine_sketch import MachineSketch
@@ -44,6 +44,4 @@ def sketch_text(sketch: MachineSketch, suffix: str) -> str:
     """
     if suffix not in WRITERS:
         raise DefinitionError(f"{suffix or 'no ending'} says no kind of file; a sketch is written as {', '.join(WRITERS)}.")
-    is_held = suffix in (".toml", ".py", ".json") or not (sketch.weights or any(drive.bore for drive in sketch.drives.values()))
-    ensure(is_held, f"{sketch.name}: a {suffix} file has no word for weights, bores and rods; write .toml, .py or .json, or take them out.")
     return WRITERS[suffix](sketch)

@@ -14,7 +14,7 @@ from linkage.board.drawing import drawing_data
 from linkage.cli import main
 from linkage.files import load
 from linkage.mobility import mobility
-from linkage.sketch import MachineSketch, SketchDrive, SketchSlide, SketchWeight, is_foreign, read_sketch, sketch_of, sketch_text
+from linkage.sketch import MachineSketch, SketchDrive, SketchSlide, SketchWeight, is_foreign, read_sketch, sketch_of
 from linkage.sketch.board_json import board_json
 from tests import shipped
 from tests.for_all import check_all
@@ -265,7 +265,10 @@ def test_a_loader_with_two_cylinders_runs_in_python(board, tmp_path):
     )
     assert found["lacking"] == [] and found["mobility"]["freedom"] == 2, found["mobility"]
     machine = python_class(found["python"], "Loader")()
-    assert load(read_text(found["file"], tmp_path).to_toml())().dimensions == machine.dimensions
+    sketch = read_text(found["file"], tmp_path)
+    again = sketch_of(load(sketch.to_toml()))
+    assert load(sketch.to_toml())().dimensions == machine.dimensions
+    assert (again.weights, again.drives, again.notes) == (sketch.weights, sketch.drives, ())
     reached = 0
     for (lift, tilt), answer in zip(values, found["runs"], strict=True):
         motion = machine.at(unreachable="nan", lift=lift, tilt=tilt)
@@ -498,8 +501,8 @@ def test_the_board_file_and_its_address_go_through_the_command(board, tmp_path, 
     capsys.readouterr()
     driven = read_sketch(place, cylinders=[("K", "L")])
     assert [*driven.drives] == ["S"] and driven.weights == sketch.weights and driven.points == sketch.points
-    with pytest.raises(DefinitionError, match="no word for weights"):
-        sketch_text(sketch, ".csv")
+    assert main(["import", str(place), "-o", str(tmp_path / "loader.csv")]) == 0
+    assert "no word for weights, bores and rods" in capsys.readouterr().err
     with pytest.raises(DefinitionError, match="in metres"):
         read_sketch(place, scale=2.0)
     with pytest.raises(FileError, match="damaged"):

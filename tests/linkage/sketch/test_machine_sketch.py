@@ -72,8 +72,10 @@ def test_it_may_be_drawn_at_another_pose_and_of_another_design():
 
 
 def test_what_a_sketch_does_not_hold_is_told():
-    (note,) = sketch_of(shipped.MACHINES["three_point_hitch"]).notes
-    assert note.startswith("Not in the sketch of ThreePointHitch: ") and "load" in note and "tilt" in note
+    sketch = sketch_of(shipped.MACHINES["three_point_hitch"])
+    (note,) = sketch.notes
+    assert note.startswith("Not in the sketch of ThreePointHitch: ") and " load," not in note and "tilt" in note
+    assert sketch.weights["load"].mass == shipped.MACHINES["three_point_hitch"]()["load.mass"]
 
 
 def test_other_machines_are_refused_by_name():

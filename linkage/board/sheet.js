@@ -50,8 +50,14 @@ function valuesAt(poses) {
   }
   return found;
 }
-/* Draw everything anew. */
+/* Draw everything anew, once before the next picture of the screen. */
+let isDue = false;
 function redraw() {
+  if (!isDue) requestAnimationFrame(drawnAnew);
+  isDue = true;
+}
+function drawnAnew() {
+  isDue = false;
   const box = sheet.getBoundingClientRect();
   sheetWide = box.width || 600; sheetTall = box.height || 400; unit0 = 7; edition += 1;
   staged();
@@ -60,6 +66,7 @@ function redraw() {
 }
 /* Move what is drawn to where its points stand. */
 function posed() {
+  if (isDue) return;
   pose = { values: valuesAt([shownNow.places]) };
   const at = scene.names.map((each) => px(...shownNow.places[each]));
   arrows = [];
@@ -149,6 +156,7 @@ function marked() {
   const of = picked && drawing[picked.kind]?.[picked.name];
   if (of) for (const name of pointsOf(picked)) ring(name, 12, "picked");
   if (of && picked.kind !== "points") line(pointsOf(picked), "picked");
+  if (shownNow.hover) ring(shownNow.hover, 12, "picked under");
   for (const name of pending) ring(name, 16, "picked waiting");
   if (pending.length && aim) {
     const mark = draw(sheet, "polyline", { class: "picked waiting" });

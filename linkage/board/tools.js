@@ -14,11 +14,13 @@ const has = Object.hasOwn;
 /* Return the name that a table has beside those of another one. */
 const added = (before, after) => Object.keys(after).find((each) => !has(before, each));
 const isMoved = () => Object.keys(shownNow.values).some((name) => shownNow.values[name] !== shownNow.drawing.drives[name].drawn) || Object.entries(shownNow.places).some(([name, [x, y]]) => x !== shownNow.drawing.points[name][0] || y !== shownNow.drawing.points[name][1]);
-/* Take a new drawing, as one thing done, and say what happened. */
-function commit(next, text) {
-  done.push(shownNow.drawing);
+const snapshot = () => ({ drawing: shownNow.drawing, trails: [...trails], targets: structuredClone(targets) });
+/* Take a new drawing, with what changes beside it, as one thing done, and say what happened. */
+function commit(next, text, change) {
+  done.push(snapshot());
   if (done.length > MOST_UNDO) done.shift();
   undone = [];
+  change?.();
   stands(next);
   if (text) tell(text);
 }
@@ -26,9 +28,10 @@ function commit(next, text) {
 function back(from, to, text) {
   if (!from.length) return;
   play("");
-  to.push(shownNow.drawing);
-  shownNow.pending = [];
-  stands(from.pop());
+  to.push(snapshot());
+  const was = from.pop();
+  shownNow.pending = []; trails = new Set(was.trails); ({ targets } = was);
+  stands(was.drawing);
   tell(text);
 }
 const undo = () => back(done, undone, say("Undone")), redo = () => back(undone, done, say("Done again"));
@@ -134,11 +137,11 @@ function frame(time) {
 }
 /* Soon after a change, go through the stroke: for paths, and for how long rails are. */
 let waiting;
-function soonRun() { clearTimeout(waiting); waiting = setTimeout(wholeRun, 120); }
+function soonRun() { clearTimeout(waiting); waiting = setTimeout(wholeRun, 150); }
 function wholeRun() {
   const { drawing } = shownNow;
   if (!driver || playing) return;
-  const { poses, stops, values } = solver.sweep(drawing, driver), unit = driveUnit(drawing.drives[driver]);
+  const { poses, stops, values } = solver.sweep(drawing, driver, max(31, min(91, round(1200 / scene.names.length)))), unit = driveUnit(drawing.drives[driver]);
   shownNow.run = poses.filter(Boolean);
   shownNow.trails = Object.fromEntries([...trails].map((point) => [point, poses.map((at) => at && at[point])]));
   const ends = values.filter((_, k) => poses[k]), last = byId("live").lastElementChild;
@@ -223,12 +226,11 @@ function nameField() {
     const fault = model.nameFault(shownNow.drawing, to);
     if (fault) return fault;
     shownNow.picked = { kind, name: to };
-    if (kind === "points") {
-      if (trails.delete(name)) trails.add(to);
-      if (targets?.point === name) targets.point = to;
-    }
     if (driver === name) driver = to;
-    commit(model.rename(current(), kind, name, to), say("{name} is now {to}", { name, to }));
+    commit(model.rename(current(), kind, name, to), say("{name} is now {to}", { name, to }), () => {
+      if (kind === "points" && trails.delete(name)) trails.add(to);
+      if (kind === "points" && targets?.point === name) targets.point = to;
+    });
     return "";
   }, { maxLength: 40 });
 }
@@ -342,8 +344,7 @@ function duplicate() {
   commit(next, say("{names} duplicated", { names: points.join(", ") }));
 }
 function traced(name) {
-  if (!trails.delete(name)) trails.add(name);
-  keep(); panel(); wholeRun(); redraw();
+  commit(current(), "", () => { if (!trails.delete(name)) trails.add(name); });
   tell(trails.has(name) ? (driver ? say("The path of {name} is drawn", { name }) : say("The path of {name} is drawn as soon as something drives it", { name })) : say("No path of {name}", { name }));
 }
 /* A four-bar to begin with. */
@@ -352,9 +353,8 @@ function example() {
   for (const [name, x, y] of [["O", 0, 0], ["A", 0.1, 0.05], ["B", 0.4, 0.3], ["C", 0.5, 0], ["P", 0.2, 0.35]]) next = model.addPoint(next, name, x, y);
   next = model.fix(model.fix(next, "O"), "C");
   for (const points of [["A", "B", "P"], ["B", "C"]]) next = model.link(next, points);
-  trails = new Set(["P"]);
   shownNow.picked = null;
-  commit(model.crank(next, "O", "A"), say("A four-bar: drag its pins, play it, change it"));
+  commit(model.crank(next, "O", "A"), say("A four-bar: drag its pins, play it, change it"), () => { trails = new Set(["P"]); });
   whole(); redraw();
 }
 
@@ -415,7 +415,7 @@ const TOOLS = {
     if (P) {
       if (!name || pending.includes(name)) { tell(say("Press another pin of the link that guides {name}", { name: rider }), true); return; }
       sliding(rider, [P, name]);
-    } else if (name && name !== rider && !shownNow.drawing.fixed.includes(name)) pendingIs([rider, name]);
+    } else if (name && name !== rider && Object.values(shownNow.drawing.links).some((points) => points.includes(name) && !points.includes(rider))) pendingIs([rider, name]);
     else { const [x, y] = shownNow.places[rider]; sliding(rider, name === rider ? 0 : straight(atan2(place[1] - y, place[0] - x))); }
   },
   crank: between("drives", (drawing, P, Q) => model.crank(drawing, P, Q), (P, Q) => say("Crank {P} {Q}", { P, Q })),
@@ -430,11 +430,10 @@ const TOOLS = {
   },
   path(name) { if (name) traced(name); else tell(say("Press a pin"), true); },
   target(name, place) {
-    const [point] = shownNow.pending;
-    if (!point) { if (name) { targets = shownNow.targets = { point: name, places: [] }; pendingIs([name]); } else tell(say("Press a pin"), true); return; }
-    targets.places.push(place);
-    keep(); out("task"); redraw();
-    tell(say("{name} is to pass {count} places", { name: point, count: targets.places.length }));
+    const [point] = shownNow.pending, places = [...(targets?.places || []), place];
+    if (!point) { if (name) { targets = null; pendingIs([name]); } else tell(say("Press a pin"), true); return; }
+    form = "task";
+    commit(current(), say("{name} is to pass {count} places", { name: point, count: places.length }), () => { targets = { point, places }; });
   },
 };
 /* A direction in steps of 5 degrees. */
@@ -491,7 +490,10 @@ on(sheet, "pointerdown", (event) => {
 on(sheet, "pointermove", (event) => {
   const spot = spotOf(event);
   if (!fingers.has(event.pointerId)) {
-    if (shownNow.pending.length && TWO_ENDS.includes(tool)) { shownNow.aim = onGrid(placeAt(spot)); redraw(); }
+    const name = pinAt(spot), isAiming = shownNow.pending.length && TWO_ENDS.includes(tool);
+    if (isAiming) shownNow.aim = onGrid(placeAt(spot));
+    if (isAiming || name !== shownNow.hover) redraw();
+    shownNow.hover = name;
     return;
   }
   const was = [...fingers.values()], middle = (list) => [0, 1].map((k) => list.reduce((sum, each) => sum + each[k], 0) / list.length);
@@ -522,7 +524,9 @@ function lead(held, spot) {
     return;
   }
   held.led = true;
-  taken(solver.drag(current(), name, to));
+  const { stopped, ...found } = solver.drag(current(), name, to);
+  taken(found);
+  if (stopped && apart(px(...shownNow.places[name]), spot) > 30) tell(stopped, true);
 }
 const pointsJoined = (drawing, name) => [...Object.values(drawing.links), ...Object.values(drawing.slides).map(({ point }) => [point]), ...Object.values(drawing.drives).map(({ ends }) => ends)].some((points) => points.includes(name));
 on(sheet, "pointerup", (event) => {
@@ -599,10 +603,10 @@ on(document, "keydown", (event) => {
 /* ---- out and in ---- */
 
 const FORMS = {
-  python: () => [writers.python(current()), `${fileName()}.py`],
-  toml: () => [writers.toml(current()), `${fileName()}.toml`],
-  link: () => [`${location.href.split("#")[0]}#${writers.address(current())}`, `${fileName()}_address.txt`],
-  file: () => [writers.file(current()), `${fileName()}.json`],
+  python: () => [writers.python(shownNow.drawing), `${fileName()}.py`],
+  toml: () => [writers.toml(shownNow.drawing), `${fileName()}.toml`],
+  link: () => [`${location.href.split("#")[0]}#${writers.address(shownNow.drawing)}`, `${fileName()}_address.txt`],
+  file: () => [writers.file(shownNow.drawing), `${fileName()}.json`],
   task: () => [taskText(), `${fileName()}_task.toml`],
 };
 const fileName = () => shownNow.drawing.name.toLowerCase();
@@ -632,7 +636,11 @@ function taskText() {
   const free = Object.values(drawing.links).flatMap((points) => points.slice(1).map((each) => [points[0], each])).filter((pair) => !pair.every((each) => drawing.fixed.includes(each)));
   const number = (value) => String(Number((1000 * value).toPrecision(6)));
   const lines = [`machine = "${fileName()}.toml"`, "", "[synthesis]", `path = { of = "${targets.point}", points = [${targets.places.map((at) => `[${at.join(", ")}]`).join(", ")}] }`, "starts = 8", "", "[synthesis.vary]"];
-  for (const [P, Q] of free) { const long = model.far(current(), P, Q); lines.push(`${P}${Q} = "${number(0.5 * long)} to ${number(2 * long)} mm"`); }
+  for (const [P, Q] of free) { const long = model.far(drawing, P, Q); lines.push(`${P}${Q} = "${number(0.5 * long)} to ${number(2 * long)} mm"`); }
+  for (const [P, Q, ...others] of Object.values(drawing.links)) for (const X of others) {
+    const way = (to) => atan2(...[1, 0].map((axis) => drawing.points[to][axis] - drawing.points[P][axis])), turn = round((((way(X) - way(Q)) / PI) * 180 + 540) % 360 - 180);
+    lines.push(`${Q}${P}${X} = "${turn - 45} to ${turn + 45} deg"`);
+  }
   return `${lines.join("\n")}\n`;
 }
 async function copied(text, word) {
@@ -676,7 +684,7 @@ on(byId("nearer"), "click", () => { nearer(1.25); redraw(); }); on(byId("farther
 on(byId("whole"), "click", () => { whole(); redraw(); });
 on(byId("grid"), "click", () => { showsGrid = !showsGrid; byId("grid").setAttribute("aria-pressed", String(showsGrid)); keep(); redraw(); });
 on(byId("reshape"), "click", () => { const isOn = byId("reshape").getAttribute("aria-pressed") !== "true"; byId("reshape").setAttribute("aria-pressed", String(isOn)); tell(isOn ? say("Lengths follow the pin that is led") : say("Lengths stay; the machine follows")); });
-on(byId("fresh"), "click", () => { if (Object.keys(shownNow.drawing.points).length) { shownNow.picked = null; trails.clear(); targets = null; commit(model.empty(), say("An empty sheet")); } whole(); redraw(); });
+on(byId("fresh"), "click", () => { if (Object.keys(shownNow.drawing.points).length) { shownNow.picked = null; commit(model.empty(), say("An empty sheet"), () => { trails = new Set(); targets = null; }); } whole(); redraw(); });
 on(byId("open"), "click", () => byId("file").click()); on(byId("save"), "click", save);
 on(byId("copy-text"), "click", () => copied(byId("text").value, byId("copy-text")));
 on(byId("hand"), "click", () => handed(...FORMS[form]()));
@@ -703,4 +711,4 @@ if (linked && !linked.drawing) tell(linked.wrong[0], true);
 new ResizeObserver(() => redraw()).observe(sheet);
 
 /* For tests: what is shown. */
-window.hydrolinkage = { model, solver, writers, state: () => structuredClone({ ...shownNow, parts: null }), current, press: (x, y) => press(px(x, y), 8), px };
+window.hydrolinkage = { model, solver, writers, state: () => structuredClone({ ...shownNow, parts: null }), current, px, gridStep };

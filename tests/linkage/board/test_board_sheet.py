@@ -1,13 +1,16 @@
 """The drawing board in headless Chromium: machines drawn from nothing by pointer and by keyboard, moved, undone, kept and opened."""
 
 import json
+import tomllib
 from itertools import combinations
 from math import dist
 
+import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from linkage import drawing_board
+from linkage import deg, drawing_board
+from linkage.cli import main
 from linkage.files import load
 from tests.linkage.pictures.test_page import PHONE, Shown, chromium  # noqa: F401
 
@@ -123,15 +126,12 @@ def by_keys(board):
     board.tab.locator("#mechanism").focus()
 
     def to(x, y):
-        for _ in range(200):
-            here = board("hydrolinkage.state().cursor")
-            if here is None:
-                board.keys("ArrowUp")
-                continue
-            dx, dy = round(x - 1e3 * here[0], 6), round(y - 1e3 * here[1], 6)
-            if not dx and not dy:
-                return
-            board.keys("ArrowRight" if dx > 0 else "ArrowLeft" if dx < 0 else "ArrowUp" if dy > 0 else "ArrowDown")
+        board.keys("ArrowUp")
+        here, step = board("hydrolinkage.state().cursor"), board("hydrolinkage.gridStep()")
+        for steps, keys in ((x / 1e3 - here[0], ("ArrowRight", "ArrowLeft")), (y / 1e3 - here[1], ("ArrowUp", "ArrowDown"))):
+            tens, ones = divmod(round(abs(steps) / step), 10)
+            key = keys[steps < 0]
+            board.keys(*[f"Shift+{key}"] * tens, *[key] * ones)
 
     board.keys("c")
     for place in ((0, 0), (100, 60)):
@@ -212,6 +212,75 @@ def test_undo_leads_to_the_empty_sheet_and_back(chromium, empty):  # noqa: F811
         for _ in range(count):
             board.keys("Control+Shift+Z")
         assert board.drawing == full and board.tab.locator("#redo").is_disabled() and board.said == []
+
+
+def test_a_task_is_read_by_the_synthesis_and_undone(chromium, empty, tmp_path, monkeypatch):  # noqa: F811
+    monkeypatch.chdir(tmp_path)
+    with Board(chromium, empty) as board:
+        four_bar(board)
+        board.use("plate", "B", "C", (200, 400), "B")
+        board.choose("link_B_C")
+        board.tab.locator("#fields").get_by_role("button", name="Delete").click()
+        board.use("path", "E")
+        board.use("target", "E", (200, 460), (140, 460), (80, 380))
+        text = board.tab.locator("#text").input_value()
+        task = tomllib.loads(text)["synthesis"]
+        assert task["path"] == {"of": "E", "points": [[0.2, 0.46], [0.14, 0.46], [0.08, 0.38]]}
+        assert {"AB", "BC", "BE", "CBE"} <= {*task["vary"]}
+        board.tab.locator("[data-form=toml]").click()
+        (tmp_path / "machine.toml").write_text(board.tab.locator("#text").input_value(), encoding="utf-8")
+        (tmp_path / "machine_task.toml").write_text(text.replace("starts = 8", "starts = 1\nlimit = 100"), encoding="utf-8")
+        assert main(["synthesise", "machine_task.toml"]) == 0
+        for left in (2, 1):
+            board.keys("Control+z")
+            assert len(board("hydrolinkage.state().targets.places")) == left
+        board.keys("Control+z", "Control+z")
+        assert board("hydrolinkage.state().targets") is None and board("hydrolinkage.state().trails") == {} and board.said == []
+
+
+def test_a_pin_slides_on_a_link_that_turns_about_a_fixed_pin(chromium, empty):  # noqa: F811
+    with Board(chromium, empty) as board:
+        board.use("crank", (0, 300), (100, 300))
+        board.use("bar", (0, 0), (200, 600))
+        board.use("fix", (0, 0))
+        board.use("slide", (100, 300), (0, 0), (200, 600))
+        assert [*board.drawing["slides"].values()] == [{"point": "B", "along": ["C", "D"]}]
+        assert board.text("#live").startswith("Mobility 1, drives: 1")
+        board.tab.locator("[data-drive=phi][type=text]").fill("200")
+        board.keys("Enter")
+        at = board("hydrolinkage.state().places")
+        (x, y), (u, v) = ([b - a for a, b in zip(at["C"], at[name], strict=True)] for name in "BD")
+        assert abs(x * v - y * u) < 1e-9 and abs(at["B"][0] - 0.1 * np.cos(200 * deg)) < 1e-9 and board.said == []
+
+
+def test_two_fingers_see_closer_and_one_leads(chromium, empty):  # noqa: F811
+    with Board(
+        chromium, empty, PHONE, has_touch=True, is_mobile=True, viewport=dict(zip(("width", "height"), PHONE, strict=True))
+    ) as board:
+        slider_crank(board)
+        wide = "hydrolinkage.px(1, 0)[0] - hydrolinkage.px(0, 0)[0]"
+        before, points = board(wide), board.drawing["points"]
+        touch = board.tab.context.new_cdp_session(board.tab)
+
+        def send(kind, *spots):
+            fingers = [{"x": x, "y": y, "id": k} for k, (x, y) in enumerate(spots)]
+            touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": fingers})
+
+        send("touchStart", (130, 400), (170, 400))
+        send("touchMove", (110, 400), (190, 400))
+        send("touchEnd")
+        assert_allclose(board(wide), 2.0 * before)
+        assert board.drawing["points"] == points
+        board.tab.locator("#whole").click()
+        board.tab.locator("button[data-tool=move]").click()
+        x, y = board.spot(*board.place("B"))
+        send("touchStart", (x, y))
+        for k in range(1, 6):
+            send("touchMove", (x - 6 * k, y))
+        send("touchEnd")
+        assert board.drawing["points"]["B"][0] < points["B"][0] - 0.01
+        assert_allclose(board.drawing["points"]["C"][1], points["C"][1], atol=1e-9)
+        assert board.said == []
 
 
 def test_a_reload_keeps_the_work(chromium, empty):  # noqa: F811

@@ -331,7 +331,7 @@ def given_stretches(consumers: Consumers, instants: Instants, limits: PumpLimits
         middle = 0.5 * (begin + end)
 
         def taken_at(time: Array, like: Taken | None = None, middle: float = middle) -> Taken:
-            there = instants.at(time, np.full(len(time), middle))
+            there = instants.at_times(time, np.full(len(time), middle))
             strokes, rates = (np.array([each[name] for name in consumers.strokes]) for each in (there.strokes, there.rates))
             return consumers.taken(strokes, [rates], rates, like)
 

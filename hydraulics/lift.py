@@ -31,7 +31,7 @@ from linkage.motion import (
     least,
     most,
     over_time,
-    reached,
+    reached_spans,
     require_motion,
 )
 from linkage.quantities import NamedMembers, Reference, distance, label, of_kind
@@ -373,7 +373,7 @@ class LiftingCylinder:
 
     def parts(self, found: Answer, of_reserve: Callable[[Array], Array]) -> tuple[Span, ...]:
         """Return the parts of the one way, where there is one, on which a function of the reserve is below zero, in the worst situation."""
-        way, acting = self.judge.way, self.judge.situation(found)
+        way, acting = self.judge.along, self.judge.situation(found)
         if way is None:
             return ()
         reserve = reserve_request(self.ram, acting, self.circuit, is_judged=True)
@@ -514,10 +514,10 @@ class LiftingCylinder:
 
     def stuck(self, back: LawRequest) -> str:
         """Return where it does not go back, in words."""
-        way = self.judge.way
+        way = self.judge.along
         if way is None:
             return said("anywhere") if self.judge.answer(least(back)).value > 0.0 else said("in places")
-        stuck, whole = self.judge.parts_below(-back), reached(way)
+        stuck, whole = self.judge.parts_below(-back), reached_spans(way)
         everywhere = len(stuck) == len(whole) and all(str(a) == str(b) for a, b in zip(stuck, whole, strict=True))
         return said("anywhere") if everywhere or not stuck else with_and(stuck)
 

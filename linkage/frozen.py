@@ -53,21 +53,21 @@ def unmasked(value: object) -> Any:
     return value
 
 
-def own(value: Any) -> Any:
+def frozen_copy(value: Any) -> Any:
     """Return what a user gave as a copy of one's own that does not change: arrays read-only, lists as tuples, dicts frozen."""
     if isinstance(value, np.ndarray) and type(value) in (np.ndarray, np.ma.MaskedArray):
         return read_only(np.array(unmasked(value)))
     if type(value) in (list, tuple):
-        return tuple(map(own, value))
+        return tuple(map(frozen_copy, value))
     if isinstance(value, Mapping):
-        return FrozenDict({name: own(each) for name, each in value.items()})
+        return FrozenDict({name: frozen_copy(each) for name, each in value.items()})
     return value
 
 
 def keep_own(holder: object) -> None:
     """Put copies of one's own in the place of what a frozen dataclass was given."""
     for name, value in vars(holder).items():
-        object.__setattr__(holder, name, own(value))
+        object.__setattr__(holder, name, frozen_copy(value))
 
 
 def refuses_changes(kind: Kind) -> Kind:

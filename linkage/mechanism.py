@@ -22,7 +22,7 @@ from .frozen import FrozenDict
 from .loads import PLAIN_CASE, Acting, ForceElement, LoadCase, check_together
 from .loads.element import Formulas
 from .mobility import FourBar, Mobility, chain_graph, check, four_bars, mobility
-from .motion import Answer, Featured, Positions, RequestLike, Target, at_values, followed, from_above, positions_for, sweep_values
+from .motion import Answer, Featured, Positions, RequestLike, Target, at_values, follow_path, from_above, positions_for, sweep_values
 from .motion.functions import PoseFunction, evaluate, source_of
 from .motion.judge import Judge, Question
 from .motion.judging import HELD, judge_verdicts
@@ -334,7 +334,7 @@ class Mechanism(Shown, metaclass=MechanismType):
         first one that goes all the way is taken. Where none does it raises AssemblyError, of a stroke past its end, or SingularError, of
         a dead point, for the one that goes farthest: with the place, the stroke, the millimetres; unless `unreachable="nan"`.
         """
-        return followed(self.plan, self._values, targets, hold, start, unreachable)
+        return follow_path(self.plan, self._values, targets, hold, start, unreachable)
 
     def evaluate(
         self,

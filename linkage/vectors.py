@@ -87,7 +87,7 @@ class Side(IntEnum):
         return self.name
 
     @classmethod
-    def said(cls, word: object) -> Side | None:
+    def parse(cls, word: object) -> Side | None:
         """Return the side that a word says, in small letters or capitals; a side is itself; None for anything else."""
         if isinstance(word, cls):
             return word
@@ -151,7 +151,7 @@ class Line:
     origin: Vec
     direction: Vec
 
-    def at(self, along: Scalar) -> Vec:
+    def point_at(self, along: Scalar) -> Vec:
         """Return the point at a distance along the line [m]."""
         place: Vec = self.origin + self.direction * along
         return place

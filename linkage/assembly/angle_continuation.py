@@ -53,15 +53,16 @@ def with_angles(found: GroupSolution, plan: Plan, designs: Mapping[str, Numbers]
     m = max((np.size(value) for value in single.values()), default=1)
     m = max([m, *(len(value) for value in strokes.values() if np.ndim(value) == 2)])
     n = max((np.shape(value)[-1] for value in strokes.values()), default=1)
-    ways = StrokeLines.of(plan, {name: np.broadcast_to(value, (m, n)) for name, value in strokes.items()})
+    ways = StrokeLines.for_strokes(plan, {name: np.broadcast_to(value, (m, n)) for name, value in strokes.items()})
     if m == 1 and len(strokes) == 1:
         tracks = kept_paths(plan, single, ways)
-        return replace(found, inputs={**found.inputs, **{name: np.rint(each.at(ways.target, ways.place)) for name, each in tracks.items()}})
+        turns = {name: np.rint(each.angle_at(ways.target, ways.place)) for name, each in tracks.items()}
+        return replace(found, inputs={**found.inputs, **turns})
     references: dict[str, FloatArray] = {name: np.full((m, n), np.nan) for name in plan.followed}
     for part in ways.parts():
         here = np.isin(part.target, part.lines)
         for name, track in part.tracks(plan, single).items():
-            references[name][here] = np.rint(track.at(part.target[here], part.place[here]))
+            references[name][here] = np.rint(track.angle_at(part.target[here], part.place[here]))
     return replace(found, inputs={**found.inputs, **references})
 
 
@@ -101,7 +102,7 @@ def ambiguous_angle(
         ways = StrokeLines.between(plan, a // (len(flat) // shape[0]), first, last, a.shape)
         begin = {each: np.ravel(found)[a] for each, found in references.items()}
         for part in ways.parts():
-            ends = part.tracks(plan, singled(designs), begin)[name].at(part.lines, ways.place[part.lines])
+            ends = part.tracks(plan, singled(designs), begin)[name].angle_at(part.lines, ways.place[part.lines])
             if not np.all(np.abs(ends - flat[b][part.lines]) < APART):
                 return name
     return ""
@@ -130,7 +131,7 @@ class StrokeLines:
     lines: Index
 
     @classmethod
-    def of(cls, plan: Plan, strokes: Mapping[str, FloatArray]) -> Self:
+    def for_strokes(cls, plan: Plan, strokes: Mapping[str, FloatArray]) -> Self:
         """Return the ways from the sketch to strokes (m, n): one a pose; of a single stroke one each way for all poses of a design."""
         sketch = plan.sketch_strokes
         m, n = next(iter(strokes.values())).shape
@@ -194,7 +195,7 @@ class StrokeLines:
             place = 0.5 * (left.place + right.place)
             middle = Points(left.line, place, *vectors.at(left.line, place)) if len(place) else left
             left, right = left.merged_with(middle), middle.merged_with(right)
-        return AnglePath.of(done, points.subset(points.place == 0.0), begin)
+        return AnglePath.from_stretches(done, points.subset(points.place == 0.0), begin)
 
 
 @final
@@ -232,7 +233,7 @@ class AnglePath:
     offsets: FloatArray
 
     @classmethod
-    def of(cls, done: Sequence[tuple[Points, Points, Mask]], start: Points, near: FloatArray | None) -> AnglePath:
+    def from_stretches(cls, done: Sequence[tuple[Points, Points, Mask]], start: Points, near: FloatArray | None) -> AnglePath:
         """Return the track of settled pieces; the directions at its start lie near some angles, or between -180 and 180 deg."""
         left, right, good = done[0]
         for more_left, more_right, more_good in done[1:]:
@@ -262,7 +263,7 @@ class AnglePath:
         starts = offsets[piece] + left.place
         return cls(starts, left.place, right.place - left.place, angle, change, left.line[begin], offsets)
 
-    def at(self, line: Index, place: FloatArray) -> FloatArray:
+    def angle_at(self, line: Index, place: FloatArray) -> FloatArray:
         """Return the angle at places of ways [rad]; NaN where it is lost."""
         offset = self.offsets[np.searchsorted(self.lines, line)]
         index = np.searchsorted(self.starts, offset + place, side="right") - 1
@@ -301,7 +302,7 @@ class Vectors:
         rows = any(np.ndim(value) for value in self.designs.values())
         inputs = {name: value[design] if isinstance(value, np.ndarray) and value.ndim else value for name, value in self.designs.items()}
         moved = {name: self.ways.first[name][line] + slope[line] * place for name, slope in self.ways.along.items()}
-        moved |= {name: np.rint(track.at(line, place)) for name, track in self.known.items()}
+        moved |= {name: np.rint(track.angle_at(line, place)) for name, track in self.known.items()}
         if self.plan.groups:
             moved |= self._groups(design, {name: moved[name] for name in self.plan.strokes})
         return inputs | {name: value[:, None] if rows else value for name, value in moved.items()}, rows

@@ -31,7 +31,7 @@ class Shape:
         self._longest = -1, 0.0
         """With so many pins placed the longest distance of its points [m]."""
 
-    def given(self, *points: str) -> tuple[str, Quantity] | None:
+    def labelled_side(self, *points: str) -> tuple[str, Quantity] | None:
         """Return the label of a distance (two points) or an angle (three points) as it is spelled, if it is given."""
         spelling = next((each for each in (joined_names(*points), joined_names(*reversed(points))) if each in self.labels), "")
         if not spelling:
@@ -41,11 +41,11 @@ class Shape:
 
     def distance(self, P: str, Q: str) -> Quantity | None:
         """Return the distance of two points: given, by the cosine rule from two sides and their angle, or measured [m]."""
-        found = self.given(P, Q)
+        found = self.labelled_side(P, Q)
         if found is not None:
             return found[1]
         for R in self.points:
-            first, second, angle = self.given(R, P), self.given(R, Q), self.given(P, R, Q)
+            first, second, angle = self.labelled_side(R, P), self.given(R, Q), self.given(P, R, Q)
             if first is not None and second is not None and angle is not None:
                 p, q = first[1], second[1]
                 derived: Quantity = np.sqrt(p * p + q * q - 2.0 * p * q * np.cos(angle[1]))
@@ -55,7 +55,7 @@ class Shape:
     def settled_link(self, link: Link) -> Link:
         """Return the link with its labels as they are given, the drawn lengths of cylinders among them."""
         pairs = combinations(self.points, 2) if any(not each.is_constant for each in self.labels.values()) else ()
-        found = {spelling: value for spelling, value in filter(None, starmap(self.given, pairs)) if spelling in link.labels}
+        found = {spelling: value for spelling, value in filter(None, starmap(self.labelled_side, pairs)) if spelling in link.labels}
         changed = {spelling: value for spelling, value in found.items() if value is not self.labels[spelling]}
         return link.renewed(labels={**link.labels, **changed}) if changed else link
 
@@ -104,20 +104,20 @@ class Shape:
         near = self.pins[pin].near
         pairs = [(P, Q) for P, Q in permutations(firm, 2) if not self.coincide(P, Q)]
         for P, Q in pairs:
-            length = self.given(P, pin)
-            angle = self.given(Q, P, pin)
+            length = self.labelled_side(P, pin)
+            angle = self.labelled_side(Q, P, pin)
             if length is None:
                 continue
             if angle is not None:
                 return OnLink(P, Q, **labelled(length, angle))
-            other = self.given(Q, pin)
+            other = self.labelled_side(Q, pin)
             if other is not None:
                 return OnLink(P, Q, near=self.pins[pin].sketched, **labelled(length, other))
         if near is None and pairs:
             apart = [(P, Q) for P, Q in pairs if not self.coincide(P, pin)] or pairs
-            said = [(P, Q) for P, Q in apart if self.given(P, pin)] or [(P, Q) for P, Q in apart if self.given(Q, P, pin)]
+            said = [(P, Q) for P, Q in apart if self.labelled_side(P, pin)] or [(P, Q) for P, Q in apart if self.given(Q, P, pin)]
             P, Q = (said or apart)[0]
-            own = filter(None, (self.given(P, pin), self.given(Q, P, pin)))
+            own = filter(None, (self.labelled_side(P, pin), self.given(Q, P, pin)))
             return OnLink(P, Q, at=self.pins[pin].drawn_at, **labelled(*own))
         for P, Q in pairs:
             p, q = self.distance(P, pin), self.distance(Q, pin)
@@ -163,7 +163,7 @@ def yoke_dyads(parts: Parts, pin: str, guide: str) -> Iterator[YokeDyad]:
             slot, held = parts.guides[name_of(slide.guide)], name_of(slide.point)
             ends = [each for each in slot.points if each != pin]
             if pin in slot.points and set(slot.points) <= set(link.point_names) and held in parts.settled and partners:
-                angle = parts.shapes[name].given(partners[0], pin, ends[0])
+                angle = parts.shapes[name].labelled_side(partners[0], pin, ends[0])
                 if angle is not None:
                     yield YokeDyad(held, guide, angle=angle[1] if angle[0].startswith(partners[0]) else -angle[1])
 
@@ -354,7 +354,7 @@ def assembled(members: Mapping[str, Member], title: str) -> dict[str, Member]:
     inner = {name: drawn_in(member, defaults) for name, member in among.items() if name not in members}
     check_names({**members, **inner}, title)
     held = frozenset(name for name, each in inner.items() if not isinstance(each, Quantity))
-    return {name: member for name, member in Parts({**members, **inner}, title, held).run().items() if name not in inner}
+    return {name: member for name, member in Parts({**members, **inner}, title, held).settle_all().items() if name not in inner}
 
 
 def drawn_in(value: object, defaults: Mapping[str, float]) -> Any:
@@ -457,7 +457,7 @@ class Parts:
 
     # -- one after another -------------------------------------------------------------------------------------
 
-    def run(self) -> dict[str, Member]:
+    def settle_all(self) -> dict[str, Member]:
         """Return all members, settled; DefinitionError for a pin that nothing holds."""
         points = {point for link in self.links.values() for point in link.point_names}
         for pin in self.pins:

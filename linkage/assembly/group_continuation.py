@@ -48,7 +48,7 @@ class Program:
     """The loops of a group's continuation: the rows of the lanes' memory that they read and write, and each row's new value."""
 
     def __init__(self, plan: Plan, group: Group) -> None:
-        programs, self.graph = Programs.of(plan, group), plan.trace.graph
+        programs, self.graph = Programs.for_group(plan, group), plan.trace.graph
         pins, known = [self.graph.input(name, Level.POSE) for name in group.inputs[:-1]], programs.known
         given = [node for node in ancestors(known) if node.op == "input"]
         self.inputs, self.count = tuple(node.value for node in given), len(pins)
@@ -313,7 +313,7 @@ class InputRoute:
         moved = {name: (start, float(way[0]) if way.size == 1 else way[lane % self.n]) for name, (start, way) in changes}
         return {**self.shared, **own, **moved}
 
-    def inputs(self, lane: Index, place: FloatArray) -> dict[str, Numbers]:
+    def inputs_at(self, lane: Index, place: FloatArray) -> dict[str, Numbers]:
         """Return the inputs at places of lanes, arrays (n,) or floats."""
         lines = self.lines(lane).items()
         return {name: start if np.ndim(slope) == 0 and slope == 0.0 else start + place * slope for name, (start, slope) in lines}
@@ -334,7 +334,7 @@ class Lanes:
     """Whether a way ends at its goal, or at the first of its own steps behind it, so that these are the same for every goal."""
 
     @property
-    def ends(self) -> FloatArray:
+    def goal_rows(self) -> FloatArray:
         """Each lane's goal, the place that no step leads beyond, and the largest step, shape (3, lanes)."""
         return np.array([self.goal, self.goal if self.exact else np.full(len(self.goal), np.inf), self.largest])
 
@@ -372,20 +372,20 @@ class GroupPath:
 
     def _held(self, lane: Index, place: FloatArray) -> dict[str, Numbers]:
         """Return the inputs of this group's programs at places of lanes, the pins of the groups before it included."""
-        inputs = self.route.inputs(lane, place)
+        inputs = self.route.inputs_at(lane, place)
         for track in self.before:  # each is told the pins of those before itself, which would else be found 2^k times
             inputs |= dict(zip(track.newton.names, track._at_step(lane, place, inputs), strict=True))
-        return self.newton.held(inputs)
+        return self.newton.fixed_inputs(inputs)
 
     def _at_step(self, lane: Index, place: FloatArray, inputs: Mapping[str, Numbers]) -> FloatArray:
         """Return the pins at places of a later group, with the inputs there; of few lanes they are kept, as other groups step there too."""
         if len(lane) > FEW:
-            return self.at(lane, place, inputs)
+            return self.pins_at(lane, place, inputs)
         key = lane.tobytes(), place.tobytes()
         if key not in self._at_steps:
             if len(self._at_steps) >= STEPS_KEPT:
                 self._at_steps.clear()
-            self._at_steps[key] = self.at(lane, place, inputs)
+            self._at_steps[key] = self.pins_at(lane, place, inputs)
         return self._at_steps[key]
 
     # -- from place to place ---------------------------------------------------------------------------------
@@ -440,7 +440,7 @@ class GroupPath:
         """Follow some lanes one after the other."""
         a, b = self._lines(program, lanes)
         places, good, width = program.places, self._row["good"], len(self._row)
-        ends = self.lanes.ends
+        ends = self.lanes.goal_rows
         for k, lane in enumerate(lanes):
             s = [0.0] * len(places)
             s[:width] = self._state[:, lane].tolist()
@@ -457,7 +457,8 @@ class GroupPath:
     def _compiled(self, program: Program, lanes: Index) -> None:
         """Follow some lanes in a compiled loop."""
         a, b = self._lines(program, lanes)
-        state, ends, count = np.take(self._state, lanes, axis=1), np.take(self.lanes.ends, lanes, axis=1), np.zeros(len(lanes), np.int64)
+        state, ends = (np.take(each, lanes, axis=1) for each in (self._state, self.lanes.goal_rows))
+        count = np.zeros(len(lanes), np.int64)
         start, room, begins = 0, ROOM * (len(lanes) + 1), not self._record and len(lanes) == len(self.lanes.lane)
         if not begins:
             self._keep_start()
@@ -472,7 +473,7 @@ class GroupPath:
     def _step(self, k: Index) -> None:
         """Take a step with some lanes, all at once."""
         whole, row, lanes = len(k) == len(self.lanes.lane), self._row, self.lanes
-        state, (_, limit, largest) = (each if whole else np.take(each, k, axis=1) for each in (self._state, lanes.ends))
+        state, (_, limit, largest) = (each if whole else np.take(each, k, axis=1) for each in (self._state, lanes.goal_rows))
         places = [state[row[name]] for name in ("t", "before", "earlier")]
         pins = [state[each] for each in (self._pins, self._old, self._older)]
         with np.errstate(all="ignore"):
@@ -535,7 +536,7 @@ class GroupPath:
 
     # -- between the places ----------------------------------------------------------------------------
 
-    def at(self, lane: Index, place: FloatArray, inputs: Mapping[str, Numbers] | None = None) -> FloatArray:
+    def pins_at(self, lane: Index, place: FloatArray, inputs: Mapping[str, Numbers] | None = None) -> FloatArray:
         """Return the pins at places of lanes, shape (coordinates, n) [m]; NaN behind the end of a way.
 
         `inputs` are those of the program at these places with the pins of the groups before this one, where they are known.
@@ -547,7 +548,7 @@ class GroupPath:
             made.count_step(len(lane))
         parts = []
         for block in (slice(k, k + BLOCK) for k in range(0, len(lane), BLOCK)):
-            held = self._held(lane[block], place[block]) if inputs is None else self.newton.held(at_poses(inputs, block))
+            held = self._held(lane[block], place[block]) if inputs is None else self.newton.fixed_inputs(at_poses(inputs, block))
             parts.append(self._between(lane[block], place[block], self._near(lane[block], place[block], held)))
         return np.concatenate(parts, axis=1) if parts else np.empty((len(self.u), 0))
 

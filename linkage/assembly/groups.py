@@ -167,7 +167,7 @@ def along_one(
         tracks[name, sense] = found
         lane, at = np.repeat(np.arange(m), len(place)), np.tile(place, m)
         for number, track in enumerate(found):
-            u[number][:, :, side] = track.at(lane, at).reshape(-1, m, len(place))
+            u[number][:, :, side] = track.pins_at(lane, at).reshape(-1, m, len(place))
             if track.crossed.any():
                 beyond = (track.crossed & np.isfinite(track.ended))[:, None] & (place[None, :] > track.ended[:, None])
                 crossed[:, side] = np.where((crossed[:, side] == 0) & beyond, number + 1, crossed[:, side])

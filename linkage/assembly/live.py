@@ -42,7 +42,7 @@ def place_between(*given: Any, choose: Any) -> tuple[Any, ...]:
 
 def group_text(plan: Plan, group: Group, inputs: Inputs) -> str:
     """Return the equations of a group: functions of its pins that give a step, the clearance, and the equations with their slopes."""
-    programs = Programs.of(plan, group)
+    programs = Programs.for_group(plan, group)
     graph, count = plan.trace.graph, len(group.inputs) - 1
     given = {node: inputs.read(node) for node in graph.nodes if node.op == "input" and node.value in inputs}
     known = {graph.input(f"@k{place}", Level.POSE): f"k[{place}]" for place in range(len(programs.known))}

@@ -246,7 +246,7 @@ def other_solutions(newton: Newton, inputs: Mapping[str, Numbers], known: FloatA
     size = max(np.ptp(xs), np.ptp(ys)) or 1.0
     middle = np.tile([0.5 * (min(xs) + max(xs)), 0.5 * (min(ys) + max(ys))], len(known) // 2)[:, None]
     guess = middle + size * np.random.default_rng(0).uniform(-1.0, 1.0, (len(known), STARTS))
-    held, found = newton.held(inputs), [known]
+    held, found = newton.fixed_inputs(inputs), [known]
     for _ in range(ROUNDS):
         guess, done = newton.correct(held, guess, np.full(guess.shape[1], size))
         for u in guess[:, done].T[:, :, None]:

@@ -43,9 +43,9 @@ class Newton:
     @property
     def programs(self) -> Programs:
         """Newton's step and the clearance, written out for this group."""
-        return self.plan.made(("newton", self.group.name), lambda plan: Programs.of(plan, self.group))
+        return self.plan.made(("newton", self.group.name), lambda plan: Programs.for_group(plan, self.group))
 
-    def held(self, inputs: Mapping[str, Numbers]) -> dict[str, Numbers]:
+    def fixed_inputs(self, inputs: Mapping[str, Numbers]) -> dict[str, Numbers]:
         """Return the program inputs that do not depend on the group's own pins, floats or arrays like the inputs."""
         programs = self.programs
         with np.errstate(all="ignore"):
@@ -64,7 +64,7 @@ class Newton:
 
     def system(self, inputs: Mapping[str, Numbers], u: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return the residuals [m], the Jacobian with rows of length one, and the rows' own lengths [m], at one pose."""
-        kernel = self.plan.made(("equations", self.group.name), lambda plan: GroupEquations.of(plan, self.group)).kernel
+        kernel = self.plan.made(("equations", self.group.name), lambda plan: GroupEquations.for_group(plan, self.group)).kernel
         values = kernel({**inputs, **dict(zip(self.names, u, strict=True))}).values[:, 0]
         residual, rows = values[: len(u)], values[len(u) :].reshape(len(u), len(u), 1)
         size = np.sqrt((rows * rows).sum(axis=1))
@@ -154,7 +154,7 @@ class Newton:
             arrays = {name: value for name, value in inputs.items() if np.ndim(value)}
             arrays |= {name: np.reshape(value, (-1, 1)) for name, value in arrays.items() if name in self.plan.defaults}
             poses = {name: np.broadcast_to(value, weak.shape)[weak] for name, value in arrays.items()}
-            sense[weak] = nearness(self.raw(self.held({**inputs, **poses}), u[:, weak])[1])
+            sense[weak] = nearness(self.raw(self.fixed_inputs({**inputs, **poses}), u[:, weak])[1])
         return np.where(np.isfinite(u).all(axis=0), np.where(np.isnan(sense), 0.0, np.abs(sense)), np.nan)
 
 
@@ -189,7 +189,7 @@ class GroupEquations:
     kernel: Kernel
 
     @classmethod
-    def of(cls, plan: Plan, group: Group) -> GroupEquations:
+    def for_group(cls, plan: Plan, group: Group) -> GroupEquations:
         """Return the equations of a group of a plan."""
         roots = tuple(part for place in map(plan.trace.at, group.pins) for part in (place.x, place.y))
         (closure,) = dict.fromkeys(root.closure for root in roots)
@@ -228,11 +228,11 @@ class Programs:
     sine: Kernel
 
     @classmethod
-    def of(cls, plan: Plan, group: Group) -> Programs:
+    def for_group(cls, plan: Plan, group: Group) -> Programs:
         """Return the programs of a group; the order of its elimination is settled at the sketch."""
-        equations = GroupEquations.of(plan, group)
+        equations = GroupEquations.for_group(plan, group)
         elimination = Elimination(equations.rows, equations.at_sketch(plan))
-        step = elimination.solved(equations.residuals)
+        step = elimination.solve(equations.residuals)
         on = [root - each for root, each in zip(equations.roots, step, strict=True)]
         steps = [*on, largest_of([size_of(each) for each in step]), elimination.worth(PIVOT)]
         clearance = elimination.clearance()
@@ -324,7 +324,7 @@ class Elimination:
         excess = [least * entry - pivot for pivot, entry in self.beside]
         return -largest_of(excess or [self.rows[0][0].graph.constant(-1.0)])
 
-    def solved(self, right: Sequence[Node]) -> list[Node]:
+    def solve(self, right: Sequence[Node]) -> list[Node]:
         """Return the unknowns for a right side."""
         values = list(right)
         for row, pivot, factor in self.factors:
@@ -344,7 +344,7 @@ class Elimination:
         graph, count = self.rows[0][0].graph, len(self.rows)
         total = graph.constant(0.0)
         for place, row in enumerate(self.matrix):
-            column = self.solved([graph.constant(float(place == each)) for each in range(count)])
+            column = self.solve([graph.constant(float(place == each)) for each in range(count)])
             total = total + squares(column) * squares(row)
         near = graph.apply("minimum", 1.0, 2.0 * count**0.5 / total**0.5)
         columns = [column for _, column in sorted(self.order)]

@@ -193,7 +193,7 @@ def member_read(name: str, section: str, given: object, names: Names, title: str
     member.__set_name__(Mechanism, name)
     table = Table(title)
     for variable, default, kind, unit in member.variables():
-        table.add(variable, default, kind, f"{name} = {member}", unit)
+        table.add_variable(variable, default, kind, f"{name} = {member}", unit)
     member.enter(table)
     if isinstance(member, Point):
         member.bind(name, table)
@@ -209,7 +209,7 @@ def class_made(title: str, doc: str | None, featured: Featured, names: Names, fa
         with np.errstate(all="ignore"):
             own = {"__module__": __name__, "__doc__": doc, "about": featured}
             machine: type[Mechanism] = type(title, (Mechanism,), {**own, **names.built})
-            for name in machine.plan.named():
+            for name in machine.plan.valued_members():
                 with about(name):
                     machine.plan.nodes(name)
         return machine

@@ -199,7 +199,7 @@ def rope_points_of(given: object, names: Names) -> tuple[str, ...]:
 
 def side_named(given: object, names: Names) -> Side | None:
     """Return the side that a word says."""
-    found = Side.said(given) if isinstance(given, str) else None
+    found = Side.parse(given) if isinstance(given, str) else None
     require_entry(found is not None, given, 'is not a side; write "LEFT" or "RIGHT"')
     return found
 

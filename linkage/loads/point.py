@@ -75,7 +75,7 @@ class Directed(ForceElement):
     axes: ClassVar[Axes | None] = None
 
     def in_axes(self, axes: Axes) -> Self:
-        return self if axes.are_upright else self.renewed(axes=axes.within(self.axes))
+        return self if axes.are_upright else self.renewed(axes=axes.composed(self.axes))
 
     def parts(self) -> tuple[Reference, ...]:
         return super().parts() if self.axes is None else (*super().parts(), *self.axes.parts())
@@ -242,20 +242,20 @@ class OnBody(ForceElement):
     argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"link": "body"})
     link: Body
 
-    def named(self) -> tuple[Reference, ...]:
+    def body_references(self) -> tuple[Reference, ...]:
         """Return the names of the body: a link, or two or more points."""
         given = tuple(self.link.split()) if isinstance(self.link, str) else self.link
         return given if isinstance(given, tuple) else (given,)
 
     def parts(self) -> tuple[Reference, ...]:
-        return (*self.named(), *super().parts())
+        return (*self.body_references(), *super().parts())
 
     def examine(self, members: Mapping[str, Member], title: str) -> None:
         self.points(members, title)
 
     def points(self, members: Mapping[str, Member], title: str) -> tuple[str, ...]:
         """Return the body's points; DefinitionError for names of no body."""
-        names = tuple(name_of(each) for each in self.named())
+        names = tuple(name_of(each) for each in self.body_references())
         for name in names:
             if name not in members:
                 known = [each for each, member in members.items() if isinstance(member, (Link, Point))]
@@ -288,7 +288,7 @@ class OnBody(ForceElement):
         return P, Q, arm
 
     def __str__(self) -> str:
-        return f"{type(self).__name__}({', '.join([repr(' '.join(map(label, self.named()))), *self.words()])})"
+        return f"{type(self).__name__}({', '.join([repr(' '.join(map(label, self.body_references()))), *self.words()])})"
 
 
 @final

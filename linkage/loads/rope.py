@@ -45,7 +45,7 @@ class Pulley(ForceElement):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        side = Side.said(self.side)
+        side = Side.parse(self.side)
         if side is None:
             raise DefinitionError(f"Pulley: side={cited(self.side)}; say side=LEFT where the rope turns left around it, else side=RIGHT.")
         object.__setattr__(self, "side", side)

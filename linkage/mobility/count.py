@@ -53,7 +53,8 @@ def step_rows(plan: Plan, places: Places, inputs: Mapping[str, Numbers]) -> tupl
     behind = [(row, columns[each], node) for row, (_, node) in enumerate(nodes) for each in ancestors([node]) if each in columns]
     at = dict(inputs) | {f"@{name}.{axis}": places[name][k] for name in plan.points for k, axis in enumerate("xy")}
     matrix = np.zeros((len(nodes), len(seeds)))
-    for (row, column, _), value in zip(behind, interpret([tangents[column].of(node) for _, column, node in behind], at), strict=True):
+    slopes = interpret([tangents[column].derivative(node) for _, column, node in behind], at)
+    for (row, column, _), value in zip(behind, slopes, strict=True):
         matrix[row, column] = float(value)
     return unit_rows(matrix), [owner for owner, _ in nodes], tuple(seeds)
 

@@ -3,7 +3,7 @@
 from ..numeric import highest, last_holding
 from ..star import declare_public
 from .answer import Answer, Lost
-from .follow import followed
+from .follow import follow_path
 from .functions import PoseFunction, evaluate, evaluate_grid, source_of
 from .gaps import gap, nearest_places
 from .grid import Grid
@@ -20,7 +20,7 @@ from .planes import Planes, clearance, least_gap, pair_at, pairs_without_planes
 from .poles import whole_body
 from .regions import inside, outside
 from .requests import MotionFunction, NodeRequest, Request, RequestLike, SmoothPiece, Value, condition, ratio, transmission
-from .search import Span, below_zero, greatest, lowest, reached
+from .search import Span, below_zero, greatest, lowest, reached_spans
 from .stroke_search import out_of_reach
 from .strokes import at_values, check_any, float_array, rates_of, sweep_values
 from .table import Column, Featured, Tabled, columns_of, from_above, speakers

@@ -56,5 +56,5 @@ def points_by_time(plan: Plan, order: int) -> list[Node]:
     rates, accelerations = ({name: trace.rate_input(name, place) for name in plan.strokes} for place in (1, 2))
     tangent = trace.by_time(rates, accelerations if order > 1 else {})
     for _ in range(order):
-        nodes = list(map(tangent.of, nodes))
+        nodes = list(map(tangent.derivative, nodes))
     return nodes

@@ -48,11 +48,11 @@ class Rounding:
     extent: Node
 
     @classmethod
-    def of(cls, plan: Plan, nodes: Iterable[tuple[Node, ...]]) -> Rounding:
+    def for_nodes(cls, plan: Plan, nodes: Iterable[tuple[Node, ...]]) -> Rounding:
         """Return the rounding of nodes of a plan's program, those of each result together."""
         return cls(tuple(nodes), iterated(plan), plan.trace.graph.node(plan.trace.extent))
 
-    def at(self, inputs: Mapping[str, Numbers], among: Sequence[int]) -> list[PrecisionLeft]:
+    def precision_at(self, inputs: Mapping[str, Numbers], among: Sequence[int]) -> list[PrecisionLeft]:
         """Return the precision left in some of the results at poses, inputs as floats or (n,)."""
         chosen = [self.nodes[k] for k in among]
         values, errors = scatter([*(node for each in chosen for node in each), self.extent], inputs, self.iterated)
@@ -63,7 +63,7 @@ class Rounding:
 def iterated(plan: Plan) -> tuple[Iterated, ...]:
     """Return the unknowns of a plan's groups, in the order of construction."""
     closures = [plan.trace.at(group.pins[0]).x.closure for group in plan.groups.values()]
-    return tuple(map(Iterated.of, closures))
+    return tuple(map(Iterated.from_closure, closures))
 
 
 @final
@@ -75,7 +75,7 @@ class PrecisionLeft:
     errors: FloatArray
     size: FloatArray
 
-    def part(self, rows: slice) -> PrecisionLeft:
+    def some_rows(self, rows: slice) -> PrecisionLeft:
         """Return those of some rows."""
         return PrecisionLeft(self.values[rows], self.errors[rows], self.size)
 
@@ -89,7 +89,7 @@ class PrecisionLeft:
         return np.where(np.isnan(found), np.inf, found)
 
     @property
-    def length(self) -> PrecisionLeft:
+    def norm(self) -> PrecisionLeft:
         """The length of the vector whose components are the rows, as one row."""
         return PrecisionLeft(np.hypot.reduce(self.values, axis=0)[None], np.hypot.reduce(self.errors, axis=0)[None], self.size)
 
@@ -122,7 +122,7 @@ class Conditioning:
         steep = [cond > WARN for name, cond in self.conditions.items() if name in self.steep]
         return np.asarray(np.logical_or.reduce([self.error > self.doubt, *steep]) & ~self.refused)
 
-    def at(self, mask: Mask) -> Conditioning:
+    def masked(self, mask: Mask) -> Conditioning:
         """Return the same of some poses."""
         conditions, spans = (
             {name: np.broadcast_to(each, mask.shape)[mask] for name, each in given.items()} for given in (self.conditions, self.spans)

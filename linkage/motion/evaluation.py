@@ -39,7 +39,7 @@ class BulkProgram:
     may_fail: bool
 
     @classmethod
-    def of(cls, plan: Plan, requests: Sequence[Request]) -> BulkProgram:
+    def for_requests(cls, plan: Plan, requests: Sequence[Request]) -> BulkProgram:
         """Return the program of requests that are bound to a plan, made once; guards watch the members they are built from."""
         return plan.made(("bulk", tuple([each.key for each in requests])), lambda fork: cls.compiled_on(fork, requests))
 
@@ -70,7 +70,7 @@ class BulkProgram:
         return bool((result.guards > 0.0).all()) and not (self.may_fail and not np.isfinite(result.values).all())
 
     @cached_property
-    def rows(self) -> int:
+    def row_count(self) -> int:
         """The rows of all requests."""
         return sum(rows for _, rows in self.parts)
 
@@ -111,12 +111,12 @@ class CloseLook:
     worst: dict[int, Conditioning]
 
     @classmethod
-    def of(cls, requests: int, size: tuple[int, int]) -> CloseLook:
+    def for_grid(cls, requests: int, size: tuple[int, int]) -> CloseLook:
         """Return that of a grid where there is no trouble as yet."""
         refused, doubtful, missing, empty = np.zeros((4, requests, *size), bool)
         return cls(refused, doubtful, missing, empty, np.zeros(size, bool), {})
 
-    def part(self, band: slice, part: slice) -> CloseLook:
+    def in_block(self, band: slice, part: slice) -> CloseLook:
         """Return the same of a part of the grid, written into this one."""
         refused, doubtful, missing, empty = (mask[:, band, part] for mask in (self.refused, self.doubtful, self.missing, self.empty))
         return CloseLook(refused, doubtful, missing, empty, self.broken[band, part], self.worst)
@@ -134,9 +134,9 @@ class Evaluation:
     @cached_property
     def program(self) -> BulkProgram:
         """The kernel of the requests and the meaning of its rows."""
-        return BulkProgram.of(self.grid.plan, self.requests)
+        return BulkProgram.for_requests(self.grid.plan, self.requests)
 
-    def run(self, out: FloatArray | None = None, among: Mask | None = None) -> tuple[list[FloatArray], CloseLook | None]:
+    def evaluate(self, out: FloatArray | None = None, among: Mask | None = None) -> tuple[list[FloatArray], CloseLook | None]:
         """Return one array a request, NaN without a value, and the close look; None where all guards are clear.
 
         The arrays are rows of `out` (rows, m, n) where it is given. `among` (m, n) are the poses that are looked at closely.
@@ -156,7 +156,7 @@ class Evaluation:
 
     def _settle(self, place: FloatArray, among: Mask | None) -> CloseLook:
         """Put right the values (rows, m, n) where a guard tells: place poses to rounding, NaN where a request has none."""
-        plan, look = self.grid.plan, CloseLook.of(len(self.requests), self.grid.size)
+        plan, look = self.grid.plan, CloseLook.for_grid(len(self.requests), self.grid.size)
         for band, part in grid_blocks(*self.grid.size):
             inputs = {name: part_of_input(value, band, part, name in plan.table.entries) for name, value in self.grid.flat.items()}
             block, here = place[:, band, part], look.part(band, part)
@@ -193,7 +193,7 @@ class Evaluation:
         for k, found in zip(among, examined(plan, self.requests, at, plan.read(at), among) if among else (), strict=True):
             doubtful[k, here], refused[k, here] = refused[k, here] & found.doubtful, refused[k, here] & found.refused
             if doubtful[k].any():
-                told = found.at(doubtful[k, here])
+                told = found.masked(doubtful[k, here])
                 told = told.at(told.error == told.error.max())
                 if k not in look.worst or told.error[0] > look.worst[k].error[0]:
                     look.worst[k] = told
@@ -297,14 +297,14 @@ def keeps_digits(plan: Plan, requests: Sequence[Request], inputs: Mapping[str, A
         left = PrecisionLeft(own, LAST * np.abs(shaken - own), extent)
         for k, (what, count, last) in enumerate(zip(requests, counts, accumulate(counts), strict=True)):
             if many[k]:
-                error = what.error(plan, left.part(slice(last - count, last)))
+                error = what.error(plan, left.some_rows(slice(last - count, last)))
                 clear[k] = ((error <= DIGITS) & (least[k] > NEAR**2)).reshape(size)
     return clear & near
 
 
 def coarse_look(plan: Plan, requests: Sequence[Request]) -> tuple[Kernel, list[int]]:
     """Return the kernel of the size, the requests' error nodes, the same disturbed and the least parts; and the number of nodes of each."""
-    own = [each.rounded(plan) for each in requests]
+    own = [each.rounding_nodes(plan) for each in requests]
     flat = [node for each in own for node in each]
     least = [plan.trace.least_part(each.names(plan)) for each in requests]
     return Kernel([plan.trace.graph.node(plan.trace.extent), *flat, *disturbed(flat, iterated(plan)), *least]), list(map(len, own))
@@ -320,8 +320,11 @@ def examined(
     plan: Plan, requests: Sequence[Request], inputs: Mapping[str, Any], reading: ArrayReading, among: Sequence[int]
 ) -> list[Conditioning]:
     """Return how far poses are from singular ones for some `among` the requests: inputs as floats or (n,), and the eager reading there."""
-    rounding = of_all("rounding", plan, requests, lambda twin, these: Rounding.of(twin, [each.rounded(twin) for each in these]))
-    return [_conditioned(plan, requests[k], reading.copied(), left) for k, left in zip(among, rounding.at(inputs, among), strict=True)]
+    rounding = of_all(
+        "rounding", plan, requests, lambda twin, these: Rounding.for_nodes(twin, [each.rounding_nodes(twin) for each in these])
+    )
+    left = rounding.precision_at(inputs, among)
+    return [_conditioned(plan, requests[k], reading.copied(), each) for k, each in zip(among, left, strict=True)]
 
 
 def _conditioned(plan: Plan, what: Request, reading: ArrayReading, left: PrecisionLeft) -> Conditioning:

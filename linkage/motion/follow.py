@@ -16,7 +16,7 @@ import numpy as np
 
 from ..errors import AssemblyError, DefinitionError, SingularError, cited, one_word, unwarned
 from ..language import said
-from ..numeric.linear import solved
+from ..numeric.linear import solve_linear
 from ..plan import Mask, Plan, opening
 from ..program import NO_VALUE, FloatArray
 from ..units import show
@@ -43,10 +43,10 @@ Pose: TypeAlias = Callable[[Sequence[float]], "tuple[list[float], list[list[floa
 """The values of the targets at some strokes, and their slopes, a row each; None where there is no pose."""
 
 
-def followed(plan: Plan, designs: Mapping[str, object], targets: object, hold: object, start: object, unreachable: str) -> Motion:
+def follow_path(plan: Plan, designs: Mapping[str, object], targets: object, hold: object, start: object, unreachable: str) -> Motion:
     """Return the motion along a path of places; see Mechanism.follow."""
     one_word("unreachable", unreachable, ("raise", "nan"))
-    places = Places.of(plan, designs, targets, hold, where="follow")
+    places = Places.for_targets(plan, designs, targets, hold, where="follow")
     lengths = {len(each.value) for each in places.targets if isinstance(each.value, np.ndarray)} or {1}
     if len(lengths) > 1:
         given = ", ".join(f"{each.quantity} {np.size(each.value)}" for each in places.targets)
@@ -72,10 +72,10 @@ def followed(plan: Plan, designs: Mapping[str, object], targets: object, hold: o
             if track.is_whole:
                 break
     if best is None:
-        return route.motion(np.full((len(route.goals), len(places.free)), np.nan), unreachable)
+        return route.motion_at(np.full((len(route.goals), len(places.free)), np.nan), unreachable)
     if unreachable == "raise" and not best.is_whole:
-        raise best.error()
-    return route.motion(np.where(best.inside[:, None], best.strokes, np.nan), unreachable)
+        raise best.reach_error()
+    return route.motion_at(np.where(best.inside[:, None], best.strokes, np.nan), unreachable)
 
 
 def start_of(places: Places, start: Any) -> FloatArray:
@@ -107,12 +107,13 @@ class Route:
         places, t, k = self.places, len(self.places.targets), len(self.places.free)
         kernel = places.program.together
         quick = kernel.floats.quick["pose"]
-        passed = [] if places.plan.solved else kernel.floats.design([places.designs[node.value] for node in kernel.plan.design_inputs])
+        inputs = [places.designs[node.value] for node in kernel.plan.design_inputs]
+        passed = [] if places.plan.solved else kernel.floats.design_values(inputs)
         names = [node.value for node in kernel.plan.pose_inputs]
 
         def at(strokes: Sequence[float]) -> tuple[list[float], list[list[float]]] | None:
             if places.plan.solved:
-                found = kernel(places.inputs(np.array(strokes)[:, None]), size=(1, 1)).values[:, 0, 0].tolist()
+                found = kernel(places.kernel_inputs(np.array(strokes)[:, None]), size=(1, 1)).values[:, 0, 0].tolist()
             else:
                 here = {**places.held, **dict(zip(places.free, strokes, strict=True))}
                 try:
@@ -156,7 +157,7 @@ class Route:
         begun = self.pose_at(start.tolist())
         if begun is None:
             return Track(self, strokes, first, first, TrackedPose(start.tolist(), [np.nan] * len(goals[0]), [], 0.0))
-        step = solved(begun[1], begun[0])
+        step = solve_linear(begun[1], begun[0])
         here = TrackedPose(start.tolist(), *begun, step[1] if step is not None else 0.0)
         ahead: list[TrackedPose] = []
         for place, goal in enumerate(goals[first:], first):
@@ -179,7 +180,7 @@ class Route:
         while done < 1.0:
             step = min(step, 1.0 - done)
             until = [a + (done + step) * b for a, b in zip(begun, way, strict=True)] if done + step < 1.0 else goal
-            ahead = solved(here.slopes, self.off(here.values, until))
+            ahead = solve_linear(here.slopes, self.off(here.values, until))
             found = None
             if ahead is not None:
                 guess = [a + b for a, b in zip(here.strokes, ahead[0], strict=True)]
@@ -208,7 +209,7 @@ class Route:
             missing = self.off(found[0], goal)
             if determinant and most <= SETTLES * near and self.is_met(missing):  # so near that the slopes are the same
                 return TrackedPose(guess, *found, determinant)
-            step = solved(found[1], missing)
+            step = solve_linear(found[1], missing)
             if step is None or step[1] * here.determinant <= 0.0:
                 return None
             determinant = step[1]
@@ -234,7 +235,7 @@ class Route:
         far = np.maximum(places.low - strokes, strokes - (places.low + places.span))
         return np.where(whole | ~(far > BEYOND * places.span), 0.0, far)
 
-    def motion(self, strokes: FloatArray, unreachable: str) -> Motion:
+    def motion_at(self, strokes: FloatArray, unreachable: str) -> Motion:
         """Return the motion at strokes (n, k)."""
         return Motion(self.places.plan, self.places.designs, self.places.every(strokes.T), unreachable)
 
@@ -281,7 +282,7 @@ class Track:
         """The first place that is not reached, of those from where it begins."""
         return self.first + int(np.argmin(np.append(self.inside[self.first :], False)))
 
-    def error(self) -> AssemblyError:
+    def reach_error(self) -> AssemblyError:
         """Return why it does not go all the way."""
         place, places = self.reached_first, self.route.places
         past = self.past[place]
@@ -327,17 +328,17 @@ class Track:
                 "{missing} short of it",
                 strokes=at, names=", ".join(map(str, places.bound)), missing=lacks,
             )  # fmt: skip
-        poses = self.route.motion(np.where(self.inside[:, None], self.strokes, np.nan), "nan")
+        poses = self.route.motion_at(np.where(self.inside[:, None], self.strokes, np.nan), "nan")
         point = loop.partition(" = ")[0]
         return SingularError(f"{self._opening(self.end)}: {what}.", point=point, mask=~self.inside, motion=poses)
 
 
 def loop_in_line(places: Places, strokes: FloatArray) -> str:
     """Return the step whose loop stands at its dead point at some strokes (k,), as a sentence begins with it; "" where none does."""
-    clearances = places.plan.made("clearances", Clearances.of)
+    clearances = places.plan.made("clearances", Clearances.for_plan)
     if not clearances.loops:
         return ""
-    seen = np.abs(clearances.kernel(places.inputs(strokes[:, None]), way=ON_ARRAYS, size=(1, 1)).values[:, 0, 0])
+    seen = np.abs(clearances.kernel(places.kernel_inputs(strokes[:, None]), way=ON_ARRAYS, size=(1, 1)).values[:, 0, 0])
     share = [each / places.size if loop.kind in ("length", "meeting") else each for each, loop in zip(seen, clearances.loops, strict=True)]
     worst = int(np.nanargmin(share))
     return opening(places.plan, clearances.loops[worst].step) if share[worst] < IN_LINE else ""

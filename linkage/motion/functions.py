@@ -77,8 +77,8 @@ def evaluate_grid(
 
 def evaluate_bound(asked: Evaluation, out: FloatArray | None, unreachable: str) -> list[FloatArray]:
     """Return the values of requests that are bound; raise or warn as asked."""
-    grid, rows = asked.grid, asked.program.rows
-    values, look = asked.run(None if out is None else checked_out(grid, rows, out).reshape(rows, *grid.size))
+    grid, rows = asked.grid, asked.program.row_count
+    values, look = asked.evaluate(None if out is None else checked_out(grid, rows, out).reshape(rows, *grid.size))
     if look is not None:
         if look.broken.any() or (unreachable == "raise" and look.missing.any()):
             refuse(asked, unreachable)
@@ -147,7 +147,7 @@ def at_one_pose(
         return None
     names = (*plan.strokes, *moving)
     program = plan.made(("one pose", identities, names), lambda _: PoseProgram(plan, all_bound(plan, requests), names))
-    pose = program.of_design(designs)
+    pose = program.design_function(designs)
     found = None if pose is None else pose(values)
     return None if found is None else program.bulk.split(np.array(found))
 
@@ -176,7 +176,7 @@ def at_few_poses(
     identities = identities_of(plan, requests)
     if identities is None or len(sizes) != 1:
         return None
-    program = plan.made(("few poses", identities), lambda _: BulkProgram.of(plan, all_bound(plan, requests)))
+    program = plan.made(("few poses", identities), lambda _: BulkProgram.for_requests(plan, all_bound(plan, requests)))
     if program.angles:
         return None
     inputs = {**designs, **strokes, **moving}
@@ -210,13 +210,13 @@ class PoseProgram:
     """Some requests in floats. `of_design(designs)` is a function of strokes and rates, in the order of `names`."""
 
     def __init__(self, plan: Plan, requests: tuple[Request, ...], names: Sequence[str]) -> None:
-        self.bulk, self._plan, self._requests, self._names = BulkProgram.of(plan, requests), plan, requests, names
+        self.bulk, self._plan, self._requests, self._names = BulkProgram.for_requests(plan, requests), plan, requests, names
         require_rates(plan, self.bulk.kernel, names)
         self._tells_nearness = plan.trace.nearness(members_behind(plan, requests)).op != "constant"
         self._order = [names.index(node.value) for node in self.bulk.kernel.plan.pose_inputs]
         self._latest: tuple[Mapping[str, Any] | None, Pose | None] = None, None
 
-    def of_design(self, designs: Mapping[str, object]) -> Pose | None:
+    def design_function(self, designs: Mapping[str, object]) -> Pose | None:
         """Return the function of one design, that of the latest kept; None for several designs."""
         known, pose = self._latest
         if known is not designs:
@@ -229,7 +229,7 @@ class PoseProgram:
     def _pose(self, designs: Mapping[str, Any]) -> Pose:
         kernel, order, may_fail, many = self.bulk.kernel, self._order, self.bulk.may_fail, len(self._names)
         floats, count = kernel.floats, len(kernel.plan.outputs)
-        passed = floats.design([float(designs[node.value]) for node in kernel.plan.design_inputs])
+        passed = floats.design_values([float(designs[node.value]) for node in kernel.plan.design_inputs])
         pose, is_ordered = floats.quick["pose"], order == list(range(many))
 
         def at(strokes: Sequence[float]) -> tuple[float, ...] | None:
@@ -274,7 +274,7 @@ class PoseFunction:
         self._requests = as_they_run(requests, orders > 1) if orders else requests
         try:
             found = all_bound(plan, self._requests)
-            self._pose = None if plan.solved else PoseProgram(plan, found, self._names).of_design(self._designs)
+            self._pose = None if plan.solved else PoseProgram(plan, found, self._names).design_function(self._designs)
         except UntracedError:
             self._pose = None
 

@@ -148,7 +148,7 @@ class Grid:
         One pose of one design goes straight to the program in floats: there the way through arrays would cost more than the pose.
         """
         if self._is_pose:
-            row, count = kernel.floats.pose(self.designs, self._of_poses), len(kernel.plan.outputs)
+            row, count = kernel.floats.pose_values(self.designs, self._of_poses), len(kernel.plan.outputs)
             values = np.array(row[:count])
             return values.reshape((count, *self.shape)) if self.shape else values, all(guard > 0.0 for guard in row[count:])
         result = kernel(self.flat, size=self.size)
@@ -358,7 +358,7 @@ def recalled(motion: MotionLike, what: Hashable, make: Callable[[], Made]) -> Ma
         return make()
     known: dict[Hashable, Any] = motion.plan.made("recent", lambda _: {})
     strokes = tuple((name, value.shape, blake2b(value.tobytes(), digest_size=16).digest()) for name, value in motion.strokes.items())
-    timed = None if motion._instants is None else motion._instants.key  # the same strokes passed otherwise have other forces
+    timed = None if motion._instants is None else motion._instants.digest  # the same strokes passed otherwise have other forces
     key = what, tuple(motion.designs), tuple(map(float, motion.designs.values())), strokes, timed, motion._grid.per_design
     kept = known.get(key)  # another thread may throw it away meanwhile
     if kept is not None:

@@ -40,7 +40,7 @@ class Instants:
         breaks[-1] = end
         return cls(courses, breaks, breaks, {}, {}).at(breaks)
 
-    def at(self, time: FloatArray, phase: FloatArray | None = None) -> Self:
+    def at_times(self, time: FloatArray, phase: FloatArray | None = None) -> Self:
         """Return other instants; at a break the phase that begins there counts, or the one that an instant lies in."""
         leg = np.clip(np.searchsorted(self.breaks, time, side="right") - 1, 0, len(self.breaks) - 2)
         within = 0.5 * (self.breaks[leg] + self.breaks[leg + 1]) if phase is None else phase
@@ -52,7 +52,7 @@ class Instants:
     def at_share(self, leg: Index, t: FloatArray) -> Self:
         """Return the instants at shares t, 0 to 1, of the time from one break to the next; both sides of a break are told apart."""
         begin, end = self.breaks[leg], self.breaks[leg + 1]
-        return self.at(np.where(t == 1.0, end, begin + (end - begin) * t), 0.5 * (begin + end))
+        return self.at_times(np.where(t == 1.0, end, begin + (end - begin) * t), 0.5 * (begin + end))
 
     def shaped(self, change: Callable[[Any], Any]) -> Self:
         """Return the same with another shape, or some of them."""
@@ -62,7 +62,7 @@ class Instants:
     def shares(self, parts: FloatArray) -> Self:
         """Return the instants at shares of the whole time, 0 to 1."""
         begin, end = self.breaks[[0, -1]]
-        return self.at(np.where(parts == 1.0, end, begin + (end - begin) * parts))
+        return self.at_times(np.where(parts == 1.0, end, begin + (end - begin) * parts))
 
     @cached_property
     def strokes(self) -> dict[str, FloatArray]:
@@ -82,8 +82,8 @@ class Instants:
         return time, name, abs(after - before)
 
     @cached_property
-    def key(self) -> bytes:
+    def digest(self) -> bytes:
         """A key in bytes: equal for equal strokes passed at equal rates and accelerations."""
         known = [self.time, *self.rates.values(), *self.accelerations.values()]
-        parts = [self.breaks.tobytes(), *(each.key for each in self.courses.values()), *(np.asarray(each).tobytes() for each in known)]
+        parts = [self.breaks.tobytes(), *(each.digest for each in self.courses.values()), *(np.asarray(each).tobytes() for each in known)]
         return blake2b(b"".join(parts), digest_size=16).digest()

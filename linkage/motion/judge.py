@@ -123,15 +123,15 @@ class Sought:
 
     def search_key(self, plan: Plan) -> Hashable:
         """Return a cache key for the search, or None if it cannot be cached, as for a function."""
-        found = "nothing" if self.request is nothing else plain_identity(plan, self.request)
+        found = "nothing" if self.request is zeros_over else plain_identity(plan, self.request)
         return None if found is None else (found, self.sense, self.is_reciprocal, self.stays_at_zero)
 
     @property
-    def sought(self) -> float:
+    def search_sign(self) -> float:
         """1.0 where the greatest value of the searched request is the worst, else -1.0."""
         return 1.0 if self.is_reciprocal else self.sense
 
-    def value(self, highest: FloatArray) -> FloatArray:
+    def worst_value(self, highest: FloatArray) -> FloatArray:
         """Return its worst value from the highest of the searched request times its sense; NaN where it has no bound anywhere."""
         if self.is_reciprocal:
             with np.errstate(all="ignore"):
@@ -234,7 +234,7 @@ class Domain:
                 raise DefinitionError(f"{what}; write sweep({ways}), or sweep over an Over.path.")
             held = {name: float(value[0]) for name, value in strokes.items()}
             run = Run({name: tuple(strokes[name].tolist()) for name in self.running}, held)
-            moved, going = run.at(np.linspace(0.0, 1.0, number))
+            moved, going = run.strokes_and_slopes(np.linspace(0.0, 1.0, number))
             strokes = {name: np.broadcast_to(moved[name], (number,)) for name in strokes}
             tangent = None if shape == "box" else {name: going.get(name, np.zeros(number)) for name in strokes}
         return Motion(self.plan, self.designs, strokes, unreachable, tangent=tangent, over=self.over)
@@ -337,7 +337,7 @@ class Domain:
         pieces = list[WorstPiece]()
         for k, row in enumerate(rows):
             where = {name: each[k] for name, each in strokes.items()}
-            pieces.append(WorstPiece(row, row.value(value[k]), where, unbounded[k], lawless[k], unlimited[k], time[k]))
+            pieces.append(WorstPiece(row, row.worst_value(value[k]), where, unbounded[k], lawless[k], unlimited[k], time[k]))
         return pieces, asked.seen
 
     # -- what is lost ------------------------------------------------------------------------------------
@@ -453,16 +453,16 @@ class Asked:
 
     def __call__(self, motion: Motion) -> FloatArray:
         kept = self.asks_for(motion)
-        values, unlimited = self.values(motion)
+        values, unlimited = self.row_values(motion)
         if not self.seen.count:
             self.cover(motion, kept, values, unlimited)
         self.seen.count += motion.reached.size
         for k, row in enumerate(self.rows):
-            values[k] *= row.sought
+            values[k] *= row.search_sign
         values[:, ~kept] = np.nan
         return values
 
-    def values(self, motion: Motion) -> tuple[FloatArray, Mask]:
+    def row_values(self, motion: Motion) -> tuple[FloatArray, Mask]:
         """Return the rows' values over a motion, and where they have no bound: one kernel for rows with a program, others alone."""
         values, unlimited = np.full((len(self.rows), *motion.shape), np.nan), np.zeros((len(self.rows), *motion.shape), bool)
         with unwarned(), np.errstate(all="ignore"):
@@ -629,7 +629,7 @@ class Judge:
         found.places, found._lost = found_places, {}
         return found
 
-    def of_design(self, number: int) -> Judge:
+    def for_design(self, number: int) -> Judge:
         """Return the judge of one design of a batch, by its number among them."""
         shape = self.places[0].motion._design_shape
         designs = {name: float(np.broadcast_to(value, shape).ravel()[number]) for name, value in self.designs.items()}
@@ -646,7 +646,7 @@ class Judge:
         return Domain(self.plan, self.designs, Over())
 
     @property
-    def way(self) -> Motion | None:
+    def along(self) -> Motion | None:
         """The motion of its one way, a stroke or a path, along which parts can be named; None where there are several, or a box."""
         motion = self.motion
         return motion if len(self.places) == 1 and len(motion._stroke_shape) <= 1 and self.places[0].over.shape != "poses" else None
@@ -657,7 +657,7 @@ class Judge:
         way, key = self.places[0].motion, plain_identity(self.plan, request)
 
         def found() -> tuple[Span, ...]:
-            return below_zero(way, lambda each: asked.values(each)[0][0])
+            return below_zero(way, lambda each: asked.row_values(each)[0][0])
 
         return found() if key is None else recalled(way, ("below zero", key), found)
 
@@ -673,7 +673,7 @@ class Judge:
         return [each.acting.within(self.acting) for each in found]
 
     @property
-    def pose(self) -> Motion | None:
+    def sample_pose(self) -> Motion | None:
         """A pose that is reached, of those that are looked at; None where none is found on a coarse grid."""
         for place in self.places:
             axes = {name: np.linspace(np.min(value), np.max(value), COARSE) for name, value in place.motion.strokes.items()}
@@ -726,16 +726,16 @@ class Judge:
         leaves = tuple(dict.fromkeys(leaf for _, each in held for one in each for leaf in leaves_of(one)))
         for number in range(len(self.places)):
             self.find(number, leaves)
-        return [self.reached() if isinstance(question, Reachable) else self.worst(question, each) for question, each in held]
+        return [self.assembled_everywhere() if isinstance(question, Reachable) else self.worst(question, each) for question, each in held]
 
     def find(self, number: int, leaves: Sequence[Leaf]) -> None:
         """Find the worst of some leaves over one `Over`, by its number, in one pass; known results are reused."""
         place, known = self.places[number], self._found[number]
         asked = {key: leaf for leaf in leaves if (key := leaf_key(self.plan, leaf)) not in known}
-        rows = {key: self.sought(leaf, self.anywhere if isinstance(leaf, At) else place) for key, leaf in asked.items()}
+        rows = {key: self.search_rows(leaf, self.anywhere if isinstance(leaf, At) else place) for key, leaf in asked.items()}
         sought = [row for key, each in rows.items() if not isinstance(asked[key], (At, Integral)) for row in each]
         if sought or not self._seen[number].count:
-            each_of, seen = place.extremes(sought or [Sought(Least(nothing), SmoothPiece(nothing), Situation(), -1.0)])
+            each_of, seen = place.extremes(sought or [Sought(Least(zeros_over), SmoothPiece(zeros_over), Situation(), -1.0)])
             known_seen = self._seen[number]
             self._seen[number] = replace(known_seen, count=known_seen.count + seen.count) if known_seen.count else seen
             found = dict(zip(map(id, sought), each_of, strict=False))
@@ -747,7 +747,7 @@ class Judge:
             else:
                 known[key] = leaf, [found[id(row)] for row in rows[key]]
 
-    def sought(self, leaf: Leaf, place: Domain) -> list[Sought]:
+    def search_rows(self, leaf: Leaf, place: Domain) -> list[Sought]:
         """Return the pieces of a leaf over one `Over`, each once."""
         quantity = leaf.quantity
         request = quantity.under(self.acting) if isinstance(quantity, Request) else quantity
@@ -777,7 +777,7 @@ class Judge:
         bounds_worst = (isinstance(leaf, Least) and constraint.symbol == ">=") or (isinstance(leaf, Most) and constraint.symbol == "<=")
         if not (bounds_worst and isinstance(leaf, Leaf) and isinstance(leaf.quantity, Request)) or constraint.right.leaves:
             return [constraint]
-        rows = [row for place in self.places for row in self.sought(leaf, place)]
+        rows = [row for place in self.places for row in self.search_rows(leaf, place)]
         if len(rows) == 1:
             return [constraint]
         return [replace(constraint, left=replace(leaf, quantity=row.piece.request)) for row in rows]
@@ -795,9 +795,9 @@ class Judge:
         strokes = at_values(start | dict(leaf.strokes), self.plan)
         motion = Motion(self.plan, self.designs, strokes, "nan")
         if not behind and not motion.reached.all():  # it is the same wherever the machine stands
-            motion = self.pose or motion
+            motion = self.sample_pose or motion
         with np.errstate(all="ignore"):
-            values, unlimited = Asked(place, [row]).values(motion)
+            values, unlimited = Asked(place, [row]).row_values(motion)
         value = np.asarray(values[0])
         where = {name: np.broadcast_to(np.asarray(each), value.shape) for name, each in strokes.items()} if behind else {}
         return WorstPiece(row, value, where, np.isinf(value), 1.0 * (np.isnan(value) & ~unlimited[0]), 1.0 * unlimited[0])
@@ -809,7 +809,7 @@ class Judge:
         leaves, of_poses = leaves_of(question), is_at_poses(question)
         place, seen = (self.anywhere, None) if of_poses else (self.places[number], self._seen[number])
         made = []
-        for chosen in together([self._found[number][leaf_key(self.plan, leaf)][1] for leaf in leaves]):
+        for chosen in combined_pieces([self._found[number][leaf_key(self.plan, leaf)][1] for leaf in leaves]):
             values = {leaf: each.value for leaf, each in zip(leaves, chosen, strict=True)}
             with np.errstate(all="ignore"):
                 value, margin = (np.asarray(each) for each in valued(question, values.__getitem__))
@@ -894,7 +894,7 @@ class Judge:
             measures_of(self.plan, question), float(worst.time) if known else np.nan, named,
         )  # fmt: skip
 
-    def reached(self) -> Answer:
+    def assembled_everywhere(self) -> Answer:
         """Return whether all places can be assembled."""
         shape = self.motion._design_shape
         each_of = [self.reached_by(design) for design in np.ndindex(shape)]
@@ -931,7 +931,7 @@ def of_batch(each_of: Sequence[Answer], shape: tuple[int, ...]) -> Answer:
     return replace(each_of[0], strokes=strokes, units=units, named=named, lost=lost, **own)
 
 
-def nothing(motion: Motion) -> FloatArray:
+def zeros_over(motion: Motion) -> FloatArray:
     """Return zeros, for questions about the places alone."""
     return np.zeros(motion.shape)
 
@@ -983,7 +983,7 @@ def key_of(plan: Plan, quantity: object) -> Hashable:
     return id(quantity) if identity is None else identity
 
 
-def together(of_leaves: Sequence[Sequence[WorstPiece]]) -> list[tuple[WorstPiece, ...]]:
+def combined_pieces(of_leaves: Sequence[Sequence[WorstPiece]]) -> list[tuple[WorstPiece, ...]]:
     """Return the pieces of several leaves that occur at once, all there are.
 
     They are in the same load case, where they name one, and either at rest or moving: what is at rest only, as nothing has friction,
@@ -1050,7 +1050,7 @@ def integrated(row: Sought, place: Domain) -> WorstPiece:
         order = np.argsort(parts)
         strokes = {each: np.full(parts.shape, value) for each, value in held.items()} | {name: low + span * parts[order]}
         with np.errstate(all="ignore"):
-            found, _ = Asked(place, [row]).values(Motion(plan, place.designs, strokes, "nan"))
+            found, _ = Asked(place, [row]).row_values(Motion(plan, place.designs, strokes, "nan"))
         return np.asarray(found[0][..., np.argsort(order)])
 
     total = quadrature(values).value * span

@@ -313,7 +313,7 @@ def batch_verdicts(judge: Judge, fault: str = "") -> list[Verdict]:
     failed: dict[str, list[tuple[int, str]]] = {}
     answers: dict[str, list[Answer]] = {}
     for number in np.flatnonzero(np.any([each.any(axis=1) for each in reached], axis=0)).tolist():
-        for verdict in (each for each in member_verdicts(judge.of_design(number).lost_allowed()) if each.is_rule):
+        for verdict in (each for each in member_verdicts(judge.for_design(number).lost_allowed()) if each.is_rule):
             failed.setdefault(verdict.rule, [])
             if verdict.answer is not None and np.isfinite(verdict.answer.value):
                 answers.setdefault(verdict.rule, []).append(verdict.answer)

@@ -52,12 +52,12 @@ class PlacePoses:
     place: Index
     unit: FloatArray
 
-    def joined(self, *others: PlacePoses) -> PlacePoses:
+    def concatenated(self, *others: PlacePoses) -> PlacePoses:
         """Return these and others behind them."""
         every = (self, *others)
         return PlacePoses(np.concatenate([each.place for each in every]), np.concatenate([each.unit for each in every]))
 
-    def where(self, rows: Any) -> PlacePoses:
+    def select(self, rows: Any) -> PlacePoses:
         """Return some of them."""
         return PlacePoses(self.place[rows], self.unit[rows])
 
@@ -74,7 +74,7 @@ class ManyPlaces:
     spare: int
 
     @classmethod
-    def of(
+    def for_targets(
         cls, plan: Plan, designs: Mapping[str, Any], targets: Sequence[Target], hold: Any, *, where: str, ranges: StrokeRanges
     ) -> ManyPlaces:
         """Return targets bound to one design; DefinitionError for anything else, and for more than two strokes to spare."""
@@ -87,11 +87,11 @@ class ManyPlaces:
             what = f"{len(targets)} targets leave {spare} of the strokes {', '.join(free)} to spare"
             raise DefinitionError(f"{title}: {what}, up to {MOST_SPARE} are looked at; hold one, {example}, or keep= something.")
         if spare <= 0 or any(np.ndim(value) for value in designs.values()) or not all(isinstance(each, Target) for each in targets):
-            return cls(Places.of(plan, designs, targets, hold, where=where, ranges=ranges), 0)
+            return cls(Places.for_targets(plan, designs, targets, hold, where=where, ranges=ranges), 0)
         bound = tuple(traced_target(plan, each, title) for each in targets)
         every = Places(plan, {k: float(v) for k, v in designs.items()}, tuple(targets), bound, tuple(free), held, ranges)
         loose = spared(every, spare)
-        Places.of(plan, designs, targets, {**held, **{name: plan.sketch_strokes[name] for name in loose}}, where=where)
+        Places.for_targets(plan, designs, targets, {**held, **{name: plan.sketch_strokes[name] for name in loose}}, where=where)
         return cls(every.reordered((*(name for name in free if name not in loose), *loose)), spare)
 
     @property

@@ -535,7 +535,7 @@ class Motion(Shown):
         Raise the error of poses where a law is another than the one traced, or changes to another with a dimension: where one of its
         `switches`, numbers with words for them, is above zero.
         """
-        (values,), look = Evaluation(self._grid, (looked,)).run(among=self.reached.reshape(self._grid.size))
+        (values,), look = Evaluation(self._grid, (looked,)).evaluate(among=self.reached.reshape(self._grid.size))
         excused, broken = np.zeros(self.shape, bool), False
         if look is not None:
             refused, doubtful, empty = (mask.reshape(self.shape) for mask in (look.refused, look.doubtful, look.empty))
@@ -610,7 +610,7 @@ class Motion(Shown):
         at = np.asarray(time, float)
         if self._instants is None or np.isnan(at).any():
             return self.moved(strokes)
-        there = self._instants.at(at)
+        there = self._instants.at_times(at)
         return Motion(self.plan, self.designs, there.strokes, "nan", instants=there)
 
     # -- reach -------------------------------------------------------------------------------------------
@@ -676,7 +676,7 @@ class Motion(Shown):
             return np.zeros((2, *self.shape))
         key = (self.plan.moving, along) if pass_of_all else what.key
         if key not in self._values:
-            program = None if pass_of_all else BulkProgram.of(self.plan, (what,))
+            program = None if pass_of_all else BulkProgram.for_requests(self.plan, (what,))
             kernel = self.plan.kernel(self.plan.moving, along) if program is None else program.kernel
             found, is_clear = self._grid.run(kernel)
             if program is not None:
@@ -757,7 +757,7 @@ class Motion(Shown):
         if near.any():
             found = self._near(what, near)
             refused[near], doubtful[near] = found.refused, found.doubtful
-            self._report(words, refused, doubtful, lambda mask: found.at(mask[near]), are_places)
+            self._report(words, refused, doubtful, lambda mask: found.masked(mask[near]), are_places)
         return refused
 
     def _near(self, what: Request, mask: Mask) -> Conditioning:

@@ -333,7 +333,7 @@ class Run:
         lengths = np.cumsum(steps)
         return np.concatenate([[0.0], lengths / lengths[-1]])
 
-    def at(self, shares: FloatArray) -> tuple[dict[str, Any], dict[str, FloatArray]]:
+    def strokes_and_slopes(self, shares: FloatArray) -> tuple[dict[str, Any], dict[str, FloatArray]]:
         """Return all strokes at shares of the way (n,), 0 to 1, and how those that run go on: as on the leg that begins there."""
         marks = self.marks
         legs = np.flatnonzero(np.diff(marks) > 0.0)  # on a hold nothing moves
@@ -353,7 +353,7 @@ class Run:
         passed = np.array(shares, float)
         for mark in self.marks[1:-1]:
             passed[np.argmin(np.abs(passed - mark))] = mark
-        return self.at(passed)[0]
+        return self.strokes_and_slopes(passed)[0]
 
     @property
     def is_path(self) -> bool:

@@ -89,7 +89,7 @@ class PlaceProgram:
     follows: Mask
 
     @classmethod
-    def of(cls, plan: Plan, requests: Sequence[Request], free: Sequence[str]) -> PlaceProgram:
+    def for_requests(cls, plan: Plan, requests: Sequence[Request], free: Sequence[str]) -> PlaceProgram:
         """Return the program of requests that are bound to a plan, made once."""
 
         def make(fork: Plan) -> PlaceProgram:
@@ -130,7 +130,7 @@ class Places:
     ranges: StrokeRanges
 
     @classmethod
-    def of(
+    def for_targets(
         cls, plan: Plan, designs: Mapping[str, Any], targets: Any, hold: Any, *, where: str, ranges: StrokeRanges = DECLARED
     ) -> Places:
         """Return targets bound to one design; DefinitionError for anything else, and where they do not ask for the strokes there are."""
@@ -154,7 +154,7 @@ class Places:
     @cached_property
     def program(self) -> PlaceProgram:
         """The kernels."""
-        return PlaceProgram.of(self.plan, self.bound, self.free)
+        return PlaceProgram.for_requests(self.plan, self.bound, self.free)
 
     @cached_property
     def free_ends(self) -> FloatArray:
@@ -186,7 +186,7 @@ class Places:
     def size(self) -> float:
         """The size of the machine [m]."""
         middle = self.low + 0.5 * self.span
-        return float(np.sqrt(self.program.size(self.inputs(middle[:, None]), size=(1, 1)).values[0, 0, 0]))
+        return float(np.sqrt(self.program.size(self.kernel_inputs(middle[:, None]), size=(1, 1)).values[0, 0, 0]))
 
     @cached_property
     def sizes(self) -> FloatArray:
@@ -197,7 +197,7 @@ class Places:
         return np.array([known.get(kind, size) for kind, size in zip(kinds, other, strict=True)])
 
     @cached_property
-    def within(self) -> FloatArray:
+    def tolerances(self) -> FloatArray:
         """How far off each target may be [SI], shape (t,), by which misses are weighed where nothing meets all of them."""
         return np.array([each.miss(self.plan, float(np.max(np.abs(each.value)))) for each in self.targets])
 
@@ -208,20 +208,20 @@ class Places:
         found = dict(zip(self.free, strokes, strict=True)) | {name: np.full(strokes.shape[1], value) for name, value in self.held.items()}
         return {name: found[name] for name in self.plan.strokes}
 
-    def inputs(self, strokes: FloatArray) -> Mapping[str, Any]:
+    def kernel_inputs(self, strokes: FloatArray) -> Mapping[str, Any]:
         """Return the inputs of the program at strokes (k, n) [m or rad]."""
         every = self.every(strokes)
         return Grid(self.plan, self.designs, every).flat if self.plan.solved else {**self.designs, **every}
 
-    def rows(self, unit: FloatArray) -> dict[str, FloatArray]:
+    def strokes_at(self, unit: FloatArray) -> dict[str, FloatArray]:
         """Return all strokes by name [m or rad], shape (n,), at unit coordinates (n, k)."""
         return self.every((self.low + unit * self.span).T)
 
     def kernel_values(self, kernel: Kernel, unit: FloatArray) -> FloatArray:
         """Return a kernel's values at unit coordinates (n, k), shape (outputs, n); NaN out of reach."""
-        return kernel(self.inputs((self.low + unit * self.span).T), way=way_of(len(unit)), size=(1, len(unit))).values[:, 0]
+        return kernel(self.kernel_inputs((self.low + unit * self.span).T), way=way_of(len(unit)), size=(1, len(unit))).values[:, 0]
 
-    def values(self, unit: FloatArray) -> FloatArray:
+    def target_values(self, unit: FloatArray) -> FloatArray:
         """Return the values of the targets [SI], shape (n, t), at unit coordinates (n, k); NaN out of reach."""
         return self.kernel_values(self.program.values, unit).T
 
@@ -258,10 +258,10 @@ class Places:
             found = np.fmax.reduce(sizes[:, 0], initial=0.0) / sizes[: len(unit), 1]
         return np.where(np.isnan(found), np.inf, found)
 
-    def reached(self, unit: FloatArray) -> Mask:
+    def is_assembled(self, unit: FloatArray) -> Mask:
         """Return where the whole machine can be assembled, shape (n,)."""
         with unwarned():
-            return Motion(self.plan, self.designs, self.rows(unit), "nan").reached
+            return Motion(self.plan, self.designs, self.strokes_at(unit), "nan").reached
 
     # -- words -------------------------------------------------------------------------------------------
 
@@ -379,7 +379,7 @@ class Found:
     unit: FloatArray
     off: FloatArray
 
-    def where(self, rows: Any) -> Found:
+    def select(self, rows: Any) -> Found:
         """Return some of them."""
         return Found(self.unit[rows], self.off[rows])
 
@@ -394,7 +394,7 @@ def beyond(places: Places, wanted: FloatArray) -> Found:
         return Found(np.empty((0, len(out))), np.empty((0, len(places.targets))))
     found = BranchSearch(places, wanted, out).branches()
     away = np.maximum(np.maximum(-found.unit, found.unit - 1.0), 0.0).max(axis=1)
-    return found.where(np.argsort(away, kind="stable"))
+    return found.select(np.argsort(away, kind="stable"))
 
 
 def unmet_words(places: Places, wanted: FloatArray, near: Found) -> str:
@@ -441,7 +441,7 @@ class BranchSearch:
     @cached_property
     def misses_seen(self) -> FloatArray:
         """By how much the targets are missed on the grid, shape (t, *counts)."""
-        off = self.places.off(self.places.values(self.grid), self.wanted)
+        off = self.places.off(self.places.target_values(self.grid), self.wanted)
         return off.T.reshape(-1, *map(len, self.axes))
 
     @cached_property
@@ -460,7 +460,7 @@ class BranchSearch:
         places, sides = self.places, 1.0 + 2.0 * self.out
 
         def misses(box: FloatArray, _: Index) -> FloatArray:
-            return places.off(places.values(self._to_unit(box)), self.wanted) / scale
+            return places.off(places.target_values(self._to_unit(box)), self.wanted) / scale
 
         def slopes(box: FloatArray, _: Index) -> FloatArray:
             return np.asarray(places.slopes(self._to_unit(box)) * sides / scale[:, None])
@@ -517,11 +517,11 @@ class BranchSearch:
 
         def holds(share: FloatArray) -> Mask:
             at = first[:, None] + share[..., None] * (last - first)[:, None]
-            return all_known(places.values(at.reshape(-1, at.shape[-1]))).reshape(share.shape)
+            return all_known(places.target_values(at.reshape(-1, at.shape[-1]))).reshape(share.shape)
 
         share, _ = last_holding(holds, np.zeros(len(first)), np.ones(len(first)), NEXT_TO, PARTS)
         starts = first + share[:, None] * (last - first)
-        off = (np.abs(places.off(places.values(starts), self.wanted)) / self.changes).max(axis=1)
+        off = (np.abs(places.off(places.target_values(starts), self.wanted)) / self.changes).max(axis=1)
         order = np.argsort(off, kind="stable")[:BORDER_STARTS]
         return np.asarray(starts[order[off[order] < FAR_OFF]])
 
@@ -543,12 +543,12 @@ class BranchSearch:
         if len(near):
             _, first = np.unique(np.round(near, 3), axis=0, return_index=True)
             again = self.descend(near[first], MORE_STEPS, scale)
-            again = again.where(self._met(again))
-        found = self._joined(found.where(met), again)
+            again = again.select(self._met(again))
+        found = self._joined(found.select(met), again)
         found = self._joined(found, self._beside(found, scale))
         if not len(found.unit):
             return none
-        return found.where(places.reached(found.unit))
+        return found.select(places.is_assembled(found.unit))
 
     def _met(self, found: Found) -> Mask:
         """Return which meet all targets."""
@@ -560,7 +560,7 @@ class BranchSearch:
         It is as far beyond the place where the least singular value would be zero, by how it changes along its own direction.
         """
         if not len(found.unit) or len(found.unit) >= MOST:
-            return found.where(slice(0))
+            return found.select(slice(0))
         slopes = self.places.slopes(found.unit) / scale[:, None]
         known = all_known(slopes)
         left, sizes, right = np.linalg.svd(np.where(known[:, None, None], slopes, 0.0))
@@ -570,11 +570,11 @@ class BranchSearch:
         twin = -2.0 * BESIDE * sizes[:, -1] / change
         close = known & (np.abs(twin) < CELLS)
         if not close.any():
-            return found.where(slice(0))
+            return found.select(slice(0))
         starts = found.unit[close] + (twin[:, None] * way * cell)[close]
         starts = np.clip(starts, self._to_unit(np.zeros(len(cell))), self._to_unit(np.ones(len(cell))))
         again = self.descend(starts, STEPS, scale)
-        return again.where(self._met(again))
+        return again.select(self._met(again))
 
     def _joined(self, one: Found, other: Found) -> Found:
         """Return the places of two lots, each once, ascending by the first coordinate, then by the next ones."""
@@ -592,7 +592,7 @@ class BranchSearch:
         apart = np.where(whole, apart - turn * np.round(apart / turn), apart)
         middle = (other + 0.5 * apart)[None]
         return is_one_solution(
-            apart, SAME, lambda: bool(self._met(Found(middle, self.places.off(self.places.values(middle), self.wanted)))[0])
+            apart, SAME, lambda: bool(self._met(Found(middle, self.places.off(self.places.target_values(middle), self.wanted)))[0])
         )
 
     @np.errstate(all="ignore")
@@ -601,14 +601,14 @@ class BranchSearch:
 
         It starts where least is missed on the grid: from the best, and those that no neighbour improves on.
         """
-        size = np.sum((self.misses_seen / self.places.within.reshape(-1, *[1] * len(self.axes))) ** 2, axis=0)
+        size = np.sum((self.misses_seen / self.places.tolerances.reshape(-1, *[1] * len(self.axes))) ** 2, axis=0)
         size = np.where(np.isfinite(size), size, np.inf)
         place = np.flatnonzero((size <= -widened(-size)) & np.isfinite(size))
         starts = self.grid[place[np.argsort(size.ravel()[place], kind="stable")][:16]]
-        found = self.descend(starts, MORE_STEPS, self.places.within)
-        found = found.where(self.places.reached(found.unit)) if len(starts) else found
-        size = np.sum((found.off / self.places.within) ** 2, axis=1)
-        return found.where(np.argsort(size, kind="stable")[:1])
+        found = self.descend(starts, MORE_STEPS, self.places.tolerances)
+        found = found.select(self.places.is_assembled(found.unit)) if len(starts) else found
+        size = np.sum((found.off / self.places.tolerances) ** 2, axis=1)
+        return found.select(np.argsort(size, kind="stable")[:1])
 
 
 
@@ -657,7 +657,7 @@ class Target:
         return f"Target({', '.join([quantity_cited(self.quantity), value, *(f'{k}={v!r}' for k, v in self.strokes.items())])})"
 
     @property
-    def is_path(self) -> bool:
+    def is_array(self) -> bool:
         """Whether its value is an array, one value a place along a path."""
         return isinstance(self.value, np.ndarray)
 
@@ -781,9 +781,9 @@ class Positions:
 
 def positions_for(plan: Plan, designs: Mapping[str, object], targets: object, hold: object) -> Positions:
     """Return the strokes that give some targets; see `strokes_for`."""
-    places = Places.of(plan, designs, targets, hold, where="strokes_for")
+    places = Places.for_targets(plan, designs, targets, hold, where="strokes_for")
     for each in places.targets:
-        if each.is_path:
+        if each.is_array:
             raise DefinitionError(f"{plan.title}: strokes_for: {each!r}: one number is expected; a path is followed, machine.follow(...).")
     wanted = np.array([float(each.value) for each in places.targets])
     search = BranchSearch(places, wanted)
@@ -800,7 +800,7 @@ def positions_for(plan: Plan, designs: Mapping[str, object], targets: object, ho
 
 def rows_of_branches(places: Places, found: Found) -> StrokeRows:
     """Return all strokes of some branches, those that are held included."""
-    return StrokeRows(np.stack([*places.rows(found.unit).values()], axis=1), places.plan.strokes)
+    return StrokeRows(np.stack([*places.strokes_at(found.unit).values()], axis=1), places.plan.strokes)
 
 
 def met_words(places: Places, found: Found, condition: FloatArray, wanted: FloatArray) -> str:

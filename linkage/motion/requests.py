@@ -203,7 +203,7 @@ class Request(Arithmetic):
         """The product of squared parts (Trace.nearness) above which rounding leaves at least nine digits of it."""
         return NEAR**2 if self.order else PLACES
 
-    def rounded(self, plan: Plan) -> tuple[Node, ...]:
+    def rounding_nodes(self, plan: Plan) -> tuple[Node, ...]:
         """Return the nodes whose rounding tells its error: its own, and those they are compared with."""
         return self.nodes(plan)
 
@@ -365,7 +365,7 @@ class Value(Request):
         if isinstance(self.target, Quantity) and not self.target.name:
             plan.reaches(self.target)  # raises for a name in it that there is not
             return Value(self.target, along)
-        return Value(plan.members[checked_name("Name", self.target, plan.named(), plan.title)], along)
+        return Value(plan.members[checked_name("Name", self.target, plan.valued_members(), plan.title)], along)
 
     @property
     def member(self) -> Member:
@@ -603,10 +603,10 @@ class Combined(Request):
         return max(each.regular for each in self.requests)
 
     def rounded(self, plan: Plan) -> tuple[Node, ...]:
-        return *self.nodes(plan), *(node for each in self.requests for node in each.rounded(plan))
+        return *self.nodes(plan), *(node for each in self.requests for node in each.rounding_nodes(plan))
 
     def error(self, plan: Plan, left: PrecisionLeft) -> FloatArray:
-        return left.part(slice(0, self.rows)).relative(self.scale(plan, left))
+        return left.some_rows(slice(0, self.rows)).relative(self.scale(plan, left))
 
     def scale(self, plan: Plan, left: PrecisionLeft) -> FloatArray:
         values, sizes, first = [], [], self.rows
@@ -615,8 +615,8 @@ class Combined(Request):
                 values.append(np.full(left.size.shape, abs(cast(float, each))))
                 sizes.append(values[-1])
                 continue
-            count = len(each.rounded(plan))
-            own = left.part(slice(first, first + count))
+            count = len(each.rounding_nodes(plan))
+            own = left.some_rows(slice(first, first + count))
             values.append(np.abs(own.values[: each.rows]))
             sizes.append(np.maximum(values[-1], each.scale(plan, own)))
             first += count
@@ -768,7 +768,7 @@ def point_ratios(members: Set[str]) -> NodeRequest:
         return tuple(node for stroke in plan.strokes for node in plan.derived(places, (stroke,)))
 
     def error(left: PrecisionLeft) -> FloatArray:
-        parts = [left.part(slice(row, row + 2)) for row in range(0, len(left.values), 2)]
+        parts = [left.some_rows(slice(row, row + 2)) for row in range(0, len(left.values), 2)]
         if not parts:
             return np.zeros(left.size.shape)
         with np.errstate(all="ignore"):
@@ -808,7 +808,7 @@ def slope(what: Request, by: tuple[str, ...]) -> NodeRequest:
     return NodeRequest(
         text=f"the gradient of {what.sentence}", key=("slope", what.key, by), rows=what.rows * len(by), nodes_of=nodes, names_of=what.names,
         order=1 + what.order, notes_of=what.notes, gaps_of=what.gaps, traits=Trait.FOLLOWS_ANGLES,
-        error_of=lambda left: left.length.relative(SMALL),
+        error_of=lambda left: left.norm.relative(SMALL),
     )  # fmt: skip
 
 

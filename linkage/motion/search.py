@@ -148,17 +148,17 @@ def below_zero(motion: Motion, f: Function | Request) -> tuple[Span, ...]:
     order = np.lexsort((t, leg))
     leg, t, value = leg[order], t[order], value[order]
     firsts, lasts = np.array(stretches(value < 0.0), int).reshape(-1, 2).T
-    low, high = (ends(between, leg, t, inside, by) for inside, by in ((firsts, -1), (lasts, 1)))
+    low, high = (part_ends(between, leg, t, inside, by) for inside, by in ((firsts, -1), (lasts, 1)))
     units = {name: stroke_unit(motion.plan, name) for name in motion.strokes}
     strokes = [between.route.strokes(leg[inside], at) for inside, at in ((firsts, low), (lasts, high))]
     starts, stops = ([{name: float(value[row]) for name, value in at.items()} for row in range(len(firsts))] for at in strokes)
     spans = tuple(Span(start, end, units) for start, end in zip(starts, stops, strict=True))
-    instants = [between.route.at(leg[inside], at) for inside, at in ((firsts, low), (lasts, high))]
+    instants = [between.route.instants_at(leg[inside], at) for inside, at in ((firsts, low), (lasts, high))]
     times = zip(*(each.time.tolist() for each in instants if each is not None), strict=True)
     return spans if None in instants else tuple(replace(span, times=each) for span, each in zip(spans, times, strict=True))
 
 
-def reached(motion: Motion) -> tuple[Span, ...]:
+def reached_spans(motion: Motion) -> tuple[Span, ...]:
     """Return the parts of a motion's way that are reached, one design along strokes or a path."""
     return recalled(motion, "reached", lambda: below_zero(motion, lambda each: -np.ones(each.shape)))
 
@@ -183,7 +183,7 @@ def dips(between: OnLegs, sense: float, among: Mask) -> list[tuple[Index, FloatA
     return found
 
 
-def ends(between: OnLegs, leg: Index, t: FloatArray, inside: Index, by: int) -> FloatArray:
+def part_ends(between: OnLegs, leg: Index, t: FloatArray, inside: Index, by: int) -> FloatArray:
     """Return how far (c,) the parts go from places that are below zero towards the next ones, which are not."""
 
     def look(leg: Index, t: FloatArray) -> tuple[FloatArray, Mask]:
@@ -215,7 +215,7 @@ class Legs:
     instants: Instants | None = None
 
     @classmethod
-    def of(cls, motion: Motion) -> Legs:
+    def from_motion(cls, motion: Motion) -> Legs:
         """Return the way that the poses of a motion cover, whatever their number.
 
         A single stroke, and a grid in which a single one moves, goes from its least to its greatest value. Several strokes in arrays
@@ -231,7 +231,7 @@ class Legs:
             for name, rates in looked.rates.items():
                 travel = float(np.ptp(looked.strokes[name]))
                 lengths = np.maximum(lengths, np.abs(rates).max(axis=1) * lasting / (travel or np.inf))
-            return cls(instants.at(instants.breaks).strokes, counts_of(lengths), True, instants)
+            return cls(instants.at_times(instants.breaks).strokes, counts_of(lengths), True, instants)
         values = np.array([np.ravel(value) for value in strokes.values()])
         if len(values) == 1 or next(iter(strokes.values())).ndim > 1:
             values = np.stack([values.min(axis=1), values.max(axis=1)], axis=1)
@@ -241,7 +241,7 @@ class Legs:
         lengths = np.abs(np.diff(scaled[:, places], axis=1)).max(axis=0)
         return cls({name: value[places] for name, value in zip(strokes, values, strict=True)}, counts_of(lengths), motion.is_path)
 
-    def at(self, leg: Index, t: FloatArray) -> Instants | None:
+    def instants_at(self, leg: Index, t: FloatArray) -> Instants | None:
         """Return the instants of places, each on its own side of a break; None where the way is none in time."""
         return None if self.instants is None else self.instants.at_share(leg, t)
 
@@ -258,7 +258,7 @@ class Legs:
             return self.instants.at_share(leg, t).strokes
         return {name: np.where(t == 1.0, at[leg + 1], at[leg] + (at[leg + 1] - at[leg]) * t) for name, at in self.corners.items()}
 
-    def tangent(self, leg: Index) -> dict[str, FloatArray] | None:
+    def leg_tangent(self, leg: Index) -> dict[str, FloatArray] | None:
         """Return how the strokes go on in legs, shape as these; None where it is no path, and of one in time, whose rates say it."""
         has_tangent = self.is_path and self.instants is None
         return {name: at[leg + 1] - at[leg] for name, at in self.corners.items()} if has_tangent else None
@@ -332,11 +332,11 @@ class OnLegs:
 
     def __init__(self, motion: Motion, f: Function, sense: float = 1.0, *, everywhere: bool = False) -> None:
         self.motion, self.f, self.sense, self.everywhere = motion, f, sense, everywhere
-        self.route = Legs.of(motion)
+        self.route = Legs.from_motion(motion)
         self.leg, self.t = leg, t = samples(self.route.counts)
         self.first = Motion(
-            motion.plan, motion.designs, self.route.strokes(leg, t), "nan", joining=joined_in_order, tangent=self.route.tangent(leg),
-            instants=self.route.at(leg, t),
+            motion.plan, motion.designs, self.route.strokes(leg, t), "nan", joining=joined_in_order, tangent=self.route.leg_tangent(leg),
+            instants=self.route.instants_at(leg, t),
         )  # fmt: skip
         self.seen = sense * values_of(f, self.first, everywhere=everywhere)
         self.front = self.seen.shape[: self.seen.ndim - len(self.first.shape)]
@@ -365,14 +365,14 @@ class OnLegs:
 
     def _own(self, leg: Index, t: FloatArray) -> tuple[Motion, FloatArray]:
         """Return the poses at places (D, n), each design at its own, and the values there."""
-        first, tangent = self.first, self.route.tangent(leg)
+        first, tangent = self.first, self.route.leg_tangent(leg)
         places = self._starts[leg] + np.rint(t * np.asarray(self.route.counts)[leg]).astype(int)
         near = np.take_along_axis(self._nearest, places, axis=-1)
 
         def shaped(values: Any) -> Any:
             return values.reshape(*first._design_shape, t.shape[-1])
 
-        strokes, instants = {name: shaped(value) for name, value in self.route.strokes(leg, t).items()}, self.route.at(leg, t)
+        strokes, instants = {name: shaped(value) for name, value in self.route.strokes(leg, t).items()}, self.route.instants_at(leg, t)
         motion = Motion(
             first.plan, first.designs, strokes, "nan", per_design=True, joining=JoinedTo(first._grid, shaped(near)),
             tangent=tangent and {name: shaped(value) for name, value in tangent.items()}, instants=instants and instants.shaped(shaped),
@@ -491,7 +491,7 @@ def least_margins(motion: Motion, kept: Callable[[Motion], Mask] | None = None) 
     A hole down to 1e-5 of the strokes is found. Groups, whose pins are looked for by iteration, have no such margin, and laws that give no
     value somewhere have none either.
     """
-    known = motion.plan.made("clearances", Clearances.of)
+    known = motion.plan.made("clearances", Clearances.for_plan)
     if not (known.loops and motion.strokes):
         return []
 

@@ -91,7 +91,7 @@ class StrokeLine:
         """The unit of the stroke."""
         return stroke_unit(self.plan, self.name)
 
-    def at(self, values: FloatArray) -> MotionLike:
+    def motion_at(self, values: FloatArray) -> MotionLike:
         """Return the motion at values of the stroke, unreachable poses as NaN."""
         return self.motion.moved({**self.held, self.name: values})
 
@@ -105,7 +105,7 @@ class StrokeLine:
         between = self.interruptions(low, high)
         gaps = [each.deepest for each in between if each.is_gap]  # they may lie between samples
         at = np.linspace(low, high, LOOKED_AT)
-        reached = np.concatenate([self.at(at).reached, np.zeros(len(gaps), bool)])
+        reached = np.concatenate([self.motion_at(at).reached, np.zeros(len(gaps), bool)])
         at = np.concatenate([at, gaps])
         order = np.argsort(at, kind="stable")
         found = self.ranges_among(at[order], reached[order])
@@ -132,15 +132,15 @@ class StrokeLine:
         Ends of groups are known already, found on the way.
         """
         at = np.linspace(inside, outside, 65)
-        seen = self.at(at)
+        seen = self.motion_at(at)
         known = [stop for stop in seen._grid.solved.stops if min(inside, outside) <= stop <= max(inside, outside)]
         if not known and np.all(seen.reached):
             return inside, ""
         if known:
             last, beyond = known[0], at[int(np.argmin(seen.reached))]
         else:
-            last, beyond = map(float, last_holding(lambda at: np.array(self.at(at).reached), inside, outside))
-        there, plan = self.at(np.array([beyond])), self.plan
+            last, beyond = map(float, last_holding(lambda at: np.array(self.motion_at(at).reached), inside, outside))
+        there, plan = self.motion_at(np.array([beyond])), self.plan
         failing = (name_or_pins(plan, name) for name, mask in failures(plan, there._reading, there.shape) if mask.any())
         return float(last), next(failing, "")
 
@@ -160,10 +160,10 @@ class StrokeLine:
             return np.where(t == 1.0, high[leg], low[leg] + long[leg] * t)
 
         def look(leg: Index, t: FloatArray) -> tuple[FloatArray, Mask]:
-            wide = self.at(stroke(leg, t).ravel())
+            wide = self.motion_at(stroke(leg, t).ravel())
             return -np.array([[transmission(joint).of(wide)] for joint in moving]), wide.reached[None]
 
-        wide = self.at(stroke(*samples(counts)))
+        wide = self.motion_at(stroke(*samples(counts)))
         angles = {joint: wide.transmission_angle(joint) for joint in wide._joints}
         moving = [joint for joint, angle in angles.items() if np.nanmax(angle) - np.nanmin(angle) > UNCHANGED]
         if not moving:
@@ -184,7 +184,7 @@ class StrokeLine:
         whole = next((each for each in found if each.high - each.low > TURN * (1.0 - 1e-9)), None)
         if not pins or whole is None:
             return None
-        turned = self.at(np.asarray(whole.low + TURN * np.arange(TURNS_AFTER + 1), float))
+        turned = self.motion_at(np.asarray(whole.low + TURN * np.arange(TURNS_AFTER + 1), float))
         every = np.array([turned[point][:, 0] for point in plan.points])
         gaps = {pin: np.hypot(*(turned[pin] - turned[pin][:, :1])) / np.ptp(every, axis=0).max() for pin in pins}
         away = tuple(pin for pin, gap in gaps.items() if gap[1] > CLOSED)
@@ -210,14 +210,14 @@ class StrokeLine:
         elements = {name: each for name, each in moved.items() if frozenset(each.ends) not in driven}
         if not elements:
             return []
-        looked = self.at(np.concatenate([np.linspace(low, high, LOOKS) for low, high in ranges]))
+        looked = self.motion_at(np.concatenate([np.linspace(low, high, LOOKS) for low, high in ranges]))
         found: list[tuple[float, str]] = []
         for name, element in elements.items():
             length = Distance(*element.ends)
 
             def rate(at: FloatArray, length: Distance = length) -> FloatArray:
                 with unwarned(), np.errstate(all="ignore"):
-                    return self.at(at).ratio(length, wrt=wrt)
+                    return self.motion_at(at).ratio(length, wrt=wrt)
 
             with unwarned(), np.errstate(all="ignore"):
                 way = sum(np.hypot(*looked.ratio(end, wrt=wrt)) for end in element.ends)
@@ -231,7 +231,7 @@ class StrokeLine:
         """Return which of some strokes (n,) give a pose that no one before gives."""
         if at.size < 2:
             return np.ones(at.shape, bool)
-        poses = self.at(at)
+        poses = self.motion_at(at)
         places = np.array([poses[name] for name in self.plan.points]).reshape(-1, at.size)
         apart = np.abs(places[:, :, None] - places[:, None, :]).max(axis=0)
         size = float(np.ptp(places.reshape(-1, 2, at.size), axis=0).max(initial=0.0))
@@ -242,9 +242,9 @@ class StrokeLine:
     @cached_property
     def clearances(self) -> Clearances:
         """The loops that move, with how clear of their dead points they are."""
-        return self.plan.made("clearances", Clearances.of)
+        return self.plan.made("clearances", Clearances.for_plan)
 
-    def inputs(self, x: FloatArray) -> dict[str, Any]:
+    def kernel_inputs(self, x: FloatArray) -> dict[str, Any]:
         """Return the inputs of the program at values of the stroke."""
         grid = self.motion._grid
         if not self.plan.solved:
@@ -254,12 +254,12 @@ class StrokeLine:
 
     def seen(self, x: FloatArray) -> FloatArray:
         """Return the clearance of every loop, shape (loops, n): squared sines of links, sines of guides without a sign, lengths [m]."""
-        found = self.clearances.kernel(self.inputs(x), way=ON_ARRAYS, size=(1, x.size)).values[:, 0]
+        found = self.clearances.kernel(self.kernel_inputs(x), way=ON_ARRAYS, size=(1, x.size)).values[:, 0]
         return np.where(self.clearances.is_signed, np.abs(found), found)
 
     def rounding(self, x: FloatArray) -> FloatArray:
         """Return by how much rounding moves every loop's clearance at the most along the values, shape (loops, 1)."""
-        sizes = self.clearances.rounding(self.inputs(x), way=ON_ARRAYS, size=(1, x.size)).values[:, 0]
+        sizes = self.clearances.rounding(self.kernel_inputs(x), way=ON_ARRAYS, size=(1, x.size)).values[:, 0]
         return np.asarray(ROUNDING * np.fmax.reduce(np.abs(sizes), axis=1, initial=1.0)[:, None])
 
     def grid(self, low: float, high: float) -> FloatArray:
@@ -507,7 +507,7 @@ class Clearances:
         return np.array([loop.kind in ("guides", "meeting") for loop in self.loops])[:, None]
 
     @classmethod
-    def of(cls, plan: Plan) -> Clearances:
+    def for_plan(cls, plan: Plan) -> Clearances:
         """Return those of a plan; pins of groups are followed on their own."""
         trace = plan.trace
         moving = dict.fromkeys(loop for loop in trace.loops if loop.terms[0].level is Level.POSE)

@@ -209,7 +209,7 @@ class Quadratic:
     bend: FloatArray
 
     @classmethod
-    def of(cls, seen: FloatArray, k: int) -> Quadratic:
+    def through(cls, seen: FloatArray, k: int) -> Quadratic:
         """Return the quadratics through the values on stencils."""
         ahead, behind = seen[:, 1 : 2 * k + 1 : 2], seen[:, 2 : 2 * k + 1 : 2]
         bend = np.zeros((len(seen), k, k))
@@ -219,7 +219,7 @@ class Quadratic:
             bend[:, i, j] = bend[:, j, i] = 0.25 * (a - b - c + d)
         return cls(seen[:, 0], 0.5 * (ahead - behind), bend)
 
-    def at(self, u: FloatArray) -> FloatArray:
+    def value_at(self, u: FloatArray) -> FloatArray:
         """Return the values (r,) at places (r, k)."""
         return np.asarray(self.value + (u * (self.slope + 0.5 * np.einsum("rij,rj->ri", self.bend, u))).sum(axis=-1))
 
@@ -258,7 +258,7 @@ class Quadratic:
         with np.errstate(all="ignore"):
             step = np.linalg.solve(matrix, np.where(free, -slope, 0.0)[..., None])[..., 0]
         new = np.where(np.isfinite(step), u + step, u)
-        good = ((new >= low) & (new <= high)).all(axis=-1) & (self.at(new) >= self.at(u))
+        good = ((new >= low) & (new <= high)).all(axis=-1) & (self.value_at(new) >= self.value_at(u))
         return np.where(good[:, None], new, u)
 
 
@@ -282,7 +282,7 @@ def after_round(climbs: Climbs, seen: FloatArray, k: int, least: FloatArray, pla
     climbs = replace(climbs, unit=np.where((gain > 0.0)[:, None], at, climbs.unit), value=np.fmax(climbs.value, values[rows, pick]))
     smooth = np.asarray(np.isfinite(seen).all(axis=-1))
     seen = np.where(smooth[:, None], seen, 0.0)
-    model = Quadratic.of(seen, k)
+    model = Quadratic.through(seen, k)
     fixed, walls = np.arange(k) == climbs.axis[:, None], (-centre / half, (1.0 - centre) / half)
     low, high = np.where(fixed, 0.0, np.maximum(-TRUST, walls[0])), np.where(fixed, 0.0, np.minimum(TRUST, walls[1]))
     u = model.top(low, high, stencil[pick])
@@ -291,7 +291,7 @@ def after_round(climbs: Climbs, seen: FloatArray, k: int, least: FloatArray, pla
     error, misfit, spread = np.abs(model.value - climbs.expected), np.abs(model.on(stencil) - seen).max(axis=-1), np.ptp(seen, axis=-1)
     trusted = smooth & ~(error > 0.25 * spread + least) & (misfit <= 0.25 * spread + least)
     firm = (fixed | (at_wall & model.falls(u, 4.0 * np.fmax(error, misfit)))).all(axis=-1)
-    hoped = model.at(u)
+    hoped = model.value_at(u)
     done = trusted & (hoped - climbs.value <= least) & (misfit <= 0.05 * spread + least) & ((error <= 1e3 * least) | firm)
     bound = np.fmax(climbs.value, hoped) + 2.0 * np.abs(hoped - climbs.value) + 2.0 * np.fmax(error, misfit)
     idle = np.where(smooth & (gain > least), 0, climbs.idle + 1)
@@ -315,7 +315,7 @@ def moved_on(climbs: Climbs, model: Quadratic, u: FloatArray, good: Mask, inside
     middle = np.where(fixed, climbs.unit, np.clip(goal, new[:, None], 1.0 - new[:, None]))
     step = (middle - centre) / half
     known = (good | inside) & (np.abs(step) <= 2.0).all(axis=-1)
-    return replace(climbs, centre=middle, half=new, expected=np.where(known, model.at(step), np.nan))
+    return replace(climbs, centre=middle, half=new, expected=np.where(known, model.value_at(step), np.nan))
 
 
 def climbed(box: SeenBox) -> tuple[Climbs, Climbs, FloatArray]:

@@ -74,10 +74,10 @@ def is_ear(corners: Corners, order: Sequence[int], place: int) -> bool:
     if corner_turn(corners, a, b, c) < -FLAT * squared_extent(corners):
         return False
     others = [each for each in order if each not in (a, b, c)]
-    return not any(within(corners, each, (a, b, c)) for each in others)
+    return not any(is_in_triangle(corners, each, (a, b, c)) for each in others)
 
 
-def within(corners: Corners, place: int, triangle: tuple[int, int, int]) -> bool:
+def is_in_triangle(corners: Corners, place: int, triangle: tuple[int, int, int]) -> bool:
     """Return whether a corner lies in a triangle or on its edges, but on none of its corners."""
     a, b, c = triangle
     if any(np.array_equal(corners[place], corners[each]) for each in triangle):

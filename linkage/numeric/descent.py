@@ -59,7 +59,7 @@ def descended(
         if not len(going):
             break
         now, missed = unit[going], off[going]
-        system = DampedSystem.of(now, missed, slopes(now, going), damping[going])
+        system = DampedSystem.from_slopes(now, missed, slopes(now, going), damping[going])
         bend = 0.0 if ahead is None else system.bend(missed, ahead(now + PROBE * system.step, going))
         new = np.clip(now + system.step + bend, 0.0, 1.0)
         found = misses(new, going)
@@ -89,7 +89,7 @@ class DampedSystem:
     step: FloatArray
 
     @classmethod
-    def of(cls, unit: FloatArray, off: FloatArray, slopes: FloatArray, damping: FloatArray) -> DampedSystem:
+    def from_slopes(cls, unit: FloatArray, off: FloatArray, slopes: FloatArray, damping: FloatArray) -> DampedSystem:
         """Return the equations at misses (m, targets); a coordinate that the step would take out of the box is held."""
         finite = np.isfinite(slopes)
         if not finite.all():

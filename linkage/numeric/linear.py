@@ -9,7 +9,7 @@ import numpy as np
 from ..vectors import FloatArray, Mask
 
 
-def solved(matrix: Sequence[Sequence[float]], right: Sequence[float]) -> tuple[list[float], float] | None:
+def solve_linear(matrix: Sequence[Sequence[float]], right: Sequence[float]) -> tuple[list[float], float] | None:
     """Return the solution of a small system of linear equations in floats, and its determinant; None for a singular one."""
     rows = [[*row, b] for row, b in zip(matrix, right, strict=True)]
     count, determinant = len(rows), 1.0

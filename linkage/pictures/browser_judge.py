@@ -142,7 +142,7 @@ class LiveQuestions:
             is_timed = place.instants is not None and is_of_force(leaf.quantity)
             if is_column(leaf.quantity) and PLAIN_CASE not in place.cases(self.judge.acting):
                 continue  # a table's own column is under the machine's own loads, which do not occur here
-            for row in self.judge.sought(leaf, place):
+            for row in self.judge.search_rows(leaf, place):
                 request = at_its_rates(place.motion, row.request) if is_timed else row.request
                 name = self.new_row(request)
                 try:
@@ -235,7 +235,7 @@ class LiveQuestions:
         is_timed = place.instants is not None and is_of_force(row.leaf.quantity)
         told = {"timed": int(is_timed), "reciprocal": int(row.is_reciprocal), "stays": int(row.stays_at_zero), "side": row.piece.side}
         told |= {"case": situation.case, "direction": situation.direction, "drive": situation.drive}
-        return rows | {"over": number, "sense": row.sought} | {name: each for name, each in told.items() if each}
+        return rows | {"over": number, "sense": row.search_sign} | {name: each for name, each in told.items() if each}
 
 
 def delivered_over(place: Domain, request: Request) -> list[DeliveredRow]:

@@ -77,7 +77,7 @@ def with_instant(motion: Motion, time: float, pose: Pose) -> tuple[Motion, int]:
     place = int(np.searchsorted(known, time))
     if known[place : place + 1].tolist() == [time]:
         return motion, place
-    shown = instants.at(np.insert(known, place, time))
+    shown = instants.at_times(np.insert(known, place, time))
     return Motion(motion.plan, motion.designs, shown.strokes, motion.unreachable, over=motion.over, instants=shown), place
 
 

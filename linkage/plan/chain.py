@@ -51,7 +51,7 @@ class KinematicChain:
         for P, Q in cylinders:
             self.add_cylinder(joined_names(P, Q), P, Q)
 
-    def add(self, name: str, kind: str, points: tuple[str, ...]) -> str:
+    def add_body(self, name: str, kind: str, points: tuple[str, ...]) -> str:
         """Enter a body and return its name, with a number where there is one of that name."""
         taken = {body.name for body in self.bodies}
         found = next(each for each in (name, *(f"{name} {k}" for k in range(2, len(taken) + 3))) if each not in taken)
@@ -60,9 +60,9 @@ class KinematicChain:
 
     def add_cylinder(self, name: str, P: str, Q: str) -> None:
         """Enter a cylinder: a barrel on P, a rod on Q, and their slide."""
-        self.slides.append(Pair("slide", name, self.add(f"{name} barrel", "barrel", (P,)), self.add(f"{name} rod", "rod", (Q,))))
+        self.slides.append(Pair("slide", name, self.add_body(f"{name} barrel", "barrel", (P,)), self.add(f"{name} rod", "rod", (Q,))))
 
-    def at(self, point: str) -> list[ChainBody]:
+    def bodies_at(self, point: str) -> list[ChainBody]:
         """Return the bodies of a point, the frame first."""
         return [body for body in self.bodies if point in body.points]
 
@@ -73,13 +73,13 @@ class KinematicChain:
     def body_of(self, points: Sequence[str]) -> str:
         """Return the body of some points, or of the first of them; the frame where none has it."""
         both = [body for body in self.bodies if points and set(points) <= set(body.points)]
-        return next((body.name for body in (*both, *(self.at(points[0]) if points else ()))), FRAME)
+        return next((body.name for body in (*both, *(self.bodies_at(points[0]) if points else ()))), FRAME)
 
     @property
     def pins(self) -> Iterator[Pair]:
         """The pins, by point."""
         for point in dict.fromkeys(point for body in self.bodies for point in body.points):
-            first, *others = (body.name for body in self.at(point))
+            first, *others = (body.name for body in self.bodies_at(point))
             for other in others:
                 yield Pair("pin", point, first, other, self.turns.get((point, other), self.turns.get((point, first), ())))
 
@@ -89,14 +89,14 @@ class KinematicChain:
         return (*self.pins, *self.slides)
 
     @property
-    def count(self) -> int:
+    def gruebler_count(self) -> int:
         """The Gruebler count 3 (n - 1) - 2 j."""
         return 3 * (len(self.bodies) - 1) - 2 * len(self.pairs)
 
 
 def gruebler(bodies: Sequence[Body], cylinders: Iterable[tuple[str, str]]) -> int:
     """Return 3 (n - 1) - 2 j of bodies that are pinned where they share points, and cylinders between points."""
-    return KinematicChain(bodies, cylinders).count
+    return KinematicChain(bodies, cylinders).gruebler_count
 
 
 def chain_of(plan: Members) -> KinematicChain:
@@ -128,7 +128,7 @@ def chain_of(plan: Members) -> KinematicChain:
     for _, joint in halves:
         for side in (joint.on, joint.by):
             if side.role == "slider" and not chain.block(side.points):
-                chain.add(f"{side.points[0]} (slider)", "block", side.points)
+                chain.add_body(f"{side.points[0]} (slider)", "block", side.points)
     blocks = [(name, joint, moved_side(chain, joint)) for name, joint in halves]
     for name, joint, block in blocks:
         has_slot = joint.on.role == "slider" and joint.point not in joint.on.points
@@ -159,7 +159,7 @@ def moved_side(chain: KinematicChain, joint: Joint) -> str:
     """Return the body that slides: the one that moves without turning where the joint names it, else a block at its point."""
     if joint.on.role == "slider" and joint.point in joint.on.points:
         return chain.block(joint.on.points)
-    return chain.add(f"{joint.point} (block)", "block", (joint.point,))
+    return chain.add_body(f"{joint.point} (block)", "block", (joint.point,))
 
 
 def guided_by(chain: KinematicChain, plan: Members, side: JointSide) -> str:
@@ -197,11 +197,11 @@ def enter_arm(chain: KinematicChain, plan: Members, name: str, points: tuple[str
     turned = tuple(each for drive in joint.drives if drive.along != "t" for each in driven_by(plan, drive.quantity))
     title = body_name(points)
     if pushed is None:
-        chain.turns[joint.point, chain.add(title, "arm", (joint.point, *points))] = turned
+        chain.turns[joint.point, chain.add_body(title, "arm", (joint.point, *points))] = turned
         return
     on = chain.body_of(joint.by.points)
     if any(drive.along != "t" and plan.moves(drive.quantity) for drive in joint.drives):
-        on = chain.add(f"{joint.point} (carriage)", "carriage", (joint.point,))
+        on = chain.add_body(f"{joint.point} (carriage)", "carriage", (joint.point,))
         chain.turns[joint.point, on] = turned
-    arm = chain.add(title, "arm", points)
+    arm = chain.add_body(title, "arm", points)
     chain.slides.append(Pair("slide", name, on, arm, driven_by(plan, pushed), pushed))

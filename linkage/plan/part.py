@@ -180,9 +180,9 @@ class Part(Member):
         return not is_moved and not any(self.given[name] is not None and name not in self.plan.strokes for name in self.given)
 
     @property
-    def depth(self) -> int:
+    def nesting(self) -> int:
         """How deep parts stand in it, itself included."""
-        return 1 + max((each.depth for each in self.plan.of_kind(Part).values()), default=0)
+        return 1 + max((each.nesting for each in self.plan.of_kind(Part).values()), default=0)
 
     def __str__(self) -> str:
         words = [self.plan.title, *(f"{name}={given_text(value)}" for name, value in self.given.items() if name.isidentifier())]
@@ -447,8 +447,8 @@ def with_parts(members: Mapping[str, Member], title: str) -> dict[str, Member]:
     brought: dict[str, dict[str, Member]] = {}
     for name in carriers_first(parts):
         part = parts[name] if parts[name].name == name else parts[name].renewed(_name=name)
-        if part.depth > DEEPEST:
-            what = f"{title}: {name} = {part} holds parts {part.depth} deep"
+        if part.nesting > DEEPEST:
+            what = f"{title}: {name} = {part} holds parts {part.nesting} deep"
             raise DefinitionError(f"{what}; up to {DEEPEST} are taken.", member=name)
         with about(name):
             known = {**members, **{each: member for own in brought.values() for each, member in own.items()}}

@@ -130,7 +130,7 @@ class Plan(Members, Shown):
     @property
     def gruebler(self) -> int:
         """The Gruebler count 3 (n - 1) - 2 j of the chain, less the constraints of closed lines and of ropes with a given length."""
-        return self.chain.count - len(self.cuts) + len(self.driven_cuts)
+        return self.chain.gruebler_count - len(self.cuts) + len(self.driven_cuts)
 
     @cached_property
     def trace(self) -> Trace:
@@ -172,7 +172,7 @@ class Plan(Members, Shown):
     def nodes(self, target: str | Quantity) -> tuple[Node, ...]:
         """Return the nodes of a point, a vector or a quantity."""
         if isinstance(target, str) and target not in self.members:
-            raise unknown("Name", target, self.named(), where=self.title)
+            raise unknown("Name", target, self.valued_members(), where=self.title)
         member = self.members[target] if isinstance(target, str) else target
         match member:
             case Point():
@@ -186,7 +186,7 @@ class Plan(Members, Shown):
     def derived(self, nodes: Sequence[Node], along: Sequence[str]) -> tuple[Node, ...]:
         """Return the derivatives of nodes by strokes or dimensions, one after the other."""
         for name in along:
-            nodes = list(map(self.trace.tangent(name).of, nodes))
+            nodes = list(map(self.trace.tangent(name).derivative, nodes))
         return tuple(nodes)
 
     def kernel(self, targets: tuple[str | Quantity, ...], along: tuple[str, ...] = (), guarded: bool = False) -> Kernel:

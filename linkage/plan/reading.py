@@ -60,7 +60,7 @@ class Reading(Where):
         """Return the position of a point that closes a loop; here it is known by its value."""
         return X
 
-    def _once(self, kind: str, reference: Reference, rule: str) -> Scalar:
+    def _evaluated(self, kind: str, reference: Reference, rule: str) -> Scalar:
         """Evaluate a member's rule when it is first asked for."""
         named = reference if isinstance(reference, str) else reference.name
         if named and named not in self.members:
@@ -79,20 +79,20 @@ class Reading(Where):
 
     def vector(self, vector: Reference) -> Vec:
         """Return a vector member [m]."""
-        found: Vec = self._once("vector", vector, "vector")
+        found: Vec = self._evaluated("vector", vector, "vector")
         return found
 
     def vector_length(self, vector: Reference) -> Scalar:
         """Return the length of a vector member [m]."""
-        return self._once("length", vector, "length")
+        return self._evaluated("length", vector, "length")
 
     def value(self, quantity: Reference) -> Scalar:
         """Return a quantity's value, SI."""
-        return self._once("value", quantity, "rule")
+        return self._evaluated("value", quantity, "rule")
 
     def turn(self, angle: Reference) -> Turning:
         """Return the cosine and sine of an angle."""
-        found: Turning = self._once("turn", angle, "turning")
+        found: Turning = self._evaluated("turn", angle, "turning")
         return found
 
     def input(self, name: str) -> Scalar:
@@ -116,7 +116,7 @@ class Reading(Where):
 
     def line(self, guide: Reference) -> Line:
         """Return a guide's line."""
-        found: Line = self._once("line", guide, "line")
+        found: Line = self._evaluated("line", guide, "line")
         return found
 
     def followed(self, angle: str, vector: Vec) -> Scalar | None:

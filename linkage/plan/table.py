@@ -53,7 +53,7 @@ class Table:
         self.angles: dict[tuple[str, frozenset[str]], Quantity] = {}
         self._labels: dict[Label, tuple[str, Quantity]] = {}
 
-    def add(self, name: str, default: float, kind: str, where: str, unit: str = "") -> None:
+    def add_variable(self, name: str, default: float, kind: str, where: str, unit: str = "") -> None:
         """Enter a design variable; raise DefinitionError where its name is taken, its value cannot be, or its unit is unknown."""
         self.check_free(name, where)
         if unit and (not isinstance(unit, str) or unit not in UNITS):
@@ -88,7 +88,7 @@ class Table:
         if isinstance(given, Number):
             for each in slot.spellings:
                 self.check_free(each, where)
-            self.add(spelling, given.number, slot.kind, where)
+            self.add_variable(spelling, given.number, slot.kind, where)
             self.spellings |= {each: (spelling, slot.spellings[each] * slot.spellings[spelling]) for each in slot.spellings}
         else:
             self.following |= dict.fromkeys(slot.spellings, spelled(given))

@@ -68,7 +68,7 @@ class CompiledFile:
     folders: list[Path] = field(default_factory=list)
 
     @classmethod
-    def of(cls, text: str) -> CompiledFile | None:
+    def for_text(cls, text: str) -> CompiledFile | None:
         """Return the file of a program, written if it is missing or altered; None where nothing can be kept, or is safe there."""
         try:
             file = file_of(text)
@@ -154,7 +154,7 @@ def code_from(text: str, where: str) -> CodeType:
 
 def compiled_in_file(text: str, name: str, make: Make) -> Callable[..., None]:
     """Return a function compiled from a text by `make(function, file)`; in memory where the disk cannot keep or read it."""
-    cached = CompiledFile.of(text)
+    cached = CompiledFile.for_text(text)
     if cached is not None:
         file = cached.file
         module = sys.modules.setdefault(file.stem, ModuleType(file.stem))  # what is kept on disk looks its module up by name

@@ -30,7 +30,7 @@ class Tangent:
         self._systems: dict[Node, list[Node]] = {}
         self._first = min((node.number for node in seeds), default=0)
 
-    def of(self, node: Node) -> Node:
+    def derivative(self, node: Node) -> Node:
         """Return the derivative of a node."""
         found: set[Node] = set()  # the ancestors that may have a derivative and do not know it yet
         stack, floor = [node], max(self._first, self.limit)
@@ -66,7 +66,7 @@ class Tangent:
         if node.closure is not None:
             loop, graph = node.closure, self.graph  # r_u du = -r_v dv
             held = Tangent(graph, dict.fromkeys(loop.roots, 0.0), beyond=self, limit=loop.roots[0].number)
-            drive = [-held.of(residual) for residual in loop.residuals]
+            drive = [-held.derivative(residual) for residual in loop.residuals]
             self._known.update(zip(loop.roots, solution(graph, jacobian(graph, loop), drive, loop.determinant), strict=True))
             return
         if node.op == "alias":
@@ -89,7 +89,7 @@ def jacobian(graph: Graph, closure: Closure) -> Sequence[Sequence[Node]]:
     """Return the derivatives of a loop's residuals (rows) by its unknowns (columns), worked out once."""
     if closure.jacobian is None:
         columns = [Tangent(graph, {each: float(each is root) for each in closure.roots}) for root in closure.roots]
-        closure.jacobian = [[column.of(residual) for column in columns] for residual in closure.residuals]
+        closure.jacobian = [[column.derivative(residual) for column in columns] for residual in closure.residuals]
     return closure.jacobian
 
 

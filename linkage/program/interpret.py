@@ -104,7 +104,7 @@ class Iterated:
     rows: tuple[Node, ...]
 
     @classmethod
-    def of(cls, closure: Closure) -> Iterated:
+    def from_closure(cls, closure: Closure) -> Iterated:
         """Return the unknowns of a loop whose selected values are inputs."""
         graph = closure.roots[0].graph
         rows = tuple(entry for row in jacobian(graph, closure) for entry in row)

@@ -31,7 +31,7 @@ class Enclosure(Operators["Enclosure | float", "Enclosure"]):
     high: float
 
     @classmethod
-    def of(cls, given: Enclosure | float) -> Enclosure:
+    def from_number(cls, given: Enclosure | float) -> Enclosure:
         """Return a number as an interval of one value."""
         return given if isinstance(given, Enclosure) else cls(float(given), float(given))
 
@@ -45,7 +45,7 @@ class Enclosure(Operators["Enclosure | float", "Enclosure"]):
 
     def applied(self, function: str, *operands: Enclosure | float) -> Enclosure:
         """Apply a function of RULES to intervals and numbers."""
-        return RULES[function](*map(Enclosure.of, operands))
+        return RULES[function](*map(Enclosure.from_number, operands))
 
 
 ANYTHING = Enclosure(-inf, inf)
@@ -119,7 +119,7 @@ def enclosures(outputs: Sequence[Node], inputs: Mapping[str, Enclosure]) -> list
     values: dict[Node, Enclosure] = {}
     for node in ancestors(outputs):
         if node.op == "constant":
-            values[node] = Enclosure.of(node.value)
+            values[node] = Enclosure.from_number(node.value)
         elif node.op == "input":
             values[node] = inputs.get(str(node.value), ANYTHING)
         elif node.op in RULES:

@@ -55,7 +55,7 @@ class PlainFloats:
         text = function_text("design", plan.design_inputs, plan.design, plan.passed, dialect)
         return text + function_text("pose", [*plan.passed, *plan.pose_inputs], plan.pose, (*plan.outputs, *plan.guards), dialect)
 
-    def design(self, values: Sequence[float]) -> tuple[float, ...]:
+    def design_values(self, values: Sequence[float]) -> tuple[float, ...]:
         """Return the values that the pose part needs of a design; the latest design's are kept."""
         key, (known, passed) = array("d", values).tobytes(), self._latest  # bytes tell 0.0 from -0.0
         if key == known:
@@ -67,14 +67,14 @@ class PlainFloats:
         self._latest = key, passed
         return passed
 
-    def pose(self, design: FrozenDict[str, float], strokes: Mapping[str, FloatArray]) -> tuple[float, ...]:
+    def pose_values(self, design: FrozenDict[str, float], strokes: Mapping[str, FloatArray]) -> tuple[float, ...]:
         """Return outputs and guards of one design, floats by name, at one pose, arrays of one number by name.
 
         What the pose part needs of the latest design is kept by the dictionary itself, which does not change.
         """
         known, passed = self._latest_of
         if known is not design:
-            passed = self.design([design[node.value] for node in self.plan.design_inputs])
+            passed = self.design_values([design[node.value] for node in self.plan.design_inputs])
             self._latest_of = design, passed
         row = [strokes[name].item() for name in self._strokes]
         try:
@@ -101,14 +101,14 @@ class PlainFloats:
         """Fill values, shape (outputs, designs, poses), and the least value of each guard."""
         count, m, n = values.shape
         if m == n == 1:
-            (row,) = self.poses(self.design(list(map(one_float, design))), [(one_float(value),) for value in poses], 1)
+            (row,) = self.poses(self.design_values(list(map(one_float, design))), [(one_float(value),) for value in poses], 1)
             values[:, 0, 0] = row[:count]
             guards[:] = row[count:]  # of one pose each is its own least
             return
         designs = [float_list(value, m) for value in design]
         for place in range(m):
             here = [value[place % len(value)] if is_table(value) else value for value in poses]
-            rows = self.poses(self.design([each[place] for each in designs]), [float_list(value, n) for value in here], n)
+            rows = self.poses(self.design_values([each[place] for each in designs]), [float_list(value, n) for value in here], n)
             values[:, place] = np.array([row[:count] for row in rows], float).T.reshape(count, n)
             for k in range(len(guards)):
                 seen = [guards[k], *(row[count + k] for row in rows)]

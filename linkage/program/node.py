@@ -144,7 +144,7 @@ class Graph:
         self.nodes.append(node)
         return node
 
-    def _once(self, key: tuple[object, ...], args: tuple[Node, ...], value: float | str | None, level: Level) -> Node:
+    def _interned(self, key: tuple[object, ...], args: tuple[Node, ...], value: float | str | None, level: Level) -> Node:
         """Return the node that a key, which begins with its operation, is known by; made where there is none."""
         number = self._known.get(key)
         if number is None:
@@ -156,11 +156,11 @@ class Graph:
 
     def constant(self, value: float) -> Node:
         """Return the node of a number."""
-        return self._once(("constant", value), (), value, Level.CONSTANT)
+        return self._interned(("constant", value), (), value, Level.CONSTANT)
 
     def input(self, name: str, level: Level) -> Node:
         """Return the node of an input: a dimension (DESIGN) or a stroke (POSE)."""
-        return self._once(("input", name), (), name, level)
+        return self._interned(("input", name), (), name, level)
 
     def node(self, value: Scalar) -> Node:
         """Return a value as a node of this graph."""
@@ -190,7 +190,7 @@ class Graph:
         if number is not None:
             return self.nodes[number]
         ordered = args if len(args) != 2 or args[0].number == key[1] else args[::-1]
-        return self._once(key, ordered, None, max([each.level for each in args]))
+        return self._interned(key, ordered, None, max([each.level for each in args]))
 
     def known(self, op: str, args: tuple[Node, ...]) -> Node | None:
         """Return the node of an operation where there is one already."""
@@ -201,7 +201,7 @@ class Graph:
         """Return a value that is known by another way: it reads the first node and is differentiated as the second."""
         if value is meaning:
             return value
-        return self._once(("alias", value.number, meaning.number), (value, meaning), None, value.level)
+        return self._interned(("alias", value.number, meaning.number), (value, meaning), None, value.level)
 
     def power(self, base: Node, exponent: Operand) -> Node:
         """Return base ** exponent; whole and half exponents become products and roots."""

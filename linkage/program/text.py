@@ -204,7 +204,7 @@ def along_poses(plan: Schedule) -> list[str]:
     inputs, outputs = range(len(plan.pose_inputs)), range(len(plan.outputs))
     return [
         *indented(1, *SIZES, "for row in range(rows):"),
-        *indented(2, *of_design(plan), *(f"x{k} = i[{k}, across]" for k in inputs)),
+        *indented(2, *row_inputs(plan), *(f"x{k} = i[{k}, across]" for k in inputs)),
         *indented(2, *(f"o{k} = o[{k} * layer + row * line:{k} * layer + row * line + columns]" for k in outputs)),
         *pose_loop(plan, 2, "columns", [f"i{k} = x{k}[b]" for k in inputs], [f"o{k}[b]" for k in outputs]),
     ]
@@ -215,7 +215,7 @@ def along_poses_in_parts(plan: Schedule) -> list[str]:
     inputs, outputs, width = range(len(plan.pose_inputs)), range(len(plan.outputs)), part_of(len(plan.outputs))
     return [
         *indented(1, *SIZES, f"s = np.empty({len(outputs) * width})", "for row in range(rows):"),
-        *indented(2, *of_design(plan), f"for start in range(0, columns, {width}):"),
+        *indented(2, *row_inputs(plan), f"for start in range(0, columns, {width}):"),
         *indented(3, f"count = min({width}, columns - start)", *(f"x{k} = i[{k}, across, start:start + count]" for k in inputs)),
         *pose_loop(plan, 3, "count", [f"i{k} = x{k}[b]" for k in inputs], [f"s[{k * width} + b]" for k in outputs]),
         *(line for k in outputs for line in copied_out(k, k * width)),
@@ -242,7 +242,7 @@ def part_of(arrays: int) -> int:
     return max(64, 4096 // max(arrays, 1) // 8 * 8)
 
 
-def of_design(plan: Schedule) -> list[str]:
+def row_inputs(plan: Schedule) -> list[str]:
     """Return the lines that read a row's constants, and its row of the inputs."""
     constants = [f"c{k} = c[{k}, at]" for k in range(len(plan.passed))]
     return ["at = row if c.shape[1] > 1 else 0", *constants, "across = row if i.shape[1] > 1 else 0"]

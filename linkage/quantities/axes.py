@@ -70,7 +70,7 @@ class Axes:
         """Return the references they are built from: the carrier's points, the origin and the angle."""
         return (*self.carrier, *(each for each in (*self.at, self.angle) if not each.is_constant))
 
-    def within(self, inner: Axes | None) -> Axes:
+    def composed(self, inner: Axes | None) -> Axes:
         """Return axes that stand in these, as they stand in the whole."""
         if inner is None:
             return self

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from ..checks import require, require_number, require_whole
 from ..errors import DefinitionError, article, cited, one_word
-from ..frozen import FrozenDict, own, read_only, refuses_changes
+from ..frozen import FrozenDict, frozen_copy, read_only, refuses_changes
 from ..units import Amount, amounts_in, display_unit, require_measure, show
 from ..vectors import FloatArray
 from .curve import Curve, column
@@ -117,7 +117,7 @@ class Course:
         powers = max(map(len, phases))
         whole = np.concatenate([np.pad(rows, ((0, powers - len(rows)), (0, 0))) for rows in phases], axis=1)
         held = {"breaks": read_only(breaks), "_phases": read_only(whole), "_last": last}
-        self.__dict__.update(held, steps=tuple(FrozenDict({key: own(value) for key, value in step.items()}) for step in steps))
+        self.__dict__.update(held, steps=tuple(FrozenDict({key: frozen_copy(value) for key, value in step.items()}) for step in steps))
         self.__dict__["measures"] = measures
 
     @property
@@ -132,7 +132,7 @@ class Course:
         return bool(np.any((rate != 0.0) & (bend == 0.0)))
 
     @property
-    def key(self) -> bytes:
+    def digest(self) -> bytes:
         """A key in bytes: equal for courses with equal breaks and phases."""
         return bytes(self.breaks.tobytes() + self._phases.tobytes())
 

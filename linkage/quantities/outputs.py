@@ -32,20 +32,20 @@ class Output(Quantity):
 
     @property
     @abstractmethod
-    def word(self) -> str:
+    def function_name(self) -> str:
         """The name of the function that gives it."""
 
     @property
     def identity(self) -> Hashable:
         places = Member.parts(self)
-        return self.name or (self.word, *map(name_of, places), *(() if self.axes.is_frame else self.axes.identity))
+        return self.name or (self.function_name, *map(name_of, places), *(() if self.axes.is_frame else self.axes.identity))
 
     def parts(self) -> tuple[Reference, ...]:
         return (*super().parts(), *self.axes.parts())
 
     def __str__(self) -> str:
         words = [*map(label, super().parts()), str(self.axes)]
-        return f"{self.word}({', '.join(filter(None, words))})"
+        return f"{self.function_name}({', '.join(filter(None, words))})"
 
 
 @final
@@ -57,7 +57,7 @@ class Angle(Output):
     Q: Reference
     axes: Axes = field(default=FRAME_AXES, repr=False)
     expects = (("P", "point"), ("Q", "point"))
-    measures = word = "angle"
+    measures = function_name = "angle"
     is_directed = True
 
     def __post_init__(self) -> None:
@@ -83,7 +83,7 @@ class Distance(Output):
     P: Reference
     Q: Reference
     expects = (("P", "point"), ("Q", "point"))
-    word = "distance"
+    function_name = "distance"
 
     def rule(self, where: Where) -> Scalar:
         return where.direction(name_of(self.P), name_of(self.Q)).length()
@@ -100,11 +100,11 @@ class Coordinate(Output):
     expects = (("P", "point"),)
 
     @property
-    def word(self) -> str:
+    def function_name(self) -> str:
         return self.axis
 
     def in_axes(self, axes: Axes) -> Coordinate:
-        return self.renewed(axes=axes.within(self.axes))
+        return self.renewed(axes=axes.composed(self.axes))
 
     def rule(self, where: Where) -> Scalar:
         P = self.axes.read_place(where, where.at(self.P))

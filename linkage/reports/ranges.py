@@ -34,7 +34,7 @@ def reached_span(motion: Motion) -> Range:
     Raises AssemblyError where none is.
     """
     name = one_stroke(motion)
-    found = [(each.start[name], each.end[name]) for each in between.reached(motion)]
+    found = [(each.start[name], each.end[name]) for each in between.reached_spans(motion)]
     if not found:
         raise out_of_reach(motion)
     return found[0][0], found[-1][1]

@@ -349,7 +349,7 @@ def member_limits(plan: Plan, case: Case, *, are_remarks: bool = False) -> tuple
                 for each in condition.constraints(None):
                     is_least = isinstance(each.left, Least)
                     if isinstance(each.left, (Least, Most)) and each.symbol == (">=" if is_least else "<="):
-                        for row in judge.sought(each.left, judge.places[0]):
+                        for row in judge.search_rows(each.left, judge.places[0]):
                             request = row.piece.below if row.stays_at_zero else row.piece.request
                             if isinstance(request, (LawRequest, Quantity)):
                                 found.append(MemberLimit(f"{rule} {name}", request, each.right, is_least))

@@ -131,7 +131,7 @@ def friction_kernels(
     for contact in contacts:
         start = system.first[contact]
         own = [motion.node(u[0, start + k]) for k in range(contact.presses)]
-        slopes = [[tangent.of(force) for tangent in tangents] for force in own]
+        slopes = [[tangent.derivative(force) for tangent in tangents] for force in own]
         forces += own
         by_each += [each for row in slopes for each in row]
         pairs = list(zip(*slopes, strict=True))

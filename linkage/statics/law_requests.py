@@ -127,10 +127,10 @@ class TracedMotion(OnePose):
         moving, driven = ({name: self.node(each) for name, each in given.items()} for given in (rates, accelerations))
         places = nodes = [self.node(each) for each in self._nodes(target)]
         for _ in range(order):
-            nodes = list(map(self._reading.by_time(moving, driven).of, nodes))
+            nodes = list(map(self._reading.by_time(moving, driven).derivative, nodes))
         beside = {name: each for name, each in driven.items() if name not in moving or moving[name].op != "input"}
         if beside:
-            nodes = [a + self._reading.by_time(beside).of(b) for a, b in zip(nodes, places, strict=True)]
+            nodes = [a + self._reading.by_time(beside).derivative(b) for a, b in zip(nodes, places, strict=True)]
         return self._shaped(tuple(nodes))
 
     # -- numbers ---------------------------------------------------------------------------------------------
@@ -188,7 +188,8 @@ class TracedMotion(OnePose):
     def _nodes(self, target: Reference) -> tuple[Scalar, ...]:
         """Return the nodes of a point, a vector or a quantity; the members behind it are noted."""
         plan = self.plan
-        member: Member = plan.members[checked_name("Name", target, plan.named(), plan.title)] if isinstance(target, str) else target
+        known = plan.valued_members()
+        member: Member = plan.members[checked_name("Name", target, known, plan.title)] if isinstance(target, str) else target
         self.read |= plan.reaches(member.name or member)
         if isinstance(member, (Point, Arrow)):
             place = self._reading.at(member) if isinstance(member, Point) else self._reading.vector(member)
@@ -232,7 +233,7 @@ class TracedMotion(OnePose):
         self.through |= self.plan.reaches(target if isinstance(target, str) else target.name or target)
         nodes = tuple(self.node(each) for each in self._nodes(target))
         for _ in range(order_of(order)):
-            nodes = tuple(self._reading.tangent(stroke).of(node) for node in nodes)
+            nodes = tuple(self._reading.tangent(stroke).derivative(node) for node in nodes)
         return self._shaped(nodes)
 
 

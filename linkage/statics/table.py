@@ -137,7 +137,7 @@ def max_table(results: Results, over: OverLike = None, acting: Acting | None = N
 def judged_table(judge: Judge) -> tuple[PinLoad, ...]:
     """Return, for every joint, its largest force over all that a judge looks at, in all that acts there."""
     with unwarned():
-        pose = judge.pose
+        pose = judge.sample_pose
         if pose is None:
             raise DefinitionError("There are no joint forces to tabulate: no pose is reached.")
         there = joint_forces(pose, Acting(judge.acting.loads, judge.acting.case))
@@ -157,7 +157,7 @@ def judged_row(judge: Judge, key: tuple[str, str, str, str], answer: Answer, kno
     if np.isnan(value).all():
         return None
     number = int(np.argmax(np.where(np.isnan(value), -np.inf, value)))
-    of_design, one = (judge.of_design(number), answer.of_design(number)) if value.ndim else (judge, answer)
+    of_design, one = (judge.for_design(number), answer.of_design(number)) if value.ndim else (judge, answer)
     acting, where = of_design.situation(one), (number, *one.strokes.items(), str(one.time), one.case, one.direction, one.drive)
     if where not in known:
         known[where] = joint_forces(of_design.there(one), replace(acting, drive=acting.drive if acting.movement != FRICTIONLESS else None))

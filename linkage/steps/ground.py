@@ -44,7 +44,7 @@ class Ground(Point):
         return self.axes.place(where, Vec(*own))
 
     def in_axes(self, axes: Axes) -> Any:
-        stands = axes.within(self.axes)
+        stands = axes.composed(self.axes)
         if not stands.carrier:
             return self.renewed(axes=stands)
         P, Q = stands.carrier

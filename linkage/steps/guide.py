@@ -42,7 +42,7 @@ class Guide(Jointed):
         return (*(point for point in super().parts() if point is not None), *angle, *self.axes.parts())
 
     def in_axes(self, axes: Axes) -> Self:
-        return self if self.Q is not None and self.P is not None else self.renewed(axes=axes.within(self.axes))
+        return self if self.Q is not None and self.P is not None else self.renewed(axes=axes.composed(self.axes))
 
     @property
     def points(self) -> tuple[str, ...]:
@@ -118,7 +118,7 @@ class OnGuide(Point):
         return self.guide, self.along
 
     def place(self, where: Where) -> Vec:
-        return where.line(self.guide).at(where.value(self.along))
+        return where.line(self.guide).point_at(where.value(self.along))
 
     def joints(self) -> tuple[Joint, ...]:
         guide, drives = name_of(self.guide), (Driven(self.along, "t"),)

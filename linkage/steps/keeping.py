@@ -139,7 +139,7 @@ class Construction:
     def _offset(self, X: str, P: str, by: Reference) -> OffsetLinks:
         """Return the constraints that the point X = P + vector keeps."""
         arrow = self.arrow(by)
-        way, length = self.direction(arrow), self.length(arrow)
+        way, length = self.direction_form(arrow), self.length_form(arrow)
         turns, behind = self.moving(way), self.behind(length)
         home = next((body for body in self.bodies if body.turns == turns and P in body.points and body.pair(P)), None)
         closing = None if home is not None else self._closing(P, way, length)
@@ -171,7 +171,7 @@ class Construction:
 
     def _at_home(self, X: str, P: str, home: TurningBody, arrow: Arrow) -> OffsetLinks:
         """Return the constraints of a point offset in the direction of a body at P: it is part of the body, or slides along it."""
-        length, by = self.length(arrow), home.pair(P)
+        length, by = self.length_form(arrow), home.pair(P)
         if self.is_driven(length) and by is not None:
             return self._telescope(X, P, home.turns, by, arrow, None)
         if self.behind(length) or by is None:
@@ -214,7 +214,7 @@ class Construction:
             arrow = self.arrow(arrow.base)
         if not isinstance(arrow, Turn) or self.turned.setdefault(arrow.name or id(arrow), P) != P:
             return None
-        base, angle = self.moving(self.direction(self.arrow(arrow.base))), self.form(arrow.angle)
+        base, angle = self.moving(self.direction_form(self.arrow(arrow.base))), self.form(arrow.angle)
         if not base:
             counted_from = (body.turns for body in self.bodies if body.turns <= angle.terms)  # the frame, or a body
             return (arrow.angle, ()) if any(self.is_driven(Form(angle.terms - turns)) for turns in counted_from) else None
@@ -230,13 +230,13 @@ class Construction:
         assert isinstance(found, Arrow)
         return found
 
-    def direction(self, arrow: Arrow) -> Form:
+    def direction_form(self, arrow: Arrow) -> Form:
         """Return the direction of a vector as a sum of angles."""
         match arrow:
             case Vector():
                 return self.direction_of(name_of(arrow.P), name_of(arrow.Q))
             case Turn():
-                return self.direction(self.arrow(arrow.base)).plus(self.form(arrow.angle))
+                return self.direction_form(self.arrow(arrow.base)).plus(self.form(arrow.angle))
             case Axis():
                 return self._base(arrow.axes).plus(Form(number=pi if arrow.axes.mirrored else 0.0))
         return self._atom(("direction of", arrow.name or id(arrow)), {STROKE, POINTS})
@@ -245,13 +245,13 @@ class Construction:
         """Return the direction of the x axis of axes, before they are mirrored."""
         return (self.direction_of(*axes.carrier) if axes.carrier else Form()).plus(self.form(axes.angle))
 
-    def length(self, arrow: Arrow) -> Form:
+    def length_form(self, arrow: Arrow) -> Form:
         """Return the length of a vector as a sum of lengths."""
         match arrow:
             case Vector():
                 return self.pair_length(name_of(arrow.P), name_of(arrow.Q))
             case Turn():
-                return self.length(self.arrow(arrow.base)) if arrow.scaled_to is None else self.form(arrow.scaled_to)
+                return self.length_form(self.arrow(arrow.base)) if arrow.scaled_to is None else self.form(arrow.scaled_to)
             case Axis():
                 return Form(number=1.0)
         return self._atom(("length of", arrow.name or id(arrow)), {STROKE, POINTS})
@@ -305,7 +305,7 @@ class Construction:
             case Distance():
                 return self.pair_length(name_of(given.P), name_of(given.Q))
             case Length():
-                return self.length(self.arrow(given.vector))
+                return self.length_form(self.arrow(given.vector))
             case CosineAngle():
                 a, b, c = (self.form(side) for side in given.triangle)
                 key = ("corner", frozenset((a, b)), c)

@@ -167,7 +167,7 @@ class Step(Point):
     ) -> None:
         self.parents = parents
         self.labels = dict(labels)
-        self.side = None if side is None else Side.said(side)
+        self.side = None if side is None else Side.parse(side)
         ensure(side is None or self.side is not None, f"{type(self).__name__}: side={cited(side)}; say side=LEFT or side=RIGHT.")
         self.near = position(near, f"{type(self).__name__}(near=...)")
         self.drawn_at = position(at, f"{type(self).__name__}(at=...)")

@@ -650,7 +650,7 @@ class Problem:
             ends = each.sign * each.low, each.sign * each.high
             inputs[each.owner] = Enclosure(min(ends), max(ends))
         found = dict(zip(measure.leaves, enclosures(nodes, inputs), strict=True))
-        return Enclosure.of(measure.of(lambda leaf: found[leaf]))
+        return Enclosure.from_number(measure.of(lambda leaf: found[leaf]))
 
     # -- machines ----------------------------------------------------------------------------------------
 

@@ -98,8 +98,8 @@ class LevelLines:
         """Return the parts of lines at some heights that are reached (left, right) [m]."""
         up, count = np.sort(heights), self.across.size
         poses, turn = self.poses(self.across, up)
-        whole = self.many.places.reached(poses.unit) if len(poses.place) else np.zeros(0, bool)
-        poses, turn = poses.where(whole), turn[whole]
+        whole = self.many.places.is_assembled(poses.unit) if len(poses.place) else np.zeros(0, bool)
+        poses, turn = poses.select(whole), turn[whole]
         inside = np.zeros(count * up.size, bool)
         inside[poses.place] = True
         if self.is_single:
@@ -132,7 +132,7 @@ class LevelLines:
         reached = good
         fits = self.standing(start.unit)[turn, np.arange(len(turn))]
         chosen = fits | ~np.isin(start.place, start.place[fits])
-        start, turn = start.where(chosen), turn[chosen]
+        start, turn = start.select(chosen), turn[chosen]
         for _ in range(ROUNDS):
             if not len(start.place):
                 break

@@ -277,7 +277,7 @@ class Search:
         plan, box = machine.plan, Box.of(machine, vary)
         for each in targets_given(targets, plan.title, 'such as [Target("tilt", 0.0, S=0.1)]'):
             expected = "one number is expected for the value, in SI. An array is a path, of follow(...)"
-            ensure(not each.is_path, f"{plan.title}: {each!r}: {expected}.")
+            ensure(not each.is_array, f"{plan.title}: {each!r}: {expected}.")
             if set(each.strokes) != set(machine.strokes):
                 raise DefinitionError(f"{plan.title}: {each!r}: say the pose, {', '.join(f'{name}=...' for name in machine.strokes)}.")
             each.check(plan)
@@ -308,7 +308,7 @@ class Search:
         found: dict[Hashable, FloatArray] = {}
         for request in self.bound:
             if request.key not in found:
-                kernel = BulkProgram.of(plan, [slope(request, owners)]).kernel
+                kernel = BulkProgram.for_requests(plan, [slope(request, owners)]).kernel
                 found[request.key] = kernel(grid.flat, way=RunOptions("numpy"), size=grid.size).values
         columns = [found[request.key][:, :, place] for place, request in enumerate(self.bound)]
         sides = np.array([high - low for low, high in self.box.ranges.values()])

@@ -176,7 +176,7 @@ def point_region(machine: Mechanism, point: str, region: Region, variables: Sequ
 
 def places_inside(title: str, each: PointRegion, variables: Sequence[Varied], count: int, seed: int) -> FloatArray:
     """Return places in a region, evenly spread, (k, 2), as many as `count` if there are; DefinitionError for none."""
-    low, high = (np.array(end) for end in each.region.box)
+    low, high = (np.array(end) for end in each.region.bounds)
     for column, (place, sign) in enumerate(zip(each.places, each.signs, strict=True)):
         ends = [each.fixed[column]] * 2 if place is None else sorted(sign * end for end in (variables[place].low, variables[place].high))
         low[column], high[column] = max(low[column], ends[0]), min(high[column], ends[1])
@@ -409,7 +409,7 @@ def rows_of(title: str, names: Sequence[str], given: object, owners: Sequence[tu
         row = list(each) if isinstance(each, (list, tuple, np.ndarray)) else [each]
         for place, (owner, _) in enumerate(owners if len(row) == width else ()):
             if is_side(owner):
-                side = Side.said(row[place])
+                side = Side.parse(row[place])
                 ensure(side is not None, f"{owner}: {cited(row[place])} is no side; write a list of them, [LEFT, RIGHT].")
                 row[place] = side
         many = f"{width} numbers are" if width > 1 else "a number is"

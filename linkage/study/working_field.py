@@ -226,7 +226,7 @@ class Climb:
         """Return them after one look around."""
         rows, k = self.going, self.solved
         parts = {name: getattr(self, name)[rows] for name in ("order", "load", "centre", "worth", "room")}
-        here = replace(self, base=self.base.where(rows), **parts)
+        here = replace(self, base=self.base.select(rows), **parts)
         s = here.centre.shape[1] - k
         around = np.array([*product((-1.0, 0.0, 1.0), repeat=s)])
         room = here.room[:, None]
@@ -406,9 +406,9 @@ class LoadsFound:
         """The load (n,)."""
         return np.asarray(np.min(self.of, axis=0, initial=np.inf))
 
-    def where(self, rows: Any) -> LoadsFound:
+    def select(self, rows: Any) -> LoadsFound:
         """Return some of them."""
-        return LoadsFound(self.poses.where(rows), self.of[:, rows])
+        return LoadsFound(self.poses.select(rows), self.of[:, rows])
 
     def best(self) -> Index:
         """Return the row of each place at which most is carried, by place ascending; of equal ones that with the least first stroke."""
@@ -450,7 +450,7 @@ class FieldSearch:
         across, up = axes[0].size, axes[1].size
         if across * up > MOST_CELLS:
             raise DefinitionError(f"{title}: {across} by {up} are {across * up} cells, up to {MOST_CELLS} are looked at; give fewer.")
-        fits = is_listed(keep) and all(isinstance(each, Target) and not each.is_path for each in keep)
+        fits = is_listed(keep) and all(isinstance(each, Target) and not each.is_array for each in keep)
         require(fits, f"{title}: keep", keep, 'a list of targets is expected, such as keep=[Target("tilt", 0.0)]')
         targets = [Target(x_of(name), float(axes[0][0])), Target(y_of(name), float(axes[1][0])), *keep]
         ranges = ranges_over(machine, over, title)
@@ -459,7 +459,7 @@ class FieldSearch:
         check_strokes(plan, hold, targets, title)
         way = pull_direction(along, f"{title}: ")
         direction_words(way)  # refuses arrays, which are of the poses of a motion
-        many = ManyPlaces.of(plan, machine.dimensions, targets, hold, where="working_field", ranges=ranges)
+        many = ManyPlaces.for_targets(plan, machine.dimensions, targets, hold, where="working_field", ranges=ranges)
         elements = plan.of_kind(ForceElement)
         left = names_among(without, "without", elements, title, '"load"')
         lifting = None if lifts is None else frozenset(names_among(lifts, "lifts", elements, title, '"boom"'))
@@ -534,13 +534,13 @@ class FieldSearch:
             if many.spare:
                 again = ~met & ~solved[at.place]
                 if again.any():
-                    late, late_met = many.settled(start.where(again), goals, outs, damped="unsettled")
-                    at, met = at.joined(late), np.concatenate([met, late_met])
+                    late, late_met = many.settled(start.select(again), goals, outs, damped="unsettled")
+                    at, met = at.concatenated(late), np.concatenate([met, late_met])
                     solved[late.place[late_met]] = True
             unit = np.empty_like(at.unit[met])
             unit[:, order] = at.unit[met]
             found.append(PlacePoses(at.place[met], unit))
-        return found[0].joined(*found[1:]), np.repeat(np.arange(len(found)), [len(each.place) for each in found])
+        return found[0].concatenated(*found[1:]), np.repeat(np.arange(len(found)), [len(each.place) for each in found])
 
     # -- the loads -----------------------------------------------------------------------------------------
 
@@ -551,7 +551,7 @@ class FieldSearch:
 
     def carried(self, poses: PlacePoses) -> LoadsFound:
         """Return what each limiter leaves at poses, factors included; NaN where they are not reached."""
-        rows = self.many.places.rows(poses.unit)
+        rows = self.many.places.strokes_at(poses.unit)
         count = len(poses.place)
         kinds = self.loads.kinds
         found = self.loads.at(rows) if count else np.empty((len(kinds), 0))
@@ -571,13 +571,13 @@ class FieldSearch:
         It begins at the best poses of the first look that stand apart from each other, and at the best of the first `inner` ones, on which
         no stroke stands at an end for the sake of the places.
         """
-        own = found.where(slice(inner)).best()
+        own = found.select(slice(inner)).best()
         rows = np.unique(np.concatenate([own, self.apart(found, STARTS[self.many.spare])]))
-        base, load = found.poses.where(rows), found.load[rows]
+        base, load = found.poses.select(rows), found.load[rows]
         for looks, room in LOOKS[self.many.spare]:
             base, load = self.climbed(base, load, looks, room * float(self.many.spare_step.max()))
             kept = LoadsFound(base, load[None]).best()
-            base, load = base.where(kept), load[kept]
+            base, load = base.select(kept), load[kept]
         return self.carried(base)
 
     def climbed(self, base: PlacePoses, load: FloatArray, looks: int, room: float) -> tuple[PlacePoses, FloatArray]:
@@ -601,7 +601,7 @@ class FieldSearch:
         left, chosen, k, s = np.arange(len(found.poses.place)), [], self.many.solved, self.many.spare
         spare, place, of_place = found.poses.unit[:, k:] / self.many.spare_step, found.poses.place, np.zeros(self.x.size * self.y.size, int)
         for _ in range(count):
-            best = left[found.where(left).best()]
+            best = left[found.select(left).best()]
             chosen.append(best)
             of_place[place[best]] = best
             left = left[(np.abs(spare[left] - spare[of_place[place[left]]]) > NEXT[s]).any(axis=1)]
@@ -635,14 +635,14 @@ class FieldSearch:
             found = self.refined(found, int(np.sum(turn == 0)))
         best, whole = found.best(), np.zeros(0, bool)
         while len(best):  # a pose that the loads do not hang on altogether may not be assembled
-            whole = self.many.places.reached(found.poses.unit[best]) & ~np.isnan(found.load[best])
+            whole = self.many.places.is_assembled(found.poses.unit[best]) & ~np.isnan(found.load[best])
             if whole.all() or not len(found.poses.place):
                 break
             kept = np.ones(len(found.poses.place), bool)
             kept[best[~whole]] = False
-            found = found.where(kept)
+            found = found.select(kept)
             best = found.best()
-        return self.gathered(found.where(best))
+        return self.gathered(found.select(best))
 
     def gathered(self, found: LoadsFound) -> WorkingField:
         """Return the field of one pose a place."""
@@ -656,7 +656,7 @@ class FieldSearch:
         names = np.array([*self.limiter_names, NOT_LIMITED, OUT_OF_REACH])
         which = np.full(count, len(names) - 1)
         which[poses.place] = np.where(np.isfinite(load), np.argmin(of, axis=0) if len(of) else 0, len(names) - 2)
-        rows = self.many.places.rows(poses.unit)
+        rows = self.many.places.strokes_at(poses.unit)
         strokes = {name: full(values) for name, values in rows.items()}
         failing = self.loads.failing(self.loads.motion(rows), np.where(np.isfinite(load), load, 0.0)) if len(load) else {}
         counts = {name: int(np.sum(each)) for name, each in failing.items() if np.any(each)}
@@ -708,15 +708,15 @@ class FieldSearch:
             return {}
         outs = np.where(places.turning, np.maximum(np.pi / places.span - 0.5, 0.0), 1.0)
         start = self.many.looked_at(outs).starts(*self.ascending, self.rest)
-        start = start.where(lost[start.place])
+        start = start.select(lost[start.place])
         at, met = self.many.settled(start, self.goals, outs, damped=False)
         again = ~met & ~np.isin(at.place, at.place[met])
         if again.any():
             late, late_met = self.many.settled(start.where(again), self.goals, outs)
-            at, met = at.joined(late), np.concatenate([met, late_met])
-        at = at.where(met)
+            at, met = at.concatenated(late), np.concatenate([met, late_met])
+        at = at.select(met)
         out = np.maximum(np.maximum(-at.unit, at.unit - 1.0), 0.0)
-        whole = places.reached(at.unit) if len(at.place) else np.zeros(0, bool)
+        whole = places.is_assembled(at.unit) if len(at.place) else np.zeros(0, bool)
         at, out = at.where(whole), out[whole]
         order = np.lexsort((out.max(axis=1), at.place))
         first = order[np.append(True, np.diff(at.place[order]) != 0)] if len(order) else order
@@ -740,17 +740,17 @@ class FieldSearch:
             return {place: said("no pose that was looked at can be assembled") for place in left}
         every = np.tile(values[known], (len(left), 1))
         apart = places.off(every, np.repeat(wanted, known.size, axis=0))
-        size = np.sum((apart / places.within) ** 2, axis=1).reshape(len(left), known.size)
+        size = np.sum((apart / places.tolerances) ** 2, axis=1).reshape(len(left), known.size)
         begin = look.unit[known[np.argmin(size, axis=1)]]
 
         def misses(unit: FloatArray, at: Index) -> FloatArray:
-            return places.off(self.many.seen(unit)[0], wanted[at]) / places.within
+            return places.off(self.many.seen(unit)[0], wanted[at]) / places.tolerances
 
         def slopes(unit: FloatArray, _: Index) -> FloatArray:
-            return self.many.seen(unit)[1] / places.within[:, None]
+            return self.many.seen(unit)[1] / places.tolerances[:, None]
 
         _, off = descended(misses, slopes, begin, 40)
-        off = off * places.within
+        off = off * places.tolerances
         far = np.hypot(off[:, 0], off[:, 1])
         words = [said("the nearest pose is {far} away", far=show(each, "mm", 4)) for each in far.tolist()]
         return dict(zip(left, words, strict=True))

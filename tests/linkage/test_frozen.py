@@ -10,7 +10,7 @@ from numpy.testing import assert_array_equal
 
 from hydraulics import Accumulator, AccumulatorBlock, Cylinder, CylinderSize
 from linkage import DefinitionError, Mechanism, driving_force
-from linkage.frozen import FrozenDict, own, unmasked
+from linkage.frozen import FrozenDict, frozen_copy, unmasked
 from linkage.loads import Force, LinkMass, LoadCase, Spring, Support, Weight
 from linkage.quantities import Member
 from linkage.study import survey
@@ -192,7 +192,7 @@ def masked(*values):
 
 def test_a_masked_value_is_no_number():
     assert np.isnan(unmasked(masked(1, 2, 3))[1]) and np.isnan(unmasked(np.ma.masked))
-    assert_array_equal(own(masked(1.0, 2.0, 3.0)), [1.0, np.nan, 3.0])
+    assert_array_equal(frozen_copy(masked(1.0, 2.0, 3.0)), [1.0, np.nan, 3.0])
 
 
 MASKED = [

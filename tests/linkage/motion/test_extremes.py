@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from linkage import LEFT, RIGHT, Crank, DefinitionError, Dyad, Ground, Link, Mechanism, Pin, Stroke, angle
-from linkage.motion import below_zero, evaluate_grid, greatest, lowest, ratio, reached
+from linkage.motion import below_zero, evaluate_grid, greatest, lowest, ratio, reached_spans
 from linkage.program import QUICKEST
 from tests.for_all import for_all
 
@@ -495,8 +495,8 @@ def test_ranges_end_at_jumps_and_where_there_is_no_value():
     assert_allclose(ends(spans, "S"), [0.5, 0.5 + 0.25 / 3.0], atol=1e-12)
     spans = below_zero(Lift().at(S=[0.3, 0.9], unreachable="nan"), lambda motion: 0.7 - motion.strokes["S"])
     assert_allclose(ends(spans, "S"), [0.7, 0.8], atol=1e-12)
-    assert_allclose(ends(reached(Lift().at(S=[0.9, 0.3], unreachable="nan")), "S"), [0.4, 0.8], atol=1e-12)
-    assert reached(Lift().at(S=[0.1, 0.2], unreachable="nan")) == ()
+    assert_allclose(ends(reached_spans(Lift().at(S=[0.9, 0.3], unreachable="nan")), "S"), [0.4, 0.8], atol=1e-12)
+    assert reached_spans(Lift().at(S=[0.1, 0.2], unreachable="nan")) == ()
     assert str(below_zero(Lift().sweep(2), lambda motion: motion.strokes["S"] - 0.566)[0]) == "from S = 0.5000 to 0.5660 m"
 
 

@@ -211,13 +211,13 @@ def test_the_compiled_loop_agrees_and_is_cached(machine, cache_folder):
 
 
 def test_a_program_is_written_once_and_mended(cache_folder):
-    file = CompiledFile.of("x = 1\n").file
+    file = CompiledFile.for_text("x = 1\n").file
     date = file.stat().st_mtime_ns
-    assert CompiledFile.of("x = 1\n").file == file
+    assert CompiledFile.for_text("x = 1\n").file == file
     assert file.stat().st_mtime_ns == date
     for wrong in (b"x = 2\n", b"\xff\n", b""):
         file.write_bytes(wrong)
-        assert CompiledFile.of("x = 1\n").file.read_text(encoding="utf-8") == "x = 1\n"
+        assert CompiledFile.for_text("x = 1\n").file.read_text(encoding="utf-8") == "x = 1\n"
     assert sorted(each.name for each in cache_folder.iterdir()) == ["__pycache__", file.name]
 
 

@@ -269,7 +269,23 @@ class Mechanism(Shown, metaclass=MechanismType):
         return sign * self._values[owner]
 
     def replaced(self, **dimensions: npt.ArrayLike) -> Self:
-        """Return the same design with some dimensions changed."""
+        """Return the same design with some dimensions changed.
+
+        Parameters
+        ----------
+        **dimensions : float or array_like
+            New values by name [SI]; arrays make a batch.
+
+        Returns
+        -------
+        Mechanism
+            The new design.
+
+        Raises
+        ------
+        DefinitionError
+            An unknown name, or a value out of range.
+        """
         given, spellings = self._settings(dimensions), self.plan.table.spellings
         named = {each for name in dimensions for each in (name, f"{name}.x", f"{name}.y")}
         touched = {spellings[each][0] for each in named if each in spellings}
@@ -296,6 +312,29 @@ class Mechanism(Shown, metaclass=MechanismType):
         cannot be assembled, SingularError for a change point. A stretch narrower than 1e-6 of the stroke may be reported as a change point,
         a clearance of less than 1e-12 of the links as none. What lies within 1e-7 of the stroke next to its ends is not passed. With
         `unreachable="nan"`, `motion.interruptions` lists them. Batches and several strokes are not searched in this way.
+
+        Parameters
+        ----------
+        count : int, optional
+            The number of poses of the only stroke, or along `over`.
+        over : Over or str, optional
+            The domain, or the name of a declared one.
+        unreachable : str
+            "raise" refuses poses out of reach, "nan" leaves them out.
+        **strokes : int or float
+            A number of poses, or a value [m or rad], by the stroke's name.
+
+        Returns
+        -------
+        Motion
+            The motion.
+
+        Raises
+        ------
+        AssemblyError
+            The machine cannot be assembled at some pose.
+        SingularError
+            A change point lies on the way.
         """
         if over is not None:
             if strokes:
@@ -311,6 +350,29 @@ class Mechanism(Shown, metaclass=MechanismType):
         Strokes are shared by all designs of a batch; with `per_design` each design has its own: their arrays then begin with the shape of
         the designs, (*designs, *strokes), as results do. The way from the least to the greatest of several is looked at as that of a sweep.
         DefinitionError for a value without its stroke.
+
+        Parameters
+        ----------
+        *unnamed : object
+            Refused, with the name of the stroke.
+        unreachable : str
+            "raise" refuses poses out of reach, "nan" leaves them out.
+        per_design : bool
+            Whether each design has strokes of its own.
+        **strokes : float or array_like
+            Values of the strokes by name [m or rad].
+
+        Returns
+        -------
+        Motion
+            The motion.
+
+        Raises
+        ------
+        AssemblyError
+            The machine cannot be assembled at some pose.
+        DefinitionError
+            A value without its stroke.
         """
         if unnamed:
             text = f"{self.plan.title}: at({cited(unnamed[0])}) does not say which stroke has this value"
@@ -333,6 +395,29 @@ class Mechanism(Shown, metaclass=MechanismType):
         those of the first place; without it the branches of that place are tried, the nearest to the declared first pose first, and the
         first one that goes all the way is taken. Where none does it raises AssemblyError, of a stroke past its end, or SingularError, of
         a dead point, for the one that goes farthest: with the place, the stroke, the millimetres; unless `unreachable="nan"`.
+
+        Parameters
+        ----------
+        targets : sequence of Target
+            The targets, as many as strokes that are free.
+        hold : mapping, optional
+            Strokes held at a value by name [m or rad].
+        start : mapping, optional
+            Strokes near those of the first place [m or rad].
+        unreachable : str
+            "raise" refuses poses out of reach, "nan" leaves them out.
+
+        Returns
+        -------
+        Motion
+            The motion along the places.
+
+        Raises
+        ------
+        AssemblyError
+            A stroke ends on the way.
+        SingularError
+            A dead point lies on the way.
         """
         return follow_path(self.plan, self._values, targets, hold, start, unreachable)
 
@@ -358,6 +443,39 @@ class Mechanism(Shown, metaclass=MechanismType):
         numbers or arrays that fit the strokes. Poses are taken one by one: unlike `at` it does not look for
         change points between them. Raises AssemblyError out of reach and SingularError for ratios at a dead point, unless
         `unreachable="nan"`.
+
+        Parameters
+        ----------
+        of : sequence of str, Quantity or Request
+            The values asked for.
+        out : ndarray, optional
+            Takes the results, shape (components, *designs, *strokes).
+        unreachable : str
+            "raise" refuses poses out of reach, "nan" leaves them out.
+        backend : str, optional
+            "numpy", "numba" or "floats"; by default the quickest.
+        threads : int
+            The number of threads.
+        per_design : bool
+            Whether each design has strokes of its own.
+        rates : mapping, optional
+            Rates of the strokes by name [1/s], for dampers and inertia.
+        accelerations : mapping, optional
+            Accelerations of the strokes by name [1/s2], for inertia.
+        **strokes : float or array_like
+            Values of the strokes by name [m or rad].
+
+        Returns
+        -------
+        list of ndarray
+            One array a request: shape (2, *designs, *strokes) of a point, (*designs, *strokes) of a quantity.
+
+        Raises
+        ------
+        AssemblyError
+            A pose is out of reach.
+        SingularError
+            A ratio is asked for at a dead point.
         """
         options = RunOptions(backend, threads)
         own = is_yes("per_design", per_design)
@@ -369,6 +487,20 @@ class Mechanism(Shown, metaclass=MechanismType):
         `f(0.1)` returns all components one after the other, here (G_x, G_y, dG_x, dG_y), in some microseconds: for root
         finders and other loops that take one pose at a time. It raises what `evaluate` raises. With `rates` the
         rates of all strokes [1/s] follow these, with `accelerations` then their accelerations [1/s2]: `f(0.1, 0.05, 0.5)`.
+
+        Parameters
+        ----------
+        of : sequence of str, Quantity or Request
+            The values asked for.
+        rates : bool
+            Whether the function takes the rates of the strokes [1/s].
+        accelerations : bool
+            Whether it takes their accelerations [1/s2].
+
+        Returns
+        -------
+        callable
+            The function of floats; it returns a tuple of all components.
         """
         return PoseFunction(self.plan, self._values, of, time_orders(rates, accelerations))
 
@@ -382,11 +514,45 @@ class Mechanism(Shown, metaclass=MechanismType):
         Dimensions and strokes are its arguments, in the order that its first comment gives, SI and radians; NaN out of reach. Pins
         that are found by iteration have no closed form and are refused by name. With `rates` and `accelerations` those of the strokes are
         arguments too, where what is asked for follows them.
+
+        Parameters
+        ----------
+        of : sequence of str, Quantity or Request
+            The values asked for.
+        language : str or Language
+            "c", "javascript", or a language of your own.
+        name : str
+            The name of the function.
+        rates : bool
+            Whether the function takes the rates of the strokes [1/s].
+        accelerations : bool
+            Whether it takes their accelerations [1/s2].
+
+        Returns
+        -------
+        str
+            The source text.
+
+        Raises
+        ------
+        DefinitionError
+            A value without a closed form.
         """
         return source_of(self.plan, self._values, of, language, name, time_orders(rates, accelerations))
 
     def columns(self, motion: Motion) -> list[Column]:
-        """Return the table of results: strokes, moving points, named outputs. A machine replaces it by its own."""
+        """Return the table of results: strokes, moving points, named outputs. A machine replaces it by its own.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses; designs first, strokes last.
+
+        Returns
+        -------
+        list of Column
+            The columns, one number a pose.
+        """
         return columns_of(motion)
 
     def verdicts(self, motion: Motion | None = None, *, over: object = None, acting: Acting | None = None) -> list[Verdict]:
@@ -395,6 +561,20 @@ class Mechanism(Shown, metaclass=MechanismType):
         Of a motion over all that it covers, without one over `overs` or what is given as `over`; under all load cases that occur, in all
         movements, on both sides of cylinders. The first is `held` where the machine is not: there are no forces then. Then come whether it
         is assembled, its dead points, what its members say, such as cylinders and circuits, and its own `rules`.
+
+        Parameters
+        ----------
+        motion : Motion, optional
+            The motion that is judged.
+        over : Over, str or mapping, optional
+            The domain, or the name of a declared one; by default all that the machine runs.
+        acting : Acting, optional
+            Loads, load case, direction and rates in one.
+
+        Returns
+        -------
+        list of Verdict
+            The verdicts and remarks.
         """
         if motion is not None and over is not None:
             raise DefinitionError(f"{self.plan.title}.verdicts: a motion and over= both say where is looked; give one of them.")
@@ -403,7 +583,18 @@ class Mechanism(Shown, metaclass=MechanismType):
         return verdicts_of(self, self.judge(over if motion is None else motion, acting), motion)
 
     def rules(self, motion: Motion) -> Sequence[str]:
-        """Return this machine's own verdicts on a motion, in addition to the general ones: `Verdict`s; a plain sentence is a `Remark`."""
+        """Return this machine's own verdicts on a motion, in addition to the general ones: `Verdict`s; a plain sentence is a `Remark`.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses; designs first, strokes last.
+
+        Returns
+        -------
+        sequence of Verdict or str
+            The verdicts and remarks.
+        """
         return []
 
     @property
@@ -419,6 +610,20 @@ class Mechanism(Shown, metaclass=MechanismType):
         `answers([least(reserve("lift")) >= 1, most(pin_force("V")), reachable])`: a question is a measure, a condition such as `fits(lift)`
         or a comparison of measures. `over` is one `Over` or several, a dictionary short for one, default `overs`. `acting` says loads,
         a load case, a direction; without it all load cases count that occur, all directions, both sides of every cylinder.
+
+        Parameters
+        ----------
+        questions : sequence of Measure or Condition
+            The questions.
+        over : Over, str or mapping, optional
+            The domain, or the name of a declared one; by default all that the machine runs.
+        acting : Acting, optional
+            Loads, load case, direction and rates in one.
+
+        Returns
+        -------
+        list of Answer
+            The answers in the same order.
         """
         judge = self.judge(over, acting)
         wide = width_words(self.plan, judge.designs)
@@ -427,7 +632,20 @@ class Mechanism(Shown, metaclass=MechanismType):
         return ShownList(judge.answers(questions))
 
     def judge(self, over: object = None, acting: Acting | None = None) -> Judge:
-        """Return the judge who answers questions of this design, over given domains or its own."""
+        """Return the judge who answers questions of this design, over given domains or its own.
+
+        Parameters
+        ----------
+        over : Over, str or mapping, optional
+            The domain, or the name of a declared one; by default all that the machine runs.
+        acting : Acting, optional
+            Loads, load case, direction and rates in one.
+
+        Returns
+        -------
+        Judge
+            The judge.
+        """
         declared = {each.name: each for each in self.overs if each.name}
         overs: list[Over | Motion] = []
         given: Sequence[object] = self.overs if over is None else over if isinstance(over, (list, tuple)) else (over,)
@@ -444,11 +662,23 @@ class Mechanism(Shown, metaclass=MechanismType):
         return Judge(self.plan, self._values, overs, acting, self)
 
     def featured(self) -> Featured:
-        """Return the features that pictures of this design show by default: `about`, unless a machine defines more here."""
+        """Return the features that pictures of this design show by default: `about`, unless a machine defines more here.
+
+        Returns
+        -------
+        Featured
+            The column, the points and the limits.
+        """
         return self.about
 
     def formulas(self, written: Formulas) -> None:
-        """Write the equations of forces beyond the driving forces: those of its elements. A machine replaces them by its own."""
+        """Write the equations of forces beyond the driving forces: those of its elements. A machine replaces them by its own.
+
+        Parameters
+        ----------
+        written : Formulas
+            The sheet of equations.
+        """
         for element in self.plan.of_kind(ForceElement).values():
             if not element.feeds(self.plan.members):
                 element.formulas(written)
@@ -463,6 +693,21 @@ class Mechanism(Shown, metaclass=MechanismType):
 
         Each holds the sides of its dyads, its places and the `code` that chooses it, the lines of the class that are different. One
         design at a time. Groups are solved from many places at random, which may miss a mode. DefinitionError for more than 16 dyads.
+
+        Parameters
+        ----------
+        **strokes : float
+            A stroke's value by name [m or rad].
+
+        Returns
+        -------
+        list of Assembly
+            The modes.
+
+        Raises
+        ------
+        DefinitionError
+            More than 16 dyads.
         """
         pose = self.at(unreachable="nan", **{name: stroke.start for name, stroke in self.strokes.items()} | strokes)
         if pose.shape:
@@ -524,6 +769,20 @@ def strokes_for(machine: Mechanism, targets: Sequence[Target], *, hold: Mapping[
     with its condition; where there is none, the nearest pose, and which stroke would be past which end, by how much. It warns,
     SingularWarning, where a place is at the border of what the strokes reach. Of infinitely many strokes that give the targets it returns
     some.
+
+    Parameters
+    ----------
+    machine : Mechanism
+        The design.
+    targets : sequence of Target
+        The targets, as many as strokes that are free.
+    hold : mapping, optional
+        Strokes held at a value by name [m or rad].
+
+    Returns
+    -------
+    Positions
+        All branches within the ends of the strokes, each with its condition.
     """
     require_mechanism(machine)
     return positions_for(machine.plan, machine.dimensions, targets, hold)

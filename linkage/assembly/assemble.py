@@ -45,7 +45,7 @@ class Shape:
         if found is not None:
             return found[1]
         for R in self.points:
-            first, second, angle = self.labelled_side(R, P), self.given(R, Q), self.given(P, R, Q)
+            first, second, angle = self.labelled_side(R, P), self.labelled_side(R, Q), self.labelled_side(P, R, Q)
             if first is not None and second is not None and angle is not None:
                 p, q = first[1], second[1]
                 derived: Quantity = np.sqrt(p * p + q * q - 2.0 * p * q * np.cos(angle[1]))
@@ -115,9 +115,9 @@ class Shape:
                 return OnLink(P, Q, near=self.pins[pin].sketched, **labelled(length, other))
         if near is None and pairs:
             apart = [(P, Q) for P, Q in pairs if not self.coincide(P, pin)] or pairs
-            said = [(P, Q) for P, Q in apart if self.labelled_side(P, pin)] or [(P, Q) for P, Q in apart if self.given(Q, P, pin)]
+            said = [(P, Q) for P, Q in apart if self.labelled_side(P, pin)] or [(P, Q) for P, Q in apart if self.labelled_side(Q, P, pin)]
             P, Q = (said or apart)[0]
-            own = filter(None, (self.labelled_side(P, pin), self.given(Q, P, pin)))
+            own = filter(None, (self.labelled_side(P, pin), self.labelled_side(Q, P, pin)))
             return OnLink(P, Q, at=self.pins[pin].drawn_at, **labelled(*own))
         for P, Q in pairs:
             p, q = self.distance(P, pin), self.distance(Q, pin)

@@ -78,7 +78,20 @@ class LoadCase(Member):
         return (*self.mentioned, *self.shut_names)
 
     def examine(self, members: Mapping[str, Member], title: str) -> None:
-        """Raise DefinitionError for a name that is no load of the class."""
+        """Raise DefinitionError for a name that is no load of the class.
+
+        Parameters
+        ----------
+        members : mapping of str to Member
+            The members of the class by name.
+        title : str
+            The name of the class, for messages.
+
+        Raises
+        ------
+        DefinitionError
+            A name is no load of the class.
+        """
         loads = [name for name, member in members.items() if isinstance(member, ForceElement)]
         where = f"{title}.{self.name}"
         for name in self.mentioned:
@@ -92,12 +105,34 @@ class LoadCase(Member):
                 raise DefinitionError(f"{title}: {what}; give one another title.")
 
     def factor(self, load: str) -> float:
-        """Return the factor of a load in this case; 0 where it does not count."""
+        """Return the factor of a load in this case; 0 where it does not count.
+
+        Parameters
+        ----------
+        load : str
+            The name of a load.
+
+        Returns
+        -------
+        float
+            The factor.
+        """
         kept = self.only is None or load in [name_of(each) for each in self.only]
         return float(self.scale.get(load, 1.0)) if kept else 0.0
 
     def on(self, element: ForceElement) -> ForceElement:
-        """Return an element in the gravity of this case."""
+        """Return an element in the gravity of this case.
+
+        Parameters
+        ----------
+        element : ForceElement
+            A load.
+
+        Returns
+        -------
+        ForceElement
+            The load in the case's gravity.
+        """
         return element if self.gravity is None and not self.slope else element.in_gravity(self.gravity, self.slope)
 
     def __str__(self) -> str:
@@ -211,12 +246,41 @@ class Acting:
         return self.direction or FRICTIONLESS
 
     def towards(self, direction: str | None) -> Self:
-        """Return it in a direction, without rates that are given: these say another one."""
+        """Return it in a direction, without rates that are given: these say another one.
+
+        Parameters
+        ----------
+        direction : str or None
+            "extending", "retracting" or "frictionless"; or None.
+
+        Returns
+        -------
+        Acting
+            The same situation in that direction, without given rates.
+        """
         given = isinstance(self.rates, Mapping)
         return replace(self, direction=direction, **dict.fromkeys(("rates", "accelerations") if given else ()))
 
     def within(self, outer: Acting, what: str = "") -> Self:
-        """Return this with its gaps filled from `outer`; with `what` (the asking function), DefinitionError where both differ."""
+        """Return this with its gaps filled from `outer`; with `what` (the asking function), DefinitionError where both differ.
+
+        Parameters
+        ----------
+        outer : Acting
+            The situation that fills the gaps.
+        what : str
+            The function that asks; with it, values that differ are refused.
+
+        Returns
+        -------
+        Acting
+            The completed situation.
+
+        Raises
+        ------
+        DefinitionError
+            Both give different values, with `what`.
+        """
         said = {each.name: getattr(self, each.name) for each in fields(self)}
         for name, value in said.items():
             other = getattr(outer, name)

@@ -339,11 +339,33 @@ class ForceElement(Jointed):
         return {name: unit for name, unit in self.parameters.items() if name not in self.optional or self.given(name) is not None}
 
     def given(self, name: str) -> Any:
-        """Return a parameter as it is written."""
+        """Return a parameter as it is written.
+
+        Parameters
+        ----------
+        name : str
+            A parameter's name.
+
+        Returns
+        -------
+        object
+            The parameter as it is written.
+        """
         return getattr(self, name)
 
     def written(self, name: str) -> Quantity:
-        """Return a parameter as a quantity of its class: a number as the design variable that it is."""
+        """Return a parameter as a quantity of its class: a number as the design variable that it is.
+
+        Parameters
+        ----------
+        name : str
+            A parameter's name.
+
+        Returns
+        -------
+        Quantity
+            The parameter; a number is its design variable.
+        """
         given = quantity(self.given(name))
         return Variable(f"{self.name}.{name}") if isinstance(given, Number) else given
 
@@ -351,50 +373,185 @@ class ForceElement(Jointed):
 
     @abstractmethod
     def loads(self, motion: Poses) -> list[Load]:
-        """Return the forces over the motion's poses [N]."""
+        """Return the forces over the motion's poses [N].
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses; designs first, strokes last.
+
+        Returns
+        -------
+        list of Load
+            The forces [N], each with its point.
+        """
 
     def glyphs(self, members: Mapping[str, Member]) -> tuple[Glyph, ...]:
-        """Return the signs in pictures of this element, from the members of its class; by default none."""
+        """Return the signs in pictures of this element, from the members of its class; by default none.
+
+        Parameters
+        ----------
+        members : mapping of str to Member
+            The members of the class by name.
+
+        Returns
+        -------
+        tuple of Glyph
+            The signs.
+        """
         return ()
 
     def moving(self, motion: Poses, rates: Rates) -> list[Load]:
-        """Return the forces while strokes move at rates [1/s]: dampers and masses ask for them."""
+        """Return the forces while strokes move at rates [1/s]: dampers and masses ask for them.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses; designs first, strokes last.
+        rates : Rates
+            The rates of the strokes [1/s].
+
+        Returns
+        -------
+        list of Load
+            The forces [N].
+        """
         return self.loads(motion)
 
     def pushes(self, motion: Poses, rates: Rates) -> list[Push]:
-        """Return the thrusts in straight two-point members by this element's law; it then acts through their pins without `loads`."""
+        """Return the thrusts in straight two-point members by this element's law; it then acts through their pins without `loads`.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses; designs first, strokes last.
+        rates : Rates
+            The rates of the strokes [1/s].
+
+        Returns
+        -------
+        list of Push
+            The members, each with its thrust [N], positive where it pushes.
+        """
         return []
 
     def frictions(self, motion: Poses) -> list[Friction]:
-        """Return the dry friction this element stands for, whose size follows from the joint forces."""
+        """Return the dry friction this element stands for, whose size follows from the joint forces.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses; designs first, strokes last.
+
+        Returns
+        -------
+        list of Friction
+            The frictions.
+        """
         return []
 
     def in_gravity(self, gravity: tuple[float, float] | None, slope: float) -> ForceElement:
-        """Return this element under a load case's gravity [m/s2], its own where that is None, turned by a slope [rad]."""
+        """Return this element under a load case's gravity [m/s2], its own where that is None, turned by a slope [rad].
+
+        Parameters
+        ----------
+        gravity : tuple of float or None
+            The gravity [m/s2] as a vector; None keeps the element's own.
+        slope : float
+            The slope of the ground [rad].
+
+        Returns
+        -------
+        ForceElement
+            The element in that gravity.
+        """
         return self
 
     def feeds(self, members: Mapping[str, Member]) -> tuple[ForceElement, ...]:
-        """Return the holding elements whose thrust this one gives, as a charged line does; the class's members by name."""
+        """Return the holding elements whose thrust this one gives, as a charged line does; the class's members by name.
+
+        Parameters
+        ----------
+        members : mapping of str to Member
+            The members of the class by name.
+
+        Returns
+        -------
+        tuple of ForceElement
+            The holding elements.
+        """
         return ()
 
     def joined(self, members: Mapping[str, Member]) -> tuple[ForceElement, ...]:
-        """Return the holding elements that this one puts on one pressure line; the class's members by name."""
+        """Return the holding elements that this one puts on one pressure line; the class's members by name.
+
+        Parameters
+        ----------
+        members : mapping of str to Member
+            The members of the class by name.
+
+        Returns
+        -------
+        tuple of ForceElement
+            The holding elements.
+        """
         return ()
 
     def tie(self, members: Mapping[str, Member]) -> Tie | None:
-        """Return how one force of this element acts on straight members, where `joined` does not tell; the class's members by name."""
+        """Return how one force of this element acts on straight members, where `joined` does not tell; the class's members by name.
+
+        Parameters
+        ----------
+        members : mapping of str to Member
+            The members of the class by name.
+
+        Returns
+        -------
+        Tie or None
+            The members with their shares of the force.
+        """
         return None
 
     def link_written(self, pin: str, members: Mapping[str, Member]) -> str:
-        """Return the link by which a pin of a parts list follows a length that this element gives, as it is written; "" for none."""
+        """Return the link by which a pin of a parts list follows a length that this element gives, as it is written; "" for none.
+
+        Parameters
+        ----------
+        pin : str
+            The pin's name.
+        members : mapping of str to Member
+            The members of the class by name.
+
+        Returns
+        -------
+        str
+            The link as it is written; "" for none.
+        """
         return ""
 
     def when_shut(self) -> ForceElement | None:
-        """Return the element as it is while a load case shuts it, `LoadCase(shut=[...])`; None for one that cannot be shut."""
+        """Return the element as it is while a load case shuts it, `LoadCase(shut=[...])`; None for one that cannot be shut.
+
+        Returns
+        -------
+        ForceElement or None
+            The shut element.
+        """
         return None
 
     def claims(self, members: Mapping[str, Member]) -> Mapping[Hashable, str]:
-        """Return its claims that no other element may share, in words with the remedy; `members` are the class's, by name."""
+        """Return its claims that no other element may share, in words with the remedy; `members` are the class's, by name.
+
+        Parameters
+        ----------
+        members : mapping of str to Member
+            The members of the class by name.
+
+        Returns
+        -------
+        mapping of Hashable to str
+            The claims, each with its words.
+        """
         return {}
 
     @property
@@ -412,6 +569,20 @@ class ForceElement(Jointed):
 
         Of a two-point member it is the thrust, positive where it pushes its ends apart; of a support its reaction. `lifting`: whether it
         moves the load, at a `share` of what it is driven with, or holds it.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses; designs first, strokes last.
+        lifting : bool
+            Whether it moves the load, or holds it.
+        share : float
+            The part of the drive's force that counts, 0 to 1.
+
+        Returns
+        -------
+        tuple of ndarray
+            The lowest and the highest force [N].
         """
         return UNBOUNDED
 
@@ -419,6 +590,11 @@ class ForceElement(Jointed):
         """Write its lines in the equations of forces beyond its loads; by default none.
 
         An element that feeds others writes first what they carry, `written.carry(...)`; all others come after the driving forces.
+
+        Parameters
+        ----------
+        written : Formulas
+            The sheet of equations.
         """
         return None
 
@@ -429,7 +605,20 @@ class ForceElement(Jointed):
         return (*(getattr(self, place) for place in self.places), *(each for each in numbers if not each.is_constant))
 
     def examine(self, members: Mapping[str, Member], title: str) -> None:
-        """Raise DefinitionError where something else is given for a point, or one point is given twice."""
+        """Raise DefinitionError where something else is given for a point, or one point is given twice.
+
+        Parameters
+        ----------
+        members : mapping of str to Member
+            The members of the class by name.
+        title : str
+            The name of the class, for messages.
+
+        Raises
+        ------
+        DefinitionError
+            Something else is given for a point, or one point is given twice.
+        """
         names = [name_of(getattr(self, place)) for place in self.places]
         for name in names:
             if not isinstance(members[name], Point):
@@ -438,7 +627,13 @@ class ForceElement(Jointed):
                 raise DefinitionError(f"{title}: {self.name} = {self} begins and ends at {name}; name two different points.")
 
     def variables(self) -> tuple[tuple[str, float, str, str], ...]:
-        """Return the design variables this element brings: name, default, kind and unit."""
+        """Return the design variables this element brings: name, default, kind and unit.
+
+        Returns
+        -------
+        tuple
+            Name, default [SI], kind and unit of each.
+        """
         found = []
         for name in self.numbers:
             value, kind = quantity(self.given(name)), "not negative" if name in self.not_negative else "number"
@@ -448,7 +643,20 @@ class ForceElement(Jointed):
         return tuple(found)
 
     def number(self, motion: Poses, name: str) -> Array:
-        """Return a parameter over the motion [SI]: as the machine has it set, or as it is written here."""
+        """Return a parameter over the motion [SI]: as the machine has it set, or as it is written here.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses; designs first, strokes last.
+        name : str
+            A parameter's name.
+
+        Returns
+        -------
+        ndarray or float
+            The value [SI], to broadcast against the motion.
+        """
         require_poses(motion)
         given, key = self.given(name), f"{self.name}.{name}"
         member = motion.plan.members.get(self.name)
@@ -468,7 +676,20 @@ class ForceElement(Jointed):
         return found
 
     def position(self, motion: Poses, place: str) -> Array:
-        """Return the position of one of its points, shape (2, ...) [m]."""
+        """Return the position of one of its points, shape (2, ...) [m].
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses; designs first, strokes last.
+        place : str
+            The argument that holds the point.
+
+        Returns
+        -------
+        ndarray
+            The position [m], shape (2, ...).
+        """
         return motion[name_of(getattr(self, place))]
 
     def _check_numbers(self) -> None:
@@ -498,13 +719,25 @@ class ForceElement(Jointed):
         return str(self) if is_named else type(self).__name__
 
     def options(self) -> dict[str, object]:
-        """Return its arguments beside places and parameters that are not the default, by name."""
+        """Return its arguments beside places and parameters that are not the default, by name.
+
+        Returns
+        -------
+        dict
+            The values by the names of the arguments.
+        """
         declared: tuple[Field[object], ...] = fields(self) if is_dataclass(self) else ()
         others = [each for each in declared if each.name not in (*self.places, *self.parameters) and each.default is not MISSING]
         return {each.name: getattr(self, each.name) for each in others if repr(getattr(self, each.name)) != repr(each.default)}
 
     def words(self) -> list[str]:
-        """Return its parameters and options as they are written."""
+        """Return its parameters and options as they are written.
+
+        Returns
+        -------
+        list of str
+            One text each, `mass=100`.
+        """
         given = {name: value_text(self.given(name)) for name in self.numbers}
         more = {name: label(value) if isinstance(value, Member) else repr(plain(value)) for name, value in self.options().items()}
         return [f"{name}={text}" for name, text in (given | more).items()]

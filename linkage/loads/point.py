@@ -183,11 +183,37 @@ class Support(Directed):
         return np.asarray(direction / np.hypot(*direction))
 
     def pushes_along(self, motion: Poses) -> Array:
-        """Return the direction in the axes of the frame, of length one, shape (2, ...) to broadcast against the motion."""
+        """Return the direction in the axes of the frame, of length one, shape (2, ...) to broadcast against the motion.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses; designs first, strokes last.
+
+        Returns
+        -------
+        ndarray
+            The unit vector, shape (2, ...).
+        """
         return self.in_the_whole(motion, self.unit[0], self.unit[1])
 
     def bounds(self, motion: Poses, lifting: bool, *, share: float = 1.0) -> tuple[Array, Array]:
-        """Return the bounds of its reaction [N]: it pushes, and never pulls."""
+        """Return the bounds of its reaction [N]: it pushes, and never pulls.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses; designs first, strokes last.
+        lifting : bool
+            Whether it moves the load, or holds it.
+        share : float
+            The part of the drive's force that counts, 0 to 1.
+
+        Returns
+        -------
+        tuple of ndarray
+            The lowest and the highest reaction [N].
+        """
         return np.zeros(()), np.asarray(np.inf)
 
     def loads(self, motion: Poses) -> list[Load]:

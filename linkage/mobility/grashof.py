@@ -48,6 +48,22 @@ def grashof(ground: float, crank: float, coupler: float, follower: float) -> str
 
     Shortest plus longest less than the other two: a link turns fully; which one, tells the frame. Equal: a change
     point. More: a triple rocker. Source: Grashof 1883; Barker's names in brackets.
+
+    Parameters
+    ----------
+    ground : float
+        The frame's length [m].
+    crank : float
+        The crank's length [m].
+    coupler : float
+        The coupler's length [m].
+    follower : float
+        The follower's length [m].
+
+    Returns
+    -------
+    str
+        The kind in words.
     """
     lengths = {"ground": ground, "crank": crank, "coupler": coupler, "follower": follower}
     for name, length in lengths.items():

@@ -124,7 +124,18 @@ class Answer:
         return ", ".join(words)
 
     def of_design(self, number: int) -> Self:
-        """Return the answer of one design of a batch, by its number among them."""
+        """Return the answer of one design of a batch, by its number among them.
+
+        Parameters
+        ----------
+        number : int
+            The design's number in the batch, from 0.
+
+        Returns
+        -------
+        Answer
+            Its answer.
+        """
 
         def own(values: PerDesign) -> PerDesign:
             return np.ravel(values).tolist()[number] if np.ndim(values) else values

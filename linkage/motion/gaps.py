@@ -54,6 +54,25 @@ def gap(a: Reference, b: Reference, *, width: float = 0.0) -> NodeRequest:
     the `width` [m], the sum of their half widths. Where two bodies cross it is negative: the least way that parts them. An outline
     goes by its name, with all its corners; two outlines may belong to bodies that share a pin. What steps draw of themselves does not
     count. DefinitionError for two bodies that share a pin, and for an outline that is open.
+
+    Parameters
+    ----------
+    a : str or Member
+        The first body.
+    b : str or Member
+        The second body.
+    width : float
+        The sum of the half widths [m].
+
+    Returns
+    -------
+    Request
+        The gap [m], negative where they cross.
+
+    Raises
+    ------
+    DefinitionError
+        The bodies share a pin, or an outline is open.
     """
     require_number("gap(width", width, "the sum of the half widths is expected [m], zero or more", least=0.0)
     require_measure(width, "length", "gap: width")

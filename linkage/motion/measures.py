@@ -264,6 +264,18 @@ def least(quantity: MeasuredQuantity, *, case: Case | Spectrum = None) -> Measur
 
     `case` is a load case that its forces are of. Load cases with their hours, `case={"empty": 700, "full": 300}`, stand for the mean of
     what it is in each; hours and shares are the same, as they are divided by their sum.
+
+    Parameters
+    ----------
+    quantity : Quantity, Request or str
+        The quantity, or its name.
+    case : LoadCase, str or mapping, optional
+        A load case, or load cases with their hours.
+
+    Returns
+    -------
+    Measure
+        The measure.
     """
     return in_duty(Least(require_quantity(quantity, "least")), case)
 
@@ -272,6 +284,18 @@ def most(quantity: MeasuredQuantity, *, case: Case | Spectrum = None) -> Measure
     """Return the greatest value of a quantity over the stroke, between the poses too: `most(abs(ref("tilt"))) <= 8 * deg`.
 
     `case` as in `least`.
+
+    Parameters
+    ----------
+    quantity : Quantity, Request or str
+        The quantity, or its name.
+    case : LoadCase, str or mapping, optional
+        A load case, or load cases with their hours.
+
+    Returns
+    -------
+    Measure
+        The measure.
     """
     return in_duty(Most(require_quantity(quantity, "most")), case)
 
@@ -280,6 +304,20 @@ def integral(quantity: MeasuredQuantity, by: str | None = None, *, case: Case | 
     """Return the integral of a quantity over the stroke, of several the one named: `integral(drive_force())` is a work [J].
 
     `case` as in `least`: `integral(drive_force(), case={"empty": 0.7, "full": 0.3})` is the mean work of a duty.
+
+    Parameters
+    ----------
+    quantity : Quantity, Request or str
+        The quantity, or its name.
+    by : str, optional
+        The stroke to integrate over, where several run.
+    case : LoadCase, str or mapping, optional
+        A load case, or load cases with their hours.
+
+    Returns
+    -------
+    Measure
+        The measure.
     """
     return in_duty(Integral(require_quantity(quantity, "integral"), by), case)
 
@@ -288,6 +326,20 @@ def at(quantity: MeasuredQuantity, *, case: Case | Spectrum = None, **strokes: f
     """Return the value of a quantity at one pose: `at("tilt", S=0.1)`; `at("mass")` of one that depends on no stroke.
 
     `case` as in `least`.
+
+    Parameters
+    ----------
+    quantity : Quantity, Request or str
+        The quantity, or its name.
+    case : LoadCase, str or mapping, optional
+        A load case, or load cases with their hours.
+    **strokes : float
+        Values of the strokes by name [m or rad].
+
+    Returns
+    -------
+    Measure
+        The measure.
     """
     for name, value in strokes.items():
         require_number(f"at(..., {name}", value, "one number is expected for a stroke, in SI")
@@ -298,6 +350,20 @@ def worst(quantity: MeasuredQuantity, over: str, by: Callable[..., Any] = most) 
     """Return the greatest value of a quantity over another stroke, as a quantity of the others; with `by=least` its least.
 
     `least(available - worst(drive_force("phi"), over="psi"))` is written with it, an upper bound of moments.
+
+    Parameters
+    ----------
+    quantity : Quantity, Request or str
+        The quantity, or its name.
+    over : str
+        The other stroke.
+    by : callable
+        `most` or `least`.
+
+    Returns
+    -------
+    Worst
+        The quantity of the remaining strokes.
     """
     require(by in (least, most), "worst(..., by", by, "least or most is expected, the functions of linkage")
     inner = require_quantity(quantity, "worst")

@@ -241,6 +241,21 @@ class Motion(Shown):
 
         Places and ratios are those of the part alone, thrusts, pressures and joint forces those of the whole; its `columns` and `rules`
         take it. Strokes and dimensions have the values that the whole gives them. DefinitionError for a dimension that follows a stroke.
+
+        Parameters
+        ----------
+        name : str
+            The part's name.
+
+        Returns
+        -------
+        Motion
+            The part's motion.
+
+        Raises
+        ------
+        DefinitionError
+            A dimension of the part follows a stroke.
         """
         part = self.plan.members.get(name)
         if not isinstance(part, Part):
@@ -274,20 +289,68 @@ class Motion(Shown):
         return self if self._held is None else self._held[0]._whole
 
     def x(self, point: Reference) -> FloatArray:
-        """Return a point's x coordinate [m]."""
+        """Return a point's x coordinate [m].
+
+        Parameters
+        ----------
+        point : str or Point
+            The point, or its name.
+
+        Returns
+        -------
+        ndarray
+            The coordinate [m], shape (...).
+        """
         return np.asarray(self._point(point)[0])
 
     def y(self, point: Reference) -> FloatArray:
-        """Return a point's y coordinate [m]."""
+        """Return a point's y coordinate [m].
+
+        Parameters
+        ----------
+        point : str or Point
+            The point, or its name.
+
+        Returns
+        -------
+        ndarray
+            The coordinate [m], shape (...).
+        """
         return np.asarray(self._point(point)[1])
 
     def angle(self, P: Reference, Q: Reference) -> FloatArray:
-        """Return the direction of P -> Q [rad], without jumps along the stroke."""
+        """Return the direction of P -> Q [rad], without jumps along the stroke.
+
+        Parameters
+        ----------
+        P : str or Point
+            The first point, or its name.
+        Q : str or Point
+            The second point, or its name.
+
+        Returns
+        -------
+        ndarray
+            The angle [rad], shape (...), counter-clockwise from the x axis.
+        """
         self._point(P), self._point(Q)
         return self.value(Angle(P, Q))
 
     def distance(self, P: Reference, Q: Reference) -> FloatArray:
-        """Return the distance of two points [m]."""
+        """Return the distance of two points [m].
+
+        Parameters
+        ----------
+        P : str or Point
+            The first point, or its name.
+        Q : str or Point
+            The second point, or its name.
+
+        Returns
+        -------
+        ndarray
+            The distance [m], shape (...).
+        """
         self._point(P), self._point(Q)
         return self.value(Distance(P, Q))
 
@@ -299,6 +362,21 @@ class Motion(Shown):
         and the normal to the slot, of a GuideCross between the two guides, of a YokeDyad between slot and guide. Its sine is
         the share of the force on the way from link to link that moves the second one. DefinitionError for a point that is no such joint.
         Sources: H. Alt, Werkstattstechnik 26 (1932); S. S. Balli, S. Chand, Mech. Mach. Theory 37 (2002) 175-195.
+
+        Parameters
+        ----------
+        point : str or Point
+            The point, or its name.
+
+        Returns
+        -------
+        ndarray
+            The angle [rad], shape (...), 0 to pi.
+
+        Raises
+        ------
+        DefinitionError
+            The point is no such joint.
         """
         name = checked_name("Point", point, self.plan.points, self.plan.title)
         directions = self._meeting(name)
@@ -310,7 +388,18 @@ class Motion(Shown):
         return np.where(self.reached, np.broadcast_to(angle, self.shape), np.nan)
 
     def value(self, quantity: Quantity | Request) -> FloatArray:
-        """Return a quantity or a request over all poses [SI]; angles without jumps along the stroke."""
+        """Return a quantity or a request over all poses [SI]; angles without jumps along the stroke.
+
+        Parameters
+        ----------
+        quantity : Quantity or Request
+            The value asked for.
+
+        Returns
+        -------
+        ndarray
+            The values [SI], shape (...).
+        """
         if isinstance(quantity, Request):
             return quantity.of(self)
         member = self._member(quantity)
@@ -322,7 +411,18 @@ class Motion(Shown):
         return self._finite(np.where(self.reached & ~refused, self._evaluated(what), np.nan), refused, words)
 
     def sketched(self, quantity: Quantity) -> FloatArray:
-        """Return the value of a quantity at the sketch pose of each design [SI], shaped to broadcast against results."""
+        """Return the value of a quantity at the sketch pose of each design [SI], shaped to broadcast against results.
+
+        Parameters
+        ----------
+        quantity : Quantity
+            The quantity.
+
+        Returns
+        -------
+        ndarray
+            The values [SI], to broadcast against results.
+        """
         strokes = {name: np.asarray(value) for name, value in self.plan.sketch_strokes.items()}
         found = Motion(self.plan, self.designs, strokes, "nan").value(quantity)
         return found.reshape((*self._design_shape, *(1,) * len(self._stroke_shape)))
@@ -364,6 +464,29 @@ class Motion(Shown):
         `order=2` gives the second derivative. `method="central"` differentiates numerically, with the step chosen
         at every pose, or given as `step` [unit of the stroke]. Shape (2, ...) for a point, (...) for an output.
         Raises SingularError at a dead point; warns near one.
+
+        Parameters
+        ----------
+        target : str, Point or Quantity
+            The point or the quantity.
+        wrt : str, optional
+            The stroke, where there are several.
+        order : int
+            1 or 2.
+        method : str
+            "exact" or "central".
+        step : float, optional
+            The step of central differences [unit of the stroke].
+
+        Returns
+        -------
+        ndarray
+            The derivative, shape (2, ...) for a point, (...) for a quantity.
+
+        Raises
+        ------
+        SingularError
+            A dead point.
         """
         stroke = stroke_of(self.plan, wrt)
         order, method = order_of(order), method_of(method, step)
@@ -378,6 +501,18 @@ class Motion(Shown):
         """Return the velocity of a point [m/s], shape (2, ...), or the rate of an output, from stroke rates [1/s].
 
         A motion in time has rates of its own; others are given.
+
+        Parameters
+        ----------
+        target : str, Point or Quantity
+            The point or the quantity.
+        rates : mapping, optional
+            Rates of the strokes by name [1/s], for dampers and inertia.
+
+        Returns
+        -------
+        ndarray
+            The velocity, shape (2, ...) for a point, (...) for a quantity.
         """
         own = self.rates if rates is None else rates
         if self._is_in_pass(target, own, {}):
@@ -409,6 +544,20 @@ class Motion(Shown):
         """Return the acceleration of a point [m/s2], shape (2, ...), from stroke rates and accelerations.
 
         A motion in time has its own. Where rates are given, accelerations that are not are 0.
+
+        Parameters
+        ----------
+        target : str, Point or Quantity
+            The point or the quantity.
+        rates : mapping, optional
+            Rates of the strokes by name [1/s], for dampers and inertia.
+        accelerations : mapping, optional
+            Accelerations of the strokes by name [1/s2], for inertia.
+
+        Returns
+        -------
+        ndarray
+            The acceleration, shape (2, ...) for a point, (...) for a quantity.
         """
         asked = accelerations if accelerations is not None else self.accelerations if rates is None else {}
         own = self.rates if rates is None else rates
@@ -432,6 +581,21 @@ class Motion(Shown):
         As many as there are strokes, by name or quantity, a number or an array over the poses each; of a point the two parts, (0.2, 0.0); a
         stroke that stands still is one of them, `{"S": 0.0}`. Raises SingularError where the strokes cannot give them, at a dead point of
         the drive, unless the motion has `unreachable="nan"`.
+
+        Parameters
+        ----------
+        velocities : mapping
+            Velocities of points, two parts each, and rates of outputs [SI/s], by name or quantity.
+
+        Returns
+        -------
+        dict of str to ndarray
+            The rates of the strokes [1/s].
+
+        Raises
+        ------
+        SingularError
+            The strokes cannot give these velocities.
         """
         plan, title = self.plan, f"{self.plan.title}.rates_for"
         if not isinstance(velocities, Mapping) or not velocities:
@@ -491,6 +655,27 @@ class Motion(Shown):
         in `velocity`. A motion in time has rates of its own. Both coordinates are infinite where the body only translates. They are NaN
         where it stands still against the other one, and out of reach. Raises SingularError at a dead point, where the ratios are refused,
         unless the motion has `unreachable="nan"`.
+
+        Parameters
+        ----------
+        body : str
+            The body: its name, its link's, or two of its points.
+        other : str
+            The other body.
+        wrt : str, optional
+            The stroke, where there are several.
+        rates : mapping, optional
+            Rates of the strokes by name [1/s], for dampers and inertia.
+
+        Returns
+        -------
+        ndarray
+            The pole [m], shape (2, ...).
+
+        Raises
+        ------
+        SingularError
+            A dead point.
         """
         own = self.rates if wrt is None else {}
         given = rates if rates is not None else own or {stroke_of(self.plan, wrt): np.ones(())}
@@ -511,6 +696,29 @@ class Motion(Shown):
         how the transfer ratio follows the dimensions, `gradient(thrust(), wrt=["OB", "load.mass"])` how the drive's force does. Forces
         follow `rates` [1/s] and `accelerations` [1/s2] of strokes by name. Without these they follow those of the motion.
         Raises SingularError at a dead point, DefinitionError for the law of a load that cannot be traced.
+
+        Parameters
+        ----------
+        of : str, Quantity or Request
+            The value.
+        wrt : sequence of str
+            The dimensions.
+        rates : mapping, optional
+            Rates of the strokes by name [1/s], for dampers and inertia.
+        accelerations : mapping, optional
+            Accelerations of the strokes by name [1/s2], for inertia.
+
+        Returns
+        -------
+        ndarray
+            The derivatives, shape (dimensions, ...), of a point (dimensions, 2, ...).
+
+        Raises
+        ------
+        SingularError
+            A dead point.
+        DefinitionError
+            A load's law cannot be traced.
         """
         plan = self.plan
         if rates is not None or accelerations is not None:
@@ -562,6 +770,11 @@ class Motion(Shown):
         These are reachable intervals, dead points and the steps that stop there, change points, and least transmission angles. For the
         `box` of all declared strokes they say what is lost in it, and how clear each loop stays of its dead point, with the place. One
         design at a time; other strokes are held at this motion's first values.
+
+        Returns
+        -------
+        Limits
+            The limits of each stroke.
         """
         return type(self)._limits_of(self)
 
@@ -582,6 +795,16 @@ class Motion(Shown):
         """Return the same designs at other strokes [SI], each at its own where the arrays begin with the designs; NaN out of reach.
 
         It has no time.
+
+        Parameters
+        ----------
+        strokes : mapping
+            Values of the strokes by name [m or rad].
+
+        Returns
+        -------
+        Motion
+            The motion at these strokes.
         """
         given = strokes if isinstance(strokes, Mapping) else {}
         if given.keys() != self.strokes.keys():

@@ -96,6 +96,11 @@ class Over(Member):
             An array of values for each stroke [m or rad], as many each; a number is held. Over time also a `Course`, such as `ramp(...)`,
             or a `Curve` of seconds. One that ends before the others holds its last value.
 
+        Returns
+        -------
+        Over
+            The path.
+
         Raises
         ------
         DefinitionError
@@ -107,7 +112,24 @@ class Over(Member):
     def poses(
         cls, *, only: Sequence[PoseCondition] | PoseCondition = (), cases: Sequence[object] | None = None, lost: str = "", **strokes: object
     ) -> Self:
-        """Return these poses and nothing between them: an array of values for each stroke, as many each; a number is held."""
+        """Return these poses and nothing between them: an array of values for each stroke, as many each; a number is held.
+
+        Parameters
+        ----------
+        only : PoseCondition or sequence, optional
+            Conditions on the poses.
+        cases : sequence, optional
+            The load cases that occur there.
+        lost : str
+            "allowed" where poses may be out of reach.
+        **strokes : array_like
+            Values for each stroke [m or rad], as many each; a number is held.
+
+        Returns
+        -------
+        Over
+            The poses.
+        """
         return cls._of_places("poses", strokes, only, cases, lost)
 
     @classmethod
@@ -152,7 +174,20 @@ class Over(Member):
         return ()
 
     def examine(self, members: Mapping[str, Member], title: str) -> None:
-        """Raise DefinitionError for unknown strokes and load cases, and for conditions on unknown members."""
+        """Raise DefinitionError for unknown strokes and load cases, and for conditions on unknown members.
+
+        Parameters
+        ----------
+        members : mapping of str to Member
+            The members of the class by name.
+        title : str
+            The name of the class, for messages.
+
+        Raises
+        ------
+        DefinitionError
+            An unknown stroke or load case, or a condition on an unknown member.
+        """
         strokes = [name for name, each in members.items() if isinstance(each, Stroke)]
         self.check(title, strokes, [name for name, each in members.items() if isinstance(each, LoadCase)])
         for each in self.only:
@@ -160,7 +195,22 @@ class Over(Member):
                 known_name("Name", name, members, where=f"{title}.{self.name}: only={each}")
 
     def check(self, title: str, strokes: Iterable[str], cases: Iterable[str]) -> None:
-        """Raise DefinitionError for strokes and load cases that there are not, and for a path that leaves a stroke open."""
+        """Raise DefinitionError for strokes and load cases that there are not, and for a path that leaves a stroke open.
+
+        Parameters
+        ----------
+        title : str
+            The name of the class, for messages.
+        strokes : iterable of str
+            The strokes of the class.
+        cases : iterable of str
+            Its load cases.
+
+        Raises
+        ------
+        DefinitionError
+            An unknown stroke or load case, or a path that leaves a stroke open.
+        """
         known, where = list(strokes), f"{title}.{self.name}" if self.name else f"{title}: {self}"
         for name in self.strokes:
             if name not in known:
@@ -178,7 +228,20 @@ class Over(Member):
     # -- of a machine ------------------------------------------------------------------------------------
 
     def instants(self, plan: Plan, number: Callable[[str | Quantity], float]) -> Instants | None:
-        """Return a path in time at all breaks of its courses; None for any other. `number` gives the value of a quantity of the design."""
+        """Return a path in time at all breaks of its courses; None for any other. `number` gives the value of a quantity of the design.
+
+        Parameters
+        ----------
+        plan : Plan
+            The plan of the machine's class.
+        number : callable
+            Returns the value of a quantity of the design.
+
+        Returns
+        -------
+        Instants or None
+            The instants at all breaks.
+        """
         if self.time is None:
             return None
         courses, (begin, end) = dict[str, Course](), (self.time[0], self.time[-1])
@@ -198,6 +261,18 @@ class Over(Member):
         """Return strokes [m or rad] that span it, arrays of one shape; `number` gives the value of a quantity of the design.
 
         Of a box its corners, an axis for each stroke that runs; of a path the places in an array of one axis; poses in one of two.
+
+        Parameters
+        ----------
+        plan : Plan
+            The plan of the machine's class.
+        number : callable
+            Returns the value of a quantity of the design.
+
+        Returns
+        -------
+        dict of str to ndarray
+            The strokes [m or rad].
         """
         instants = self.instants(plan, number)
         if instants is not None:
@@ -218,7 +293,22 @@ class Over(Member):
         return {name: np.array(np.broadcast_to(values.get(name, low), shape)).reshape(whole) for name, (low, _) in ends.items()}
 
     def ends(self, name: str, plan: Plan, number: Callable[[str | Quantity], float]) -> tuple[float, float]:
-        """Return the least and the greatest value of a stroke in a box [m or rad]; DefinitionError for an end that follows a stroke."""
+        """Return the least and the greatest value of a stroke in a box [m or rad]; DefinitionError for an end that follows a stroke.
+
+        Parameters
+        ----------
+        name : str
+            The stroke's name.
+        plan : Plan
+            The plan of the machine's class.
+        number : callable
+            Returns the value of a quantity of the design.
+
+        Returns
+        -------
+        tuple of float
+            The least and the greatest value [m or rad].
+        """
         stroke = plan.strokes[name]
         given = self.strokes.get(name, (stroke.start, stroke.end))
         found = self.numbers(given if isinstance(given, tuple) else (given, given), plan, number)
@@ -226,7 +316,22 @@ class Over(Member):
         return min(found), max(found)
 
     def numbers(self, given: Any, plan: Plan, number: Callable[[str | Quantity], float]) -> Any:
-        """Return a stroke's value as numbers [m or rad], a list of several; DefinitionError for a quantity that follows a stroke."""
+        """Return a stroke's value as numbers [m or rad], a list of several; DefinitionError for a quantity that follows a stroke.
+
+        Parameters
+        ----------
+        given : object
+            The value as it was given.
+        plan : Plan
+            The plan of the machine's class.
+        number : callable
+            Returns the value of a quantity of the design.
+
+        Returns
+        -------
+        float or list of float
+            The numbers [m or rad].
+        """
         if isinstance(given, tuple):
             return [self.numbers(each, plan, number) for each in given]
         if is_number(given):
@@ -244,6 +349,16 @@ class Over(Member):
         """Return the mask of poses that are asked for: those that keep all conditions, and those of which nothing says that they do not.
 
         A condition without a value is not kept where the machine stands; where it cannot be assembled, it leaves nothing out.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses; designs first, strokes last.
+
+        Returns
+        -------
+        ndarray of bool
+            The mask, shape (...).
         """
         found = np.ones(motion.shape, bool)
         for each in self.only:
@@ -263,7 +378,18 @@ class Over(Member):
         return self.name
 
     def words(self, motion: MotionLike) -> str:
-        """Return its strokes in words: `phi = 15 to 80 deg, t = 0 m`; of a path from place to place."""
+        """Return its strokes in words: `phi = 15 to 80 deg, t = 0 m`; of a path from place to place.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses; designs first, strokes last.
+
+        Returns
+        -------
+        str
+            The strokes in words.
+        """
         plan = motion.plan
         ends = [f"{name} = {span_text(values, stroke_unit(plan, name))}" for name, values in motion.strokes.items()]
         if self.shape == "path" and len(motion.strokes) > 1:

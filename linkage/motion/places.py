@@ -662,7 +662,18 @@ class Target:
         return isinstance(self.value, np.ndarray)
 
     def check(self, plan: Plan) -> None:
-        """Raise DefinitionError for a value, `within` or a stroke in a unit of another kind than its quantity."""
+        """Raise DefinitionError for a value, `within` or a stroke in a unit of another kind than its quantity.
+
+        Parameters
+        ----------
+        plan : Plan
+            The plan of the machine's class.
+
+        Raises
+        ------
+        DefinitionError
+            A unit of another kind.
+        """
         kind = measure_of(plan, self.quantity)
         for what, value in (("", self.given), (": within", self.within)):
             if kind:
@@ -671,12 +682,36 @@ class Target:
             require_kind(plan, name, value, f"{plan.title}: Target({quantity_cited(self.quantity)}, ...): {name}")
 
     def miss(self, plan: Plan, value: float) -> float:
-        """Return its tolerance [SI]: `within`, or the default of its kind."""
+        """Return its tolerance [SI]: `within`, or the default of its kind.
+
+        Parameters
+        ----------
+        plan : Plan
+            The plan of the machine's class.
+        value : float
+            The value wanted [SI].
+
+        Returns
+        -------
+        float
+            The tolerance [SI].
+        """
         kind = measure_of(plan, self.quantity)
         return self.within or {"length": 1.0 * mm, "angle": 0.1 * deg}.get(kind, 1e-3 * abs(value) or 1e-3)
 
     def shown_in(self, plan: Plan) -> str:
-        """Return the unit that it is shown in."""
+        """Return the unit that it is shown in.
+
+        Parameters
+        ----------
+        plan : Plan
+            The plan of the machine's class.
+
+        Returns
+        -------
+        str
+            The unit.
+        """
         return self.unit or display_unit(measure_of(plan, self.quantity), "mm")
 
 

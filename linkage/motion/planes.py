@@ -65,18 +65,51 @@ class Planes(HasVerdicts):
         return self.renewed(width=quantity(values.get(f"{self.name}.width", self.width)))
 
     def questions(self, judge: Judge) -> list[Question]:
-        """Return the least clearance."""
+        """Return the least clearance.
+
+        Parameters
+        ----------
+        judge : Judge
+            The judge of the machine over its domains.
+
+        Returns
+        -------
+        list
+            The questions.
+        """
         return [least(clearance())] if pairs_of(judge.plan) else []
 
     def conditions(self, judge: Judge) -> Mapping[str, Condition]:
-        """Return that nothing touches."""
+        """Return that nothing touches.
+
+        Parameters
+        ----------
+        judge : Judge
+            The judge of the machine over its domains.
+
+        Returns
+        -------
+        mapping of str to Condition
+            The condition by its rule.
+        """
         return {"clearance": least(clearance()) >= 0.0} if pairs_of(judge.plan) else {}
 
     def load_limits(self, judge: Judge) -> Mapping[str, Condition]:
         return {}
 
     def verdicts(self, judge: Judge) -> list[Verdict]:
-        """Return whether everything in one plane stays apart wherever the machine runs, with the nearest pair and its place."""
+        """Return whether everything in one plane stays apart wherever the machine runs, with the nearest pair and its place.
+
+        Parameters
+        ----------
+        judge : Judge
+            The judge of the machine over its domains.
+
+        Returns
+        -------
+        list of Verdict
+            The verdict.
+        """
         if not pairs_of(judge.plan):
             return [Verdict("clearance", True, said("no two bodies lie in one plane that share no pin."))]
         answer = judge.answer(least(clearance()))
@@ -107,6 +140,16 @@ def clearance() -> NodeRequest:
 
     Below zero where two bodies cross, by the least way that parts them; of concave outlines, and bodies of several, of the two pieces that
     cross deepest, so that the whole crosses by at least that. DefinitionError for a machine that declares no planes.
+
+    Returns
+    -------
+    Request
+        The gap [m].
+
+    Raises
+    ------
+    DefinitionError
+        The machine declares no planes.
     """
     return least_gap(None)
 

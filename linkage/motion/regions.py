@@ -107,7 +107,18 @@ class Forbidden:
 
 
 def outside(shape: object) -> Forbidden:
-    """Return a shape as a forbidden one: `regions={"C": ["frame", outside("wheel")]}`."""
+    """Return a shape as a forbidden one: `regions={"C": ["frame", outside("wheel")]}`.
+
+    Parameters
+    ----------
+    shape : str, sequence or Outline
+        The shape.
+
+    Returns
+    -------
+    Forbidden
+        The forbidden shape.
+    """
     return Forbidden(shape)
 
 
@@ -164,6 +175,18 @@ def inside(point: Reference, *shapes: object) -> NodeRequest:
 
     Each shape is a polygon by its corners [m], an `Outline` of the frame or `Outline.circle(...)`. The point is to be in one of them, and
     in none that is given as `outside(...)`. `least(inside("C", ...)) >= 0` keeps a moving point inside over the whole stroke.
+
+    Parameters
+    ----------
+    point : str or Point
+        The point, or its name.
+    *shapes : sequence or Outline
+        Polygons by their corners [m], outlines of the frame, circles, `outside(...)`.
+
+    Returns
+    -------
+    Request
+        The distance inside [m], below zero outside.
     """
     return inside_region(name_of(point), region_of([*shapes], f"inside({name_of(point)})"))
 

@@ -439,6 +439,20 @@ def ratio(target: str | Member, wrt: str | None = None, order: int = 1) -> Value
     """Return the request for the derivative of a point or a quantity by a stroke, in `evaluate` and `gradient`.
 
     `ratio("G")` is dG/dS, `ratio("G", order=2)` d2G/dS2; `wrt="S2"` where there are several strokes.
+
+    Parameters
+    ----------
+    target : str or Member
+        The point or the quantity.
+    wrt : str, optional
+        The stroke, where there are several.
+    order : int
+        1 or 2.
+
+    Returns
+    -------
+    Request
+        The derivative; of a point its two parts.
     """
     return Value(target, (wrt,) * order_of(order))
 
@@ -831,6 +845,16 @@ def transmission(point: Reference) -> NodeRequest:
     """Return the request for a joint's transmission angle [rad], folded to 0 ... pi/2: how far it is from the links in line.
 
     It is `motion.transmission_angle(point)`, and pi less it where that is above pi/2: `least(transmission("K")) >= 35 * deg`.
+
+    Parameters
+    ----------
+    point : str or Point
+        The point, or its name.
+
+    Returns
+    -------
+    Request
+        The angle [rad], 0 to pi/2.
     """
     name = name_of(point)
 
@@ -866,6 +890,16 @@ def condition(target: str | Member | None = None) -> NodeRequest:
     a direction is taken between points that come close. Above 1e4 a ratio is off by some 0.3 eps cond^2, above 1e6 it is refused.
     `condition("G")` is of what G is built from, `condition(angle("A", "P"))` of what the angle is built from and of its own direction,
     `condition()` of all points of the machine. What else is asked beside it makes no difference.
+
+    Parameters
+    ----------
+    target : str or Member, optional
+        The point or the quantity; by default all points.
+
+    Returns
+    -------
+    Request
+        The condition number.
     """
 
     def value(plan: Plan) -> Value | None:

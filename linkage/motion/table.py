@@ -66,6 +66,24 @@ class Column:
         """Return a request over a motion as a column, one number a pose: `Column.of(motion, pressure("lift"), "bar")`.
 
         Without a unit it is in the one that its kind is shown in, deg, m, kN or bar, without a name under what was asked.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses; designs first, strokes last.
+        request : str, Quantity or Request
+            The value asked for.
+        unit : str, optional
+            The unit it is shown in.
+        name : str
+            The heading; by default the request's words.
+        digits : int
+            The decimals shown.
+
+        Returns
+        -------
+        Column
+            The column.
         """
         values = motion[request]
         if values.shape != motion.shape:

@@ -60,7 +60,7 @@ class KinematicChain:
 
     def add_cylinder(self, name: str, P: str, Q: str) -> None:
         """Enter a cylinder: a barrel on P, a rod on Q, and their slide."""
-        self.slides.append(Pair("slide", name, self.add_body(f"{name} barrel", "barrel", (P,)), self.add(f"{name} rod", "rod", (Q,))))
+        self.slides.append(Pair("slide", name, self.add_body(f"{name} barrel", "barrel", (P,)), self.add_body(f"{name} rod", "rod", (Q,))))
 
     def bodies_at(self, point: str) -> list[ChainBody]:
         """Return the bodies of a point, the frame first."""

@@ -153,7 +153,18 @@ class Part(Member):
         return found | {name: found.get(target, target) for name, target in inner.items()}
 
     def axes(self, members: Mapping[str, Member]) -> Axes | None:
-        """Return the axes of the part in the whole; None where they are the frame's."""
+        """Return the axes of the part in the whole; None where they are the frame's.
+
+        Parameters
+        ----------
+        members : mapping of str to Member
+            The members of the class by name.
+
+        Returns
+        -------
+        Axes or None
+            The axes.
+        """
         names = tuple(map(name_of, self.on))
         if len(names) == 1 and isinstance(members.get(names[0]), Link):
             names = members[names[0]].point_names[:2]  # type: ignore[attr-defined]
@@ -165,7 +176,18 @@ class Part(Member):
         return None if found.is_frame else found
 
     def brought(self, members: Mapping[str, Member]) -> dict[str, Member]:
-        """Return the members of the part as they stand among those of the whole, by their dotted names."""
+        """Return the members of the part as they stand among those of the whole, by their dotted names.
+
+        Parameters
+        ----------
+        members : mapping of str to Member
+            The members of the class by name.
+
+        Returns
+        -------
+        dict of str to Member
+            The members.
+        """
         return Renamed(self, self.axes(members)).members()
 
     def having(self, values: Mapping[str, float]) -> Part:

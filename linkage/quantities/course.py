@@ -89,6 +89,11 @@ class Course:
             The value at the end, where it is known better than by the last of them.
         measures : str
             "length" or "angle", where that is known.
+
+        Returns
+        -------
+        Course
+            The course.
         """
         found, rows = column("times", times, "Course"), np.atleast_2d(np.array(phases, float))
         check_rising("Course: time", found)
@@ -99,7 +104,25 @@ class Course:
 
     @classmethod
     def of_steps(cls, steps: Sequence[Mapping[str, Any]], measures: str = "") -> Self:
-        """Return a course made of steps in their order; DefinitionError where the value jumps from one to the next."""
+        """Return a course made of steps in their order; DefinitionError where the value jumps from one to the next.
+
+        Parameters
+        ----------
+        steps : sequence of mapping
+            The steps, as `Course` prints them.
+        measures : str
+            "length" or "angle", where that is known.
+
+        Returns
+        -------
+        Course
+            The course.
+
+        Raises
+        ------
+        DefinitionError
+            The value jumps from one step to the next.
+        """
         found = cls.__new__(cls)
         found._hold(steps, measures)
         return found
@@ -176,6 +199,18 @@ class Course:
         """Return the instants [s] at which a derivative of that order jumps: 1 for the rate, 2 for the acceleration.
 
         They lie between its ends. With `ends` these count too, where it begins from a stand and stands afterwards.
+
+        Parameters
+        ----------
+        order : int
+            1 or 2.
+        ends : bool
+            Whether the ends count.
+
+        Returns
+        -------
+        tuple of float
+            The instants [s].
         """
         middle, stand = 0.5 * (self.breaks[1:] + self.breaks[:-1]), np.zeros(1)
         before = np.concatenate([stand, self(self.breaks[1:], order, phase=middle)])
@@ -188,20 +223,65 @@ class Course:
     # -- courses made of courses -------------------------------------------------------------------------
 
     def hold(self, seconds: float) -> Course:
-        """Return this, and then its last value for so many seconds."""
+        """Return this, and then its last value for so many seconds.
+
+        Parameters
+        ----------
+        seconds : float
+            The duration [s].
+
+        Returns
+        -------
+        Course
+            The longer course.
+        """
         require_measure(seconds, "time", "hold")
         require_number("hold", seconds, "a number of seconds above zero is expected", above=0.0)
         return Course.of_steps([*self.steps, {"hold": float(seconds)}], self.measures)
 
     def then(self, course: Course) -> Course:
-        """Return this, and behind its end another; DefinitionError where the value jumps there, or an angle follows a length."""
+        """Return this, and behind its end another; DefinitionError where the value jumps there, or an angle follows a length.
+
+        Parameters
+        ----------
+        course : Course
+            The course that follows.
+
+        Returns
+        -------
+        Course
+            Both, one after the other.
+
+        Raises
+        ------
+        DefinitionError
+            The value jumps, or an angle follows a length.
+        """
         require(isinstance(course, Course), "then", course, "a course is expected, such as then(ramp(0.3, 0.1, speed=0.1))")
         ends = Amount(self._last, self.measures), Amount(course._phases[0, 0], course.measures)
         measures = common_measure("Course.then: the next course", *ends)
         return Course.of_steps([*self.steps, *course.steps], measures)
 
     def part(self, begin: float, end: float) -> Course:
-        """Return the course between two instants [s], at the same times; DefinitionError beyond its ends."""
+        """Return the course between two instants [s], at the same times; DefinitionError beyond its ends.
+
+        Parameters
+        ----------
+        begin : float
+            The first instant [s].
+        end : float
+            The last instant [s].
+
+        Returns
+        -------
+        Course
+            The course between them.
+
+        Raises
+        ------
+        DefinitionError
+            An instant beyond the course.
+        """
         first, last = self.breaks[[0, -1]].tolist()
         fits = is_number(begin) and is_number(end) and first <= begin < end <= last
         require_measure((begin, end), "time", "part")

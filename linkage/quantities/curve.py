@@ -101,6 +101,22 @@ class Curve:
 
         Plain arithmetic, `pick(a, b, x, y)`, which is x where a <= b, else y, and `wrap(angle)`, the angle [rad] within half a turn: so it
         can be read on anything that calculates.
+
+        Parameters
+        ----------
+        x : float or scalar
+            The place in the table.
+        order : int
+            The order of the derivative.
+        pick : callable
+            `pick(a, b, x, y)` is x where a <= b, else y.
+        wrap : callable
+            The angle [rad] within half a turn.
+
+        Returns
+        -------
+        float or scalar
+            The value.
         """
         if self.period is not None:
             turn, middle = 2.0 * pi / self.period, 0.5 * float(self.xs[0] + self.xs[-1])

@@ -180,7 +180,7 @@ class Member:
         """
         changes = {attribute: getattr(self, attribute).opposite() for attribute in self.handed if axes.mirrored}
         if self.is_directed and not axes.are_upright:
-            changes["axes"] = axes.within(getattr(self, "axes", None))
+            changes["axes"] = axes.composed(getattr(self, "axes", None))
         return self.renewed(**changes) if changes else self
 
     def sides(self, where: Where) -> tuple[tuple[str, Scalar], ...]:

@@ -128,22 +128,70 @@ class Length(Quantity):
 
 
 def angle(P: Reference, Q: Reference) -> Quantity:
-    """Return the direction of P -> Q [rad], counter-clockwise from the x axis."""
+    """Return the direction of P -> Q [rad], counter-clockwise from the x axis.
+
+    Parameters
+    ----------
+    P : str or Point
+        The first point, or its name.
+    Q : str or Point
+        The second point, or its name.
+
+    Returns
+    -------
+    Quantity
+        The angle.
+    """
     return Angle(P, Q)
 
 
 def distance(P: Reference, Q: Reference) -> Quantity:
-    """Return the distance of P and Q [m]."""
+    """Return the distance of P and Q [m].
+
+    Parameters
+    ----------
+    P : str or Point
+        The first point, or its name.
+    Q : str or Point
+        The second point, or its name.
+
+    Returns
+    -------
+    Quantity
+        The distance.
+    """
     return Distance(P, Q)
 
 
 def x(P: Reference) -> Quantity:
-    """Return the x coordinate of a point [m]."""
+    """Return the x coordinate of a point [m].
+
+    Parameters
+    ----------
+    P : str or Point
+        The point, or its name.
+
+    Returns
+    -------
+    Quantity
+        The coordinate.
+    """
     return Coordinate(P, "x")
 
 
 def y(P: Reference) -> Quantity:
-    """Return the y coordinate of a point [m]."""
+    """Return the y coordinate of a point [m].
+
+    Parameters
+    ----------
+    P : str or Point
+        The point, or its name.
+
+    Returns
+    -------
+    Quantity
+        The coordinate.
+    """
     return Coordinate(P, "y")
 
 

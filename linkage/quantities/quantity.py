@@ -351,7 +351,18 @@ def stands_for(members: Mapping[str, Any], given: object) -> Any:
 
 
 def ref(name: str) -> Quantity:
-    """Return the quantity of that name, to be bound anywhere in the class: `ref("L0") + S`."""
+    """Return the quantity of that name, to be bound anywhere in the class: `ref("L0") + S`.
+
+    Parameters
+    ----------
+    name : str
+        The quantity's name.
+
+    Returns
+    -------
+    Quantity
+        The reference.
+    """
     if not is_reference(name):
         raise DefinitionError(f"ref({name!r}): a name is expected, such as ref('L0').")
     return Ref(name)

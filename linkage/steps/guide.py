@@ -60,7 +60,18 @@ class Guide(Jointed):
         return self.renewed(fixed_at=place, angle=None if self.angle is None else quantity(values.get(f"{self.name}.angle", self.angle)))
 
     def line(self, where: Where) -> Line:
-        """Return the origin [m] and the direction's cosine and sine."""
+        """Return the origin [m] and the direction's cosine and sine.
+
+        Parameters
+        ----------
+        where : Where
+            The reading: places of points and values of quantities.
+
+        Returns
+        -------
+        Line
+            The line.
+        """
         if self.P is not None:
             origin = where.at(self.P)
         else:
@@ -74,7 +85,13 @@ class Guide(Jointed):
         return Line(origin, self.axes.vector(where, Vec(*where.turn(angle))))
 
     def joints(self) -> tuple[Joint, ...]:
-        """Return the joint that keeps the carrier of a guide in a given direction through a moving point from turning."""
+        """Return the joint that keeps the carrier of a guide in a given direction through a moving point from turning.
+
+        Returns
+        -------
+        tuple of Joint
+            The joints.
+        """
         if self.P is None or self.angle is None:
             return ()
         P = name_of(self.P)
@@ -95,7 +112,18 @@ class Slide(Jointed):
         self.point, self.guide = point, guide
 
     def constraints(self, where: Where) -> tuple[Scalar, ...]:
-        """Return the point's distance from the guide [m], positive on its left."""
+        """Return the point's distance from the guide [m], positive on its left.
+
+        Parameters
+        ----------
+        where : Where
+            The reading: places of points and values of quantities.
+
+        Returns
+        -------
+        tuple of scalar
+            The residual [m].
+        """
         line = where.line(self.guide)
         return (line.direction.cross(where.at(self.point) - line.origin),)
 

@@ -37,12 +37,29 @@ class Link(Member):
         return (*self.points, *(part for part in map(quantity, self.labels.values()) if not part.is_constant))
 
     def enter(self, table: DimensionTable) -> None:
-        """Enter the labels: distances and angles of its own points."""
+        """Enter the labels: distances and angles of its own points.
+
+        Parameters
+        ----------
+        table : Table
+            The table of dimensions.
+        """
         for slot, spelling, value in self.fitted():
             table.dimension(slot, spelling, value, f"{self.name} = {self}")
 
     def fitted(self) -> list[tuple[Slot, str, Operand]]:
-        """Return the slot, spelling and value of each label; DefinitionError for one that does not fit the points."""
+        """Return the slot, spelling and value of each label; DefinitionError for one that does not fit the points.
+
+        Returns
+        -------
+        list of tuple
+            The slot, the spelling and the value of each label.
+
+        Raises
+        ------
+        DefinitionError
+            A label that does not fit the points.
+        """
         found = [(match({spelling: value}, self.slots(), f"{self.name} = {self}"), value) for spelling, value in self.labels.items()]
         return [(slot, spelling, value) for each, value in found for slot, spelling, _, _ in each.values()]
 
@@ -50,7 +67,13 @@ class Link(Member):
         return self.renewed(labels=relabelled(self.labels, values))
 
     def slots(self) -> list[Slot]:
-        """Return the labels that fit: the distances of its points, and the angles between three of them."""
+        """Return the labels that fit: the distances of its points, and the angles between three of them.
+
+        Returns
+        -------
+        list of Slot
+            The slots.
+        """
         names = self.point_names
         corners = [(P, vertex, Q) for vertex in names for P, Q in combinations(names, 2) if vertex not in (P, Q)]
         return [Slot("", each, self.spoken) for each in (*combinations(names, 2), *corners)]

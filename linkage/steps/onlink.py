@@ -62,7 +62,20 @@ class OnLink(Step):
         return -sense if self.is_mirrored else sense
 
     def corner(self, where: Where, base: Scalar) -> Turning:
-        """Return the cosine and sine of the angle QPX; `base` is the length of PQ [m]."""
+        """Return the cosine and sine of the angle QPX; `base` is the length of PQ [m].
+
+        Parameters
+        ----------
+        where : Where
+            The reading: places of points and values of quantities.
+        base : scalar
+            The length of PQ [m].
+
+        Returns
+        -------
+        tuple of scalar
+            Cosine and sine.
+        """
         sense = self.sense_of_turn
         if self.QX is not UNBOUND:
             p = where.value(self.PX)
@@ -83,7 +96,13 @@ class OnLink(Step):
         return () if self.QX is UNBOUND else self.triangle_sides(where, where.link_length(self.P, self.Q))
 
     def joints(self) -> tuple[Joint, ...]:
-        """Return the joint of an arm that a driven label moves: it holds along the arm, across it and against turning."""
+        """Return the joint of an arm that a driven label moves: it holds along the arm, across it and against turning.
+
+        Returns
+        -------
+        tuple of Joint
+            The joints.
+        """
         P, Q = self.P, self.Q
 
         def line(where: Where) -> Line:

@@ -85,7 +85,13 @@ class Group(Member):
         self.rigid: tuple[OnLink, ...] = ()
 
     def enter(self, table: DimensionTable) -> None:
-        """Enter the group's dimensions: its rods' lengths and its links' shapes."""
+        """Enter the group's dimensions: its rods' lengths and its links' shapes.
+
+        Parameters
+        ----------
+        table : Table
+            The table of dimensions.
+        """
         spoken = joined_names if self.spoken is None else self.spoken.word
         self.rods = tuple(
             Bar(P, Q, table.dimension(Slot("", (P, Q), self.spoken), spoken(P, Q), length, str(self))) for P, Q, length in self.given
@@ -111,7 +117,18 @@ class Group(Member):
         return (*outside, *(each for each in guides if not (isinstance(each, Guide) and set(each.points) & set(self.pins))))
 
     def constraints(self, where: Where) -> tuple[Scalar, ...]:
-        """Return the residuals that vanish: one a rod, two a rigidly attached point, one a slide."""
+        """Return the residuals that vanish: one a rod, two a rigidly attached point, one a slide.
+
+        Parameters
+        ----------
+        where : Where
+            The reading: places of points and values of quantities.
+
+        Returns
+        -------
+        tuple of scalar
+            The residuals [m].
+        """
         found: list[Scalar] = []
         for rod in self.rods:
             length = where.value(rod.length)
@@ -135,7 +152,18 @@ class Drawn(Member):
 
 
 def drawn(**strokes: float) -> Drawn:
-    """Return the statement at which strokes [SI] the positions `near` and `at` hold; default: the start of each."""
+    """Return the statement at which strokes [SI] the positions `near` and `at` hold; default: the start of each.
+
+    Parameters
+    ----------
+    **strokes : float
+        Values of the strokes by name [m or rad].
+
+    Returns
+    -------
+    Drawn
+        The statement.
+    """
     for name, value in strokes.items():
         require_number(f"drawn({name}", value, "a finite number is expected, in m or rad")
     return Drawn(strokes)

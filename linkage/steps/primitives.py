@@ -192,7 +192,18 @@ class Offset(Point):
         return self.keeps.groups
 
     def sides(self, where: Where) -> tuple[tuple[str, Scalar], ...]:
-        """Return the triangle that places it, where it is the apex of one that closes in its own line."""
+        """Return the triangle that places it, where it is the apex of one that closes in its own line.
+
+        Parameters
+        ----------
+        where : Where
+            The reading: places of points and values of quantities.
+
+        Returns
+        -------
+        tuple of tuple
+            Each side's name and length [m].
+        """
         if len(self.keeps.sides) < 2:
             return ()
         P, Q = name_of(self.P), self.keeps.apex
@@ -204,7 +215,18 @@ class Offset(Point):
         return tuple(where.at(end) - X for end in ends) if self.keeps.apex else ()
 
     def constraints(self, where: Where) -> tuple[Scalar, ...]:
-        """Return the equations of its constraints: it lies on its body, a drive gives its place, two-point members have their lengths."""
+        """Return the equations of its constraints: it lies on its body, a drive gives its place, two-point members have their lengths.
+
+        Parameters
+        ----------
+        where : Where
+            The reading: places of points and values of quantities.
+
+        Returns
+        -------
+        tuple of scalar
+            The residuals.
+        """
         P, X = where.at(self.P), where.at(self.name)
         if self.keeps.settled:
             arm = where.vector(self.by)
@@ -219,7 +241,13 @@ class Offset(Point):
         return tuple((way.square() - length * length) * 0.5 for way, length in lengths)
 
     def joints(self) -> tuple[Joint, ...]:
-        """Return the joint of a drive that turns its vector or pushes it out."""
+        """Return the joint of a drive that turns its vector or pushes it out.
+
+        Returns
+        -------
+        tuple of Joint
+            The joints.
+        """
         name, start, keeps = self.name, name_of(self.P), self.keeps
         turned = () if keeps.angle is None else (Driven(keeps.angle, "c"),)
         by = JointSide(keeps.by)

@@ -104,7 +104,18 @@ class PinSlotDyad(Step):
         return (Joint("guide", self.Q, on, by, "n", self.slot, tuple(sorted((self.P, self.X))), still=still),)
 
     def slot(self, where: Where) -> Line:
-        """Return the line the pin slides on: parallel to P -> X, at the offset to its left."""
+        """Return the line the pin slides on: parallel to P -> X, at the offset to its left.
+
+        Parameters
+        ----------
+        where : Where
+            The reading: places of points and values of quantities.
+
+        Returns
+        -------
+        Line
+            The line.
+        """
         arm = where.at(self.X) - where.at(self.P)
         along = arm * (1.0 / arm.length())
         return Line(where.at(self.P) + along.left() * where.value(self.offset), along)
@@ -183,7 +194,18 @@ class YokeDyad(Step):
         )
 
     def slot(self, where: Where) -> Line:
-        """Return the line of the cross slot."""
+        """Return the line of the cross slot.
+
+        Parameters
+        ----------
+        where : Where
+            The reading: places of points and values of quantities.
+
+        Returns
+        -------
+        Line
+            The line.
+        """
         return Line(where.at(self.X), where.line(self.guide).direction.turned(*where.turn(self.angle)))
 
     def arguments(self) -> list[str]:

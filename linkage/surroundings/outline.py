@@ -66,7 +66,22 @@ class Outline(Member):
 
     @staticmethod
     def line(*points: Corner, on: Carrier = None, hatched: bool = True) -> LineOutline:
-        """Return an open line, hatched on the right of its way: `ground = Outline.line((-1, 0), (3, 0))`."""
+        """Return an open line, hatched on the right of its way: `ground = Outline.line((-1, 0), (3, 0))`.
+
+        Parameters
+        ----------
+        *points : tuple of float
+            The corners [m].
+        on : str or sequence, optional
+            The body that carries it; by default the frame.
+        hatched : bool
+            Whether its right side is hatched.
+
+        Returns
+        -------
+        LineOutline
+            The line.
+        """
         return LineOutline(points, on=on, hatched=hatched)
 
     @property
@@ -79,14 +94,31 @@ class Outline(Member):
         return tuple(map(name_of, self._on))
 
     def numbers(self) -> tuple[Quantity, ...]:
-        """Return all quantities that it is drawn by."""
+        """Return all quantities that it is drawn by.
+
+        Returns
+        -------
+        tuple of Quantity
+            The quantities.
+        """
         return tuple(each for corner in self.points for each in corner)
 
     def parts(self) -> tuple[Reference, ...]:
         return (*self._on, *(each for each in self.numbers() if not each.is_constant))
 
     def faults(self, members: Mapping[str, Member]) -> Iterator[str]:
-        """Yield that something else than points carries it, or that its form follows a stroke."""
+        """Yield that something else than points carries it, or that its form follows a stroke.
+
+        Parameters
+        ----------
+        members : mapping of str to Member
+            The members of the class by name.
+
+        Returns
+        -------
+        iterator of str
+            The faults in words.
+        """
         if len(set(self.carriers)) < len(self.carriers):
             yield f"{self.carriers[0]} carries it twice; name two points of the body"
         for name in self.carriers:
@@ -109,20 +141,61 @@ class Outline(Member):
         return self.moved(axes.corner, axes).renewed(on=axes.carrier)
 
     def moved(self, corner: Moved, axes: Axes) -> Self:
-        """Return the outline with its places where a part's axes take them."""
+        """Return the outline with its places where a part's axes take them.
+
+        Parameters
+        ----------
+        corner : callable
+            Moves a corner.
+        axes : Axes
+            The part's axes.
+
+        Returns
+        -------
+        Outline
+            The moved outline.
+        """
         points = tuple(corner(x, y) for x, y in self.points)
         return self.renewed(points=points[::-1] if axes.mirrored and self.hatched else points)
 
     def lines(self, value: Value) -> tuple[Array, ...]:
-        """Return its lines in the axes of its carrier, shape (n, 2) each [m]; a closed one does not repeat its first corner."""
+        """Return its lines in the axes of its carrier, shape (n, 2) each [m]; a closed one does not repeat its first corner.
+
+        Parameters
+        ----------
+        value : callable
+            Returns the value of a quantity.
+
+        Returns
+        -------
+        tuple of ndarray
+            The lines [m].
+        """
         return (numbers_at(self.points, value),)
 
     def under(self, value: Value) -> tuple[str, Array, float] | None:
-        """Return a picture's path, its corners from the lower left one, counter-clockwise [m], and how opaque it is; None for lines."""
+        """Return a picture's path, its corners from the lower left one, counter-clockwise [m], and how opaque it is; None for lines.
+
+        Parameters
+        ----------
+        value : callable
+            Returns the value of a quantity.
+
+        Returns
+        -------
+        tuple or None
+            The path, the corners (4, 2) [m], the opacity.
+        """
         return None
 
     def options(self) -> dict[str, str]:
-        """Return the keywords written behind its corners, without the defaults."""
+        """Return the keywords written behind its corners, without the defaults.
+
+        Returns
+        -------
+        dict of str to str
+            The keywords.
+        """
         words = {"closed": "False"} if not self.closed else {} if self.filled else {"filled": "False"}
         return words | ({"hatched": "True"} if self.hatched else {})
 

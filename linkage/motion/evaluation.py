@@ -159,7 +159,7 @@ class Evaluation:
         plan, look = self.grid.plan, CloseLook.for_grid(len(self.requests), self.grid.size)
         for band, part in grid_blocks(*self.grid.size):
             inputs = {name: part_of_input(value, band, part, name in plan.table.entries) for name, value in self.grid.flat.items()}
-            block, here = place[:, band, part], look.part(band, part)
+            block, here = place[:, band, part], look.in_block(band, part)
             _, height, width = block.shape
             unlike, unplaced, near, here.empty[...] = guard_masks(plan, self.requests, inputs, (height, width), self.way)
             for number, rows in self._starts():
@@ -194,7 +194,7 @@ class Evaluation:
             doubtful[k, here], refused[k, here] = refused[k, here] & found.doubtful, refused[k, here] & found.refused
             if doubtful[k].any():
                 told = found.masked(doubtful[k, here])
-                told = told.at(told.error == told.error.max())
+                told = told.masked(told.error == told.error.max())
                 if k not in look.worst or told.error[0] > look.worst[k].error[0]:
                     look.worst[k] = told
         look.refused[:, bad], look.doubtful[:, bad] = refused, doubtful

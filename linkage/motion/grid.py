@@ -358,7 +358,7 @@ def recalled(motion: MotionLike, what: Hashable, make: Callable[[], Made]) -> Ma
         return make()
     known: dict[Hashable, Any] = motion.plan.made("recent", lambda _: {})
     strokes = tuple((name, value.shape, blake2b(value.tobytes(), digest_size=16).digest()) for name, value in motion.strokes.items())
-    timed = None if motion._instants is None else motion._instants.digest  # the same strokes passed otherwise have other forces
+    timed = None if motion._instants is None else motion._instants.content_key  # the same strokes passed otherwise have other forces
     key = what, tuple(motion.designs), tuple(map(float, motion.designs.values())), strokes, timed, motion._grid.per_design
     kept = known.get(key)  # another thread may throw it away meanwhile
     if kept is not None:

@@ -38,7 +38,7 @@ class Instants:
         apart = np.concatenate([[True], np.diff(breaks) > 1e-12 * (end - begin)])  # what two courses reckon as one instant is one
         breaks = breaks[apart]
         breaks[-1] = end
-        return cls(courses, breaks, breaks, {}, {}).at(breaks)
+        return cls(courses, breaks, breaks, {}, {}).at_times(breaks)
 
     def at_times(self, time: FloatArray, phase: FloatArray | None = None) -> Self:
         """Return other instants; at a break the phase that begins there counts, or the one that an instant lies in."""
@@ -82,8 +82,9 @@ class Instants:
         return time, name, abs(after - before)
 
     @cached_property
-    def digest(self) -> bytes:
+    def content_key(self) -> bytes:
         """A key in bytes: equal for equal strokes passed at equal rates and accelerations."""
         known = [self.time, *self.rates.values(), *self.accelerations.values()]
-        parts = [self.breaks.tobytes(), *(each.digest for each in self.courses.values()), *(np.asarray(each).tobytes() for each in known)]
+        courses = [each.content_key for each in self.courses.values()]
+        parts = [self.breaks.tobytes(), *courses, *(np.asarray(each).tobytes() for each in known)]
         return blake2b(b"".join(parts), digest_size=16).digest()

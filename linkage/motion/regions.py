@@ -56,7 +56,7 @@ class Polygon:
         return np.asarray(found[np.arange(len(places)), near])
 
     @property
-    def bounds(self) -> FloatArray:
+    def bounding_box(self) -> FloatArray:
         """Its least and its greatest coordinates, shape (2, 2)."""
         return np.array([np.min(self.corners, axis=0), np.max(self.corners, axis=0)])
 
@@ -86,7 +86,7 @@ class Disc:
         return np.asarray(centre + self.radius * way)
 
     @property
-    def bounds(self) -> FloatArray:
+    def bounding_box(self) -> FloatArray:
         """Its least and its greatest coordinates, shape (2, 2)."""
         return np.array([[self.x - self.radius, self.y - self.radius], [self.x + self.radius, self.y + self.radius]])
 
@@ -150,11 +150,11 @@ class Region:
         return found
 
     @property
-    def bounds(self) -> FloatArray:
+    def bounding_box(self) -> FloatArray:
         """The least and the greatest coordinates of the allowed region, infinite where only shapes are forbidden, shape (2, 2)."""
         if not self.within:
             return np.array([[-np.inf, -np.inf], [np.inf, np.inf]])
-        boxes = np.array([each.bounds for each in self.within])
+        boxes = np.array([each.bounding_box for each in self.within])
         return np.array([boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)])
 
     def __str__(self) -> str:

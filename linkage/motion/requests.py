@@ -787,7 +787,7 @@ def point_ratios(members: Set[str]) -> NodeRequest:
             return np.zeros(left.size.shape)
         with np.errstate(all="ignore"):
             largest = np.max([np.hypot(*part.values) for part in parts], axis=0)
-        return np.asarray(np.max([part.length.relative(MINOR * largest) for part in parts], axis=0))
+        return np.asarray(np.max([part.norm.relative(MINOR * largest) for part in parts], axis=0))
 
     return NodeRequest(
         text="the ratios of the points", key=("ratios", among), nodes_of=nodes, names_of=lambda plan: set(among), order=1,

@@ -62,7 +62,7 @@ def draw_burmester(found: Burmester) -> Figure:
 def shown_box(found: Burmester, pins: FloatArray) -> Bounds:
     """Return the box that is shown [m]: about poses, region, and the best machine's pins (2, 2) [m]."""
     shapes = found.region.within if found.region is not None else ()
-    parts = [found.poses[:, :2], *(shape.bounds for shape in shapes)]
+    parts = [found.poses[:, :2], *(shape.bounding_box for shape in shapes)]
     places = [link.places for link in found.links if any(np.allclose(link.point, pin) for pin in pins) or len(found.poses) == 5]
     centres = [link.centre[None] for link in found.links if len(found.poses) == 5 and not link.slides]
     cloud = np.concatenate([*parts, *places, *centres, pins])

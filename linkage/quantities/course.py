@@ -155,7 +155,7 @@ class Course:
         return bool(np.any((rate != 0.0) & (bend == 0.0)))
 
     @property
-    def digest(self) -> bytes:
+    def content_key(self) -> bytes:
         """A key in bytes: equal for courses with equal breaks and phases."""
         return bytes(self.breaks.tobytes() + self._phases.tobytes())
 

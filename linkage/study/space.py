@@ -176,7 +176,7 @@ def point_region(machine: Mechanism, point: str, region: Region, variables: Sequ
 
 def places_inside(title: str, each: PointRegion, variables: Sequence[Varied], count: int, seed: int) -> FloatArray:
     """Return places in a region, evenly spread, (k, 2), as many as `count` if there are; DefinitionError for none."""
-    low, high = (np.array(end) for end in each.region.bounds)
+    low, high = (np.array(end) for end in each.region.bounding_box)
     for column, (place, sign) in enumerate(zip(each.places, each.signs, strict=True)):
         ends = [each.fixed[column]] * 2 if place is None else sorted(sign * end for end in (variables[place].low, variables[place].high))
         low[column], high[column] = max(low[column], ends[0]), min(high[column], ends[1])

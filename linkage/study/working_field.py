@@ -712,12 +712,12 @@ class FieldSearch:
         at, met = self.many.settled(start, self.goals, outs, damped=False)
         again = ~met & ~np.isin(at.place, at.place[met])
         if again.any():
-            late, late_met = self.many.settled(start.where(again), self.goals, outs)
+            late, late_met = self.many.settled(start.select(again), self.goals, outs)
             at, met = at.concatenated(late), np.concatenate([met, late_met])
         at = at.select(met)
         out = np.maximum(np.maximum(-at.unit, at.unit - 1.0), 0.0)
         whole = places.is_assembled(at.unit) if len(at.place) else np.zeros(0, bool)
-        at, out = at.where(whole), out[whole]
+        at, out = at.select(whole), out[whole]
         order = np.lexsort((out.max(axis=1), at.place))
         first = order[np.append(True, np.diff(at.place[order]) != 0)] if len(order) else order
         for row in first.tolist():

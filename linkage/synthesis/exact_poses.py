@@ -516,7 +516,8 @@ def links_picked(body: PosedBody, curves: Sequence[tuple[ComplexArray, ComplexAr
     if count == 3:
         if region is None:
             return []
-        low, high = np.where(np.isfinite(region.bounds), region.bounds, about.bounds)  # a grid, about the poses where the region has no end
+        # a grid, about the poses where the region has no end
+        low, high = np.where(np.isfinite(region.bounding_box), region.bounding_box, about.bounding_box)
         x, y = (low[k] + (high[k] - low[k]) * (np.arange(GRID) + 0.5) / GRID for k in (0, 1))
         grid, found = (x[:, None] + 1j * y[None, :]).ravel(), []
         for each in grid[lies_within(grid, region)].tolist():

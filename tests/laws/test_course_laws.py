@@ -106,11 +106,11 @@ def check_programs(machine, over, questions):
     (place,) = judge.places
     listed = questions or [each for member in speakers(machine.plan, HasVerdicts).values() for each in member.questions(judge)]
     leaves = [leaf for leaf in dict.fromkeys(leaf for each in listed for leaf in leaves_of(each)) if not isinstance(leaf, At)]
-    rows = [row for leaf in leaves for row in judge.sought(leaf, place)]
+    rows = [row for leaf in leaves for row in judge.search_rows(leaf, place)]
     motion, (traced, plain) = place.timed(place.instants.shares(np.linspace(0.0, 1.0, 41)), "nan"), (Asked(place, rows) for _ in range(2))
     count = len(traced._bound)
     plain._bound.clear()
-    for row, *own in zip(rows, *traced.values(motion), *plain.values(motion), strict=True):
+    for row, *own in zip(rows, *traced.row_values(motion), *plain.row_values(motion), strict=True):
         values, unlimited, wanted, without = own
         scale = np.max(np.abs(np.nan_to_num(wanted)))
         assert_allclose(values, wanted, rtol=0, atol=1e-9 * scale, err_msg=f"{machine.plan.title}: {row.request}")

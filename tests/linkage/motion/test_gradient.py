@@ -51,7 +51,7 @@ def test_gradient_of_a_ratio_is_the_tangent_of_the_ratio(machine):
     for each, name in zip(found, names, strict=True):
         tangent = Tangent(plan.trace.graph, {plan.trace.inputs[name]: 1.0})
         for part, node in zip(each, nodes, strict=True):
-            (wanted,) = interpret([tangent.of(node)], motion._grid.flat)
+            (wanted,) = interpret([tangent.derivative(node)], motion._grid.flat)
             assert_allclose(part, np.broadcast_to(np.ravel(wanted), (3,)), rtol=1e-8, atol=1e-8 * (1.0 + np.abs(each).max()))
 
 
@@ -63,7 +63,7 @@ def test_gradients_of_random_mechanisms(seed):
     nodes = [node for name in plan.moving for node in plan.derived(plan.nodes(name), (first,))]
     inputs = [plan.trace.inputs[name] for name in plan.table.entries]
     flat = machine().at(**{name: stroke.start + 0.3 * (stroke.end - stroke.start) for name, stroke in plan.strokes.items()})._grid.flat
-    tangents = [[Tangent(plan.trace.graph, {each: 1.0}).of(node) for node in nodes] for each in inputs]
+    tangents = [[Tangent(plan.trace.graph, {each: 1.0}).derivative(node) for node in nodes] for each in inputs]
     wanted = np.array([[np.ravel(value)[0] for value in interpret(row, flat)] for row in tangents])
     found = np.array([[np.ravel(value)[0] for value in interpret(gradient(node, inputs), flat)] for node in nodes]).T
     assert np.abs(wanted).max() > 0.1
@@ -155,7 +155,7 @@ def test_every_operation_passes_its_share_on():
     a, b, s = (graph.input(name, Level.POSE) for name in names)
     node = np.sqrt(a * b) / (s + np.exp(a)) - np.arctan2(b, s) * np.tan(a) + np.minimum(a, s) ** 2 * np.maximum(b, a)
     node = node - np.log(b) ** 1.7 / np.abs(s - 3.0) + graph.pick(a, b, a * s, b) * np.cos(np.sin(b))
-    wanted = [interpret([Tangent(graph, {each: 1.0}).of(node)], names)[0] for each in (a, b, s)]
+    wanted = [interpret([Tangent(graph, {each: 1.0}).derivative(node)], names)[0] for each in (a, b, s)]
     assert_allclose(interpret(gradient(node, [a, b, s]), names), wanted, rtol=1e-12)
 
 
@@ -165,5 +165,5 @@ def test_a_system_passes_its_shares_on():
     a, b, s = (graph.input(name, Level.POSE) for name in names)
     system = graph.apply("solve", a + 2.0, b, s, s * s, b + 3.0, a, a * b, s, 4.0 + a, 1.0 + s, a, b * b)
     node = sum((graph.apply("component", system, float(k)) * (k + 1.0) for k in range(3)), graph.constant(0.0))
-    wanted = [interpret([Tangent(graph, {each: 1.0}).of(node)], names)[0] for each in (a, b, s)]
+    wanted = [interpret([Tangent(graph, {each: 1.0}).derivative(node)], names)[0] for each in (a, b, s)]
     assert_allclose(np.ravel(interpret(gradient(node, [a, b, s]), names)), np.ravel(wanted), rtol=1e-12)

@@ -110,7 +110,7 @@ def test_one_pose_is_one_of_many_and_costs_two_calls_of_floats(monkeypatch):
     many, runs = design.at(S=[0.05, 0.1, 0.15]), []
     found = many["G"], many.ratio("G"), many.value("tilt")
     run = PlainFloats.pose_values
-    monkeypatch.setattr(PlainFloats, "pose", lambda *given: runs.append(given) or run(*given))
+    monkeypatch.setattr(PlainFloats, "pose_values", lambda *given: runs.append(given) or run(*given))
     monkeypatch.setattr(PlainFloats, "run", lambda *given: pytest.fail("one pose goes through arrays"))
     one = design.at(S=0.1)
     one.ratio("G")

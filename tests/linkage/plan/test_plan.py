@@ -130,7 +130,8 @@ def test_a_fork_goes_on_as_what_it_was_forked_from(seed):
         assert [repr(node) for node in trace.graph.nodes] == [repr(node) for node in placed.graph.nodes]
         assert all(node.graph is trace.graph for node in trace.graph.nodes)
         assert all(arg is trace.graph.nodes[arg.number] for node in trace.graph.nodes for arg in node.args)
-    tangents = [[trace.tangent(stroke).of(trace.graph.node(trace.at(names[-1]).x)) for stroke in plan.strokes] for trace in (fork, again)]
+    places = [(trace, trace.graph.node(trace.at(names[-1]).x)) for trace in (fork, again)]
+    tangents = [[trace.tangent(stroke).derivative(place) for stroke in plan.strokes] for trace, place in places]
     assert repr(tangents[0]) == repr(tangents[1])
     assert [repr(node) for node in fork.graph.nodes] == [repr(node) for node in again.graph.nodes]
     watched = [[*map(repr, trace.watched(plan.members))] for trace in (fork, again)]

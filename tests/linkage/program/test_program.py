@@ -77,7 +77,7 @@ def test_a_tangent_is_the_slope(tree, name):
     if abs(slope - wider) > 1e-6 * (1 + abs(slope)):  # a pole or a kink nearby
         return
     graph, inputs, node = traced(tree)
-    found = Tangent(graph, {inputs[name]: 1.0}).of(node)
+    found = Tangent(graph, {inputs[name]: 1.0}).derivative(node)
     assert float(interpret([found], VALUES)[0]) == pytest.approx(slope, rel=1e-5, abs=1e-5)
 
 
@@ -157,7 +157,7 @@ def test_systems_inside_a_program(size):
     entries = [[graph.input(f"m{i}{j}", Level.POSE) for j in range(size + 1)] for i in range(size)]
     found = solution(graph, [row[:size] for row in entries], [row[size] for row in entries])
     tangent = Tangent(graph, {entries[0][0]: 1.0})
-    slopes = [tangent.of(node) for node in found]
+    slopes = [tangent.derivative(node) for node in found]
     given_ = {f"m{i}{j}": values[i, j] for i in range(size) for j in range(size + 1)}
     wanted = np.linalg.solve(np.moveaxis(values[:, :size], -1, 0), np.moveaxis(values[:, size:], -1, 0))[..., 0].T
     few = {name: value[:7] for name, value in given_.items()}
@@ -206,7 +206,7 @@ def test_an_array_cannot_be_traced():
 def test_powers(exponent):
     graph = Graph()
     s = graph.input("s", Level.POSE)
-    node, slope = s**exponent, Tangent(graph, {s: 1.0}).of(s**exponent)
+    node, slope = s**exponent, Tangent(graph, {s: 1.0}).derivative(s**exponent)
     given_ = {"s": np.linspace(0.5, 1.1, 30)}
     assert_allclose(Kernel([graph.node(node)])(given_).values.ravel() + 0 * given_["s"], given_["s"] ** exponent, rtol=1e-13)
     assert_allclose(Kernel([slope])(given_).values.ravel() + 0 * given_["s"], exponent * given_["s"] ** (exponent - 1.0), rtol=1e-12)

@@ -86,7 +86,7 @@ def test_what_is_written_is_the_same_course_to_the_last_bit():
     for seed in range(40):
         course = random_course(np.random.default_rng([seed, 2]))
         again = eval(str(course), {"Course": Course, "ramp": ramp})
-        assert again.key == course.key and again(99.0) == course(99.0), seed
+        assert again.content_key == course.content_key and again(99.0) == course(99.0), seed
         assert course.then(course.part(*course.breaks[[0, -1]]) + (course(99.0) - course(-99.0))).duration == pytest.approx(
             2 * course.duration
         )

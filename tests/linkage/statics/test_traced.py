@@ -60,7 +60,7 @@ def test_its_derivatives_are_its_differences(law):
     a, b = numbers()
     traced, h = law(a, b), 1e-5
     for name, each in (("a", a), ("b", b)):
-        slope = value(Traced(Tangent(a.node.graph, {each.node: 1.0}).of(traced.node), a.notes))
+        slope = value(Traced(Tangent(a.node.graph, {each.node: 1.0}).derivative(traced.node), a.notes))
         near, wide = (
             (law(**VALUES | {name: VALUES[name] + k * h}) - law(**VALUES | {name: VALUES[name] - k * h})) / (2 * k * h) for k in (1, 2)
         )

@@ -151,7 +151,7 @@ class Line:
     origin: Vec
     direction: Vec
 
-    def point_at(self, along: Scalar) -> Vec:
+    def at(self, along: Scalar) -> Vec:
         """Return the point at a distance along the line [m]."""
         place: Vec = self.origin + self.direction * along
         return place

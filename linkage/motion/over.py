@@ -87,12 +87,12 @@ class Over(Member):
 
         Parameters
         ----------
-        only, cases, lost
+        only, cases, lost : optional
             As of `Over`.
         time : array_like, optional
             The instants of the places [s], rising; or a pair `(begin, end)`, where strokes have courses. Without it the longest course
             decides.
-        **strokes
+        **strokes : array_like, Course or Curve
             An array of values for each stroke [m or rad], as many each; a number is held. Over time also a `Course`, such as `ramp(...)`,
             or a `Curve` of seconds. One that ends before the others holds its last value.
 

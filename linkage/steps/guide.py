@@ -146,7 +146,7 @@ class OnGuide(Point):
         return self.guide, self.along
 
     def place(self, where: Where) -> Vec:
-        return where.line(self.guide).point_at(where.value(self.along))
+        return where.line(self.guide).at(where.value(self.along))
 
     def joints(self) -> tuple[Joint, ...]:
         guide, drives = name_of(self.guide), (Driven(self.along, "t"),)

@@ -33,7 +33,7 @@ class SliderDyad(Step):
         away = where.at(self.P) - line.origin
         offset = line.direction.cross(away)
         reach = where.root(p * p - offset * offset, scale=p, size=p * p)
-        return line.point_at(line.direction.dot(away) - float(self.settled_side) * reach)
+        return line.at(line.direction.dot(away) - float(self.settled_side) * reach)
 
     def constraints(self, where: Where) -> tuple[Scalar, ...]:
         X, line, p = where.at(self.X), where.line(self.guide), where.value(self.PX)
@@ -137,7 +137,7 @@ class GuideCross(Step):
     def place(self, where: Where) -> Vec:
         first, second = where.line(self.guide), where.line(self.other)
         sine = where.margin(first.direction.cross(second.direction))
-        return first.point_at((second.origin - first.origin).cross(second.direction) / sine)
+        return first.at((second.origin - first.origin).cross(second.direction) / sine)
 
     def constraints(self, where: Where) -> tuple[Scalar, ...]:
         X = where.at(self.X)
@@ -174,7 +174,7 @@ class YokeDyad(Step):
         line, (cos, sin) = where.line(self.guide), where.turn(self.angle)
         away = where.at(self.P) - line.origin
         tangent = cos / where.margin(sin)
-        return line.point_at(line.direction.dot(away) - line.direction.cross(away) * tangent)
+        return line.at(line.direction.dot(away) - line.direction.cross(away) * tangent)
 
     def constraints(self, where: Where) -> tuple[Scalar, ...]:
         X, line, (cos, sin) = where.at(self.X), where.line(self.guide), where.turn(self.angle)

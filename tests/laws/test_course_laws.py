@@ -43,7 +43,7 @@ def test_poses_are_those_of_their_strokes_and_rates_their_derivatives(seed):
     breaks = np.unique(np.concatenate([each.breaks for each in over.strokes.values()]))
     inner = np.abs(motion.time[:, None] - breaks).min(axis=1) > 2.0 * h
     instants = motion._instants
-    near = [instants.at(np.clip(motion.time + way * h, begin, end)) for way in (-1, 1)]
+    near = [instants.at_times(np.clip(motion.time + way * h, begin, end)) for way in (-1, 1)]
     beside = [machine.at(**each.strokes) for each in near]
     for name in machine.plan.moving:
         assert motion[name].tolist() == poses[name].tolist()

@@ -81,7 +81,18 @@ class Accumulator:
             in_pascals(np.where(volume > 0.0, all_finite(self.charge, CHARGE), 0.0), CHARGE)
 
     def recharged(self, charge: Array | float) -> Accumulator:
-        """Return the same vessel with another charge [Pa gauge], one that a gas law gives."""
+        """Return the same vessel with another charge [Pa gauge], one that a gas law gives.
+
+        Parameters
+        ----------
+        charge : float or ndarray
+            The charge [Pa gauge].
+
+        Returns
+        -------
+        Accumulator
+            The vessel.
+        """
         changed = copy(self)
         object.__setattr__(changed, "charge", charge)
         return changed
@@ -208,7 +219,18 @@ class AccumulatorBlock:
         return following(self.atmosphere, *(value for one in self.accumulators for value in (one.volume, one.charge)))
 
     def sized(self, motion: Poses) -> AccumulatorBlock:
-        """Return the block as a motion's designs have it; charges and volumes broadcast against the motion."""
+        """Return the block as a motion's designs have it; charges and volumes broadcast against the motion.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses; designs first, strokes last.
+
+        Returns
+        -------
+        AccumulatorBlock
+            The block.
+        """
         if not self.following:
             return self
         unit = self.unit
@@ -230,11 +252,38 @@ class AccumulatorBlock:
         return f"AccumulatorBlock([{vessels}], gas={self.gas.spelled}, atmosphere={value_text(self.atmosphere)}{unit})"
 
     def gas_volume(self, pressure: ArrayLike) -> Array:
-        """Return the gas volume [m3] at a pressure, same shape. DefinitionError below zero absolute or outside the gas law."""
+        """Return the gas volume [m3] at a pressure, same shape. DefinitionError below zero absolute or outside the gas law.
+
+        Parameters
+        ----------
+        pressure : array_like
+            The pressure [Pa gauge].
+
+        Returns
+        -------
+        ndarray
+            The volume [m3].
+
+        Raises
+        ------
+        DefinitionError
+            A pressure below zero absolute, or outside the gas law.
+        """
         return self._bank.volume(self._absolute(pressure))[()]
 
     def fluid(self, pressure: ArrayLike) -> Array:
-        """Return the fluid held [m3] at a pressure, same shape; 0 below every charge. Errors as `gas_volume`."""
+        """Return the fluid held [m3] at a pressure, same shape; 0 below every charge. Errors as `gas_volume`.
+
+        Parameters
+        ----------
+        pressure : array_like
+            The pressure [Pa gauge].
+
+        Returns
+        -------
+        ndarray
+            The volume [m3].
+        """
         bank = self._bank
         return (bank.total - bank.volume(self._absolute(pressure)))[()]
 
@@ -244,6 +293,23 @@ class AccumulatorBlock:
         The two broadcast. 0 where more is withdrawn than the block holds: the line is empty. NaN in an array `withdrawn`
         stays NaN. DefinitionError where `p1` is below every gas charge (the block is rigid), where the volume
         pushed in leaves no gas, or where the gas law ends.
+
+        Parameters
+        ----------
+        p1 : array_like
+            The pressure before [Pa gauge].
+        withdrawn : array_like
+            The volume that leaves the block [m3]; negative where it is pushed in.
+
+        Returns
+        -------
+        ndarray
+            The pressure [Pa gauge].
+
+        Raises
+        ------
+        DefinitionError
+            `p1` is below every charge, no gas is left, or the gas law ends.
         """
         return self._pressure_in(self._gas_after(p1, withdrawn))
 
@@ -252,6 +318,21 @@ class AccumulatorBlock:
 
         With `at` this is what a trapped line does when it warms up: `block.at(T).pressure_holding(block.fluid(p1))`.
         DefinitionError for a negative volume, or one that leaves no gas.
+
+        Parameters
+        ----------
+        fluid : array_like
+            The volume of fluid [m3].
+
+        Returns
+        -------
+        ndarray
+            The pressure [Pa gauge].
+
+        Raises
+        ------
+        DefinitionError
+            A negative volume, or one that leaves no gas.
         """
         held = pose_values(fluid, "Fluid held")
         if np.any(held < -ROUNDING * self._bank.total):  # `fluid` is a difference of volumes, which may round below none
@@ -262,6 +343,18 @@ class AccumulatorBlock:
         """Return -dp/d(withdrawn) [Pa/m3], exact, in the state of `pressure`; 0 where the line is empty.
 
         At the pressure where an accumulator joins it is the softer of the two values. Errors as `pressure`.
+
+        Parameters
+        ----------
+        p1 : array_like
+            The pressure before [Pa gauge].
+        withdrawn : array_like
+            The volume that leaves the block [m3]; negative where it is pushed in.
+
+        Returns
+        -------
+        ndarray
+            The stiffness [Pa/m3].
         """
         bank, volume = self._bank, self._gas_after(p1, withdrawn)
         return np.where(volume > bank.total, 0.0, bank.stiffness(np.minimum(volume, bank.total)))[()]
@@ -273,6 +366,23 @@ class AccumulatorBlock:
         at their charge. n is `exponent`, or what the gas gives at `p1`: 1.4 for ideal gas, the isentropic exponent for real
         nitrogen. That is good to 2 % of the pressure over a change of volume by a third at 100 bar, to 5 % at 200 bar.
         An array `p1` gives one design per element. DefinitionError where the block is rigid or n is outside 1..10.
+
+        Parameters
+        ----------
+        p1 : array_like
+            The pressure before [Pa gauge].
+        exponent : array_like, optional
+            The exponent of the fast change; by default that of the gas at `p1`.
+
+        Returns
+        -------
+        AccumulatorBlock
+            The block after it has settled.
+
+        Raises
+        ------
+        DefinitionError
+            The block is rigid, or the exponent is outside 1 to 10.
         """
         bank, pressure = self._bank, self._charged(p1)
         n = self.gas.fast_exponent(pressure) if exponent is None else all_finite(exponent, "Exponent of the fast change")
@@ -285,6 +395,20 @@ class AccumulatorBlock:
         """Return the pressure after a fast movement has withdrawn a volume [m3] from the block settled at `p1`.
 
         As `pressure`, of the block `settled(p1, exponent)`.
+
+        Parameters
+        ----------
+        p1 : array_like
+            The pressure before [Pa gauge].
+        withdrawn : array_like
+            The volume that leaves the block [m3]; negative where it is pushed in.
+        exponent : array_like, optional
+            The exponent of the fast change; by default that of the gas at `p1`.
+
+        Returns
+        -------
+        ndarray
+            The pressure [Pa gauge].
         """
         return self.settled(p1, exponent).pressure(p1, withdrawn)
 
@@ -292,12 +416,38 @@ class AccumulatorBlock:
         """Return the charges at gas temperatures [K], shape (accumulators, ...): the setting table of the same gas filling.
 
         NaN for an absent vessel.
+
+        Parameters
+        ----------
+        temperature : array_like
+            The temperatures [K].
+
+        Returns
+        -------
+        ndarray
+            The charges [Pa gauge], shape (accumulators, ...).
         """
         pressures = [np.where(vessel > 0.0, self.gas.charge_at(charge, temperature), np.nan) for charge, vessel in self._bank]
         return np.asarray(np.stack(np.broadcast_arrays(*pressures)) - self.atmosphere)
 
     def at(self, temperature: float) -> AccumulatorBlock:
-        """Return the same gas filling at another temperature [K]. DefinitionError for one outside the gas law."""
+        """Return the same gas filling at another temperature [K]. DefinitionError for one outside the gas law.
+
+        Parameters
+        ----------
+        temperature : float
+            The temperature of the gas [K].
+
+        Returns
+        -------
+        AccumulatorBlock
+            The block at that temperature.
+
+        Raises
+        ------
+        DefinitionError
+            A temperature outside the gas law.
+        """
         charges = self.charges_at(temperature)
         pairs = zip(self.accumulators, charges, strict=True)
         warmed = [one.recharged(np.where(one.volume > 0.0, charge, one.charge)[()]) for one, charge in pairs]
@@ -311,6 +461,29 @@ class AccumulatorBlock:
         An array charge is judged by its worst element, absent vessels not at all; `unit` is for the sentences, without it
         the block's own. `recharged` tells the charge [Pa gauge] with which a line keeps a rule, where its pressures go with it.
         DefinitionError for `p_min` above `p_max`, an unknown unit.
+
+        Parameters
+        ----------
+        p_min : float
+            The least pressure [Pa gauge].
+        p_max : float
+            The greatest pressure [Pa gauge].
+        allowed : float
+            The highest permitted pressure [Pa gauge].
+        unit : str
+            The unit of the sentences.
+        recharged : callable, optional
+            Returns the charge [Pa gauge] with which a line keeps a rule.
+
+        Returns
+        -------
+        list of Verdict
+            The verdicts.
+
+        Raises
+        ------
+        DefinitionError
+            `p_min` above `p_max`, or an unknown unit.
         """
         unit_or_none(unit, "checks(unit=...)", units_of("pressure"))
         given = (one_number(pressure, "Pressure") for pressure in (p_min, p_max, allowed))

@@ -70,31 +70,93 @@ class Buckling:
         return pi * sqrt(2.0 * self.modulus / self.yield_strength)
 
     def slenderness(self, length: ArrayLike) -> Array:
-        """Return buckling length over radius of inertia (a quarter of the diameter) at a length between the ends [m], same shape."""
+        """Return buckling length over radius of inertia (a quarter of the diameter) at a length between the ends [m], same shape.
+
+        Parameters
+        ----------
+        length : array_like
+            The length between the ends [m].
+
+        Returns
+        -------
+        ndarray
+            The slenderness.
+        """
         return (MOUNTINGS[self.mounting] * _length(length) / (self.rod / 4.0))[()]
 
     def critical(self, length: ArrayLike) -> Array:
         """Return the thrust [N] at which the rod buckles, at a length between the ends [m], same shape.
 
         NaN in an array stays NaN. DefinitionError for a length not above zero.
+
+        Parameters
+        ----------
+        length : array_like
+            The length between the ends [m].
+
+        Returns
+        -------
+        ndarray
+            The thrust [N].
+
+        Raises
+        ------
+        DefinitionError
+            A length not above zero.
         """
         return self.critical_of(self.rod, length)
 
     def critical_of(self, rod: float | Array, length: ArrayLike) -> Array:
-        """Return the same of another rod [m], or of the rods of many designs; the two broadcast."""
+        """Return the same of another rod [m], or of the rods of many designs; the two broadcast.
+
+        Parameters
+        ----------
+        rod : float or ndarray
+            The rod's diameter [m].
+        length : array_like
+            The length between the ends [m].
+
+        Returns
+        -------
+        ndarray
+            The thrust [N].
+        """
         slender = MOUNTINGS[self.mounting] * _length(length) / (rod / 4.0)
         euler = pi**2 * self.modulus / slender**2
         johnson = self.yield_strength * (1.0 - self.yield_strength * slender**2 / (4.0 * pi**2 * self.modulus))
         return (pi / 4.0 * rod**2 * np.where(slender >= self.transition, euler, johnson))[()]
 
     def allowed(self, length: ArrayLike) -> Array:
-        """Return the thrust [N] with the safety asked for, at a length between the ends [m], same shape."""
+        """Return the thrust [N] with the safety asked for, at a length between the ends [m], same shape.
+
+        Parameters
+        ----------
+        length : array_like
+            The length between the ends [m].
+
+        Returns
+        -------
+        ndarray
+            The thrust [N].
+        """
         return self.critical(length) / self.safety
 
     def check(self, length: ArrayLike, thrust: ArrayLike) -> Verdict:
         """Return the verdict at the worst of the lengths between the ends [m] and thrusts [N] of one cylinder; they broadcast.
 
         A thrust that pulls (negative) does not buckle. A failing verdict names the standard rod that would hold.
+
+        Parameters
+        ----------
+        length : array_like
+            The length between the ends [m].
+        thrust : array_like
+            The thrust [N].
+
+        Returns
+        -------
+        Verdict
+            The verdict.
         """
         push, long = np.broadcast_arrays(pose_values(thrust, "Thrust"), _length(length))
         use = push / self.critical(long)
@@ -110,6 +172,26 @@ class Buckling:
         """Return the verdict at one length [m] and thrust of one cylinder [N], at a place in words; `unbounded`: it grows from there.
 
         `stage` is the number of the telescope's stage that is the rod, `remedy` what stands behind a failing verdict.
+
+        Parameters
+        ----------
+        length : float
+            The length between the ends [m].
+        thrust : float
+            The thrust [N].
+        where : str
+            The place in words.
+        unbounded : bool
+            Whether the thrust grows without bound there.
+        stage : int
+            The number of the telescope's stage, 0 for a rod.
+        remedy : str
+            The remedy of a failing verdict.
+
+        Returns
+        -------
+        Verdict
+            The verdict.
         """
         if unbounded:
             text = said("the thrust grows without bounds {where}: no rod holds there; keep away from that pose.", where=where)
@@ -135,12 +217,40 @@ class Buckling:
         return Verdict("buckling", ok, f"{says}{'' if ok else remedy}.")
 
     def thicker(self, length: ArrayLike, thrust: ArrayLike) -> list[float]:
-        """Return the standard rods [m] above this one that hold at lengths [m] and thrusts [N] of one cylinder; they broadcast."""
+        """Return the standard rods [m] above this one that hold at lengths [m] and thrusts [N] of one cylinder; they broadcast.
+
+        Parameters
+        ----------
+        length : array_like
+            The length between the ends [m].
+        thrust : array_like
+            The thrust [N].
+
+        Returns
+        -------
+        list of float
+            The diameters [m].
+        """
         rods = (rod for rod in chosen_series().rods if rod > self.rod * (1.0 + 1e-9))
         return [rod for rod in rods if not np.any(np.asarray(thrust) > replace(self, rod=rod).allowed(length))]
 
     def remedy_words(self, rod: float | None, *, is_bore_small: bool = False, is_stage: bool = False) -> str:
-        """Return the remedy in words: a rod or stage that holds [m], or None; `is_bore_small` where thicker rods do not suit the bore."""
+        """Return the remedy in words: a rod or stage that holds [m], or None; `is_bore_small` where thicker rods do not suit the bore.
+
+        Parameters
+        ----------
+        rod : float or None
+            The rod or stage that holds [m].
+        is_bore_small : bool
+            Whether thicker rods do not suit the bore.
+        is_stage : bool
+            Whether the rod is a telescope's stage.
+
+        Returns
+        -------
+        str
+            The remedy.
+        """
         if rod is not None and is_stage:
             return said("; a stage of {rod} holds", rod=show(rod, "mm", 4))
         if rod is not None:

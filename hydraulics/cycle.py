@@ -139,7 +139,18 @@ class PumpCycle:
         self.power = unchanged({name: flow[name] * need.get(name, pressure) for name in flow})
 
     def integral(self, values: Array) -> float:
-        """Return the integral of values over time, shape (n,)."""
+        """Return the integral of values over time, shape (n,).
+
+        Parameters
+        ----------
+        values : ndarray
+            Values at the instants, shape (n,).
+
+        Returns
+        -------
+        float
+            The integral.
+        """
         return float(np.sum(values.reshape(-1, DEGREE + 1) @ TO_INTEGRALS[-1] * self._lengths) / 2.0)
 
     @cached_property
@@ -158,7 +169,18 @@ class PumpCycle:
         return float(self.time[-1] - self.time[0])
 
     def peak(self, values: Array) -> tuple[float, float]:
-        """Return the highest of some values over time, shape (n,), and its instant [s], between the instants too."""
+        """Return the highest of some values over time, shape (n,), and its instant [s], between the instants too.
+
+        Parameters
+        ----------
+        values : ndarray
+            Values at the instants, shape (n,).
+
+        Returns
+        -------
+        tuple of float
+            The highest value and its instant [s].
+        """
         rows, times = values.reshape(-1, DEGREE + 1), self.time.reshape(-1, DEGREE + 1)
         highest = rows.max(axis=1)
         number = int(np.argmax(highest >= highest.max() - PLATEAU * abs(highest.max())))

@@ -108,7 +108,13 @@ def series_of(bore: float, rod: float) -> Series:
 
 
 def standard_bores() -> tuple[float, ...]:
-    """Return the standard bores [m], ascending: of ISO 3320, of NFPA T3.6.7 where the system of units has inches."""
+    """Return the standard bores [m], ascending: of ISO 3320, of NFPA T3.6.7 where the system of units has inches.
+
+    Returns
+    -------
+    tuple of float
+        The bores [m].
+    """
     return chosen_series().bores
 
 
@@ -116,18 +122,65 @@ def standard_rods(bore: float) -> tuple[float, ...]:
     """Return the standard rods [m], ascending, that suit a bore [m], of the series that `standard_bores` is of.
 
     By ISO 3320 the piston's area is 1.06 to 5 times the annulus. DefinitionError for a bore not above zero.
+
+    Parameters
+    ----------
+    bore : float
+        The bore [m].
+
+    Returns
+    -------
+    tuple of float
+        The rods [m].
+
+    Raises
+    ------
+    DefinitionError
+        A bore not above zero.
     """
     in_metres(positive(one_number(bore, "Bore"), "Bore"), "Bore")
     return chosen_series().rods_for(bore)
 
 
 def next_bore(bore: float) -> float:
-    """Return the smallest standard bore [m] above a bore [m]; DefinitionError where there is none."""
+    """Return the smallest standard bore [m] above a bore [m]; DefinitionError where there is none.
+
+    Parameters
+    ----------
+    bore : float
+        The bore [m].
+
+    Returns
+    -------
+    float
+        The standard bore [m].
+
+    Raises
+    ------
+    DefinitionError
+        No standard bore is larger.
+    """
     return _next(bore, standard_bores(), "bore")
 
 
 def next_rod(rod: float) -> float:
-    """Return the smallest standard rod [m] above a rod [m]; DefinitionError where there is none."""
+    """Return the smallest standard rod [m] above a rod [m]; DefinitionError where there is none.
+
+    Parameters
+    ----------
+    rod : float
+        The rod [m].
+
+    Returns
+    -------
+    float
+        The standard rod [m].
+
+    Raises
+    ------
+    DefinitionError
+        No standard rod is larger.
+    """
     return _next(rod, chosen_series().rods, "rod")
 
 
@@ -304,6 +357,23 @@ class CylinderSize(RamSize):
         """Return the same with the smallest standard bore that gives a thrust [N] at a pressure, the rod kept.
 
         The thrust counts by its size. DefinitionError where no standard bore is enough, for a pressure not above zero.
+
+        Parameters
+        ----------
+        thrust : float
+            The thrust [N].
+        pressure : float
+            The pressure [Pa].
+
+        Returns
+        -------
+        CylinderSize
+            The size.
+
+        Raises
+        ------
+        DefinitionError
+            No standard bore is enough, or a pressure not above zero.
         """
         force = abs(one_number(thrust, "Thrust"))
         limit = float(positive(one_number(pressure, "Pressure"), "Pressure"))
@@ -354,6 +424,16 @@ def standard_strokes(longer: bool = False) -> tuple[float, ...]:
     """Return the basic strokes of ISO 4393 [m], ascending; `longer` goes on with the preferred numbers R10 to 2 m.
 
     Where the system of units has inches they are whole ones.
+
+    Parameters
+    ----------
+    longer : bool
+        Whether it continues with R10 to 2 m.
+
+    Returns
+    -------
+    tuple of float
+        The strokes [m].
     """
     basic, more = (INCH_STROKES, INCH_LONGER) if chosen_series() is INCH else (STROKES, LONGER)
     return (*basic, *more) if longer else basic
@@ -372,6 +452,27 @@ def catalogue(
     the ratios of that standard. Where the system of units has inches they are those of NFPA T3.6.7, with strokes of whole inches. `dead` is
     what a cylinder is longer between its pins, drawn in, than its stroke: a length [m], or (length, factor) for length + factor x bore.
     DefinitionError if no row is left, for numbers that are not above zero, or that were given in millimetres.
+
+    Parameters
+    ----------
+    bores : sequence of float, optional
+        The bores [m].
+    rods : sequence of float, optional
+        The rods [m].
+    strokes : sequence of float, optional
+        The strokes [m].
+    dead : float or tuple of float
+        The length between the pins, drawn in, less the stroke [m]; or (length, factor of the bore).
+
+    Returns
+    -------
+    list of CatalogueRow
+        The rows.
+
+    Raises
+    ------
+    DefinitionError
+        No row is left, or a number is not above zero.
     """
     parts, rows = all_finite(dead, "Dead length"), []
     if parts.shape not in ((), (2,)):

@@ -282,7 +282,20 @@ class FloatCircuit(GasLine):
         return self.renewed(block=block)
 
     def line_pressure(self, motion: AnyMotion, acting: Acting | None = None) -> Array:
-        """Return the pressure of the gas [Pa gauge], or where a load case shuts the line what the loads make of it."""
+        """Return the pressure of the gas [Pa gauge], or where a load case shuts the line what the loads make of it.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses; designs first, strokes last.
+        acting : Acting, optional
+            Loads, load case, direction and rates in one.
+
+        Returns
+        -------
+        ndarray
+            The pressure [Pa gauge], shape (...).
+        """
         motion = held_in_case(motion, acting)
         is_shut = acting is not None and as_in(motion.plan, self)._is_shut
         return standing_pressure(self, motion, cast(Acting, acting)) if is_shut else self.pressure(motion)

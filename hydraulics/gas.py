@@ -47,35 +47,126 @@ class Gas(ABC):
 
     @abstractmethod
     def specific(self, pressure: Array) -> Array:
-        """Return the specific volume at an absolute pressure [Pa], same shape; it falls as the pressure grows."""
+        """Return the specific volume at an absolute pressure [Pa], same shape; it falls as the pressure grows.
+
+        Parameters
+        ----------
+        pressure : array_like
+            The pressure [Pa].
+
+        Returns
+        -------
+        ndarray
+            The specific volume.
+        """
 
     @abstractmethod
     def pressure_of(self, specific: Array) -> Array:
-        """Return the absolute pressure [Pa] at a specific volume, same shape: the inverse of `specific`."""
+        """Return the absolute pressure [Pa] at a specific volume, same shape: the inverse of `specific`.
+
+        Parameters
+        ----------
+        specific : array_like
+            The specific volume.
+
+        Returns
+        -------
+        ndarray
+            The pressure [Pa].
+        """
 
     @abstractmethod
     def slope(self, pressure: Array) -> Array:
-        """Return d(specific)/dp at an absolute pressure [Pa], same shape; negative."""
+        """Return d(specific)/dp at an absolute pressure [Pa], same shape; negative.
+
+        Parameters
+        ----------
+        pressure : array_like
+            The pressure [Pa].
+
+        Returns
+        -------
+        ndarray
+            The derivative.
+        """
 
     @abstractmethod
     def charge_at(self, charge: ArrayLike, temperature: ArrayLike) -> Array:
         """Return the absolute pressure [Pa] at a temperature [K] of the gas that has `charge` [Pa] at `self.temperature`.
 
         The volume stays. The two broadcast. DefinitionError for a temperature that is not in kelvin.
+
+        Parameters
+        ----------
+        charge : array_like
+            The absolute pressure at `self.temperature` [Pa].
+        temperature : array_like
+            The temperature [K].
+
+        Returns
+        -------
+        ndarray
+            The absolute pressure [Pa].
+
+        Raises
+        ------
+        DefinitionError
+            A temperature that is not in kelvin.
         """
 
     @abstractmethod
     def at(self, temperature: float) -> Gas:
-        """Return the same law at another temperature [K]."""
+        """Return the same law at another temperature [K].
+
+        Parameters
+        ----------
+        temperature : float
+            The temperature of the gas [K].
+
+        Returns
+        -------
+        Gas
+            The law.
+        """
 
     @abstractmethod
     def fast_exponent(self, pressure: ArrayLike) -> Array:
-        """Return n of p V^n = const for a change too fast for heat, about an absolute pressure [Pa], same shape."""
+        """Return n of p V^n = const for a change too fast for heat, about an absolute pressure [Pa], same shape.
+
+        Parameters
+        ----------
+        pressure : array_like
+            The pressure [Pa].
+
+        Returns
+        -------
+        ndarray
+            The exponent.
+        """
 
     def volume(self, pressure: ArrayLike, p0: ArrayLike, V0: ArrayLike) -> Array:
         """Return the volume [m3] at an absolute pressure of the gas that fills V0 [m3] at p0 [Pa]; the three broadcast.
 
         DefinitionError for a pressure or a volume that is not above zero.
+
+        Parameters
+        ----------
+        pressure : array_like
+            The pressure [Pa].
+        p0 : array_like
+            The absolute pressure of the filling [Pa].
+        V0 : array_like
+            The volume of the filling [m3].
+
+        Returns
+        -------
+        ndarray
+            The volume [m3].
+
+        Raises
+        ------
+        DefinitionError
+            A pressure or a volume not above zero.
         """
         ratio = self.specific(positive(pressure, "Gas pressure")) / self.specific(positive(p0, "Charge pressure"))
         return positive(V0, "Charge volume") * ratio
@@ -84,6 +175,25 @@ class Gas(ABC):
         """Return the absolute pressure [Pa] in a volume [m3] of the gas that fills V0 [m3] at p0 [Pa]: inverts `volume`.
 
         DefinitionError for a pressure or a volume that is not above zero.
+
+        Parameters
+        ----------
+        volume : array_like
+            The volume [m3].
+        p0 : array_like
+            The absolute pressure of the filling [Pa].
+        V0 : array_like
+            The volume of the filling [m3].
+
+        Returns
+        -------
+        ndarray
+            The absolute pressure [Pa].
+
+        Raises
+        ------
+        DefinitionError
+            A pressure or a volume not above zero.
         """
         ratio = positive(volume, "Gas volume") / positive(V0, "Charge volume")
         return self.pressure_of(self.specific(positive(p0, "Charge pressure")) * ratio)
@@ -137,7 +247,25 @@ class Polytropic(Gas):
 
 
 def polytropic(n: float, temperature: float = ROOM) -> Polytropic:
-    """Return the ideal gas with p V^n = const, its charges stated at a temperature [K]; DefinitionError for n outside 1..10."""
+    """Return the ideal gas with p V^n = const, its charges stated at a temperature [K]; DefinitionError for n outside 1..10.
+
+    Parameters
+    ----------
+    n : float
+        The exponent, 1 to 10.
+    temperature : float
+        The temperature of the gas [K].
+
+    Returns
+    -------
+    Polytropic
+        The gas.
+
+    Raises
+    ------
+    DefinitionError
+        An exponent outside 1 to 10.
+    """
     return Polytropic(n, temperature)
 
 
@@ -218,7 +346,23 @@ class RealNitrogen(Gas):
 
 
 def real_nitrogen(temperature: float = ROOM) -> RealNitrogen:
-    """Return nitrogen as a real gas at a temperature [K]; DefinitionError outside 245..340 K."""
+    """Return nitrogen as a real gas at a temperature [K]; DefinitionError outside 245..340 K.
+
+    Parameters
+    ----------
+    temperature : float
+        The temperature of the gas [K].
+
+    Returns
+    -------
+    RealNitrogen
+        The gas.
+
+    Raises
+    ------
+    DefinitionError
+        A temperature outside 245 to 340 K.
+    """
     return RealNitrogen(temperature)
 
 

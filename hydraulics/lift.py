@@ -181,7 +181,23 @@ class LiftCircuit(PumpLine):
         return self.pump(members) is not None
 
     def among(self, members: NamedMembers) -> LiftCircuit:
-        """Return it with the pump that it is on, where a name says that; DefinitionError for numbers of its own beside one."""
+        """Return it with the pump that it is on, where a name says that; DefinitionError for numbers of its own beside one.
+
+        Parameters
+        ----------
+        members : mapping of str to Member
+            The members of the class by name.
+
+        Returns
+        -------
+        LiftCircuit
+            The circuit.
+
+        Raises
+        ------
+        DefinitionError
+            Numbers of its own beside a pump.
+        """
         pump = self.pump(members)
         for name, usual in (("flow", 0.0), ("mechanical_efficiency", 1.0), ("hydraulic_efficiency", 1.0)):
             given = self.given(name)
@@ -217,6 +233,28 @@ def lift_verdicts(
 
     `loads` are the machine's own unless others are given, in all load cases unless one is named; `unit` is that of the pressures in the
     sentences. Of several strokes, `at(S1=..., S2=...)` with arrays of one axis, it is judged along the path, of a grid over the box.
+
+    Parameters
+    ----------
+    circuit : PumpLine or str
+        The circuit, or its name.
+    motion : Motion
+        The poses; designs first, strokes last.
+    loads : sequence of ForceElement or str, optional
+        The loads; by default the machine's own.
+    case : LoadCase or str, optional
+        A load case, or its name.
+    acting : Acting, optional
+        Loads, load case, direction and rates in one.
+    resistance : float
+        The pressure of the returning oil [Pa].
+    unit : str
+        The unit of the pressures in the sentences.
+
+    Returns
+    -------
+    list of Verdict
+        The verdicts.
     """
     given = situation_of("lift_verdicts", acting, loads=loads, case=case)
     require_motion(motion)

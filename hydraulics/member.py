@@ -696,7 +696,23 @@ class Cylinder(BarrelAndRod, Ram):
         return Chamber(self, "rod")
 
     def among(self, members: NamedMembers) -> Cylinder:
-        """Return it as the lines of its class say what it works with; DefinitionError where it says another side itself."""
+        """Return it as the lines of its class say what it works with; DefinitionError where it says another side itself.
+
+        Parameters
+        ----------
+        members : mapping of str to Member
+            The members of the class by name.
+
+        Returns
+        -------
+        Cylinder
+            The cylinder.
+
+        Raises
+        ------
+        DefinitionError
+            It declares another side than its lines.
+        """
         found, others = works_by_lines(self, members), lines_of(self, members)
         both = (each for each in circuits_among(members) if each.has_both_sides(members))
         if found is None and self.works is None and any(self.name in map(label, each.references) for each in both):
@@ -724,12 +740,36 @@ class Cylinder(BarrelAndRod, Ram):
         return follows(self.bore, self.rod)
 
     def sized(self, motion: Poses, direction: str | None = None) -> CylinderSize:
-        """Return the size that a motion's designs have; bore and rod [m] broadcast against the motion."""
+        """Return the size that a motion's designs have; bore and rod [m] broadcast against the motion.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses; designs first, strokes last.
+        direction : str, optional
+            "extending" while the stroke grows, "retracting", or "frictionless".
+
+        Returns
+        -------
+        CylinderSize
+            The size.
+        """
         bore, rod = number_set(self, motion, "bore"), number_set(self, motion, "rod")
         return CylinderSize(bore[()], rod[()], self.count, self.side if self._on_lines else as_in(motion.plan, self).side)
 
     def on_side(self, side: Side) -> Cylinder:
-        """Return it as it works with one of its sides, for the line that this has."""
+        """Return it as it works with one of its sides, for the line that this has.
+
+        Parameters
+        ----------
+        side : str
+            "piston" or "rod".
+
+        Returns
+        -------
+        Cylinder
+            The cylinder.
+        """
         return self.renewed(_on_lines=side)
 
     def filled(self, side: Side, motion: Poses, start: Array, end: Array) -> Array:
@@ -758,6 +798,25 @@ class Cylinder(BarrelAndRod, Ram):
         """Return the standard sizes that give a thrust [N] at a pressure: the smallest bore, each rod that suits.
 
         With a `length` between the pins [m] only rods that do not buckle under a positive thrust. DefinitionError where no bore is enough.
+
+        Parameters
+        ----------
+        thrust : float
+            The thrust [N].
+        pressure : float
+            The pressure [Pa].
+        length : float, optional
+            The length between the pins [m].
+
+        Returns
+        -------
+        list of CylinderSize
+            The sizes.
+
+        Raises
+        ------
+        DefinitionError
+            No bore is enough.
         """
         if length is not None:
             one_number(length, "Length between the ends")
@@ -795,7 +854,18 @@ class Cylinder(BarrelAndRod, Ram):
         return written.line(f"A_{self.name}", working, "m2"), other
 
     def standard(self, motion: Poses | None = None) -> Verdict:
-        """Return whether bore and rod are a pair of ISO 3320 or NFPA T3.6.7; where not, what is next to them."""
+        """Return whether bore and rod are a pair of ISO 3320 or NFPA T3.6.7; where not, what is next to them.
+
+        Parameters
+        ----------
+        motion : Motion, optional
+            The motion whose designs are checked.
+
+        Returns
+        -------
+        Verdict
+            The verdict.
+        """
         bore, rod = (self.size if motion is None else self.sized(motion)).single
         series = series_of(bore, rod)
         beside, rods = [series.beside(bore, "bores"), series.beside(rod, "rods")], series.rods_for(bore)
@@ -812,7 +882,18 @@ class Cylinder(BarrelAndRod, Ram):
         return Remark(f"{self.name or said('cylinder')}: {'; '.join([says, *faults])}.")
 
     def size_verdicts(self, judge: Judge) -> list[Verdict]:
-        """Return whether it is of a standard size, and a note where the load is against the side that works, which no line says."""
+        """Return whether it is of a standard size, and a note where the load is against the side that works, which no line says.
+
+        Parameters
+        ----------
+        judge : Judge
+            The judge of the machine over its domains.
+
+        Returns
+        -------
+        list of Verdict
+            The verdicts.
+        """
         own = [self.standard(judge.motion), *self.speed_verdicts(judge)]
         found = self.pressed_wrongly(judge) if self._is_bare(judge) else None
         if found is None:
@@ -825,7 +906,18 @@ class Cylinder(BarrelAndRod, Ram):
         return [*own, Verdict("side", None, text, answer=found)]
 
     def speed_verdicts(self, judge: Judge) -> list[Verdict]:
-        """Return whether it is nowhere faster than its seals allow, over the paths in time that a judge looks at."""
+        """Return whether it is nowhere faster than its seals allow, over the paths in time that a judge looks at.
+
+        Parameters
+        ----------
+        judge : Judge
+            The judge of the machine over its domains.
+
+        Returns
+        -------
+        list of Verdict
+            The verdicts.
+        """
         limit = np.inf if self.max_speed is None else one_design(number_set(self, judge.motion, "max_speed"))
         answer = over_time(judge, most(abs(rate_request(self.name))) <= limit) if limit < np.inf else None
         if answer is None:
@@ -840,7 +932,18 @@ class Cylinder(BarrelAndRod, Ram):
         return [Verdict("speed", answer.ok, text, answer=answer)]
 
     def questions(self, judge: Judge) -> list[Question]:
-        """Return what any ram asks, and whether the load is on the side that works where no line says it."""
+        """Return what any ram asks, and whether the load is on the side that works where no line says it.
+
+        Parameters
+        ----------
+        judge : Judge
+            The judge of the machine over its domains.
+
+        Returns
+        -------
+        list
+            The questions.
+        """
         return [*super().questions(judge), *([self.pressed(self)] if self._is_bare(judge) else [])]
 
     def _is_bare(self, judge: Judge) -> bool:

@@ -211,7 +211,20 @@ class OilLine(PumpLine, GasLine):
         return tuple(each for each in self.on if isinstance(each, (str, Member)))
 
     def chambers_of(self, cylinder: Ram, members: NamedMembers) -> tuple[Chamber, ...]:
-        """Return the chambers of a cylinder on it; where it names the cylinder alone, the side that no other line names."""
+        """Return the chambers of a cylinder on it; where it names the cylinder alone, the side that no other line names.
+
+        Parameters
+        ----------
+        cylinder : str or Ram
+            The cylinder, or its name.
+        members : mapping of str to Member
+            The members of the class by name.
+
+        Returns
+        -------
+        tuple of Chamber
+            The chambers.
+        """
         named = super().chambers_of(cylinder, members)
         left = side_left(cylinder, members) if cylinder.name and cylinder.name in map(label, self.bare) else None
         return named if left is None else (*named, Chamber(cylinder.name, cast(Side, left)))
@@ -224,7 +237,20 @@ class OilLine(PumpLine, GasLine):
         return (*super().parts(), *(each for each in map(quantity, self.lengths_told.values()) if not each.is_constant))
 
     def supplies(self, members: NamedMembers, kind: type[Supply]) -> list[Supply]:
-        """Return the pumps, relief valves or tanks on it."""
+        """Return the pumps, relief valves or tanks on it.
+
+        Parameters
+        ----------
+        members : mapping of str to Member
+            The members of the class by name.
+        kind : type
+            The class of supply.
+
+        Returns
+        -------
+        list of Supply
+            The supplies.
+        """
         found = (in_class(members, each) for each in self.bare)
         return [each for each in found if isinstance(each, kind)]
 
@@ -254,7 +280,18 @@ class OilLine(PumpLine, GasLine):
         return self.kind_of_line == "given" and self.block is None
 
     def filling(self, members: NamedMembers) -> list[tuple[Ram, Chamber]]:
-        """Return the chambers on it with their cylinders, as the class has them; of a bare cylinder the side that works."""
+        """Return the chambers on it with their cylinders, as the class has them; of a bare cylinder the side that works.
+
+        Parameters
+        ----------
+        members : mapping of str to Member
+            The members of the class by name.
+
+        Returns
+        -------
+        list of tuple
+            Each cylinder with its chamber.
+        """
         found = []
         for each in self.on:
             if isinstance(each, Chamber):
@@ -288,7 +325,13 @@ class OilLine(PumpLine, GasLine):
         return cuts if any(isinstance(members.get(name), Stroke) for name in names_behind([oil], members)) else ()
 
     def variables(self) -> tuple[tuple[str, float, str, str], ...]:
-        """Return its design variables: where its oil follows a dimension or an expression, what is put in beside that, too, which is 0."""
+        """Return its design variables: where its oil follows a dimension or an expression, what is put in beside that, too, which is 0.
+
+        Returns
+        -------
+        tuple
+            Name, default [SI], kind and unit of each.
+        """
         beside = ((self.cut, 0.0, "number", "l"),) if self.kind_of_line == "closed" and self.cut.endswith(".added") else ()
         return (*super().variables(), *beside)
 
@@ -353,7 +396,18 @@ class OilLine(PumpLine, GasLine):
     # -- in statics ----------------------------------------------------------------------------------------
 
     def feeds(self, members: NamedMembers) -> tuple[ForceElement, ...]:
-        """Return its cylinders all of whose lines have a given pressure, one of them on the side that works: their thrust is given."""
+        """Return its cylinders all of whose lines have a given pressure, one of them on the side that works: their thrust is given.
+
+        Parameters
+        ----------
+        members : mapping of str to Member
+            The members of the class by name.
+
+        Returns
+        -------
+        tuple of ForceElement
+            The cylinders.
+        """
         found: list[Ram] = []
         for ram in self.members(members) if self.kind_in(members) == "given" else ():
             on = [(line, each.side) for line in circuits_among(members) for own, each in line.filling(members) if same(ram, own)]
@@ -362,7 +416,18 @@ class OilLine(PumpLine, GasLine):
         return tuple(found)
 
     def tie(self, members: NamedMembers) -> Tie | None:
-        """Return how its pressure acts on its cylinders, where it is closed, or held beside a closed line."""
+        """Return how its pressure acts on its cylinders, where it is closed, or held beside a closed line.
+
+        Parameters
+        ----------
+        members : mapping of str to Member
+            The members of the class by name.
+
+        Returns
+        -------
+        Tie or None
+            The tie.
+        """
         kind = self.kind_open(members)
         if kind != "closed":
             return PumpLine.tie(self, members) if kind == "held" else Circuit.tie(self, members)
@@ -402,7 +467,23 @@ class OilLine(PumpLine, GasLine):
     # -- where it is filled, and the length that it gives ------------------------------------------------------
 
     def strokes_filled(self, strokes: Sequence[str]) -> dict[str, float]:
-        """Return the strokes that it says to be filled at [SI]; DefinitionError for anything but a stroke, and a number for several."""
+        """Return the strokes that it says to be filled at [SI]; DefinitionError for anything but a stroke, and a number for several.
+
+        Parameters
+        ----------
+        strokes : sequence of str
+            The strokes of the class.
+
+        Returns
+        -------
+        dict of str to float
+            The strokes [m or rad].
+
+        Raises
+        ------
+        DefinitionError
+            A name of no stroke, or one number for several strokes.
+        """
         if self.at is None:
             return {}
         if isinstance(self.at, Mapping):
@@ -415,7 +496,20 @@ class OilLine(PumpLine, GasLine):
         return {strokes[0]: one_number(self.at, f"{self.name}, at")}
 
     def length_filled(self, ram: Ram, members: NamedMembers) -> Quantity:
-        """Return the length of a cylinder where the line is filled [m]."""
+        """Return the length of a cylinder where the line is filled [m].
+
+        Parameters
+        ----------
+        ram : Ram
+            The cylinder.
+        members : mapping of str to Member
+            The members of the class by name.
+
+        Returns
+        -------
+        Quantity
+            The length [m].
+        """
         if ram.name in self.lengths_told:
             return quantity(self.lengths_told[ram.name])
         if isinstance(self.filled, str):
@@ -429,7 +523,20 @@ class OilLine(PumpLine, GasLine):
         return AtPose(Distance(ram.A, ram.B), FrozenDict(strokes), put_in_later(members))
 
     def length_given(self, chamber: Chamber, members: NamedMembers) -> Quantity:
-        """Return the length that it gives one of its cylinders [m]: that where it was filled, and what the oil of the others makes."""
+        """Return the length that it gives one of its cylinders [m]: that where it was filled, and what the oil of the others makes.
+
+        Parameters
+        ----------
+        chamber : Chamber
+            The cylinder's chamber.
+        members : mapping of str to Member
+            The members of the class by name.
+
+        Returns
+        -------
+        Quantity
+            The length [m].
+        """
         filling = self.filling(members)
         own = cast(Ram, members[name_of(chamber.cylinder)])
         if not self.fills(own.name):
@@ -462,6 +569,20 @@ class OilLine(PumpLine, GasLine):
 
         Of a closed one it is what keeps its oil where it is; where other lines leave it open, the least that balances, not below
         `make_up`. Below that it runs empty.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses; designs first, strokes last.
+        loads : sequence of ForceElement or str, optional
+            The loads; by default the machine's own.
+        case, direction, rates, accelerations, inertia, acting : optional
+            The situation, as in `Acting`; `acting` gives all in one.
+
+        Returns
+        -------
+        ndarray
+            The pressure [Pa gauge], shape (...).
         """
         return self.line_pressure(motion, situation_of("pressure", loads=loads, **situation))
 
@@ -471,6 +592,25 @@ class OilLine(PumpLine, GasLine):
 
         The piston pushes with the pump's pressure, and the smaller annulus takes up what the load does not: it may be far above the
         pump's. DefinitionError where no pump is on the other side of one of its cylinders.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses; designs first, strokes last.
+        loads : sequence of ForceElement or str, optional
+            The loads; by default the machine's own.
+        case, direction, rates, accelerations, inertia, acting : optional
+            The situation, as in `Acting`; `acting` gives all in one.
+
+        Returns
+        -------
+        ndarray
+            The pressure [Pa gauge], shape (...).
+
+        Raises
+        ------
+        DefinitionError
+            No pump is on the other side.
         """
         return intensified(self, motion, situation_of("intensified", loads=loads, **situation))
 
@@ -486,11 +626,33 @@ class OilLine(PumpLine, GasLine):
         return in_pascals(number_set(tanks[0], motion, "pressure"), "Pressure of the tank") if tanks else GasLine.pressure(self, motion)
 
     def least(self, motion: Poses) -> Array | float:
-        """Return the pressure below which it runs empty [Pa]."""
+        """Return the pressure below which it runs empty [Pa].
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses; designs first, strokes last.
+
+        Returns
+        -------
+        ndarray or float
+            The pressure [Pa].
+        """
         return number_set(self, motion, "make_up") if self.kind_in(motion.plan.members) == "closed" else 0.0
 
     def oil(self, motion: Motion) -> Array:
-        """Return the oil that has come in since it was filled, per pose, shape (...) [m3]; accumulators beside a pump hold theirs, too."""
+        """Return the oil that has come in since it was filled, per pose, shape (...) [m3]; accumulators beside a pump hold theirs, too.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses; designs first, strokes last.
+
+        Returns
+        -------
+        ndarray
+            The volume [m3], shape (...).
+        """
         found = np.asarray(GasLine.withdrawn(self, motion))
         if self.block is None or self.kind_in(motion.plan.members) != "held":
             return found
@@ -541,6 +703,22 @@ class OilLine(PumpLine, GasLine):
 
         A held line has what its pump lifts or its valve holds, one with a given pressure that alone. A closed one goes from where it runs
         empty to where its relief valve opens; it is unbounded if it has both sides.
+
+        Parameters
+        ----------
+        cylinder : str or Ram
+            The cylinder, or its name.
+        motion : Motion
+            The poses; designs first, strokes last.
+        lifting : bool
+            Whether it moves the load, or holds it.
+        share : float
+            The part of the drive's force that counts, 0 to 1.
+
+        Returns
+        -------
+        tuple of ndarray
+            The lowest and the highest thrust [N].
         """
         members, ram = motion.plan.members, the_cylinder(motion, cylinder)
         kind = self.kind_open(members)
@@ -587,6 +765,16 @@ class OilLine(PumpLine, GasLine):
         """Return the verdicts on lifting, oil, holding and lowering of a held line, on the pressure of any other.
 
         A closed one keeps its oil if it neither runs empty nor opens its relief valve.
+
+        Parameters
+        ----------
+        judge : Judge
+            The judge of the machine over its domains.
+
+        Returns
+        -------
+        list of Verdict
+            The verdicts.
         """
         if self.kind_of_line == "held":
             return PumpLine.verdicts(self, judge)
@@ -612,7 +800,18 @@ class OilLine(PumpLine, GasLine):
         return [*(self._relieved(judge) or [Verdict("line", True, f"{says}.", answer=low)]), *shut]
 
     def pressure_request(self, plan: Declared) -> LawRequest:
-        """Return the request for its pressure, in all load cases and in the directions of its first cylinder [Pa gauge]."""
+        """Return the request for its pressure, in all load cases and in the directions of its first cylinder [Pa gauge].
+
+        Parameters
+        ----------
+        plan : Plan
+            The plan of the machine's class.
+
+        Returns
+        -------
+        Request
+            The pressure [Pa gauge].
+        """
         return LawRequest(
             formula=self.line_pressure, text=f"{self.name}.pressure", known=("line pressure", self.name), acting=Acting(),
             measures="pressure", mover=self.members(plan.members)[0].name or None,
@@ -632,7 +831,13 @@ class OilLine(PumpLine, GasLine):
         return [Verdict("line", False, text, answer=high)]
 
     def formulas(self, written: Formulas) -> None:
-        """Write the pressure of the line and what its cylinders carry, as far as no other lines say it."""
+        """Write the pressure of the line and what its cylinders carry, as far as no other lines say it.
+
+        Parameters
+        ----------
+        written : Formulas
+            The sheet of equations.
+        """
         kind = self.kind_in(written.plan.members)
         if kind == "held":
             PumpLine.formulas(self, written)

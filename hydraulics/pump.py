@@ -93,11 +93,33 @@ class Pump(Supply, HasVerdicts):
         super().examine(members, title)
 
     def verdicts(self, judge: Judge) -> list[Verdict]:
-        """Return whether it gives what its lines ask for, over the paths in time that a judge looks at, where it has several lines."""
+        """Return whether it gives what its lines ask for, over the paths in time that a judge looks at, where it has several lines.
+
+        Parameters
+        ----------
+        judge : Judge
+            The judge of the machine over its domains.
+
+        Returns
+        -------
+        list of Verdict
+            The verdicts.
+        """
         return pump_verdicts(self, judge)
 
     def sections(self, judge: Judge) -> list[Any]:
-        """Return the section of a report on what its lines ask for over the paths in time, and where its energy goes."""
+        """Return the section of a report on what its lines ask for over the paths in time, and where its energy goes.
+
+        Parameters
+        ----------
+        judge : Judge
+            The judge of the machine over its domains.
+
+        Returns
+        -------
+        list of Section
+            The sections.
+        """
         return pump_sections(self, judge)
 
     # -- in time -------------------------------------------------------------------------------------------

@@ -54,6 +54,22 @@ def thrust(cylinder: Reference, *, case: Case = None, direction: str | None = No
 
     `acting` says case and direction in one, with loads and rates too. With declared friction and a direction it has values and no
     derivatives.
+
+    Parameters
+    ----------
+    cylinder : str or Ram
+        The cylinder, or its name.
+    case : LoadCase or str, optional
+        A load case, or its name.
+    direction : str, optional
+        "extending" while the stroke grows, "retracting", or "frictionless".
+    acting : Acting, optional
+        Loads, load case, direction and rates in one.
+
+    Returns
+    -------
+    Request
+        The thrust [N].
     """
     return thrust_request(name_of(cylinder), situation_of("thrust", acting, case=case, direction=direction))
 
@@ -119,6 +135,26 @@ def pressure(
     It is that of the cylinder's one circuit, efficiencies and back pressure included; `circuit` names one of several LiftCircuits.
     Of the side that works; `side="piston"` or `side="rod"` asks for one side, 0 where the other one holds. Where it is judged both count.
     In the place of the cylinder an OilLine may be named, whose own pressure it is then, with the direction that of its first cylinder.
+
+    Parameters
+    ----------
+    cylinder : str or Ram
+        The cylinder, or its name.
+    case : LoadCase or str, optional
+        A load case, or its name.
+    circuit : str or circuit, optional
+        The circuit that feeds the cylinder; by default its only one.
+    direction : str, optional
+        "extending" while the stroke grows, "retracting", or "frictionless".
+    side : str
+        "piston" or "rod".
+    acting : Acting, optional
+        Loads, load case, direction and rates in one.
+
+    Returns
+    -------
+    Request
+        The pressure [Pa gauge].
     """
     if side:
         known_name("Side", side, SIDES)
@@ -200,6 +236,24 @@ def reserve(
 
     NaN where the load drives, which is not limited by this cylinder and counts in no least value. Where it is judged, of a cylinder that
     works with both sides each counts while it moves against the load.
+
+    Parameters
+    ----------
+    cylinder : str or Ram
+        The cylinder, or its name.
+    case : LoadCase or str, optional
+        A load case, or its name.
+    circuit : str or circuit, optional
+        The circuit that feeds the cylinder; by default its only one.
+    direction : str, optional
+        "extending" while the stroke grows, "retracting", or "frictionless".
+    acting : Acting, optional
+        Loads, load case, direction and rates in one.
+
+    Returns
+    -------
+    Request
+        The ratio of the forces.
     """
     given = situation_of("reserve", acting, case=case, direction=direction)
     return reserve_request(name_of(cylinder), given, "" if circuit is None else name_of(circuit))
@@ -303,6 +357,28 @@ def capacity(
 
     `along` is a direction of two numbers or quantities. NaN where the load drives or does nothing, which is not limited by this cylinder
     and counts in no least value.
+
+    Parameters
+    ----------
+    cylinder : str or Ram
+        The cylinder, or its name.
+    point : str or Point
+        The point, or its name.
+    along : tuple
+        The direction against which the load pulls, two numbers or quantities.
+    share : float
+        The part of the drive's force that counts, 0 to 1.
+    case : LoadCase or str, optional
+        A load case, or its name.
+    circuit : str or circuit, optional
+        The circuit that feeds the cylinder; by default its only one.
+    acting : Acting, optional
+        Loads, load case, direction and rates in one.
+
+    Returns
+    -------
+    Request
+        The load [N].
     """
     proper_share(share)
     given, unit = situation_of("capacity", acting, case=case), pull_direction(along)
@@ -351,7 +427,24 @@ def capacity_request(
 
 
 def buckling(cylinder: Reference, *, case: Case = None, direction: str | None = None, acting: Acting | None = None) -> LawRequest:
-    """Return the request for the utilisation of a rod: `lift.buckling_use(motion, case=..., direction=...)`, at most 1 where it holds."""
+    """Return the request for the utilisation of a rod: `lift.buckling_use(motion, case=..., direction=...)`, at most 1 where it holds.
+
+    Parameters
+    ----------
+    cylinder : str or Ram
+        The cylinder, or its name.
+    case : LoadCase or str, optional
+        A load case, or its name.
+    direction : str, optional
+        "extending" while the stroke grows, "retracting", or "frictionless".
+    acting : Acting, optional
+        Loads, load case, direction and rates in one.
+
+    Returns
+    -------
+    Request
+        The utilisation.
+    """
     return buckling_request(name_of(cylinder), situation_of("buckling", acting, case=case, direction=direction))
 
 
@@ -384,5 +477,15 @@ def fits(cylinder: Reference) -> Fits:
     """Return the condition that a cylinder's closed and open length serve the whole stroke of a machine; `Cylinder.fits` tells by how much.
 
     With its stroke alone declared that is compared with the travel. Its `closed` and `stroke` may be varied: `"lift.closed"`.
+
+    Parameters
+    ----------
+    cylinder : str or Ram
+        The cylinder, or its name.
+
+    Returns
+    -------
+    Fits
+        The condition.
     """
     return Fits(name_of(cylinder))

@@ -158,7 +158,23 @@ class Telescope(Ram):
         return tuple(StageSize(cast("float | Array", each), self.count) for each in self.bores)
 
     def sizes_in(self, motion: Poses) -> tuple[StageSize, ...]:
-        """Return the sizes of its stages as a motion's designs have them; DefinitionError for bores that do not fall."""
+        """Return the sizes of its stages as a motion's designs have them; DefinitionError for bores that do not fall.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses; designs first, strokes last.
+
+        Returns
+        -------
+        tuple of StageSize
+            The sizes.
+
+        Raises
+        ------
+        DefinitionError
+            Bores that do not fall.
+        """
         bores = [number_set(self, motion, f"bore_{stage}") for stage in range(1, self.stages + 1)]
         for stage, bore in enumerate(bores, 1):
             positive(in_metres(bore, f"Bore of stage {stage}"), f"Bore of stage {stage}")
@@ -166,7 +182,18 @@ class Telescope(Ram):
         return tuple(StageSize(bore[()], self.count) for bore in bores)
 
     def ends_of_stages(self, motion: Poses) -> list[Array]:
-        """Return its closed length and the lengths at which its stages are out [m], one after another; they broadcast."""
+        """Return its closed length and the lengths at which its stages are out [m], one after another; they broadcast.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses; designs first, strokes last.
+
+        Returns
+        -------
+        list of ndarray
+            The lengths [m].
+        """
         names = ("closed", *(f"stroke_{stage}" for stage in range(1, self.stages + 1)))
         return list(accumulate(stroke_in_metres(number_set(self, motion, name), self._called(name)) for name in names))
 
@@ -174,11 +201,38 @@ class Telescope(Ram):
         """Return the number of the stage that moves at each pose, 1 for the outermost, shape (...).
 
         At a border it is the next one while it is "extending" and at rest, the one before while it is "retracting".
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses; designs first, strokes last.
+        direction : str, optional
+            "extending" while the stroke grows, "retracting", or "frictionless".
+
+        Returns
+        -------
+        ndarray
+            The numbers.
         """
         return self.of_stage(motion, [np.asarray(float(number)) for number in range(1, self.stages + 1)], direction)
 
     def of_stage(self, motion: Poses, each: Sequence[Any], direction: str | None = None) -> Array:
-        """Return which of some values, one a stage, is that of the stage that moves at each pose."""
+        """Return which of some values, one a stage, is that of the stage that moves at each pose.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses; designs first, strokes last.
+        each : sequence
+            One value a stage.
+        direction : str, optional
+            "extending" while the stroke grows, "retracting", or "frictionless".
+
+        Returns
+        -------
+        ndarray
+            The values, shape (...).
+        """
         if self.stages == 1:
             return cast(Array, each[0])
         length, borders = motion.distance(self.A, self.B), self.ends_of_stages(motion)[1:-1]
@@ -194,7 +248,20 @@ class Telescope(Ram):
         return within if stage == self.stages else within & ~is_past(length, ends[stage], direction)
 
     def sized(self, motion: Poses, direction: str | None = None) -> StageSize:
-        """Return the size of the stage that moves, to broadcast against a motion."""
+        """Return the size of the stage that moves, to broadcast against a motion.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses; designs first, strokes last.
+        direction : str, optional
+            "extending" while the stroke grows, "retracting", or "frictionless".
+
+        Returns
+        -------
+        StageSize
+            The size.
+        """
         return StageSize(self.of_stage(motion, [each.bore for each in self.sizes_in(motion)], direction), self.count)
 
     def thickness(self, motion: Poses, direction: str | None = None) -> float | Array:
@@ -238,7 +305,18 @@ class Telescope(Ram):
         return [*super().columns_in(motion, case, direction), Column(noted("stage"), stage, "", 0)]
 
     def conditions(self, judge: Judge) -> Mapping[str, Condition]:
-        """Return that it fits, that its thinnest stage does not buckle, and that nothing pulls at it where no pump line says so."""
+        """Return that it fits, that its thinnest stage does not buckle, and that nothing pulls at it where no pump line says so.
+
+        Parameters
+        ----------
+        judge : Judge
+            The judge of the machine over its domains.
+
+        Returns
+        -------
+        mapping of str to Condition
+            The conditions by their rules.
+        """
         found = dict(super().conditions(judge))
         return found | ({"holding": self.pressed(self.name)} if self._is_alone(judge) else {})
 
@@ -285,7 +363,20 @@ class Telescope(Ram):
         return Verdict("length", not faults, f"{'; '.join([says, *faults])}.")
 
     def sides_written(self, written: Formulas, thrust: Array) -> tuple[Array, Array]:
-        """Write the areas of its stages, and return the symbol of that which moves with no area on another side [m2]."""
+        """Write the areas of its stages, and return the symbol of that which moves with no area on another side [m2].
+
+        Parameters
+        ----------
+        written : Formulas
+            The sheet of equations.
+        thrust : symbol
+            The thrust [N].
+
+        Returns
+        -------
+        tuple of symbol
+            The areas [m2].
+        """
         areas = [self.count * written.pi / 4.0 * self.number(written, f"bore_{stage}") ** 2 for stage in range(1, self.stages + 1)]
         if self.stages == 1:
             return written.line(f"A_{self.name}", areas[0], "m2"), np.zeros(())

@@ -77,7 +77,18 @@ class HoldingValve(OnLines, HasVerdicts):
         return (self.line, self.pilot, *super().parts())
 
     def lines(self, members: NamedMembers) -> tuple[Circuit, Circuit]:
-        """Return the line that it holds and that of its pilot, as a class has them."""
+        """Return the line that it holds and that of its pilot, as a class has them.
+
+        Parameters
+        ----------
+        members : mapping of str to Member
+            The members of the class by name.
+
+        Returns
+        -------
+        tuple of Circuit
+            Both lines.
+        """
         line, pilot = (in_class(members, each) for each in (self.line, self.pilot))
         return cast(Circuit, line), cast(Circuit, pilot)
 
@@ -109,7 +120,25 @@ class HoldingValve(OnLines, HasVerdicts):
         return name_of(self.line) == line.name
 
     def at_designs(self, motion: Poses, name: str) -> Array:
-        """Return its setting or its ratio as a motion's designs have it [SI]; DefinitionError unless it is above zero."""
+        """Return its setting or its ratio as a motion's designs have it [SI]; DefinitionError unless it is above zero.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses; designs first, strokes last.
+        name : str
+            "setting" or "ratio".
+
+        Returns
+        -------
+        ndarray
+            The value [SI].
+
+        Raises
+        ------
+        DefinitionError
+            A value not above zero.
+        """
         return positive(number_set(self, motion, name), f"{self.name}: {WORDS[name].lower()}", REMEDIES[name])
 
     # -- while the load goes down --------------------------------------------------------------------------
@@ -119,17 +148,61 @@ class HoldingValve(OnLines, HasVerdicts):
         """Return the pressure in the pilot line that lowers the load, shape (...) [Pa gauge]; 0 where the load opens the valve by itself.
 
         Lowering counts the declared friction of that direction, and the mechanical efficiency of the line's pump.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses; designs first, strokes last.
+        loads : sequence of ForceElement or str, optional
+            The loads; by default the machine's own.
+        case, direction, rates, accelerations, inertia, acting : optional
+            The situation, as in `Acting`; `acting` gives all in one.
+
+        Returns
+        -------
+        ndarray
+            The pressure [Pa gauge], shape (...).
         """
         return self.lowered(motion, situation_of("pilot_pressure", loads=loads, **situation))[1]
 
     @takes_situation
     def line_pressure(self, motion: AnyMotion, loads: Loads = None, **situation: Unpack[ActingKeywords]) -> Array:
-        """Return the pressure in the line that it holds while the load is lowered, shape (...) [Pa gauge]."""
+        """Return the pressure in the line that it holds while the load is lowered, shape (...) [Pa gauge].
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses; designs first, strokes last.
+        loads : sequence of ForceElement or str, optional
+            The loads; by default the machine's own.
+        case, direction, rates, accelerations, inertia, acting : optional
+            The situation, as in `Acting`; `acting` gives all in one.
+
+        Returns
+        -------
+        ndarray
+            The pressure [Pa gauge], shape (...).
+        """
         return self.lowered(motion, situation_of("line_pressure", loads=loads, **situation))[0]
 
     @takes_situation
     def load_pressure(self, motion: AnyMotion, loads: Loads = None, **situation: Unpack[ActingKeywords]) -> Array:
-        """Return what the load alone makes in the line at rest, shape (...) [Pa gauge]; 0 where it drives the other way."""
+        """Return what the load alone makes in the line at rest, shape (...) [Pa gauge]; 0 where it drives the other way.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses; designs first, strokes last.
+        loads : sequence of ForceElement or str, optional
+            The loads; by default the machine's own.
+        case, direction, rates, accelerations, inertia, acting : optional
+            The situation, as in `Acting`; `acting` gives all in one.
+
+        Returns
+        -------
+        ndarray
+            The pressure [Pa gauge], shape (...).
+        """
         acting = situation_of("load_pressure", loads=loads, **situation)
         thrust, own, _ = self.works(held_in_case(motion, acting), acting.towards(None), False)
         return np.asarray(np.maximum(thrust / own, 0.0))[()]
@@ -139,6 +212,18 @@ class HoldingValve(OnLines, HasVerdicts):
 
         p + ratio q = setting and a p + b q = T for the areas a of the line and b of the pilot. Where the pilot opens the valve wholly
         nothing stands in the line.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses; designs first, strokes last.
+        acting : Acting
+            Loads, load case, direction and rates in one.
+
+        Returns
+        -------
+        tuple of ndarray
+            Both pressures [Pa gauge].
         """
         motion = held_in_case(motion, acting)
         line, _ = self.lines(motion.plan.members)
@@ -164,6 +249,20 @@ class HoldingValve(OnLines, HasVerdicts):
         """Return the thrusts and the areas of line and pilot, of several cylinders each times how its length follows their stroke.
 
         While the load `is_lowered` each cylinder moves in the direction in which its chamber of the line empties.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses; designs first, strokes last.
+        acting : Acting
+            Loads, load case, direction and rates in one.
+        is_lowered : bool
+            Whether the load is lowered.
+
+        Returns
+        -------
+        tuple of ndarray
+            The thrusts [N] and the areas of line and pilot [m2].
         """
         members = motion.plan.members
         line, pilot = self.lines(members)
@@ -176,7 +275,18 @@ class HoldingValve(OnLines, HasVerdicts):
     # -- asked for, and judged -----------------------------------------------------------------------------
 
     def pumped(self, members: NamedMembers) -> LiftLine | None:
-        """Return the line whose pump pushes in the pilot line: itself, or that of the line that it holds; None where neither has one."""
+        """Return the line whose pump pushes in the pilot line: itself, or that of the line that it holds; None where neither has one.
+
+        Parameters
+        ----------
+        members : mapping of str to Member
+            The members of the class by name.
+
+        Returns
+        -------
+        LiftLine or None
+            The line.
+        """
         _, pilot = self.lines(members)
         for each in (pilot, self.lines(members)[0]):
             if isinstance(each, LiftLine) and each.kind_open(members) == "held":
@@ -196,7 +306,18 @@ class HoldingValve(OnLines, HasVerdicts):
         return found
 
     def verdicts(self, judge: Judge) -> list[Verdict]:
-        """Return whether the load stays below the setting, and whether the pump opens the valve, wherever the machine runs."""
+        """Return whether the load stays below the setting, and whether the pump opens the valve, wherever the machine runs.
+
+        Parameters
+        ----------
+        judge : Judge
+            The judge of the machine over its domains.
+
+        Returns
+        -------
+        list of Verdict
+            The verdicts.
+        """
         if not carries_loads(judge):
             return []
         try:
@@ -205,7 +326,18 @@ class HoldingValve(OnLines, HasVerdicts):
             return [Verdict.refused("setting", error)]
 
     def setting_verdict(self, judge: Judge) -> Verdict:
-        """Return whether the load opens the valve by itself, and what it would be set to as makers advise."""
+        """Return whether the load opens the valve by itself, and what it would be set to as makers advise.
+
+        Parameters
+        ----------
+        judge : Judge
+            The judge of the machine over its domains.
+
+        Returns
+        -------
+        Verdict
+            The verdict.
+        """
         setting = one_design(self.at_designs(judge.motion, "setting"))
         found = judge.answer(most(valve_request("load_pressure", self.name, Acting())))
         line, _ = self.lines(judge.plan.members)
@@ -227,7 +359,18 @@ class HoldingValve(OnLines, HasVerdicts):
         return Verdict("setting", bool(found.value < setting), text, answer=found)
 
     def pilot_verdict(self, judge: Judge) -> Verdict:
-        """Return whether the pump's pressure is enough to lower the load."""
+        """Return whether the pump's pressure is enough to lower the load.
+
+        Parameters
+        ----------
+        judge : Judge
+            The judge of the machine over its domains.
+
+        Returns
+        -------
+        Verdict
+            The verdict.
+        """
         members = judge.plan.members
         _, pilot = self.lines(members)
         found, pump = judge.answer(most(valve_request("pilot_pressure", self.name, Acting()))), self.pumped(members)
@@ -257,12 +400,42 @@ REMEDIES: Mapping[str, str] = MappingProxyType({
 
 
 def pilot_pressure(valve: Reference, *, case: Case = None, acting: Acting | None = None) -> LawRequest:
-    """Return the request for the pilot pressure that lowers the load over a HoldingValve [Pa gauge]: `valve.pilot_pressure(motion)`."""
+    """Return the request for the pilot pressure that lowers the load over a HoldingValve [Pa gauge]: `valve.pilot_pressure(motion)`.
+
+    Parameters
+    ----------
+    valve : str or HoldingValve
+        The valve, or its name.
+    case : LoadCase or str, optional
+        A load case, or its name.
+    acting : Acting, optional
+        Loads, load case, direction and rates in one.
+
+    Returns
+    -------
+    Request
+        The pressure [Pa gauge].
+    """
     return valve_request("pilot_pressure", name_of(valve), situation_of("pilot_pressure", acting, case=case))
 
 
 def load_pressure(valve: Reference, *, case: Case = None, acting: Acting | None = None) -> LawRequest:
-    """Return the request for what the load alone makes in the line of a HoldingValve [Pa gauge]: `valve.load_pressure(motion)`."""
+    """Return the request for what the load alone makes in the line of a HoldingValve [Pa gauge]: `valve.load_pressure(motion)`.
+
+    Parameters
+    ----------
+    valve : str or HoldingValve
+        The valve, or its name.
+    case : LoadCase or str, optional
+        A load case, or its name.
+    acting : Acting, optional
+        Loads, load case, direction and rates in one.
+
+    Returns
+    -------
+    Request
+        The pressure [Pa gauge].
+    """
     return valve_request("load_pressure", name_of(valve), situation_of("load_pressure", acting, case=case))
 
 

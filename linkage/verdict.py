@@ -52,19 +52,65 @@ class Verdict(str, Shown):
 
     @staticmethod
     def refused(rule: str, error: Exception) -> Verdict:
-        """Return that a rule is not kept where what it asks for is refused: the error says why."""
+        """Return that a rule is not kept where what it asks for is refused: the error says why.
+
+        Parameters
+        ----------
+        rule : str
+            The rule.
+        error : Exception
+            The error.
+
+        Returns
+        -------
+        Verdict
+            The verdict.
+        """
         return Verdict(rule, False, " ".join(str(error).split()))
 
     def named(self, name: str) -> Self:
-        """Return it with a name added to its rule, where several members follow the same one."""
+        """Return it with a name added to its rule, where several members follow the same one.
+
+        Parameters
+        ----------
+        name : str
+            A member's name.
+
+        Returns
+        -------
+        Verdict
+            The verdict.
+        """
         return type(self)(f"{self.rule} {name}", self.ok, self.sentence, f"{self.heading} {name}", self.answer)
 
     def answered(self, answer: object) -> Self:
-        """Return it with what the judge found."""
+        """Return it with what the judge found.
+
+        Parameters
+        ----------
+        answer : Answer
+            The judge's answer.
+
+        Returns
+        -------
+        Verdict
+            The verdict.
+        """
         return self._made(str(self), self.rule, self.ok, self.sentence, self.heading, answer)
 
     def said_by(self, member: str) -> Self:
-        """Return it, and note the name of the member that says it."""
+        """Return it, and note the name of the member that says it.
+
+        Parameters
+        ----------
+        member : str
+            The member's name.
+
+        Returns
+        -------
+        Verdict
+            The verdict.
+        """
         self.member = member
         return self
 
@@ -108,7 +154,18 @@ class Remark(Verdict):
         return cls._made(sentence, "remark", None, sentence, "", None)
 
     def named(self, name: str) -> Self:
-        """Return it as it is: a sentence says itself what it is about."""
+        """Return it as it is: a sentence says itself what it is about.
+
+        Parameters
+        ----------
+        name : str
+            A member's name.
+
+        Returns
+        -------
+        Remark
+            The remark itself.
+        """
         return self
 
     def __bool__(self) -> bool:

@@ -102,6 +102,63 @@ def report(
     strokes, or gives the values between which one runs [m or rad], as for `animate`. `count` is the number of rows of the tables, `columns`
     are the results shown, `trace` the points whose paths are drawn. `limits` are as for `plot`. An existing file is replaced whole. Raises
     DefinitionError for a batch of designs, another kind of file or an unknown name, AssemblyError where no pose is in reach.
+
+    Parameters
+    ----------
+    machine : Mechanism or Motion
+        The design, or a motion of one.
+    path : str or Path
+        The file: .html, .pdf or .md.
+    language : str, optional
+        "en" or "ru".
+    units : str, optional
+        "si", "bar-mm", "kgf" or "us".
+    case : LoadCase or str, optional
+        The only load case that counts.
+    over : Over, str or mapping, optional
+        The domain, or the name of a declared one; by default all that the machine runs.
+    acting : Acting, optional
+        Loads, load case, direction and rates in one.
+    at : mapping
+        Strokes to hold, or to run between values, by name [m or rad].
+    count : int
+        The number of rows of the tables.
+    columns : sequence, optional
+        The columns shown; by default the table of results.
+    trace : sequence of str, optional
+        The points whose paths are drawn.
+    limits : mapping, optional
+        Limits by the column's name: `(value [SI], text)` or `(value, text, "below")`.
+    title_block : mapping of str to str
+        Further rows of the title block.
+    start : int
+        The number of the first equation.
+    number : str
+        The document's number.
+    revision : str
+        The revision.
+    date : str
+        The date.
+    client : str
+        The client.
+    prepared : str
+        Who prepared it.
+    checked : str
+        Who checked it.
+    approved : str
+        Who approved it.
+
+    Returns
+    -------
+    Path
+        The file written.
+
+    Raises
+    ------
+    DefinitionError
+        A batch of designs, another kind of file, an unknown name.
+    AssemblyError
+        No pose is in reach.
     """
     check_name(path)
     place = Path(path)

@@ -241,6 +241,37 @@ def export(
     An existing file is replaced whole, or left as it was. Raises DefinitionError for another kind of file, for what does not go with
     it, for a batch of designs, and where the extra is not installed. AssemblyError stands for poses out of reach, FileError for a path
     that cannot be written.
+
+    Parameters
+    ----------
+    what : Mechanism, Motion or WorkingField
+        The object to write.
+    path : str or Path
+        The file to write.
+    format : str or Exporter, optional
+        The kind of file; by default that of the ending.
+    at : mapping
+        Strokes to hold, or to run between values, by name [m or rad].
+    count : int
+        The number of poses of each stroke.
+    trace : sequence of str, optional
+        The points whose paths are drawn.
+    columns : sequence of Column
+        The columns of a motion's table.
+
+    Returns
+    -------
+    Path
+        The file written.
+
+    Raises
+    ------
+    DefinitionError
+        Another kind of file, or arguments that do not go with it.
+    AssemblyError
+        Poses out of reach.
+    FileError
+        The path cannot be written.
     """
     check_name(path)
     file = Path(path)

@@ -51,6 +51,30 @@ def equations(
     virtual work, and what cylinders and circuits have, all without friction. `case` is their load case, else the machine's own
     loads act. Source of notation and order: Dyuzhev, Kotov, Chuprynin, "Universality of the hitch of the power vehicle UES-2-250A"
     (Minsk, 2008), equations (4) to (27).
+
+    Parameters
+    ----------
+    machine : Mechanism or type
+        The design, or its class.
+    start : int
+        The number of the first equation.
+    numbers : bool
+        Whether numbers are filled in.
+    at : mapping, optional
+        The pose of the numbers, strokes by name [m or rad].
+    ratio : str or sequence of str
+        Points and outputs whose derivatives are added.
+    wrt : str, optional
+        The stroke of the derivatives.
+    forces : bool
+        Whether the equations of forces are added.
+    case : LoadCase or str, optional
+        The load case of the forces; by default the machine's own loads act.
+
+    Returns
+    -------
+    Equations
+        The equations, printable.
     """
     design = machine() if isinstance(machine, type) and issubclass(machine, Mechanism) else machine
     require_mechanism(design)

@@ -64,6 +64,41 @@ def page(
 
     Raises DefinitionError for a batch of designs, an unknown name, or a file that does not end in .html, FileError for a path that cannot
     be written.
+
+    Parameters
+    ----------
+    machine : Mechanism, Motion, WorkingField or Synthesis
+        The object to show.
+    path : str or Path
+        The file, .html.
+    vary : sequence or mapping, optional
+        The dimensions with a slider, or their ranges [SI].
+    columns : sequence, optional
+        The columns shown; by default the table of results.
+    column : str, optional
+        The column shown first.
+    trace : sequence of str, optional
+        The points whose paths are drawn.
+    limit : sequence or mapping, optional
+        Its limit, `(value [SI], text, "above" or "below")`, or limits by column.
+    at : mapping
+        Strokes to hold, or to run between values, by name [m or rad].
+    count : int
+        The number of poses.
+    language : str
+        "en" or "ru", with which it begins.
+
+    Returns
+    -------
+    Path
+        The file written.
+
+    Raises
+    ------
+    DefinitionError
+        A batch of designs, an unknown name, another ending.
+    FileError
+        The path cannot be written.
     """
     if not isinstance(machine, (Motion, WorkingField, Synthesis)):
         require_mechanism(machine)

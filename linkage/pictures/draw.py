@@ -122,6 +122,59 @@ def draw(
 
     Of `machine.graph`, the kinematic chain: its bodies, and the pins and slides between them. Of `burmester(...)`, the curves of circle and
     centre points, the poses, and the links.
+
+    Parameters
+    ----------
+    machine : object
+        A mechanism, a motion, designs, modes, the result of a search or of a synthesis, a graph.
+    at : sequence or mapping, optional
+        Values of the strokes [m or rad].
+    path : sequence of str
+        The points whose paths are drawn.
+    count : int
+        The number of poses of the paths.
+    ax : matplotlib Axes, optional
+        The axes to draw on.
+    pose : int or tuple of int
+        The pose of a motion.
+    time : float, optional
+        The instant of a motion in time [s].
+    faint : bool
+        Whether the mechanism is faint.
+    forces : bool or str
+        Whether forces are drawn, or the body or pin.
+    loads : sequence of ForceElement or str, optional
+        The loads; by default the machine's own.
+    case : LoadCase or str, optional
+        A load case, or its name.
+    direction : str, optional
+        "extending" while the stroke grows, "retracting", or "frictionless".
+    drive : str, optional
+        The stroke that moves.
+    velocities : mapping, optional
+        The rates of the strokes [1/s].
+    pole : bool, str or tuple of str
+        The bodies whose poles are drawn.
+    clearance : bool or tuple of str
+        The bodies whose gap is drawn.
+    freedom : bool
+        Whether motions of loose bodies are drawn.
+    answers : int, optional
+        The number of answers of a synthesis.
+
+    Returns
+    -------
+    Figure or Drawing
+        The figure; on given axes the drawing.
+
+    Raises
+    ------
+    DefinitionError
+        A batch of designs, an unknown name, a pose that is not there.
+    AssemblyError
+        No pose is in reach.
+    SingularError
+        The pose is refused.
     """
     laid = (faint, forces, pole, clearance, is_yes("freedom", freedom))
     is_laid = ax is not None or velocities is not None or any(each is not None and each is not False for each in laid)
@@ -178,6 +231,29 @@ def plot(
 
     Of a working field it is the load chart: heights by radii, in each cell the load and a letter for what limits it. Of the result of a
     search, the quantity of the objective and of each condition over the stroke, before and after, with its limit.
+
+    Parameters
+    ----------
+    motion : Motion, Mechanism, Optimum or WorkingField
+        The object to plot.
+    columns : sequence
+        Columns, their names, or requests.
+    limits : mapping, optional
+        Limits by the column's name: `(value [SI], text)` or `(value, text, "below")`.
+    at : mapping
+        Strokes to hold, or to run between values, by name [m or rad].
+    count : int
+        The number of poses.
+
+    Returns
+    -------
+    Figure
+        The figure.
+
+    Raises
+    ------
+    DefinitionError
+        A batch, a grid, an unknown name.
     """
     if isinstance(motion, WorkingField):
         if columns or limits is not None or at:

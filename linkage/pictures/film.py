@@ -65,6 +65,37 @@ def animate(
     A path in time plays in real time. `progress(done, total)` is called as it goes. An existing
     file is replaced whole, or left as it was. Raises DefinitionError for another kind of file, a batch of designs or an unknown
     name, FileError for a path that cannot be written.
+
+    Parameters
+    ----------
+    machine : Mechanism or Motion
+        The design, or a motion of one.
+    path : str or Path
+        The file: .gif, .mp4 or .html.
+    count : int
+        The number of poses.
+    column : str, optional
+        The column of the curve.
+    trace : sequence of str, optional
+        The points whose paths are drawn.
+    limit : sequence, optional
+        Its limit, `(value [SI], text, "above" or "below")`.
+    at : mapping
+        Strokes to hold, or to run between values, by name [m or rad].
+    progress : callable or bool, optional
+        Called with (done, total); True shows a bar.
+
+    Returns
+    -------
+    Path
+        The file written.
+
+    Raises
+    ------
+    DefinitionError
+        Another kind of file, a batch of designs, an unknown name.
+    FileError
+        The path cannot be written.
     """
     if isinstance(machine, Motion):
         machine, at = played_along(machine, at)

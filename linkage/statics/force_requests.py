@@ -58,6 +58,27 @@ def drive_force(drive: str | None = None, loads: Loads = None, case: Case = None
     It is `driving_force(motion, loads, drive, case=case)`, frictionless: `motion.gradient(drive_force(), wrt=["OB", "load.mass"])`.
     `acting` says loads, case and rates in one. With a direction too it has values and no derivatives.
     A load's law must be plain arithmetic of numbers at one pose; DefinitionError, with the load's name, where it is not.
+
+    Parameters
+    ----------
+    drive : str, optional
+        The stroke, where there are several.
+    loads : sequence of ForceElement or str, optional
+        The loads; by default the machine's own.
+    case : LoadCase or str, optional
+        A load case, or its name.
+    acting : Acting, optional
+        Loads, load case, direction and rates in one.
+
+    Returns
+    -------
+    Request
+        The force [N], of a crank the torque [N m].
+
+    Raises
+    ------
+    DefinitionError
+        A load's law cannot be traced.
     """
     given = situation_of("drive_force", acting, loads=loads, case=case)
 
@@ -177,6 +198,33 @@ def pin_force(
     where several meet there.
     `acting` says loads, case and rates in one. With a direction or a drive too it has values and no derivatives.
     A load's law must be plain arithmetic of numbers at one pose; DefinitionError, with the load's name, where it is not.
+
+    Parameters
+    ----------
+    point : str or Point
+        The point, or its name.
+    on : str
+        The body on which the force acts.
+    component : str
+        "size", "x" or "y".
+    loads : sequence of ForceElement or str, optional
+        The loads; by default the machine's own.
+    case : LoadCase or str, optional
+        A load case, or its name.
+    acting : Acting, optional
+        Loads, load case, direction and rates in one.
+    by : str
+        The body from which it comes.
+
+    Returns
+    -------
+    Request
+        The force [N].
+
+    Raises
+    ------
+    DefinitionError
+        A load's law cannot be traced.
     """
     names: tuple[object, ...] = point, on, by
     if not all(isinstance(each, str) for each in names):

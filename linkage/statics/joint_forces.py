@@ -40,6 +40,31 @@ def pin_forces(
     they move as it goes. `rates`, such as `dict(S=0.05)` [1/s], are what dampers ask for; `acting` says all of these in one. Raises
     DefinitionError where a body hangs loose or a link is redundant (unless `split="least squares"`), SingularError at a singular pose
     and where friction leaves no bounded forces (unless the motion has `unreachable="nan"`).
+
+    Parameters
+    ----------
+    motion : Motion
+        The poses; designs first, strokes last.
+    loads : sequence of ForceElement or str, optional
+        The loads; by default the machine's own.
+    drive : str, optional
+        The stroke that moves, where friction acts.
+    split : str
+        "refuse", or "least squares" for redundant links.
+    case, direction, rates, accelerations, inertia, acting : optional
+        The situation, as in `Acting`; `acting` gives all in one.
+
+    Returns
+    -------
+    PinForces
+        The forces of all joints [N], and the checks of both methods.
+
+    Raises
+    ------
+    DefinitionError
+        A body hangs loose, or a link is redundant.
+    SingularError
+        A singular pose, or friction leaves no bounded forces.
     """
     return joint_forces(motion, situation_of("pin_forces", loads=loads, drive=drive, **situation), split)
 
@@ -107,7 +132,18 @@ class PinForces(Shown):
         return f"{self.motion.plan.title}, {self.case}, {self.direction}"
 
     def again(self, motion: Motion) -> PinForces:
-        """Return the same of another motion of the machine: the same loads, case, direction and rates; NaN where they are refused."""
+        """Return the same of another motion of the machine: the same loads, case, direction and rates; NaN where they are refused.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses; designs first, strokes last.
+
+        Returns
+        -------
+        PinForces
+            The forces of that motion.
+        """
         return joint_forces(require_motion(motion), self._found.applied.acting, self._split)
 
     @property
@@ -145,7 +181,18 @@ class PinForces(Shown):
         return tuple((name(bearer(each)), each) for each in (*loads, *self._found.run_loads(), *self._ground))
 
     def at(self, point: str) -> tuple[JointForce, ...]:
-        """Return the joints at a point."""
+        """Return the joints at a point.
+
+        Parameters
+        ----------
+        point : str or Point
+            The point, or its name.
+
+        Returns
+        -------
+        tuple of JointForce
+            The joints.
+        """
         return joints_at(self.joints, point, self.motion.plan.title)
 
     def force(self, point: str, on: str = "", by: str = "") -> FloatArray:
@@ -153,12 +200,47 @@ class PinForces(Shown):
 
         Where several joints meet, `on` says on which body it acts: by its points, its link's or its element's name; `by` from which
         one. DefinitionError where that leaves a choice.
+
+        Parameters
+        ----------
+        point : str or Point
+            The point, or its name.
+        on : str
+            The body on which the force acts.
+        by : str
+            The body from which it comes.
+
+        Returns
+        -------
+        ndarray
+            The force [N], shape (2, ...).
+
+        Raises
+        ------
+        DefinitionError
+            Several joints fit.
         """
         joint, sign = joint_on(self.joints, point, self.body_named(on), self.motion.plan.title, self.body_named(by))
         return sign * joint.force
 
     def gland(self, member: Reference) -> GlandForce:
-        """Return what guides the rod of a cylinder in its barrel, where it is two bodies; DefinitionError for any other member."""
+        """Return what guides the rod of a cylinder in its barrel, where it is two bodies; DefinitionError for any other member.
+
+        Parameters
+        ----------
+        member : str or Cylinder
+            The cylinder, or its name.
+
+        Returns
+        -------
+        GlandForce
+            The forces at the gland.
+
+        Raises
+        ------
+        DefinitionError
+            The member is no cylinder of two bodies.
+        """
         name, pairs = name_of(member), {each.member.name: each for each in self._structure.pairs}
         if name not in pairs:
             what = f"{self.motion.plan.title}: {name} is no member of two bodies"
@@ -176,6 +258,16 @@ class PinForces(Shown):
 
         Those on the frame balance where it stands on supports; elsewhere their sum is what the ground has to hold. One that acts
         elsewhere than at a point, such as at the mesh of two gears, goes by its joint, `A (mesh)`; `place` of that joint tells where.
+
+        Parameters
+        ----------
+        name : str
+            The body's name.
+
+        Returns
+        -------
+        mapping of str to ndarray
+            The forces [N] by their points, shape (2, ...).
         """
         found = self.body_named(name)
         if found not in self.on_bodies:
@@ -183,7 +275,18 @@ class PinForces(Shown):
         return self.on_bodies[found]
 
     def body_named(self, name: str) -> str:
-        """Return a body's name for what it goes by; else the name as given."""
+        """Return a body's name for what it goes by; else the name as given.
+
+        Parameters
+        ----------
+        name : str
+            A name of the body.
+
+        Returns
+        -------
+        str
+            Its full name.
+        """
         return self._structure.full_name(name)
 
     @cached_property

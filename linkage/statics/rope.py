@@ -101,7 +101,18 @@ class Rope(ForceElement, Tabled, HasVerdicts):
         return (1.0,) * (len(self.run) - 1) if self.weights is None else self.weights
 
     def stations(self, members: NamedMembers) -> tuple[Station, ...]:
-        """Return the points it runs over, with the pulleys there; the class's members by name."""
+        """Return the points it runs over, with the pulleys there; the class's members by name.
+
+        Parameters
+        ----------
+        members : mapping of str to Member
+            The members of the class by name.
+
+        Returns
+        -------
+        tuple of Station
+            The points with their pulleys.
+        """
         return stations_of(self.run, members)
 
     def examine(self, members: NamedMembers, title: str) -> None:
@@ -147,7 +158,18 @@ class Rope(ForceElement, Tabled, HasVerdicts):
         return ""
 
     def gives(self, members: NamedMembers) -> str:
-        """Return the name of the length that it gives; "" where nothing asks for one."""
+        """Return the name of the length that it gives; "" where nothing asks for one.
+
+        Parameters
+        ----------
+        members : mapping of str to Member
+            The members of the class by name.
+
+        Returns
+        -------
+        str
+            The name of the length; "" for none.
+        """
         return next((f"{self.name}.{end}" for end in self.inside if f"{self.name}.{end}" in members), "")
 
     def inner(self, name: str, members: NamedMembers) -> Member | None:
@@ -190,7 +212,20 @@ class Rope(ForceElement, Tabled, HasVerdicts):
         return [] if self.force is None else self.pulls(motion, self.number(motion, "force"))
 
     def pulls(self, motion: Poses, tension: FloatArray | float = 1.0) -> list[Load]:
-        """Return what a tension pulls with, at every point that it runs over [N]."""
+        """Return what a tension pulls with, at every point that it runs over [N].
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses; designs first, strokes last.
+        tension : float or ndarray
+            The tension [N].
+
+        Returns
+        -------
+        list of Load
+            The pulls [N].
+        """
         return [Load(each.point, each.force * tension) for each in pulls(self.stations(motion.plan.members), self.falls, motion)]
 
     @property
@@ -214,18 +249,51 @@ class Rope(ForceElement, Tabled, HasVerdicts):
         return Tie(self.name, (), held=False, cut=self.cut, gives=gives, run=run)
 
     def drawn_back_by(self, members: NamedMembers) -> Rope | None:
-        """Return the rope that pulls where this one would have to push; None where there is none."""
+        """Return the rope that pulls where this one would have to push; None where there is none.
+
+        Parameters
+        ----------
+        members : mapping of str to Member
+            The members of the class by name.
+
+        Returns
+        -------
+        Rope or None
+            The other rope.
+        """
         ropes = [each for each in members.values() if isinstance(each, Rope) and each.against is not None]
         return next((each for each in ropes if name_of(cast(Reference, each.against)) == self.name), None)
 
     def share_against(self, motion: Poses) -> FloatArray:
-        """Return its pull for each newton that the rope it draws back against would have to push with."""
+        """Return its pull for each newton that the rope it draws back against would have to push with.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses; designs first, strokes last.
+
+        Returns
+        -------
+        ndarray
+            The share, shape (...).
+        """
         partner = cast(Rope, motion.plan.members[name_of(cast(Reference, self.against))])
         ways = [(load.force * motion.ratio(load.point, wrt=partner.cut)).sum(axis=0) for load in self.pulls(motion)]
         return np.asarray(1.0 / reduce(np.add, ways))[()]
 
     def back_pushes(self, motion: Poses) -> list[Load]:
-        """Return what it puts on points for each newton that the rope it draws back against would have to push with."""
+        """Return what it puts on points for each newton that the rope it draws back against would have to push with.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses; designs first, strokes last.
+
+        Returns
+        -------
+        list of Load
+            The forces [N].
+        """
         return self.pulls(motion, self.share_against(motion))
 
     def _pushes(self, motion: Poses) -> list[Load]:
@@ -236,11 +304,38 @@ class Rope(ForceElement, Tabled, HasVerdicts):
         """Return what it pulls with, shape (...) [N]: of a part of several falls each of them; below zero it would have to push.
 
         `loads` are the machine's own unless others are given. A direction is that of the strokes.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses; designs first, strokes last.
+        loads : sequence of ForceElement or str, optional
+            The loads; by default the machine's own.
+        case, direction, rates, accelerations, inertia, acting : optional
+            The situation, as in `Acting`; `acting` gives all in one.
+
+        Returns
+        -------
+        ndarray
+            The tension [N], shape (...).
         """
         return self.tension_in(motion, situation_of("tension", loads=loads, **situation))
 
     def tension_in(self, motion: AnyMotion, acting: Acting) -> FloatArray:
-        """Return its tension in a situation, shape (...) [N]."""
+        """Return its tension in a situation, shape (...) [N].
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses; designs first, strokes last.
+        acting : Acting
+            Loads, load case, direction and rates in one.
+
+        Returns
+        -------
+        ndarray
+            The tension [N], shape (...).
+        """
         held = motion._of_the_whole(self) if isinstance(motion, Motion) else None
         if held is not None:
             whole, own = held
@@ -254,7 +349,20 @@ class Rope(ForceElement, Tabled, HasVerdicts):
         return found if self.drawn_back_by(motion.plan.members) is None else np.maximum(found, 0.0)
 
     def pull_in(self, motion: AnyMotion, acting: Acting) -> FloatArray:
-        """Return what it would pull with alone, shape (...) [N]: below zero it would have to push."""
+        """Return what it would pull with alone, shape (...) [N]: below zero it would have to push.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses; designs first, strokes last.
+        acting : Acting
+            Loads, load case, direction and rates in one.
+
+        Returns
+        -------
+        ndarray
+            The tension [N], shape (...).
+        """
         found = closed_force(motion, self, acting)
         if found is None:
             what = f"{self.name} holds nothing: no step follows it"
@@ -262,7 +370,18 @@ class Rope(ForceElement, Tabled, HasVerdicts):
         return np.asarray(-1.0 * found)[()]
 
     def path(self, motion: Poses) -> FloatArray:
-        """Return the length of its path over a motion [m], shape (...), each straight part so often as its weight says."""
+        """Return the length of its path over a motion [m], shape (...), each straight part so often as its weight says.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses; designs first, strokes last.
+
+        Returns
+        -------
+        ndarray
+            The length [m], shape (...).
+        """
         stations = self.stations(motion.plan.members)
         radii, senses = tuple(each.radius_written for each in stations), tuple(each.sense for each in stations)
         return motion.value(RopePath(tuple(each.point for each in stations), radii, senses, self.falls))
@@ -287,7 +406,18 @@ class Rope(ForceElement, Tabled, HasVerdicts):
         return [Column(noted("tension"), request.of(motion), "kN", 3, request)]
 
     def conditions(self, judge: Judge) -> Mapping[str, Condition]:
-        """Return that it stays taut, and on each of its pulleys: that the angle over which it lies there is not below zero."""
+        """Return that it stays taut, and on each of its pulleys: that the angle over which it lies there is not below zero.
+
+        Parameters
+        ----------
+        judge : Judge
+            The judge of the machine over its domains.
+
+        Returns
+        -------
+        mapping of str to Condition
+            The conditions by their rules.
+        """
         found, stations = dict[str, Condition](), self.stations(judge.plan.members)
         if self.force is None and self.gives(judge.plan.members) and self.drawn_back_by(judge.plan.members) is None:
             found["tension"] = least(tension(self.name)) >= 0.0
@@ -302,7 +432,18 @@ class Rope(ForceElement, Tabled, HasVerdicts):
         return np.asarray(wraps(self.stations(motion.plan.members), motion)[place] + np.zeros(motion.shape))[()]
 
     def verdicts(self, judge: Judge) -> list[Verdict]:
-        """Return whether it stays taut, and on its pulleys."""
+        """Return whether it stays taut, and on its pulleys.
+
+        Parameters
+        ----------
+        judge : Judge
+            The judge of the machine over its domains.
+
+        Returns
+        -------
+        list of Verdict
+            The verdicts.
+        """
         try:
             conditions, found = self.conditions(judge), []
             for rule, answer in zip(conditions, judge.answers(list(conditions.values())), strict=True):
@@ -332,7 +473,22 @@ def rope_sentence(rule: str, value: float, place: str) -> str:
 
 
 def tension(rope: Rope | str, *, case: Case = None, acting: Acting | None = None) -> LawRequest:
-    """Return the request for the tension of a rope [N], in `evaluate`, `answers` and searches; below zero it would have to push."""
+    """Return the request for the tension of a rope [N], in `evaluate`, `answers` and searches; below zero it would have to push.
+
+    Parameters
+    ----------
+    rope : Rope or str
+        The rope, or its name.
+    case : LoadCase or str, optional
+        A load case, or its name.
+    acting : Acting, optional
+        Loads, load case, direction and rates in one.
+
+    Returns
+    -------
+    Request
+        The tension [N].
+    """
     name = name_of(rope)
     given, text = situation_of("tension", acting, case=case), partial(request_text, "tension", (name,))
 

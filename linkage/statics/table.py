@@ -112,6 +112,20 @@ def max_table(results: Results, over: OverLike = None, acting: Acting | None = N
     `acting` says which. Of results of `pin_forces`, one or several, over all that these cover. It is looked for between the poses,
     whatever the number of these, and up to the poses that are refused. A force that grows without bounds towards one of them is
     infinite. Loads that are given as arrays over the poses are known at these alone, and take results.
+
+    Parameters
+    ----------
+    results : Mechanism, PinForces or sequence of PinForces
+        The design, or forces of motions.
+    over : Over, str or mapping, optional
+        The domain, or the name of a declared one; by default all that the machine runs.
+    acting : Acting, optional
+        Loads, load case, direction and rates in one.
+
+    Returns
+    -------
+    tuple of PinLoad
+        One row a joint.
     """
     if isinstance(results, Judged):
         return judged_table(results.judge(over, acting))

@@ -73,6 +73,20 @@ def standing(motion: Motion, loads: Loads = None, **situation: Unpack[ActingKeyw
     """Return how a vehicle stands on the supports under its frame, under the machine's own loads unless others are given.
 
     The supports are those of the class, and those among the loads, whose points do not move; with three or more all say a `stiffness`.
+
+    Parameters
+    ----------
+    motion : Motion
+        The poses; designs first, strokes last.
+    loads : sequence of ForceElement or str, optional
+        The loads; by default the machine's own.
+    case, direction, rates, accelerations, inertia, acting : optional
+        The situation, as in `Acting`; `acting` gives all in one.
+
+    Returns
+    -------
+    Standing
+        The loads of the supports, the margins, and the slip.
     """
     motion, acting = require_motion(motion)._whole, situation_of("standing", loads=loads, **situation)
     return standing_of(motion, acting, vehicle_of(motion.plan, acting))
@@ -361,6 +375,20 @@ def axle_load(support: str | Support, *, case: Case = None, acting: Acting | Non
     """Return the request for the load of an axle [N], in `evaluate`, `answers` and searches: `reaction(motion, support="rear", case=...)`.
 
     Below zero it is what would have to hold the support down: the vehicle tips over.
+
+    Parameters
+    ----------
+    support : str or Support
+        The support, or its name.
+    case : LoadCase or str, optional
+        A load case, or its name.
+    acting : Acting, optional
+        Loads, load case, direction and rates in one.
+
+    Returns
+    -------
+    Request
+        The load [N].
     """
     name = name_of(support)
     given = situation_of("axle_load", acting, case=case)
@@ -371,7 +399,20 @@ def axle_load(support: str | Support, *, case: Case = None, acting: Acting | Non
 
 
 def slipping(*, case: Case = None, acting: Acting | None = None) -> LawRequest:
-    """Return the request for how much of its friction with the ground a vehicle uses along it; at 1 it slips."""
+    """Return the request for how much of its friction with the ground a vehicle uses along it; at 1 it slips.
+
+    Parameters
+    ----------
+    case : LoadCase or str, optional
+        A load case, or its name.
+    acting : Acting, optional
+        Loads, load case, direction and rates in one.
+
+    Returns
+    -------
+    Request
+        The used share of the friction.
+    """
     given = situation_of("slipping", acting, case=case)
     text = partial(request_text, "slipping", ())
     return LawRequest(formula=used_over, text=text, known=("slipping",), acting=given, directions=AT_REST_ALONE, examine=rough_in)
@@ -526,6 +567,33 @@ def reaction(
 
     Of a support under the frame it is its axle load: what the drive's force is does not matter there. DefinitionError where the frame
     weighs nothing or stands on nothing; see `standing` for all that is known of a vehicle on its supports.
+
+    Parameters
+    ----------
+    motion : Motion
+        The poses; designs first, strokes last.
+    loads : sequence of ForceElement or str, optional
+        The loads; by default the machine's own.
+    support : Support or str, optional
+        The support, where there are several.
+    drive_force : float or array_like
+        The drive's own force [N or N m].
+    drive : str, optional
+        The stroke that the support balances.
+    case, direction, rates, accelerations, inertia, acting : optional
+        The situation, as in `Acting`; `acting` gives all in one.
+
+    Returns
+    -------
+    ndarray
+        The force [N], shape (...).
+
+    Raises
+    ------
+    SingularError
+        The support's point does not move along its direction.
+    DefinitionError
+        The frame weighs nothing, or has no supports.
     """
     acting = situation_of("reaction", loads=loads, **situation)
     motion = held_in_case(require_motion(motion), acting)

@@ -43,6 +43,29 @@ def driving_force(
     "retracting" friction adds its work; along a path of several strokes its senses are those of the path. `rates`, such as
     `dict(S=0.05)` [1/s], are what dampers ask for; `acting` says all of these in one. Given as an `efficiency` k, the force is F / k
     where the load resists and F k where it drives. Raises SingularError at a dead point and where friction locks the mechanism.
+
+    Parameters
+    ----------
+    motion : Motion
+        The poses; designs first, strokes last.
+    loads : sequence of ForceElement or str, optional
+        The loads; by default the machine's own.
+    drive : str, optional
+        The stroke, where there are several.
+    efficiency : float
+        The efficiency, 0 to 1.
+    case, direction, rates, accelerations, inertia, acting : optional
+        The situation, as in `Acting`; `acting` gives all in one.
+
+    Returns
+    -------
+    ndarray
+        The force [N], of a crank the torque [N m], shape (...).
+
+    Raises
+    ------
+    SingularError
+        A dead point, or friction locks the mechanism.
     """
     acting = situation_of("driving_force", loads=loads, **situation)
     return stroke_force(motion, acting, acting.drive if drive is None else drive, efficiency)

@@ -162,6 +162,57 @@ def optimise(
 
     Raises DefinitionError for what cannot be asked, and StudyError if no design can be assembled over the whole stroke. Its
     InfeasibleError, if none keeps all, has the conflict, the least relaxation and what one condition alone would have to give.
+
+    Parameters
+    ----------
+    machine : Mechanism
+        The design.
+    minimise : Measure or list, optional
+        The objective, or several for a front.
+    maximise : Measure or list, optional
+        The objective to maximise.
+    vary : mapping
+        Ranges, choices or rows by the names of dimensions.
+    subject_to : Condition or sequence
+        The conditions.
+    regions : mapping, optional
+        Regions of points by their names.
+    case : LoadCase, str, sequence or mapping, optional
+        The load cases, or their hours.
+    over : mapping, optional
+        The ranges of the strokes [m or rad].
+    robust : mapping, optional
+        Tolerances of dimensions by name [SI].
+    sigmas : float
+        The number of standard deviations.
+    method : str
+        "auto" or "local".
+    solver : str, optional
+        No longer used.
+    starts : int, optional
+        The number of local searches.
+    seed : int
+        The seed of the designs spread over the box.
+    limit : int, optional
+        The number of designs after which it ends.
+    folder : str or Path, optional
+        Where finished searches are kept.
+    progress : callable or bool, optional
+        Called with (done, total); True shows a bar.
+
+    Returns
+    -------
+    Optimum or Front
+        The best design; of several objectives the front.
+
+    Raises
+    ------
+    DefinitionError
+        A wrong argument.
+    StudyError
+        No design can be assembled.
+    InfeasibleError
+        No design keeps all conditions.
     """
     check_one_design(machine)
     title = machine.plan.title

@@ -54,6 +54,20 @@ def around(by: float | None = None, step: float | None = None, *, radius: float 
     """Return the range of so much up and down about the present value, of a point in both directions: `vary={"M": around(60 * mm)}`.
 
     `radius` in the place of it is a circle about where a point stands now: `around(radius=60 * mm)`.
+
+    Parameters
+    ----------
+    by : float, optional
+        The half range [SI].
+    step : float, optional
+        The step [SI].
+    radius : float, optional
+        The radius of a circle about a point [m].
+
+    Returns
+    -------
+    Around
+        The range.
     """
     if (by is None) == (radius is None) or (radius is not None and step is not None):
         raise DefinitionError("around: say how far, around(60 * mm), with or without a step, or a circle, around(radius=60 * mm).")

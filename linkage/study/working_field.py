@@ -111,7 +111,13 @@ class WorkingField:
         return self.search.area()
 
     def pressures(self) -> list[str]:
-        """Return the pressures that it holds for, in words: of each element that has one, with its relief valve's."""
+        """Return the pressures that it holds for, in words: of each element that has one, with its relief valve's.
+
+        Returns
+        -------
+        list of str
+            One sentence an element.
+        """
         one = self.search.loads.motion({name: np.array([value]) for name, value in self.machine.plan.sketch_strokes.items()})
         words = []
         for name, element in self.machine.plan.of_kind(ForceElement).items():
@@ -123,12 +129,24 @@ class WorkingField:
         return words
 
     def columns(self) -> list[Column]:
-        """Return the chart as a table, a row each radius: the load [kN] at each height."""
+        """Return the chart as a table, a row each radius: the load [kN] at each height.
+
+        Returns
+        -------
+        list of Column
+            The columns.
+        """
         loads = [Column(f"{self.point}_y {height:.4g}", self.load[k], "kN", 2) for k, height in enumerate(self.y)]
         return [Column(f"{self.point}_x", self.x, "m", 3), *loads]
 
     def cells(self) -> list[dict[str, Any]]:
-        """Return each cell as a row: x, y [m], load [N], limiter, strokes [SI], why; heights from above, radii ascending."""
+        """Return each cell as a row: x, y [m], load [N], limiter, strokes [SI], why; heights from above, radii ascending.
+
+        Returns
+        -------
+        list of dict
+            The rows.
+        """
         rows: list[dict[str, Any]] = []
         for k, n in product(np.argsort(-self.y, kind="stable"), np.argsort(self.x, kind="stable")):
             place = {"x": float(self.x[n]), "y": float(self.y[k]), "load": float(self.load[k, n]), "limiter": str(self.limiter[k, n])}
@@ -137,7 +155,13 @@ class WorkingField:
         return rows
 
     def motion(self) -> Motion:
-        """Return the motion of the cells that are reached, in the order of `load[field.reached]`."""
+        """Return the motion of the cells that are reached, in the order of `load[field.reached]`.
+
+        Returns
+        -------
+        Motion
+            The motion.
+        """
         return self.search.loads.motion({name: each[self.reached] for name, each in self.strokes.items()})
 
     def __str__(self) -> str:
@@ -176,6 +200,40 @@ def working_field(
     valves.
     `rule` is a LoadRule, its title too: ISO_10567, ISO_14397_1, OECD_2. `limits` are further ones by name: a number or a quantity that the
     load may not exceed, {"rated load": 20 * kN}, or a comparison of a request, {"stability": drive_force("phi") >= -120 * kN}.
+
+    Parameters
+    ----------
+    machine : Mechanism
+        The design.
+    point : str or Point
+        The point, or its name.
+    x : array_like
+        The radii [m].
+    y : array_like
+        The heights [m].
+    along : tuple
+        The direction against which the load pulls, two numbers or quantities.
+    hold : mapping, optional
+        Strokes held at a value by name [m or rad].
+    over : Over, str or mapping, optional
+        The domain, or the name of a declared one; by default all that the machine runs.
+    keep : sequence of Target
+        Targets that hold at every place.
+    lifts : sequence, optional
+        The cylinders at pump pressure.
+    rule : LoadRule or str, optional
+        The factors of the load.
+    case : LoadCase or str, optional
+        A load case, or its name.
+    without : sequence
+        Declared loads that are left out.
+    limits : mapping, optional
+        Further limits by name.
+
+    Returns
+    -------
+    WorkingField
+        The loads and their limits.
     """
     check_one_design(machine)
     search = FieldSearch.of(machine, point, x, y, along, hold, over, keep, lifts, rule_of(rule), case, without, limits)

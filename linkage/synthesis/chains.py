@@ -39,6 +39,21 @@ def chains(links: int) -> tuple[PlanarChain, ...]:
 
     Of four links there is 1, of six 2, of eight 16, of ten 230; `chains(6)[0].inversions[1].machine()` is a machine of one of them.
     Chains with a part that is rigid by itself are none. DefinitionError for a number of links for which there are none.
+
+    Parameters
+    ----------
+    links : int
+        The number of links.
+
+    Returns
+    -------
+    tuple of PlanarChain
+        The chains.
+
+    Raises
+    ------
+    DefinitionError
+        No chains with so many links.
     """
     if not is_whole(links) or not 4 <= links <= MOST_LINKS or links % 2:
         said = f"chains of one degree of freedom have an even number of links, from 4 on; up to {MOST_LINKS} are worked out"

@@ -438,6 +438,27 @@ def freudenstein(pairs: object, *, free: str = "follower", ground: float = 1.0) 
 
     At most one machine of three pairs, two of four, three of five. DefinitionError for pairs that cannot be asked, StudyError for those
     of every parallelogram. Source: Freudenstein: Approximate synthesis of four-bar linkages, Trans. ASME 77 (1955) 853-861.
+
+    Parameters
+    ----------
+    pairs : array_like
+        The angles (phi, psi) [rad], shape (n, 2).
+    free : str
+        "crank" or "follower".
+    ground : float
+        The length of the frame [m].
+
+    Returns
+    -------
+    ExactSynthesis
+        The machines.
+
+    Raises
+    ------
+    DefinitionError
+        Wrong pairs.
+    StudyError
+        Pairs of every parallelogram.
     """
     rows = table_of("freudenstein", "pairs", pairs, 2, "pairs (phi, psi)")
     ensure(3 <= len(rows) <= 5, f"freudenstein: {len(rows)} pairs; three to five of them decide a four-bar, more go with synthesise(...).")
@@ -549,6 +570,25 @@ def cognates(machine: Mechanism, of: str = "P", *, count: int = 73) -> ShownList
 
     Raises DefinitionError for another structure, and for a pin, whose path is an arc. Sources of the theorem: Roberts: On three-bar motion
     in plane space, Proc. London Math. Soc. 7 (1875) 14-23; Chebyshev 1878.
+
+    Parameters
+    ----------
+    machine : Mechanism
+        The design.
+    of : str
+        The coupler point.
+    count : int
+        The number of poses.
+
+    Returns
+    -------
+    list of ExactMachine
+        The two cognates.
+
+    Raises
+    ------
+    DefinitionError
+        Another structure, or a pin.
     """
     require_mechanism(machine)
     check_one_design(machine)

@@ -48,6 +48,25 @@ def five_point(pivots: object, points: object, *, in_order: bool = True) -> Exac
     order on one branch, driven at one of the pivots, in any order with `in_order=False`; `misses` say why they do not.
 
     Raises DefinitionError for pivots or points that coincide or are not as many.
+
+    Parameters
+    ----------
+    pivots : array_like
+        The fixed pivots [m], shape (2, 2).
+    points : array_like
+        The points [m], shape (5, 2).
+    in_order : bool
+        Whether the machine passes the positions in order.
+
+    Returns
+    -------
+    ExactSynthesis
+        The machines.
+
+    Raises
+    ------
+    DefinitionError
+        Pivots or points coincide, or are not as many.
     """
     ends, targets = complex_rows("pivots", pivots, 2), complex_rows("points", points, POINTS)
     a, b = ends

@@ -70,6 +70,25 @@ def burmester(poses: object, region: object = None, *, in_order: bool = True) ->
     greatest least transmission angle first; `misses` say why they do not. P and theta of a machine are the body's x, y and angle.
 
     Raises DefinitionError for poses that coincide, do not turn, or are not as many.
+
+    Parameters
+    ----------
+    poses : array_like or PoseTask
+        x, y [m] and angle [rad], shape (n, 3), three to five poses.
+    region : sequence, optional
+        The allowed region of the fixed pivots, as in `synthesise`.
+    in_order : bool
+        Whether the machine passes the positions in order.
+
+    Returns
+    -------
+    Burmester
+        The links and the machines.
+
+    Raises
+    ------
+    DefinitionError
+        Poses coincide, do not turn, or are not as many.
     """
     rows = checked_poses(poses)
     border = None if region is None else region_of(region, "burmester(region=...)")

@@ -120,6 +120,53 @@ def synthesise(
 
     Raises DefinitionError for what cannot be asked, or a folder of another task. Where no machine that runs was found, `solutions` are
     none and `misses` say why.
+
+    Parameters
+    ----------
+    machine : Mechanism or sequence, optional
+        The design, or classes; by default all installed four-bars with a coupler.
+    path : PathTask, optional
+        The path of a point.
+    function : FunctionTask, optional
+        A function of the stroke.
+    motion : PoseTask, optional
+        Poses of a body.
+    vary : mapping, optional
+        Ranges or choices by the names of dimensions.
+    subject_to : Condition or sequence
+        The conditions.
+    regions : mapping, optional
+        Regions of points by their names.
+    timed : bool or str, optional
+        Whether points count at their strokes; or "steps".
+    rank : Measure, optional
+        Orders answers of the same error.
+    case : LoadCase, str, sequence or mapping, optional
+        The load cases, or their hours.
+    over : mapping, optional
+        The ranges of the strokes [m or rad].
+    starts : int, str or CurveCatalogue
+        The number of local searches; or "catalogue".
+    seed : int
+        The seed of the designs spread over the box.
+    limit : int, optional
+        The number of designs after which it ends.
+    executor : Executor, optional
+        Runs the work elsewhere.
+    folder : str or Path, optional
+        Where finished work is kept.
+    progress : callable or bool, optional
+        Called with (done, total); True shows a bar.
+
+    Returns
+    -------
+    Synthesis
+        The machines and the misses.
+
+    Raises
+    ------
+    DefinitionError
+        A wrong argument, or a folder of another task.
     """
     wanted = [("path", path, PathTask), ("function", function, FunctionTask), ("motion", motion, PoseTask)]
     if machine is None or isinstance(machine, (list, tuple)):

@@ -111,7 +111,18 @@ class PathTask:
         vars(self).update(points=found, of=of, at=timed, in_order=ordered, closed=shut)
 
     def rows(self, machine: Mechanism) -> TaskRows:
-        """Return what is wanted of a machine."""
+        """Return what is wanted of a machine.
+
+        Parameters
+        ----------
+        machine : Mechanism
+            The design.
+
+        Returns
+        -------
+        TaskRows
+            The values.
+        """
         of = task_named_in(machine, self).of
         check_point(machine, of)
         return TaskRows((x(of), y(of)), read_only(self.points.T), np.ones(2), np.zeros(2), True, self.closed)
@@ -152,7 +163,18 @@ class FunctionTask:
         vars(self).update(values=rows[0], of=quantities[0], others=others, within=read_only(scale), at=at, in_order=True)
 
     def rows(self, machine: Mechanism) -> TaskRows:
-        """Return what is wanted of a machine."""
+        """Return what is wanted of a machine.
+
+        Parameters
+        ----------
+        machine : Mechanism
+            The design.
+
+        Returns
+        -------
+        TaskRows
+            The values.
+        """
         quantities = (task_named_in(machine, self).of, *(each for each, _ in self.others))
         turns = np.array([float(measure_of(machine.plan, each) == "angle") for each in quantities])
         wanted = np.stack([self.values, *(row for _, row in self.others)])
@@ -194,7 +216,18 @@ class PoseTask:
         vars(self).update(parts, of=of, at=timed, length=length, in_order=ordered)
 
     def rows(self, machine: Mechanism) -> TaskRows:
-        """Return what is wanted of a machine."""
+        """Return what is wanted of a machine.
+
+        Parameters
+        ----------
+        machine : Mechanism
+            The design.
+
+        Returns
+        -------
+        TaskRows
+            The values.
+        """
         first, second = task_named_in(machine, self).of.split()
         for each in (first, second):
             check_point(machine, each)
@@ -328,6 +361,29 @@ def task_error(
     machine comes nearest to it in the whole stroke. `strokes` (n,) are those at which a machine comes to the points: an untimed point then
     counts by its distance from the path there, as studies of tolerances take it. `timed=True`: it counts at these strokes. `over` holds
     other strokes. Raises DefinitionError where several strokes move.
+
+    Parameters
+    ----------
+    machine : Mechanism
+        The design.
+    task : PathTask, FunctionTask or PoseTask
+        The task.
+    strokes : array_like, optional
+        The strokes at which the machine comes to the points.
+    timed : bool, optional
+        Whether points count at their strokes; by default where the task has strokes.
+    over : mapping, optional
+        The ranges of the strokes [m or rad].
+
+    Returns
+    -------
+    Measure
+        The sum [SI^2].
+
+    Raises
+    ------
+    DefinitionError
+        Several strokes move.
     """
     total: Measure = sum_of_parts(point_errors(machine, task, strokes, timed=timed, over=over))
     return total
@@ -339,6 +395,24 @@ def point_errors(
     """Return the squares of what a machine misses at each point of a task, as measures [SI^2]; see `task_error`.
 
     `[each**0.5 <= 0.5 * mm for each in point_errors(...)]` are conditions: no point is missed by more.
+
+    Parameters
+    ----------
+    machine : Mechanism
+        The design.
+    task : PathTask, FunctionTask or PoseTask
+        The task.
+    strokes : array_like, optional
+        The strokes at which the machine comes to the points.
+    timed : bool, optional
+        Whether points count at their strokes; by default where the task has strokes.
+    over : mapping, optional
+        The ranges of the strokes [m or rad].
+
+    Returns
+    -------
+    tuple of Measure
+        The squares [SI^2].
     """
     check_one_design(machine)
     rows, ranges = task.rows(machine), ranges_of(machine, over)

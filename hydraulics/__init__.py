@@ -1,4 +1,4 @@
-"""Cylinders, gas and accumulators: what moves a linkage and what it rests on."""
+"""Cylinders, gas and accumulators: the drives of a linkage and the springs it rests on."""
 
 from pathlib import Path
 

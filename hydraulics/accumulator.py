@@ -215,7 +215,7 @@ class AccumulatorBlock:
 
     @property
     def following(self) -> tuple[Quantity, ...]:
-        """What its charges, its volumes and the atmosphere follow, where they are no numbers."""
+        """The quantities that its charges, its volumes and the atmosphere follow, where they are no numbers."""
         return following(self.atmosphere, *(value for one in self.accumulators for value in (one.volume, one.charge)))
 
     def sized(self, motion: Poses) -> AccumulatorBlock:

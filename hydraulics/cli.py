@@ -56,7 +56,7 @@ CapacityCommand = Command(
 
 @CapacityCommand
 def print_capacity(options: Namespace) -> int:
-    """Print what a machine lifts at a point, and what limits it."""
+    """Print the load that a machine lifts at a point, and its limit."""
     machine = machine_of(options)
     ram = cylinder_of(machine, options.cylinder)
     circuit, point = circuit_of(machine, ram, options), point_of(machine, options.at_point)
@@ -102,7 +102,7 @@ def cylinder_of(machine: Mechanism, name: str | None) -> Ram:
 
 
 def circuit_of(machine: Mechanism, ram: Ram, options: Namespace) -> LiftCircuit:
-    """Return what feeds a cylinder: a pressure that is given, the circuit named, else its only one."""
+    """Return the circuit that feeds a cylinder: a given pressure, the circuit named, else its only one."""
     plan = machine.plan
     if options.pressure is not None:
         ensure(options.circuit is None, "--pressure and --circuit both say what feeds the cylinder; give one of them.")
@@ -166,7 +166,7 @@ CycleCommand = Command(
 
 @CycleCommand
 def print_cycle(options: Namespace) -> int:
-    """Print what a pump gives over a cycle, and draw it."""
+    """Print the flow and pressure of a pump over a cycle, and draw them."""
     machine = machine_of(options)
     path = None if options.output is None else picture(options, machine, ALONG)
     found = cycle_of_programme(machine, options) if options.program else cycles_judged(machine, options)

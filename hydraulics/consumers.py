@@ -1,4 +1,4 @@
-"""What a pump's lines ask for while a machine moves: flows [m3/s] and the gauge pressures [Pa] that they need, cylinder by cylinder.
+"""Consumers of a pump while a machine moves: flows [m3/s] and needed gauge pressures [Pa], cylinder by cylinder.
 
 A line takes oil where one of its chambers grows; of a LiftCircuit that has both sides the one that grows. Its need is
 (F + p a) / (A k): F is the force in the sense of the movement, p the back pressure, a the area that empties, A the one that fills, and k
@@ -63,7 +63,7 @@ class Inlet:
 @final
 @dataclass(frozen=True, eq=False)
 class Branch:
-    """What one cylinder takes from one line over some instants: `flow` (m,), the `need` (m,), and its `force` and `speed` where it moves.
+    """One cylinder's flow from one line over some instants: `flow` (m,), the `need` (m,), and its `force` and `speed` where it moves.
 
     `signed` is what the need would be if a load could drive the pump.
     """
@@ -77,19 +77,19 @@ class Branch:
 
     @property
     def useful(self) -> Array:
-        """What the oil gives the machine (m,) [W], its efficiencies included."""
+        """The power from the oil to the machine (m,) [W], its efficiencies included."""
         return np.maximum(self.need, 0.0) * self.flow
 
     @property
     def braked(self) -> Array:
-        """What the load gives that is throttled away (m,) [W]."""
+        """The load's power that is throttled away (m,) [W]."""
         return self.useful - (self.signed * self.flow if self.inlet.sides is not None else self.force * self.speed)
 
 
 @final
 @dataclass(frozen=True, eq=False)
 class Taken:
-    """What all consumers take over some instants, each with its branches, and the lengths of the cylinders (rams, m) [m]."""
+    """The flows of all consumers over some instants, each with its branches, and the lengths of the cylinders (rams, m) [m]."""
 
     branches: Sequence[Sequence[Branch]]
     lengths: Array
@@ -97,7 +97,7 @@ class Taken:
 
     @cached_property
     def flows(self) -> list[Array]:
-        """What each consumer takes (m,)."""
+        """The flow of each consumer (m,)."""
         zero = 0.0 * self.lengths[0]
         return [sum((each.flow for each in own), zero) for own in self.branches]
 
@@ -108,7 +108,7 @@ class Taken:
         return [np.max([low, *(each.need for each in own if each.inlet.sides is not None)], axis=0) for own in self.branches]
 
     def borders(self, like: Taken, at: int | None = None) -> Array:
-        """Return what is above zero as long as all is as in the middle of a stretch, or `at` one of its places, (rows, m).
+        """Return values above zero while all is as in the middle of a stretch, or `at` one of its places, (rows, m).
 
         Beyond it loads act the other way. Rows are over the sizes that they have in that stretch. What is zero at the place, to rounding,
         counts as at the next one.
@@ -205,14 +205,14 @@ class Consumers:
         return np.array([np.broadcast_to(poses[each], strokes.shape[1:]) for each in self._asked])
 
     def taken(self, strokes: Array, ways: Sequence[Array], rates: Array, like: Taken | None = None) -> Taken:
-        """Return what consumers take whose movements are `ways`, rates of the strokes (n, m) each, while all move at `rates`.
+        """Return the flows of consumers whose movements are `ways`, rates of the strokes (n, m) each, while all move at `rates`.
 
         Cylinders move as in the middle of the instants, or as in others that it is `like`.
         """
         return self.taken_of(self.rows(strokes, rates), ways, like)
 
     def taken_of(self, rows: Array, ways: Sequence[Array], like: Taken | None = None) -> Taken:
-        """Return the same of what was asked of the machine."""
+        """Return the same from rows that the machine has given."""
         count, many = len(self.strokes), rows.shape[1]
         each_of = rows[: len(self.rams) * (count + 4)].reshape(len(self.rams), count + 4, many)
         pilots = dict(zip(map(id, self.valved), rows[len(self.rams) * (count + 4) :], strict=True))
@@ -272,7 +272,7 @@ def lines_on(pump: ForceElement, members: NamedMembers) -> list[LiftLine]:
 
 
 def force_on_lines(motion: AnyMotion, ram: Ram, acting: Acting) -> Array:
-    """Return what a cylinder carries without what lines put on it whose pressure is given [N]."""
+    """Return the force of a cylinder less the parts of its lines with a given pressure [N]."""
     return line_thrust(ram, None, motion, acting)
 
 

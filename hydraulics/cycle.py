@@ -61,7 +61,7 @@ def is_smooth(rows: Sequence[Array], size: float) -> bool:
 @final
 @immutable
 class PumpEvent:
-    """What happens in a cycle at an instant: its `time` [s], its `kind`, the `cylinder` or the line that it is of, and a sentence."""
+    """An event of a cycle: its `time` [s], its `kind`, its `cylinder` or line, and a sentence."""
 
     time: float
     kind: str
@@ -76,7 +76,7 @@ class PumpEvent:
 @refuses_changes
 @dataclass(frozen=True)
 class PumpEnergy:
-    """Where the energy of a cycle goes [J]: pump = useful + throttled + margin; `braked` is what loads give that is throttled away."""
+    """The energy of a cycle [J]: pump = useful + throttled + margin; `braked` is the loads' energy that is throttled away."""
 
     pump: float
     useful: float
@@ -88,7 +88,7 @@ class PumpEnergy:
 @final
 @dataclass(frozen=True, eq=False)
 class Stretch:
-    """What happens between two borders: instants (m,), the pump's pressure there, and of each consumer its share and its branches.
+    """A stretch between two borders: instants (m,), the pump's pressure there, and each consumer's share and branches.
 
     A consumer that is `blocked` takes the pump's pressure and no oil.
     """
@@ -203,7 +203,7 @@ class PumpCycle:
 
     @property
     def verdict(self) -> Verdict:
-        """Whether the pump gives what is asked for; where not, what is missing, and in which time it can be done."""
+        """Whether the pump meets all demands; if not, the shortage, and the time in which it can be done."""
         limits, texts = self.limits, list[str]()
         asked = [(self.flow, limits.flow, "l/min"), (self.power, limits.power, "kW"), (self.pressure, limits.cut_off, "bar")]
         for values, most, unit in asked:
@@ -261,7 +261,7 @@ def add_branch(
     branch: Branch, part: Array | float, own: slice, flow: Mapping[str, Array], need: Mapping[str, Array], parts: Mapping[str, Array],
     cut_off: Array | None,
 ) -> None:  # fmt: skip
-    """Add what a branch takes over a stretch, with the share that its consumer gets, to the values of its line and to the parts."""
+    """Add a branch's flow over a stretch, times its consumer's share, to the values of its line and to the parts."""
     name = branch.inlet.line.name
     flow[name][own] += part * branch.flow
     if branch.inlet.sides is not None:
@@ -295,7 +295,7 @@ class PumpRun:
 
 
 def limits_of(pump: ForceElement, consumers: Consumers, there: Motion) -> PumpLimits:
-    """Return what a pump can give: its own numbers, and the lowest of its pressure and the relief valves on its lines."""
+    """Return a pump's limits: its own numbers, and the lowest of its pressure and the relief valves on its lines."""
     title = pump.name or "supply"
     flow = one_design(number_set(pump, there, "flow"))
     positive(flow, f"Flow of {title}", "give it in m3/s, such as flow=60 * litre / minute")
@@ -311,7 +311,7 @@ def limits_of(pump: ForceElement, consumers: Consumers, there: Motion) -> PumpLi
 
 
 def checked(pump: ForceElement, motion: Motion, acting: Acting | None) -> PumpCycle:
-    """Return what a motion in time needs of a pump, in the load case that needs most of those that occur."""
+    """Return a motion's demands on a pump over time, in the load case that needs most of those that occur."""
     motion = require_motion(motion)
     if motion._instants is None or not motion._instants.courses:
         what = f"{motion.plan.title}: {pump.name or 'a pump'}.check(motion): this motion has no time of its own"
@@ -322,7 +322,7 @@ def checked(pump: ForceElement, motion: Motion, acting: Acting | None) -> PumpCy
 
 
 def cycles_over(pump: ForceElement, place: Any, acting: Acting) -> list[PumpCycle]:
-    """Return what is needed of a pump over a path in time, in each load case that occurs there; asked again, it is known."""
+    """Return the demands on a pump over a path in time, in each load case that occurs there; results are cached."""
     cases, found = place.cases(acting), []
     for case in cases:
         situation = acting if acting.case is not None and len(cases) == 1 else replace(acting, case=case)
@@ -335,7 +335,7 @@ def cycles_over(pump: ForceElement, place: Any, acting: Acting) -> list[PumpCycl
 
 
 def cycle_over(pump: ForceElement, place: Any, situation: Acting, label: str) -> PumpCycle:
-    """Return what is needed of a pump over a path in time in one load case."""
+    """Return the demands on a pump over a path in time in one load case."""
     instants = place.instants or place.motion._instants
     start = {name: float(course(instants.breaks[0])) for name, course in instants.courses.items()}
     consumers = Consumers(place.plan, place.designs, pump, situation, start)
@@ -345,7 +345,7 @@ def cycle_over(pump: ForceElement, place: Any, situation: Acting, label: str) ->
 
 
 def given_stretches(consumers: Consumers, instants: Instants, limits: PumpLimits) -> list[Stretch]:
-    """Return what is needed along given courses, between all borders."""
+    """Return the demands along given courses, between all borders."""
     found: list[Stretch] = []
     left = [*zip(instants.breaks[-2::-1].tolist(), instants.breaks[:0:-1].tolist(), strict=True)]
     while left:
@@ -382,7 +382,7 @@ def stretch_times(begin: float, end: float) -> Array:
 
 
 def first_border(time: Array, taken: Taken, borders: Callable[[Array], Array]) -> float | None:
-    """Return an instant within a stretch that is a border, as what is above zero in its middle is below zero elsewhere; None for none."""
+    """Return an instant of a border within a stretch, where a value above zero in its middle is below zero; None without one."""
     rows = taken.borders(taken)
     bad = np.any(rows < -AT_BORDER, axis=0)
     if not bad.any():
@@ -421,7 +421,7 @@ def judged_cycles(pump: ForceElement, judge: Judge) -> list[tuple[Any, PumpCycle
 
 
 def pump_verdicts(pump: ForceElement, judge: Judge) -> list[Verdict]:
-    """Return whether a shared pump gives what is asked for over the paths in time that a judge looks at, of the one that asks most."""
+    """Return whether a shared pump meets the demands of a judge's paths in time, for the most demanding one."""
     places = timed_places(judge)
     if not places or not is_shared(pump, judge):
         return []

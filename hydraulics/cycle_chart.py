@@ -45,7 +45,7 @@ def cycle_columns(cycle: PumpCycle) -> list[Column]:
 
 
 def waiting(cycle: PumpCycle) -> dict[str, Array]:
-    """Return the cylinders that get less than they ask for at times, and what they do not get, 0 to 1."""
+    """Return the cylinders that get less than they ask for at times, and their shortage, 0 to 1."""
     missing = {name: np.clip(1.0 - share, 0.0, 1.0) for name, share in cycle.share.items()}
     return {name: part for name, part in missing.items() if np.any(part > 1e-9)}
 
@@ -75,12 +75,12 @@ def plot_cycle(cycle: PumpCycle) -> Figure:
 
 
 def flow_panel(ax: Axes, cycle: PumpCycle) -> None:
-    """Draw what the lines take and the pump gives, with its flow."""
+    """Draw the flows of the lines and of the pump, with its limit."""
     curves(ax, cycle, cycle.flow, said("flow"), "l/min", cycle.limits.flow)
 
 
 def pressure_panel(ax: Axes, cycle: PumpCycle) -> None:
-    """Draw what the lines need and the pump's pressure, with its cut-off."""
+    """Draw the pressures of the lines and of the pump, with its cut-off."""
     curves(ax, cycle, cycle.pressure, said("pressure"), "bar", cycle.limits.cut_off)
 
 
@@ -182,7 +182,7 @@ def line_heads() -> tuple[str, ...]:
 
 
 def cycle_section(cycles: Sequence[tuple[str, PumpCycle]]) -> Section:
-    """Return the section of a report on what one pump gives over paths in time, each with the words for it."""
+    """Return the section of a report on one pump over paths in time, each with its words."""
     found = tuple(block for words, each in cycles for block in cycle_blocks(words, each))
     return Section(said("One pump, {name}", name=cycles[0][1].pump), found)
 

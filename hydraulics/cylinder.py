@@ -202,7 +202,7 @@ MOST = 10_000
 
 
 class RamSize(ABC):
-    """The base of sizes: the areas of `count` equal rams side by side, and what follows from them. They may be arrays."""
+    """The base of sizes: the areas of `count` equal rams side by side, and values that follow from them. They may be arrays."""
 
     count: int
     works: Works
@@ -215,7 +215,7 @@ class RamSize(ABC):
     @property
     @abstractmethod
     def pull_area(self) -> float | Array:
-        """The area that pulls the ends together: all annuli, m2; none for what is single acting."""
+        """The area that pulls the ends together: all annuli, m2; none for a single-acting ram."""
 
     @property
     def area(self) -> float | Array:
@@ -330,7 +330,7 @@ class CylinderSize(RamSize):
 
     @property
     def rod_area(self) -> float | Array:
-        """Area of the annulus around one rod, m2: what the rod side's pressure acts on."""
+        """Area of the annulus around one rod, m2, under the rod side's pressure."""
         return pi / 4.0 * (self.bore**2 - self.rod**2)
 
     @property

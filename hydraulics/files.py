@@ -76,7 +76,7 @@ def gas_kind() -> Any:
 
 
 def on_line_kind(block: type[Any], text: Callable[[Any], str]) -> Any:
-    """Return how what lies on an oil line is read and written: names in a list, such as "lift.rod_side", and accumulators as a table."""
+    """Return the kind that reads and writes the parts of an oil line: names such as "lift.rod_side", and accumulators as a table."""
     from linkage.files.entry import Within, made_of, read_table
     from linkage.files.source import Mistakes
     from linkage.files.validators import Kind

@@ -43,7 +43,7 @@ Block: TypeAlias = "AccumulatorBlock | Callable[[Poses], AccumulatorBlock]"
 
 
 class GasLine(Circuit):
-    """The base of lines whose pressure is that of gas, as much as is drawn from it: what `FloatCircuit` and `OilLine` share."""
+    """The base of lines whose pressure is that of gas, by the volume drawn from it: shared by `FloatCircuit` and `OilLine`."""
 
     charge_pressure: Parameter | None
 
@@ -87,7 +87,7 @@ class GasLine(Circuit):
         return thrust, thrust
 
     def verdicts(self, judge: Judge) -> list[Verdict]:
-        """Return the range of the gas's pressure wherever it runs, whether fluid is left everywhere, what its accumulators bear.
+        """Return the verdicts on the gas's pressure range, on the fluid left everywhere, and on its accumulators' limits.
 
         After that stands the verdict on the line where a load case shuts it.
         """
@@ -166,7 +166,7 @@ class GasLine(Circuit):
         return self.thrust_of(self.one(motion, cylinder), motion, rates)
 
     def thrust_of(self, ram: Ram, motion: Poses, rates: Mapping[str, Rate]) -> Array:
-        """Return what the line puts on a cylinder [N], at rest or while strokes move at rates."""
+        """Return the line's thrust on a cylinder [N], at rest or while strokes move at rates."""
         areas = [chamber_area(chamber, ram, motion) for each, chamber in self.filling(motion.plan.members) if same(each, ram)]
         area = reduce(np.add, areas)
         free = self.line_pressure(motion) * area
@@ -282,7 +282,7 @@ class FloatCircuit(GasLine):
         return self.renewed(block=block)
 
     def line_pressure(self, motion: AnyMotion, acting: Acting | None = None) -> Array:
-        """Return the pressure of the gas [Pa gauge], or where a load case shuts the line what the loads make of it.
+        """Return the pressure of the gas [Pa gauge]; where a load case shuts the line, the pressure under the loads.
 
         Parameters
         ----------

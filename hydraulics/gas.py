@@ -1,4 +1,4 @@
-"""What a closed amount of gas does: its volume and its pressure. Every pressure in this file is absolute [Pa].
+"""A closed amount of gas: its volume and its pressure. Every pressure in this file is absolute [Pa].
 
 >>> from linkage.units import bar, litre
 >>> print(isothermal, "|", adiabatic, "|", polytropic(1.25))

@@ -1,4 +1,4 @@
-"""A pump that lifts by cylinders: its numbers, and what is said of it. Every pressure in this file is gauge [Pa].
+"""A pump that lifts by cylinders: its numbers, and its verdicts. Every pressure in this file is gauge [Pa].
 
 What is said is over all that a machine runs, in sentences: lifting, oil and time, holding, going back. One design at a time. Each cylinder
 is judged with all drives locked, by its own thrust, in every load case and in each of its own movements, on both of its sides. The judge
@@ -68,14 +68,14 @@ ENDLESS = 1e-4
 
 
 class PumpLine(LiftLine):
-    """The base of lines that a pump holds, with what is asked and said of them."""
+    """The base of lines that a pump holds, with their questions and verdicts."""
 
     def lifting_cylinders(self, judge: Judge, unit: str = "bar") -> list[LiftingCylinder]:
         """Return its cylinders over all that a judge looks at."""
         return [LiftingCylinder(judge, self, ram, unit) for ram in self.rams(judge.motion)]
 
     def questions(self, judge: Judge) -> list[Question]:
-        """Return what is asked of each of its cylinders: whether it carries anything, lifts, holds; nothing where nothing acts."""
+        """Return the questions of each of its cylinders: whether it carries anything, lifts, holds; none where no load acts."""
         return [question for each in self.lifting_cylinders(judge) for question in each.questions()] if carries_loads(judge) else []
 
     def conditions(self, judge: Judge) -> Mapping[str, Condition]:
@@ -333,16 +333,16 @@ class LiftingCylinder:
         return least_and_most(thrust_request(self.ram, Acting()))
 
     def back(self, way: str, resistance: float = 0.0, tells: str = "push") -> LawRequest:
-        """Return what the other side must give while it goes back one way, or what the load alone makes."""
+        """Return the pressure from the other side while it goes back one way, or the pressure of the load alone."""
         return going_back_request(*self.asked, way, resistance, tells)
 
     @property
     def asked(self) -> tuple[Ram, Acting, LiftLine]:
-        """What a request of it begins with."""
+        """The first arguments of its requests."""
         return self.ram, Acting(), self.circuit
 
     def questions(self) -> list[Question]:
-        """Return what its verdicts ask at first."""
+        """Return the first questions of its verdicts."""
         ways = ("retracting", "extending") if self.ram.side == "both" else self.ram.ways_back(0.0, 0.0)
         going = [question for way in ways for question in (most(self.back(way)), least(self.back(way, tells="load")))]
         going += [most(self.back(way, tells="whole push")) for way in ways] if len(ways) > 1 else []
@@ -354,7 +354,7 @@ class LiftingCylinder:
         return [most(pressure_request(self.ram, Acting(direction=FRICTIONLESS), self.circuit, side)) for side in self.ram.own_sides]
 
     def conditions(self) -> dict[str, Condition]:
-        """Return what it has to keep: it lifts, holds on both sides, and goes back."""
+        """Return its conditions: it lifts, holds on both sides, and goes back."""
         asked, name = (self.ram.name, Acting(), self.circuit.name), self.circuit.name
         held, supply = (at(LawRequest(text=f"{name} {each.__name__}", formula=each)) for each in (self.circuit.held, self.circuit.supply))
         back = [most(going_back_request(*asked, way)) for way in self.ways_back]
@@ -423,7 +423,7 @@ class LiftingCylinder:
         return "" if alone else said('; works="both" judges the other side as well')
 
     def remedy(self, reserve: float) -> str:
-        """Return what makes up for a reserve below 1: a pressure, or a standard bore with its reserve."""
+        """Return the remedy for a reserve below 1: a pressure, or a standard bore with its reserve."""
         found = self.judge.answer(most(pressure_request(*self.asked, is_needed=True)))
         if found.unbounded or not np.isfinite(found.value):
             return said("No pressure and no bore lifts there; keep away from that pose.")
@@ -451,7 +451,7 @@ class LiftingCylinder:
     def mended(
         self, larger: Sequence[Sizes], reserve: float, questions: Callable[[Ram], Sequence[Question]]
     ) -> tuple[Sizes, list[Answer]] | None:
-        """Return the first of some larger sizes that keeps conditions, with the answers; what is tried first has the missing area."""
+        """Return the first of some larger sizes that keeps conditions, with the answers; the search begins at the missing area."""
         now = self.ram.sized(self.judge.motion)
         areas = [one_design(replace(now, **sizes).area) for sizes in larger]  # type: ignore[type-var]
         wanted = one_design(now.area) / reserve
@@ -494,7 +494,7 @@ class LiftingCylinder:
         return Verdict("holding", False, text, answer=worst)
 
     def holds_with(self, asked: Sequence[Condition], worst: Answer) -> str:
-        """Return what makes it hold, in words: a larger size, of a single cylinder on a line with the pressure that it then holds."""
+        """Return the remedy for holding, in words: a larger size, for a single cylinder on a line with the pressure that it then holds."""
         if self.ram.is_single_acting:
             return said("take larger stages")
         larger, limit = self.ram.larger(self.judge.motion), float(self.circuit.held(self.judge.motion))
@@ -508,7 +508,7 @@ class LiftingCylinder:
         return said("{remedy}: with {size} it is up to {pressure}", remedy=size, size=size_words(sizes), pressure=self.show(holds.value))
 
     def going_back(self, resistance: float = 0.0) -> Verdict:
-        """Return whether it goes back by itself against the resistance of the returning oil; where not, what the other side must give.
+        """Return whether it goes back by itself against the resistance of the returning oil; if not, the pressure on the other side.
 
         It goes back against its working direction. One that works with both sides goes the way the load drives it, and both ways where
         that changes its sense. The verdict is on the worse. Where the load then drives it on, as a lever past its top, the pump's pressure

@@ -1,4 +1,4 @@
-"""What lifts by cylinders of one line: who is meant, what is to be done, what the pump can give. Every pressure in this file is gauge [Pa].
+"""Lifting by cylinders of one line: their names, their work, the pump's pressure. Every pressure in this file is gauge [Pa].
 
 What a cylinder carries is its own `thrust(motion)`, with the declared friction of the direction it moves in. An efficiency stands for
 what is not declared: the rod carries T / k_m where the load resists and T k_m where it drives, k_m the mechanical efficiency. The
@@ -82,7 +82,7 @@ class Work:
 
     @property
     def against(self) -> Array:
-        """What tanks on the other side push against it [N]."""
+        """The back thrust of tanks on the other side [N]."""
         return np.where(self.pulls, 1.0, -1.0) * self.drained
 
     @property
@@ -145,11 +145,11 @@ def way_back(
 
 
 class LiftLine(Circuit):
-    """The base of lines that a pump holds: what `LiftCircuit` and `OilLine` share. A subclass says where its numbers come from."""
+    """The base of lines that a pump holds, shared by `LiftCircuit` and `OilLine`. A subclass tells where its numbers come from."""
 
     @abstractmethod
     def says(self, name: str, members: NamedMembers) -> tuple[ForceElement, str] | None:
-        """Return what says a number of the pump, the relief valve or the tank, and by which name; None where nothing does."""
+        """Return the element with a number of the pump, the relief valve or the tank, and its name there; None without one."""
 
     def number(self, motion: Poses, name: str) -> Array:
         """Return such a number as a motion's designs have it [SI], the same at all poses: 0 where nothing says it.
@@ -243,7 +243,7 @@ class LiftLine(Circuit):
     # -- lifting -------------------------------------------------------------------------------------------
 
     def work(self, motion: AnyMotion, loads: Loads = None, **choice: Unpack[Choice]) -> Work:
-        """Return what a cylinder has to do while it moves in its working direction, or in the one named."""
+        """Return the work of a cylinder while it moves in its working direction, or in the one named."""
         cylinder = choice.pop("cylinder", None)
         return self.work_of(self.one(motion, cylinder), motion, situation_of("work", loads=loads, **choice))
 
@@ -267,7 +267,7 @@ class LiftLine(Circuit):
         return Work(thrust, sense, size, k_m, drained)
 
     def works(self, what: str, motion: AnyMotion, loads: Loads, choice: Choice) -> list[Work]:
-        """Return what the cylinder that is named has to do, or each of them; `what` is the function that is asked."""
+        """Return the work of the named cylinder, or of each; `what` is the asking function."""
         rams = self.meant(motion, choice.pop("cylinder", None))
         acting = situation_of(what, loads=loads, **choice)
         return [self.work_of(ram, motion, acting) for ram in rams]
@@ -348,7 +348,7 @@ class LiftLine(Circuit):
         return force
 
     def _given(self, motion: Poses, work: Work, share: float) -> Array:
-        """Return what the pressures on both sides give with the areas of a work [N], below zero where the back pressure is the stronger."""
+        """Return the thrust of the pressures on both sides with the areas of a work [N], below zero where the back pressure is stronger."""
         pushes = share * self.efficiency(motion, "hydraulic") * self.supply(motion) * work.area
         return np.asarray(pushes - self.back(motion) * work.other_area - work.against)[()]
 
@@ -467,7 +467,7 @@ class LiftLine(Circuit):
         return least_of(most)
 
     def _lifted_by(self, ram: Ram, motion: AnyMotion, beside: Any, share: float, own: Sequence[ForceElement]) -> Array:
-        """Return the largest load that one cylinder lifts; `beside(load)` is what acts with one."""
+        """Return the largest load that one cylinder lifts; `beside(load)` is the situation with that load."""
         size = ram.sized(motion)
         if ram.closed_thrust(motion, beside(0.0)) is None:
             lever = member_thrust(motion, ram, Acting([beside(1.0).loads[-1]]))  # what one newton there asks of it
@@ -572,7 +572,7 @@ def fitted(motion: Motion, value: Array) -> Array:
 
 
 def least_of(each: Sequence[Array]) -> Array:
-    """Return the least of what each cylinder allows; NaN where none limits it."""
+    """Return the least of the cylinders' limits; NaN where none limits it."""
     if len(each) == 1:
         return each[0]
     least = np.min(np.where(np.isnan(each), np.inf, each), axis=0)

@@ -117,7 +117,7 @@ class Chamber:
 
 
 class Ram(TwoPoint, Tabled, HasVerdicts):
-    """The base of what oil pushes between A and B: `count` equal ones side by side, that hold what the mechanism needs.
+    """The base of rams, pushed by oil between A and B: `count` equal ones side by side, that hold the mechanism.
 
     A subclass is a frozen dataclass with A, B, `count`, and `mounting` and `safety` for buckling. It says its areas, its lengths, the oil
     that it takes, and what buckles. `piston_side` is its chamber, `length` the distance of its pins.
@@ -139,7 +139,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
     @property
     @abstractmethod
     def side(self) -> Works:
-        """What it works with."""
+        """The sides it works with."""
 
     def on_side(self, side: Side) -> Ram:
         """Return it as it works with one of its sides, for the line that this has: itself where it has no other."""
@@ -163,7 +163,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
 
     @abstractmethod
     def thickness(self, motion: Poses, direction: str | None = None) -> float | Array:
-        """Return the diameter of what buckles [m], to broadcast against the motion."""
+        """Return the diameter of its buckling part [m], to broadcast against the motion."""
 
     @abstractmethod
     def length_set(self, name: str, motion: Poses, *, beside_bore: bool = False) -> Array:
@@ -179,11 +179,11 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
 
     @abstractmethod
     def size_verdicts(self, judge: Judge) -> list[Verdict]:
-        """Return what is said of its size over all that a judge looks at."""
+        """Return the verdicts on its size over all that a judge looks at."""
 
     @abstractmethod
     def slender_part(self, motion: Poses, direction: str | None = None) -> tuple[str, int, Sequence[float]]:
-        """Return the name of the size that buckles at a pose, the number of the stage that it is, 0 for a rod, and what it may be [m]."""
+        """Return the size that buckles at a pose by its name, the number of its stage, 0 for a rod, and its possible values [m]."""
 
     # -- what it is ----------------------------------------------------------------------------------------
 
@@ -262,7 +262,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         return closed, stroke
 
     def taken(self, motion: Poses, low: Array, high: Array) -> Array:
-        """Return the oil [m3] that it takes, with what it works with, from one length to a greater one [m]."""
+        """Return the oil [m3] that its working sides take from one length to a greater one [m]."""
         works = self.sized(motion).works
         sides = SIDES if works == "regenerative" else (ROD if works == "rod" else PISTON,)
         return np.asarray(np.abs(reduce(np.add, [self.filled(side, motion, low, high) for side in sides])))[()]
@@ -314,7 +314,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
 
     @takes_situation
     def thrust(self, motion: AnyMotion, loads: Loads = None, **situation: Unpack[ActingKeywords]) -> Array:
-        """Return what this cylinder carries, whatever drives the machine, shape (...) [N], positive where it pushes its ends apart.
+        """Return the thrust of this cylinder, whatever drives the machine, shape (...) [N], positive where it pushes its ends apart.
 
         `loads` are the machine's own unless others are given. It is frictionless unless a `direction` is named: "extending" while this
         cylinder grows. Along a path of several strokes the senses of friction are those of the path. No efficiency is in it. Of one
@@ -370,7 +370,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         return (*ways, "extending") if pulls > TO_ROUNDING * pushes else ways
 
     def pressure_on(self, side: str, motion: AnyMotion, acting: Acting, circuit: Circuit | None = None, *, below: bool = False) -> Array:
-        """Return the pressure on one of its sides, shape (...) [Pa gauge]; 0 where the other side holds, or `below` what would balance.
+        """Return the pressure on one of its sides, shape (...) [Pa gauge]; 0 where the other side holds, or with `below` negative values.
 
         At rest without friction and efficiencies; while it moves, on a side that works, as its circuit has it.
         """
@@ -472,7 +472,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
     # -- checks --------------------------------------------------------------------------------------------
 
     def checks(self, motion: Motion, loads: Loads = None, *, case: Case = None, acting: Acting | None = None) -> list[Verdict]:
-        """Return what can be said of it over a motion of one design: length, standard size, and buckling where it carries something."""
+        """Return the verdicts over a motion of one design: length, standard size, and buckling where it carries a load."""
         judge = judge_of(motion, str(self), situation_of("checks", acting, loads=loads, case=case))
         return [*self.length_verdicts(judge), *self.size_verdicts(judge), *self.buckling_verdicts(judge)]
 
@@ -555,7 +555,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         return self.buckling_verdicts(judge_of(motion, str(self), situation_of("buckling", acting, loads=loads, case=case)))
 
     def buckling_verdicts(self, judge: Judge) -> list[Verdict]:
-        """Return whether it buckles over all that a judge looks at, and what it does against a stop."""
+        """Return whether it buckles over all that a judge looks at, and against a stop."""
         worst = judge.answer(most(buckling_request(self, Acting())) <= 1.0)
         if np.isnan(worst.value) or not worst.value > TO_ROUNDING:
             return [never_pushed(), *self.stopped(judge)]
@@ -577,7 +577,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         return [verdict.answered(worst), *self.stopped(judge)]
 
     def stopped(self, judge: Judge) -> list[Verdict]:
-        """Return with what force a pump pushes it against a stop where it is longest, and how far that is from buckling."""
+        """Return the force with which a pump pushes it against a stop where it is longest, and how far that is from buckling."""
         pushing = [(each, each.pressure_out(self, judge.motion)) for each in circuits_among(judge.plan.members)]
         given = [(one_design(pressure), each.unit_in(judge)) for each, pressure in pushing if pressure is not None]
         longest = judge.answer(most(distance(self.A, self.B)))
@@ -606,7 +606,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         return reduce(np.maximum, [self._use(motion, replace(acting, direction=way)) for way in ways])
 
     def rod_push(self, motion: AnyMotion, acting: Acting) -> Array:
-        """Return what one of its rods is pushed with [N]: T / k_m while a pump pushes it out, as it is taken to do without a direction."""
+        """Return the push on one of its rods [N]: T / k_m while a pump pushes it out, which is assumed without a direction."""
         push = member_thrust(motion, self, acting) / self.count
         if acting.direction not in (None, AS_IT_RUNS, "extending"):
             return push
@@ -687,7 +687,7 @@ class Cylinder(BarrelAndRod, Ram):
 
     @property
     def side(self) -> Works:
-        """What it works with: as lines say, else as it says itself, else the piston."""
+        """The sides it works with: as its lines tell, else as declared, else the piston."""
         return self._on_lines or self.works or "piston"
 
     @property
@@ -696,7 +696,7 @@ class Cylinder(BarrelAndRod, Ram):
         return Chamber(self, "rod")
 
     def among(self, members: NamedMembers) -> Cylinder:
-        """Return it as the lines of its class say what it works with; DefinitionError where it says another side itself.
+        """Return it with the sides that the lines of its class give; DefinitionError where it declares another side itself.
 
         Parameters
         ----------
@@ -854,7 +854,7 @@ class Cylinder(BarrelAndRod, Ram):
         return written.line(f"A_{self.name}", working, "m2"), other
 
     def standard(self, motion: Poses | None = None) -> Verdict:
-        """Return whether bore and rod are a pair of ISO 3320 or NFPA T3.6.7; where not, what is next to them.
+        """Return whether bore and rod are a pair of ISO 3320 or NFPA T3.6.7; if not, the sizes next to them.
 
         Parameters
         ----------
@@ -932,7 +932,7 @@ class Cylinder(BarrelAndRod, Ram):
         return [Verdict("speed", answer.ok, text, answer=answer)]
 
     def questions(self, judge: Judge) -> list[Question]:
-        """Return what any ram asks, and whether the load is on the side that works where no line says it.
+        """Return the questions of any ram, and whether the load is on the working side where no line tells it.
 
         Parameters
         ----------
@@ -996,7 +996,7 @@ def cylinder_request(
     *,
     measures: str = "",
 ) -> LawRequest:
-    """Return the request for what a formula gives of one cylinder of a class, in a situation; its directions are the cylinder's own.
+    """Return the request for a formula of one cylinder of a class, in a situation; its directions are the cylinder's own.
 
     It is written as a function, `word`, of the cylinder, of what stands `before` and `after` the direction, and of the load case. It is
     in no load case that leaves out the lines of the cylinder, so that this may carry nothing.
@@ -1018,7 +1018,7 @@ def cylinder_request(
 
 
 def formula_of_cylinder(formula: Callable[[AnyMotion, Ram, Acting], Values], named: str | Ram, motion: AnyMotion, acting: Acting) -> Values:
-    """Return what a formula gives of the cylinder that is meant, as the motion's class has it."""
+    """Return a formula's value of the named cylinder, as the motion's class has it."""
     return formula(motion, cylinder_in(named, motion.plan), acting)
 
 
@@ -1028,7 +1028,7 @@ def cylinder_in(named: str | Ram, plan: Plan) -> Ram:
 
 
 def thrust_request(cylinder: str | Ram, acting: Acting) -> LawRequest:
-    """Return the request for what a cylinder carries [N]; that there is no friction goes without saying."""
+    """Return the request for a cylinder's thrust [N]; its text leaves out that there is no friction."""
     found = cylinder_request("thrust", cylinder, acting, member_thrust, measures="force")
 
     def text(acting: Acting) -> str:
@@ -1144,7 +1144,7 @@ Feeds: TypeAlias = "Reference | Sequence[Reference]"
 
 
 class OnLines(ForceElement):
-    """The base of lines of oil and of what lies on them: it acts on cylinders, puts no force on points, and no load case multiplies it."""
+    """The base of oil lines and their parts: they act on cylinders, put no force on points, and no load case multiplies them."""
 
     places: ClassVar[tuple[str, ...]] = ()
     file_section: ClassVar[str] = "hydraulics"
@@ -1166,7 +1166,7 @@ class OnLines(ForceElement):
 
 
 class Circuit(OnLines, HasVerdicts):
-    """The base of circuits: what feeds cylinders."""
+    """The base of circuits, which feed cylinders."""
 
     argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"cylinder": "load"})
     headed: ClassVar[str] = noted("Line {name}")
@@ -1264,7 +1264,7 @@ class Circuit(OnLines, HasVerdicts):
         return [(ram, Chamber(ram, side)) for ram, own in sides for side in own]
 
     def pressure_shares(self, members: NamedMembers) -> tuple[Share, ...]:
-        """Return what one unit of its line's pressure is in each cylinder."""
+        """Return the share of its line's pressure in each cylinder."""
         return tuple(Share(ram, partial(chamber_area, chamber, ram)) for ram, chamber in self.filling(members))
 
     def least(self, motion: Poses) -> Array | float:
@@ -1295,7 +1295,7 @@ class Circuit(OnLines, HasVerdicts):
         return tuple(each for each in found if isinstance(each, Ram))
 
     def gauges_of(self, cylinder: Ram, plan: Plan) -> dict[str, Reading]:
-        """Return what it says of one of its cylinders on a live page: the `most` pressure it may have [Pa]."""
+        """Return its limits for one of its cylinders on a live page: the `most` pressure it may have [Pa]."""
         return {}
 
     @abstractmethod
@@ -1347,19 +1347,19 @@ def circuits_among(members: NamedMembers) -> list[Circuit]:
 
 
 def in_class(members: NamedMembers, reference: Reference) -> Member | str:
-    """Return what a reference stands for in a class; the reference itself where it has nothing of that name."""
+    """Return the member of a class that a reference names; the reference itself where there is none of that name."""
     return members.get(reference if isinstance(reference, str) else reference.name, reference)
 
 
 def side_left(cylinder: Ram, members: NamedMembers) -> Works:
-    """Return the side of a cylinder that no line names, where another one is named; else what it works with."""
+    """Return the side of a cylinder that no line names, where another one is named; else the sides it works with."""
     named = [each.side for line in circuits_among(members) for each in Circuit.chambers_of(line, cylinder, members)]
     left = [side for side in SIDES if side not in named]
     return left[0] if named and left else cylinder.side
 
 
 def works_by_lines(cylinder: Ram, members: NamedMembers) -> Works | None:
-    """Return what lines say that a cylinder works with; None where they do not say it.
+    """Return the sides that lines name for a cylinder; None where they name none.
 
     Sides on held lines come first, then those on closed ones, then those whose pressure is given.
     """
@@ -1379,7 +1379,7 @@ def works_by_lines(cylinder: Ram, members: NamedMembers) -> Works | None:
 
 
 def by_other_lines(ram: Ram, line: Circuit | None, motion: AnyMotion, acting: Acting | None, tanks: bool | None = None) -> Array | float:
-    """Return what lines other than one put on a cylinder over a motion's poses [N].
+    """Return the thrust of the other lines on a cylinder over a motion's poses [N].
 
     Without a situation only lines whose pressure is given count. `tanks`: those of tanks alone, or all but those.
     """
@@ -1396,7 +1396,7 @@ def by_other_lines(ram: Ram, line: Circuit | None, motion: AnyMotion, acting: Ac
 
 
 def line_thrust(ram: Ram, line: Circuit | None, motion: AnyMotion, acting: Acting, *, with_tanks: bool = True) -> Array:
-    """Return what a line has to put on a cylinder [N]: what it carries without what its other lines do, those on tanks where asked for."""
+    """Return the thrust left for a line on a cylinder [N]: its thrust less its other lines', tanks included on request."""
     return member_thrust(motion, ram, acting) - by_other_lines(ram, line, motion, acting, None if with_tanks else False)
 
 
@@ -1471,7 +1471,7 @@ def least_and_most(what: MeasuredQuantity) -> list[Question]:
 
 
 def judge_of(motion: Motion, what: str, acting: Acting | None = None, *, unreached: str = "") -> Judge:
-    """Return the judge of a motion of one design, of which what is out of reach is left out.
+    """Return the judge of a motion of one design, without its poses out of reach.
 
     DefinitionError for several designs, and where no pose is reached if `unreached` says what is wrong then.
     """

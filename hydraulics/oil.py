@@ -1,4 +1,4 @@
-"""Oil lines: what they join has one pressure and one volume; one is given, the other answers. Every pressure is gauge [Pa].
+"""Oil lines: joined chambers share one pressure and one volume; one is given, the other answers. Every pressure is gauge [Pa].
 
 a chamber has a signed area a = dV/dl: pistons +, annuli -
 thrust T = sum of a p over a cylinder's chambers, oil taken V' = a l', so that T l' = sum of p V'
@@ -325,7 +325,7 @@ class OilLine(PumpLine, GasLine):
         return cuts if any(isinstance(members.get(name), Stroke) for name in names_behind([oil], members)) else ()
 
     def variables(self) -> tuple[tuple[str, float, str, str], ...]:
-        """Return its design variables: where its oil follows a dimension or an expression, what is put in beside that, too, which is 0.
+        """Return its design variables; where its oil follows a dimension or an expression, also the oil added to that, which is 0.
 
         Returns
         -------
@@ -375,7 +375,7 @@ class OilLine(PumpLine, GasLine):
             yield "its accumulators are charged to no pressure; say charge_pressure=90 * bar"
 
     def _examine_others(self, members: NamedMembers, title: str) -> None:
-        """Raise DefinitionError for what stands on this line and on another one, or twice on this."""
+        """Raise DefinitionError for chambers on this line and another one, or twice on this."""
         own = [(ram.name, chamber.side) for ram, chamber in self.filling(members)]
         twice = next((each for each in own if own.count(each) > 1), None)
         if twice is not None:
@@ -444,7 +444,7 @@ class OilLine(PumpLine, GasLine):
 
     @property
     def cut(self) -> str:
-        """The input by which its oil changes: a stroke that says it, else its own, beside what it follows."""
+        """The input that changes its oil: a stroke where one gives it, else its own, added to the quantity it follows."""
         oil = self.oil_given
         if isinstance(oil, Number):
             return f"{self.name}.oil"
@@ -523,7 +523,7 @@ class OilLine(PumpLine, GasLine):
         return AtPose(Distance(ram.A, ram.B), FrozenDict(strokes), put_in_later(members))
 
     def length_given(self, chamber: Chamber, members: NamedMembers) -> Quantity:
-        """Return the length that it gives one of its cylinders [m]: that where it was filled, and what the oil of the others makes.
+        """Return the length of one of its cylinders [m]: that where it was filled, and the change from the others' oil.
 
         Parameters
         ----------
@@ -831,7 +831,7 @@ class OilLine(PumpLine, GasLine):
         return [Verdict("line", False, text, answer=high)]
 
     def formulas(self, written: Formulas) -> None:
-        """Write the pressure of the line and what its cylinders carry, as far as no other lines say it.
+        """Write the pressure of the line and the thrusts of its cylinders, as far as no other lines give them.
 
         Parameters
         ----------
@@ -861,7 +861,7 @@ def put_in_later(members: NamedMembers) -> tuple[str, ...]:
 
 
 def on_line_text(each: object) -> str:
-    """Return what lies on a line as it is written."""
+    """Return a part of a line as it is written."""
     if isinstance(each, (Chamber, AccumulatorBlock)):
         return str(each)
     return label(each) if isinstance(each, (str, Member)) else getattr(each, "__name__", "block")

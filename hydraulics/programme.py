@@ -1,4 +1,4 @@
-"""A working cycle as a file: what cylinders on one pump are asked for, in TOML, or a table of speeds over time."""
+"""A working cycle as a file: demands of cylinders on one pump, in TOML, or a table of speeds over time."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ EXAMPLE = '[demands] with "boom.ram" = "0.15 m/s", or rows of instants and speed
 @final
 @immutable
 class Programme:
-    """What a pump is asked for: `demands` by cylinders, `start` by strokes, the end `until` [s], the load case."""
+    """Demands on a pump: `demands` by cylinders, `start` by strokes, the end `until` [s], the load case."""
 
     pump: Pump
     demands: Mapping[Reference, Demand]
@@ -93,7 +93,7 @@ def si_number(given: object, kind: str) -> float:
 
 
 def demand_read(given: object, until: float) -> Demand:
-    """Return what a cylinder is asked for: one speed, "max", or rows of instants, each with the speed that holds from there on."""
+    """Return a cylinder's demand: one speed, "max", or rows of instants, each with the speed that holds from there on."""
     if given in ("max", "inf", np.inf):
         return np.inf
     if given in ("-max", "-inf", -np.inf):
@@ -110,7 +110,7 @@ def demand_read(given: object, until: float) -> Demand:
 
 
 def speeds_over_time(path: Path) -> tuple[dict[Reference, Demand], float]:
-    """Return what a table asks for, straight between its rows, and when it ends; its headings are "time, s" and "boom.ram, m/s"."""
+    """Return the demands of a table, linear between its rows, and its end; its headings are "time, s" and "boom.ram, m/s"."""
 
     def measures_of(name: str) -> tuple[str]:
         what = 'a heading with its unit is expected, in quotes where commas part the columns, such as "boom.ram, m/s"'

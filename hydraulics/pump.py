@@ -1,4 +1,4 @@
-"""What lies on oil lines beside chambers: pumps, relief valves and tanks. Every pressure is gauge [Pa].
+"""Pumps, relief valves and tanks on oil lines, beside chambers. Every pressure is gauge [Pa].
 
 A pump may be on several lines. Then it is shared, and what they ask of it over a path in time is checked, `supply.check(motion)`, or
 followed as it is, `supply.run(machine, demands=...)`.
@@ -31,7 +31,7 @@ from .working import Demand, PumpMotion, worked
 
 
 class Supply(OnLines):
-    """The base of what lies on an oil line beside its chambers: a pressure, gauge [Pa], and what a pump has more."""
+    """The base of supplies on an oil line: a pressure, gauge [Pa], and further numbers of a pump."""
 
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"pressure": "bar"})
     not_negative: ClassVar[frozenset[str]] = frozenset({"pressure"})
@@ -46,7 +46,7 @@ class Supply(OnLines):
 @final
 @immutable
 class Pump(Supply, HasVerdicts):
-    """A pump: `supply = Pump(180 * bar, flow=60 * litre / minute)`; a line that it is on is held, and its pressure is what the pose asks.
+    """A pump: `supply = Pump(180 * bar, flow=60 * litre / minute)`; it holds a line, whose pressure follows the pose.
 
     `pressure` is its highest, gauge [Pa], `flow` in m3/s. In a class they are design variables such as `supply.pressure`. It may be on
     several lines, `OilLine(ram.piston_side, supply)`, `LiftCircuit(ram, supply)`, which then share it. It gives the highest pressure that
@@ -93,7 +93,7 @@ class Pump(Supply, HasVerdicts):
         super().examine(members, title)
 
     def verdicts(self, judge: Judge) -> list[Verdict]:
-        """Return whether it gives what its lines ask for, over the paths in time that a judge looks at, where it has several lines.
+        """Return whether it meets the demands of its lines, over the paths in time that a judge looks at, where it has several lines.
 
         Parameters
         ----------
@@ -108,7 +108,7 @@ class Pump(Supply, HasVerdicts):
         return pump_verdicts(self, judge)
 
     def sections(self, judge: Judge) -> list[Any]:
-        """Return the section of a report on what its lines ask for over the paths in time, and where its energy goes.
+        """Return the section of a report on the demands of its lines over the paths in time, and on its energy.
 
         Parameters
         ----------
@@ -125,7 +125,7 @@ class Pump(Supply, HasVerdicts):
     # -- in time -------------------------------------------------------------------------------------------
 
     def check(self, motion: Motion, *, acting: Acting | None = None) -> PumpCycle:
-        """Return what a motion in time needs of this pump, whether it can give it or not.
+        """Return the demands of a motion in time on this pump, and whether it meets them.
 
         Parameters
         ----------
@@ -150,7 +150,7 @@ class Pump(Supply, HasVerdicts):
         self, machine: Mechanism, *, demands: Mapping[Reference, Demand], until: float, start: Mapping[str, float] | Motion | None = None,
         acting: Acting | None = None,
     ) -> PumpMotion:  # fmt: skip
-        """Return how a machine moves while its cylinders are asked to, and one pump gives what it can.
+        """Return the motion of a machine under demands on its cylinders, while one pump serves them within its limits.
 
         Parameters
         ----------

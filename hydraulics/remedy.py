@@ -1,4 +1,4 @@
-"""Sizes that would mend what fails: each is asked of the judge, for the machine that has it, and nothing is reckoned beside."""
+"""Sizes as remedies: each is put to the judge, for the machine that has it, without a second calculation."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ def size_words(sizes: Sizes) -> str:
 
 
 def show_enough(value: float, unit: str, digits: int | str = 4) -> str:
-    """Return what is needed as text, rounded up, so that what is read is enough; `digits` as `show` takes them."""
+    """Return a needed value as text, rounded up, so that the number read is enough; `digits` as in `show`."""
     if not 0.0 < value < inf:
         return show(value, unit, digits)
     own = factor(shown_in(unit))

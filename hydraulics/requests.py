@@ -1,4 +1,4 @@
-"""What cylinders carry, as something to ask for: in `evaluate`, `function`, `gradient`, in studies and searches, and of a motion.
+"""Requests for cylinders: in `evaluate`, `function`, `gradient`, in studies and searches, and of a motion.
 
 Each is the cylinder's or the circuit's own method, read pose by pose: `motion[pressure("lift")]` is `lift.pressure(motion)`.
 """
@@ -50,7 +50,7 @@ Circuits: TypeAlias = str | LiftLine
 
 
 def thrust(cylinder: Reference, *, case: Case = None, direction: str | None = None, acting: Acting | None = None) -> LawRequest:
-    """Return the request for what a cylinder carries [N], positive where it pushes: `lift.thrust(motion, case=..., direction=...)`.
+    """Return the request for a cylinder's thrust [N], positive where it pushes: `lift.thrust(motion, case=..., direction=...)`.
 
     `acting` says case and direction in one, with loads and rates too. With declared friction and a direction it has values and no
     derivatives.
@@ -107,7 +107,7 @@ def circuit_request(
     *,
     measures: str = "",
 ) -> LawRequest:
-    """Return the request for what a formula gives of a cylinder on the circuit that feeds it: the only one that has it, unless named."""
+    """Return the request for a formula of a cylinder and its circuit: the only one that feeds it, unless named."""
     name = circuit if isinstance(circuit, str) else circuit.name
     shown = f"circuit={name}" if name else circuit or None
     found = cylinder_request(word, cylinder, acting, formula, (*before, shown), after, measures=measures)
@@ -266,7 +266,7 @@ def reserve_request(cylinder: str | Ram, acting: Acting, circuit: Circuits = "",
     """
 
     def work_of(line: LiftLine, motion: AnyMotion, ram: Ram, acting: Acting) -> tuple[Work, Array]:
-        """Return what the cylinder has to do, and what is above zero where it drives [N]: the thrust in its direction if that is judged."""
+        """Return the cylinder's work, and a value above zero where it drives [N]: the thrust in its direction if that is judged."""
         work = line.work(motion, cylinder=ram, acting=acting)
         return work, work.thrust * work.sense if is_judged else work.force
 
@@ -315,7 +315,7 @@ def reserve_request(cylinder: str | Ram, acting: Acting, circuit: Circuits = "",
 def going_back_request(
     cylinder: str | Ram, acting: Acting, circuit: Circuits, way: str, resistance: float = 0.0, tells: str = "push"
 ) -> LawRequest:
-    """Return the request for what the other side must give while a cylinder goes back against a resistance [Pa].
+    """Return the request for the pressure on the other side while a cylinder goes back against a resistance [Pa].
 
     `way` is "extending" or "retracting"; `tells="load"` asks for what the load alone makes in the side that empties, "whole push" for what
     the other side must give with what a tank has there.

@@ -34,7 +34,7 @@ SAME_NEED = 1e-11
 @final
 @immutable
 class PumpLimits:
-    """What a pump can give: its greatest `flow` and `power` [W], the `margin` above the need and the `cut_off` [Pa].
+    """The limits of a pump: its greatest `flow` and `power` [W], the `margin` above the need and the `cut_off` [Pa].
 
     `least_first` says how it is shared.
     """
@@ -49,7 +49,7 @@ class PumpLimits:
 @final
 @dataclass(frozen=True, eq=False)
 class Wanted:
-    """What consumers ask for: flows and needs, those that stand at their ends, and the tiers in which they are served.
+    """The demands of consumers: flows and needs, those at their ends, and the tiers in which they are served.
 
     Flows and needs are numbers, or arrays over instants at which all is decided alike. Needs of `level` are one, as these consumers go on
     at one pressure; those that `creep` go on at the cut-off.
@@ -68,7 +68,7 @@ class Wanted:
 @final
 @dataclass(frozen=True, eq=False)
 class Fed:
-    """What consumers get: `shares` of what they ask for, 0 to 1, and the pump's `pressure`.
+    """The supply of consumers: `shares` of their demands, 0 to 1, and the pump's `pressure`.
 
     `limit` is "flow" or "power" where they get less than all, `group` those that share the `rest` then. `blocked` are those that stand
     at their end, or need more than the cut-off.
@@ -84,7 +84,7 @@ class Fed:
 
 @final
 class Choices:
-    """What is decided on the way, in order: anew, or as it was `made` before."""
+    """Decisions of an algorithm, in order: made anew, or replayed as `made` before."""
 
     def __init__(self, made: Sequence[Hashable] | None = None) -> None:
         self._again = None if made is None else iter(made)
@@ -92,18 +92,18 @@ class Choices:
 
     @property
     def made(self) -> tuple[Hashable, ...]:
-        """What was decided."""
+        """The decisions so far."""
         return tuple(self._found)
 
     def __call__(self, decide: Callable[..., Decided], *given: Any) -> Decided:
-        """Return what is decided, or was, of what is given."""
+        """Return a decision, made anew from the arguments or replayed."""
         found = decide(*given) if self._again is None else next(self._again)
         self._found.append(found)
         return found  # type: ignore[return-value]
 
 
 def flow_shares(wanted: Wanted, limits: PumpLimits, choose: Choices) -> Fed:
-    """Return what each consumer gets of one pump."""
+    """Return each consumer's share of one pump."""
     count = len(wanted.flows)
     same = SAME_NEED * limits.cut_off
     driven = choose(lambda: tuple(each <= same for each in wanted.needs))

@@ -1,4 +1,4 @@
-"""A line that a load case shuts: whether it keeps its oil, and bears what a pump on the other side makes of it. Gauge pressures [Pa]."""
+"""A line that a load case shuts: whether it keeps its oil, and bears the pressure from a pump on the other side. Gauge pressures [Pa]."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ def shut_request(line: Circuit, is_pushed: bool) -> LawRequest:
 
 
 def shut_verdicts(line: Circuit, judge: Judge) -> list[Verdict]:
-    """Return whether a line that a load case shuts keeps its oil there, and bears what a pump on the other side makes of it."""
+    """Return whether a line that a load case shuts keeps its oil, and bears the pressure from a pump on the other side."""
     plan = judge.plan
     cases = [name for name in plan.of_kind(LoadCase) if shuts(line.name, False, plan, name)]
     pushing = [name for name in cases if shuts(line.name, True, plan, name)]

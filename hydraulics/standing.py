@@ -48,7 +48,7 @@ def standing_pressure(line: Circuit, motion: AnyMotion, acting: Acting) -> Array
         lines += [each for each in joined if not is_among(each, lines)]
 
     def thrust_of(ram: Ram) -> Array:
-        """Return what a cylinder carries without what lines of a given pressure put on it."""
+        """Return a cylinder's thrust less the parts of lines with a given pressure."""
         if acting.direction is None or same(ram, own[0]) or not changes_in_motion(motion, acting.loads):
             thrust = member_thrust(motion, ram, acting)
         else:

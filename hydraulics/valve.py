@@ -1,4 +1,4 @@
-"""A holding valve on a line: what opens it while the load goes down. Gauge pressures [Pa].
+"""A holding valve on a line: the pressures that open it while the load goes down. Gauge pressures [Pa].
 
 The valve opens by the pressure of the line that it holds and, `ratio` times as much, by that of the other side:
 p + ratio p_pilot = setting. Lowering solves that together with the thrust, T = sum of a p over the chambers of a cylinder.
@@ -187,7 +187,7 @@ class HoldingValve(OnLines, HasVerdicts):
 
     @takes_situation
     def load_pressure(self, motion: AnyMotion, loads: Loads = None, **situation: Unpack[ActingKeywords]) -> Array:
-        """Return what the load alone makes in the line at rest, shape (...) [Pa gauge]; 0 where it drives the other way.
+        """Return the pressure of the load alone in the line at rest, shape (...) [Pa gauge]; 0 where it drives the other way.
 
         Parameters
         ----------
@@ -326,7 +326,7 @@ class HoldingValve(OnLines, HasVerdicts):
             return [Verdict.refused("setting", error)]
 
     def setting_verdict(self, judge: Judge) -> Verdict:
-        """Return whether the load opens the valve by itself, and what it would be set to as makers advise.
+        """Return whether the load opens the valve by itself, and the setting that makers advise.
 
         Parameters
         ----------
@@ -420,7 +420,7 @@ def pilot_pressure(valve: Reference, *, case: Case = None, acting: Acting | None
 
 
 def load_pressure(valve: Reference, *, case: Case = None, acting: Acting | None = None) -> LawRequest:
-    """Return the request for what the load alone makes in the line of a HoldingValve [Pa gauge]: `valve.load_pressure(motion)`.
+    """Return the request for the pressure of the load alone in a HoldingValve's line [Pa gauge]: `valve.load_pressure(motion)`.
 
     Parameters
     ----------
@@ -440,7 +440,7 @@ def load_pressure(valve: Reference, *, case: Case = None, acting: Acting | None 
 
 
 def valve_request(word: str, valve: str, acting: Acting) -> LawRequest:
-    """Return the request for what a holding valve tells, by the name of its method; of lowering where no line of a cylinder is shut."""
+    """Return the request for a method of a holding valve by its name; while lowering, where no line of a cylinder is shut."""
 
     def formula(motion: AnyMotion, acting: Acting) -> Array:
         found: Array = getattr(valve_in(valve, motion.plan), word)(motion, acting=acting)

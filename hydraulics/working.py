@@ -1,4 +1,4 @@
-"""How a machine moves while its cylinders are asked to and one pump gives what it can: from event to event, each stretch a polynomial.
+"""Motions of a machine under demands on one pump: from event to event, each stretch a polynomial.
 
 The strokes are the state. What each cylinder gets follows the pose, by the needs of all; between two events that is smooth, and the strokes
 over a stretch follow by integrating their rates, again and again until they stay (Picard). Where another decision is due the stretch ends,
@@ -77,7 +77,7 @@ class PumpMotion(Motion):
 @final
 @dataclass(frozen=True)
 class Mode:
-    """What is decided over a stretch: the choices in sharing, who stands at an end, and who goes on level or creeps at the cut-off."""
+    """The decisions of a stretch: the choices in sharing, cylinders at an end, and those that go on level or creep at the cut-off."""
 
     choices: tuple[Hashable, ...]
     stopped: tuple[bool, ...]
@@ -88,7 +88,7 @@ class Mode:
 @final
 @dataclass(frozen=True, eq=False)
 class Going:
-    """What goes on over some instants: what is taken, what each consumer gets, and the rates of the strokes (n, m)."""
+    """The state over some instants: flows, each consumer's supply, and the rates of the strokes (n, m)."""
 
     taken: Taken
     fed: Fed
@@ -105,7 +105,7 @@ class Going:
 
 @final
 class PumpedMachine:
-    """A machine on one pump with demands on its cylinders: what moves in which mode."""
+    """A machine on one pump with demands on its cylinders, in the modes of their movement."""
 
     def __init__(
         self, pump: ForceElement, machine: Mechanism, demands: Mapping[str, Demand], start: Mapping[str, float], acting: Acting
@@ -184,7 +184,7 @@ class PumpedMachine:
         return found
 
     def wanted(self, time: Array, strokes: Array, rates: Array, like: Taken | None = None) -> tuple[Taken, list[Array]]:
-        """Return what is asked for at instants, and the ways of the strokes that go with it."""
+        """Return the demands at instants, and the matching ways of the strokes."""
         rows = self.consumers.rows(strokes, rates)
         slopes = self.consumers.taken_of(rows, []).slopes
         speeds = self.speeds(time)
@@ -223,18 +223,18 @@ class PumpedMachine:
         return tuple(found)
 
     def asks(self, taken: Taken, mode: Mode, at: int | None = None) -> Wanted:
-        """Return what is asked of the pump at one of the instants, or at all."""
+        """Return the demands on the pump at one of the instants, or at all."""
         flows, needs = ([each if at is None else float(each[at]) for each in rows] for rows in (taken.flows, taken.needs))
         return Wanted(flows, needs, mode.stopped, self.tiers, mode.level, mode.creep)
 
     # -- in a mode -----------------------------------------------------------------------------------------
 
     def moment(self, time: Array, strokes: Array, rates: Array, mode: Mode, like: Taken | None = None) -> Going:
-        """Return what goes on at instants in a mode; `rates` are those at which friction and dampers are taken."""
+        """Return the state at instants in a mode; `rates` are those at which friction and dampers are evaluated."""
         return self.going(strokes, mode, *self.wanted(time, strokes, rates, like))
 
     def going(self, strokes: Array, mode: Mode, taken: Taken, ways: Sequence[Array]) -> Going:
-        """Return what goes on in a mode at strokes (n, m), of what is wanted there."""
+        """Return the state in a mode at strokes (n, m), from the demands there."""
         many = strokes.shape[1]
         slopes = self._need_slopes(strokes, taken, ways) if mode.level or mode.creep else np.zeros(0)
         wanted, idle = self.asks(taken, mode), [not flow[many // 2] > 0.0 for flow in taken.flows]
@@ -275,7 +275,7 @@ class PumpedMachine:
                     shares[own, at] = found
 
     def decided(self, time: float, strokes: Array, rates: Array, like: Mode) -> tuple[Mode, Going]:
-        """Return the mode that is due at an instant, strokes and rates (n, 1), and what goes on in it; level or creeping stay as `like`."""
+        """Return the mode that is due at an instant, strokes and rates (n, 1), and its state; level or creeping stay as `like`."""
         at, moving, late = np.array([time]), rates, list[Mode]()
         for number in range(ROUNDS):
             taken, ways = self.wanted(at, strokes, moving)
@@ -314,7 +314,7 @@ class PumpedMachine:
         return choose.made == mode.choices
 
     def settled(self, time: float, strokes: Array, rates: Array) -> tuple[Mode, Going]:
-        """Return how it goes on from an instant, and what goes on then: the mode that is still due a small step ahead.
+        """Return the mode and state after an instant: the mode that is still due a small step ahead.
 
         Where two modes each lead to the other those that differ go on level, or creep at the cut-off.
         """
@@ -360,7 +360,7 @@ class PumpedMachine:
         return sorted(found)
 
     def integrated(self, begin: float, end: float, strokes: Array, mode: Mode, moment: Going) -> tuple[Array, Going] | None:
-        """Return the strokes (n, places) over a stretch in one mode, and what goes on; None where it is too long for one polynomial."""
+        """Return the strokes (n, places) over a stretch in one mode, and the state; None where it is too long for one polynomial."""
         time, width = stretch_times(begin, end), end - begin
         passed, pace = strokes + moment.rates * (time - begin), np.repeat(self.pace(moment), DEGREE + 1, axis=1)
         size = np.ptp(self.spans, axis=1)[:, None]
@@ -554,7 +554,7 @@ TO_POWERS = np.array([
 
 @final
 class Events:
-    """What happens in a run, by comparing how it goes on behind an event with how it went before."""
+    """The events of a run, found by comparing the states before and after each."""
 
     def __init__(self, work: PumpedMachine) -> None:
         self.work, self.found = work, list[PumpEvent]()
@@ -562,7 +562,7 @@ class Events:
         self._stopped, self._blocked, self._level = frozenset[int](), frozenset[int](), frozenset[int]()
 
     def note(self, time: float, settled: tuple[Mode, Going], *, is_corner: bool) -> None:
-        """Note what has changed at an instant; DefinitionError where nothing more can move and no relief valve opens."""
+        """Note the changes at an instant; DefinitionError where nothing more can move and no relief valve opens."""
         (mode, moment), work = settled, self.work
         names = [ram.name for ram in work.rams]
         asked = [number for number, way in enumerate(moment.ways) if np.any(way != 0.0)]

@@ -1,4 +1,4 @@
-"""What is given at a public door, checked: one number, one whole number, something of a kind; each refused in one form of words."""
+"""Checks at public doors: one number, one whole number, a value of a kind; each refused in one form of words."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def require_number(
     what: str, value: object, expected: str, *, above: float = -math.inf, least: float = -math.inf,
     most: float = math.inf, below: float = math.inf,
 ) -> float:  # fmt: skip
-    """Return what is one finite number within its limits; refuse anything else.
+    """Return one finite number within its limits; refuse anything else.
 
     Parameters
     ----------
@@ -86,7 +86,7 @@ def require_number(
 
 
 def require_whole(what: str, value: object, expected: str, *, least: float = -math.inf, most: float = math.inf) -> int:
-    """Return what is one whole number from `least` to `most`; refuse anything else, as `require_number` does."""
+    """Return one whole number from `least` to `most`; refuse anything else, as `require_number` does."""
     if not (is_whole(value) and least <= value <= most):
         raise unfit(what, value, expected)
     return int(value)
@@ -95,7 +95,7 @@ def require_whole(what: str, value: object, expected: str, *, least: float = -ma
 def require_type(
     what: str, value: object, kind: type[Kind] | tuple[type[Kind], ...], expected: str, of: type | tuple[type, ...] | None = None
 ) -> Kind:
-    """Return what is of a kind, and its parts `of` a kind where that is said; refuse anything else, as `require_number` does."""
+    """Return a value of a kind, with its parts `of` a kind where that is given; refuse anything else, as `require_number` does."""
     if not isinstance(value, kind) or (of is not None and not all(isinstance(each, of) for each in cast(Iterable[object], value))):
         raise unfit(what, value, expected)
     return value

@@ -1,4 +1,4 @@
-"""Files on a disk: replaced whole or left as they were, read to a stated size, and what goes wrong in words."""
+"""Files on a disk: replaced whole or left as they were, read to a stated size, with errors in words."""
 
 from __future__ import annotations
 

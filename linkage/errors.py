@@ -1,4 +1,4 @@
-"""Every deliberate failure: what was wrong, where, and what to do."""
+"""Errors: every deliberate failure with its fault, its place, and the remedy."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def about(member: str) -> Iterator[None]:
 
 
 class DefinitionError(LinkageError, ValueError):
-    """What a class, a file or a setting says cannot be. `member` is the name of the member at fault, "" where it is no single one."""
+    """A class, a file or a setting is impossible. `member` is the name of the member at fault, "" where it is no single one."""
 
 
 class LawError(DefinitionError):
@@ -43,7 +43,7 @@ class LawError(DefinitionError):
 
 
 class UntracedError(DefinitionError):
-    """What is asked for has values over a motion, and no program that gives them pose by pose, with derivatives."""
+    """A request has values over a motion, but no program that gives them pose by pose, with derivatives."""
 
 
 class AssemblyError(LinkageError):
@@ -89,14 +89,14 @@ def warn(warning: SingularWarning) -> None:
 
 @contextmanager
 def unwarned() -> Iterator[None]:
-    """Leave out the warnings of poses near singular ones, where what comes of these is said in another way."""
+    """Leave out the warnings of poses near singular ones, where their consequences are reported in another way."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", SingularWarning)
         yield
 
 
 def warned_once(make: Callable[[], Result]) -> Result:
-    """Return what is made; of its warnings of poses near singular ones only that with the largest error to expect is given."""
+    """Return the result of a function; of its warnings near singular poses only that with the largest expected error is given."""
     with warnings.catch_warnings(record=True) as heard:
         warnings.simplefilter("always", SingularWarning)
         made = make()
@@ -111,7 +111,7 @@ def warned_once(make: Callable[[], Result]) -> Result:
 
 @contextmanager
 def told(what: str) -> Iterator[None]:
-    """Tell whatever goes wrong in a function of the user's own as a DefinitionError: what it is, and the line."""
+    """Turn any error in a user's own function into a DefinitionError with its name and the line."""
     try:
         yield
     except (LinkageError, MemoryError):
@@ -127,7 +127,7 @@ class FileError(LinkageError):
 
 
 class StudyError(LinkageError):
-    """A study stopped before its end: what stopped it, and whether it can go on from there.
+    """A study stopped before its end: the reason, and whether it can go on from there.
 
     `designs` are the first and the last design of the part that failed, where it was one of them; the cause is chained.
     """
@@ -138,7 +138,7 @@ class StudyError(LinkageError):
 
 
 def cited(value: object, most: int = 60) -> str:
-    """Return what was given as a message shows it: on one line, and cut where it is long."""
+    """Return a value as a message shows it: on one line, and cut where it is long."""
     text = " ".join(repr(value).split())
     return text if len(text) <= most else f"{text[: most - 3]}..."
 

@@ -1,4 +1,4 @@
-"""Values that do not change under the hand: read-only arrays and tables, copies of what the user gave, masks that are not lost."""
+"""Frozen values: read-only arrays and tables, copies of a user's values, masks that are not lost."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ def unmasked(value: object) -> Any:
 
 
 def frozen_copy(value: Any) -> Any:
-    """Return what a user gave as a copy of one's own that does not change: arrays read-only, lists as tuples, dicts frozen."""
+    """Return a frozen copy of a user's value: arrays read-only, lists as tuples, dicts frozen."""
     if isinstance(value, np.ndarray) and type(value) in (np.ndarray, np.ma.MaskedArray):
         return read_only(np.array(unmasked(value)))
     if type(value) in (list, tuple):
@@ -65,7 +65,7 @@ def frozen_copy(value: Any) -> Any:
 
 
 def keep_own(holder: object) -> None:
-    """Put copies of one's own in the place of what a frozen dataclass was given."""
+    """Replace the values of a frozen dataclass by frozen copies."""
     for name, value in vars(holder).items():
         object.__setattr__(holder, name, frozen_copy(value))
 

@@ -1,4 +1,4 @@
-"""What a notebook shows: machines, motions and results as HTML, drawings inside as SVG, a live page in a frame of its own.
+"""Notebooks: machines, motions and results as HTML, drawings inside as SVG, a live page in a frame of its own.
 
 >>> from linkage.notebook import live
 >>> from mechanisms.classics.four_bar import FourBar
@@ -59,7 +59,7 @@ class LivePage(Shown):
 
 
 def live(machine: Mechanism | Synthesis, height: int = 660, **options: Any) -> LivePage:
-    """Return the live page of a machine, or of what a synthesis found, for a notebook, in a frame that has no access to it.
+    """Return the live page of a machine, or of a synthesis, for a notebook, in a frame that has no access to it.
 
     `options` are those of `linkage.page`.
     """
@@ -68,7 +68,7 @@ def live(machine: Mechanism | Synthesis, height: int = 660, **options: Any) -> L
 
 @singledispatch
 def html_of(what: object) -> str:
-    """Return what a notebook shows of something, as HTML; of what it does not know, its text."""
+    """Return an object as HTML for a notebook; of an unknown kind its text."""
     return html_text_block(str(what))
 
 

@@ -16,7 +16,7 @@ INSIDE = ".<locals>."
 @final
 @dataclass(frozen=True, eq=False)
 class InnerFunction:
-    """A nested function, by where it is written and what it reads from around it; unpickled it is the function."""
+    """A nested function, by its place and its closure; unpickled it is the function."""
 
     module: str
     outer: str
@@ -26,7 +26,7 @@ class InnerFunction:
     cells: tuple[object, ...]
 
     def __call__(self, *given: object, **named: object) -> Any:
-        """Return what the function gives."""
+        """Call the function."""
         return function_again(*vars(self).values())(*given, **named)
 
     def __reduce__(self) -> tuple[object, ...]:

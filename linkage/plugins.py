@@ -1,4 +1,4 @@
-"""What other packages bring, joined by entry points: `[project.entry-points."hydrolinkage.exporters"]` of their `pyproject.toml`.
+"""Plugins of other packages, joined by entry points: `[project.entry-points."hydrolinkage.exporters"]` of their `pyproject.toml`.
 
 No part of a package is loaded before it is asked for by its name; one that cannot be loaded is named, and hides no other.
 """
@@ -31,7 +31,7 @@ T = TypeVar("T")
 
 
 def entry_points(group: str) -> Mapping[str, EntryPoint]:
-    """Return what is installed of a group of entry points, by name, in the order of the names."""
+    """Return the installed entry points of a group, by name, in the order of the names."""
     return entry_points_along(group, tuple(sys.path))
 
 
@@ -44,7 +44,7 @@ def entry_points_along(group: str, folders: tuple[str, ...]) -> Mapping[str, Ent
 
 
 def guarded(load: Callable[[], T], what: str) -> T:
-    """Return what is loaded; whatever goes wrong in a user's module becomes a DefinitionError with its line."""
+    """Return a loaded object; any error in a user's module becomes a DefinitionError with its line."""
     try:
         return load()
     except KeyboardInterrupt:
@@ -85,7 +85,7 @@ class Plugins(Generic[T]):
         return len({**self.own, **entry_points(self.group)})
 
     def __getitem__(self, name: str) -> T:
-        """Return what has a name; DefinitionError where it cannot be loaded or is no such thing, KeyError where there is none."""
+        """Return the plugin of a name; DefinitionError where it cannot be loaded or has a wrong kind, KeyError where there is none."""
         if name in self.own:
             return self.own[name]
         entry = entry_points(self.group)[name]
@@ -98,7 +98,7 @@ class Plugins(Generic[T]):
         return self._loaded[entry]
 
     def given(self, value: object) -> T | None:
-        """Return what an object that is given instead of a name stands for; None for a name, and for any other object."""
+        """Return the plugin for an object that is given instead of a name; None for a name, and for any other object."""
         return None if isinstance(value, str) else self.made(value)
 
     def loaded(self) -> tuple[dict[str, T], list[str]]:

@@ -1,4 +1,4 @@
-"""What shows itself in a notebook: the base of its classes. How, in HTML, is written on the top floor, which the front door names."""
+"""The base of classes that show themselves in a notebook. Their HTML is written on the top floor, which the front door names."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ load_writer: Callable[[], Callable[[object], str]] | None = None
 
 
 class Shown:
-    """The base of what a notebook shows as HTML: drawings, tables, sentences."""
+    """The base of objects that a notebook shows as HTML: drawings, tables, sentences."""
 
     __slots__ = ()
 
@@ -31,7 +31,7 @@ class Shown:
 
 
 class Told:
-    """The base of what is printed as its `sentence`; a dataclass that says `repr=False` is shown as that too."""
+    """The base of objects that print as their `sentence`; a dataclass with `repr=False` is shown as that too."""
 
     __slots__ = ()
 
@@ -39,7 +39,7 @@ class Told:
 
         @property
         def sentence(self) -> str:
-            """What it is in words."""
+            """Its description in words."""
 
     def __str__(self) -> str:
         return self.sentence

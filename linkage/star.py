@@ -1,4 +1,4 @@
-"""What `from package import *` brings: the names of a package's door, and no module."""
+"""The names of `from package import *`: those of a package's door, and no module."""
 
 from __future__ import annotations
 

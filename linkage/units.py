@@ -28,7 +28,7 @@ from .star import declare_public
 
 
 class Amount(float):
-    """A number in SI that knows what it measures: `80 * mm` is 0.08, a "length". It calculates as any float.
+    """A number in SI with a kind: `80 * mm` is 0.08, a "length". It calculates as any float.
 
     With its sign changed, and added to its like, it goes on knowing, and so in a list of such. Anything else makes a plain number of it,
     which is taken as SI: a product may measure anything, `0.5 + 3 * deg` is 0.552, an array holds numbers alone.
@@ -61,7 +61,7 @@ class Amount(float):
 
 
 class UnitFactor(Amount):
-    """What a number is multiplied with to be an amount: `mm` in `80 * mm`."""
+    """A unit's factor, which makes a number an amount: `mm` in `80 * mm`."""
 
     __slots__ = ()
 
@@ -211,7 +211,7 @@ def amount_or_float(value: float) -> float:
 
 
 def units_of(measures: str) -> list[str]:
-    """Return the units of what is measured, "pressure"."""
+    """Return the units of a kind, "pressure"."""
     return [name for name, (_, what) in UNITS.items() if what == measures]
 
 

@@ -23,13 +23,13 @@ Result = TypeVar("Result")
 
 
 class Operators(Generic[Given, Result]):
-    """The base of what calculates: each of Python's operators is `applied`, by the name of NumPy's function, to its operands in order."""
+    """The base of values with arithmetic: each of Python's operators is `applied`, by the name of NumPy's function, to its operands."""
 
     __slots__ = ()
 
     @abstractmethod
     def applied(self, function: str, *operands: Any) -> Result:
-        """Return what NumPy's function of that name makes of operands, this one among them; NotImplemented to leave it to another one."""
+        """Apply NumPy's function of that name to operands, this one among them; NotImplemented to leave it to another one."""
 
     def __add__(self, other: Given) -> Result:
         return self.applied("add", self, other)

@@ -1,4 +1,4 @@
-"""A rule that was looked at, and what came out, in words."""
+"""Verdicts: the result of a rule, in words."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class Verdict(str, Shown):
 
     @staticmethod
     def refused(rule: str, error: Exception) -> Verdict:
-        """Return that a rule is not kept where what it asks for is refused: the error says why.
+        """Return a failed verdict for a rule whose question is refused: the error says why.
 
         Parameters
         ----------
@@ -84,7 +84,7 @@ class Verdict(str, Shown):
         return type(self)(f"{self.rule} {name}", self.ok, self.sentence, f"{self.heading} {name}", self.answer)
 
     def answered(self, answer: object) -> Self:
-        """Return it with what the judge found.
+        """Return it with the judge's answer.
 
         Parameters
         ----------
@@ -154,7 +154,7 @@ class Remark(Verdict):
         return cls._made(sentence, "remark", None, sentence, "", None)
 
     def named(self, name: str) -> Self:
-        """Return it as it is: a sentence says itself what it is about.
+        """Return it unchanged: a sentence names its subject itself.
 
         Parameters
         ----------

@@ -99,7 +99,7 @@ class MowerLift(Mechanism):
         ]
 
     def formulas(self, written: Formulas) -> None:
-        """Write the worksheet's forces and pressures: P I is what the rod carries without friction."""
+        """Write the worksheet's forces and pressures: P I is the rod's force without friction."""
         (thrust, k_m, k_g), p_max = (written.thrust("lift"), written.inputs["k_m"], written.inputs["k_g"]), written.inputs["p_max"]
         if thrust is not None:
             area = written.line("SS", written.pi * written.inputs["bore"] ** 2 / 4.0, "cm2")

@@ -1,4 +1,4 @@
-"""What the machines of the papers share: their commands' options, duties as `--set` says them, figures by name, answers over one motion."""
+"""Common parts of the papers' machines: their commands' options, duties from `--set`, figures by name, answers over one motion."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ Duty = TypeVar("Duty")
 
 
 def figure_options(figures: Sequence[str], default: str) -> tuple[Option, ...]:
-    """Return what a command on one machine takes that prints its table and its verdicts and draws one of its figures."""
+    """Return the options of a command on one machine that prints its table and its verdicts and draws one of its figures."""
     figure = option("--figure", choices=figures, help=f"which figure (default: {default})")
     return CSV, picture_option("the figure"), figure, *pose_options(11), OVER, CHECK
 
@@ -48,7 +48,7 @@ def hold_numbers(duty: object, above_zero: Sequence[str], not_below_zero: Sequen
 
 
 def duty_set(duty: type[Duty], options: Namespace, example: str, kinds: Mapping[str, str]) -> Duty:
-    """Return the duty that `--set` means: its numbers with their units; what they measure by their names, else they are lengths."""
+    """Return the duty of `--set`: its numbers with their units, of the kinds by their names, else lengths."""
     names, given = tuple(each.name for each in fields(duty) if isinstance(each.default, float)), dict[str, float]()  # type: ignore[arg-type]
     for text in options.settings:
         name, value = pair(text, "--set", example)

@@ -1,4 +1,4 @@
-"""Three shipped machines asked for better pins: what `optimise` is given for each, and what it found, on drawing dimensions."""
+"""Three shipped machines with better pins: the arguments of `optimise` for each, and its results, on drawing dimensions."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def strong_lift() -> dict[str, Any]:
 
 
 def within(measure: Measure, now: float, by: float) -> list[Condition]:
-    """Return the two conditions that keep a measure so near to what it is now."""
+    """Return the two conditions that keep a measure within a distance of its present value."""
     return [measure >= now - by, measure <= now + by]
 
 

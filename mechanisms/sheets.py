@@ -1,4 +1,4 @@
-"""What the figures of the papers' machines share: sheets with a title, words along axes and beside a place. They load matplotlib."""
+"""Common parts of the papers' figures: sheets with a title, words along axes and beside a place. They load matplotlib."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ def titled(title: str, size: tuple[float, float], across: int, down: int = 1, **
 
 
 def headed(ax: Axes, text: str, **look: Any) -> None:
-    """Write what axes show above them, on the left."""
+    """Write a heading above axes, on the left."""
     ax.set_title(text, loc="left", **{"fontsize": style.TEXT, "color": style.INK, "pad": 6, **look})
 
 
 def axis_words(ax: Axes, along: str, up: str) -> None:
-    """Write what stands along both axes, with units."""
+    """Write the labels of both axes, with units."""
     ax.set_xlabel(along, **WORDS)
     ax.set_ylabel(up, **WORDS)
 

@@ -1,4 +1,4 @@
-"""What a command is. A package of your own adds one by an entry point of the group `hydrolinkage.commands`."""
+"""Commands. A package of your own adds one by an entry point of the group `hydrolinkage.commands`."""
 
 from __future__ import annotations
 
@@ -110,7 +110,7 @@ COLUMNS = "only these columns (default: all), or what is asked for in words: 'pr
 
 
 def machine_options(default: str | None = None) -> tuple[Option, ...]:
-    """Return what every command on a machine takes; with a `default` the machine need not be named."""
+    """Return the options of every command on a machine; with a `default` the machine need not be named."""
     what = "a machine of `list`, package.module:Class, file.py, file.py:Class or file.toml, also one of a design: `machine` and `[set]`"
     own = option("--machine", dest="own", metavar="CLASS", help="the class of the design that a file holds, file.py:Class")
     named: dict[str, object] = {"help": what}
@@ -126,7 +126,7 @@ def count_option(count: int, what: str) -> Option:
 
 
 def run_options(count: int, what: str) -> tuple[Option, ...]:
-    """Return the options that choose what runs, and at how many poses."""
+    """Return the options that choose the run, and its number of poses."""
     at = (
         "hold a stroke at a value, or run between two: S=0.1,650mm; without it the machine's own Over runs, else the first stroke, the "
         "others held at mid-stroke"
@@ -200,7 +200,7 @@ def figure_path(options: Namespace, machine: Mechanism, command: str) -> Path | 
 
 
 def say_remark(text: str) -> None:
-    """Say on stderr, in one line, what is to be known of the results."""
+    """Print on stderr, in one line, a remark on the results."""
     print(f"hydrolinkage: {said('remark')}: {' '.join(text.split())}", file=sys.stderr)
 
 
@@ -211,7 +211,7 @@ Progress: TypeAlias = Callable[[int, int], None]
 
 @contextmanager
 def progress_bar(title: str) -> Iterator[Progress | None]:
-    """Yield what long work calls with (done, total), which draws a bar on stderr; None where stderr is no terminal."""
+    """Yield a progress function (done, total), which draws a bar on stderr; None where stderr is no terminal."""
     if not sys.stderr.isatty():
         yield None
         return

@@ -79,7 +79,7 @@ class OneLineParser(ArgumentParser):
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run the command and return its exit code: 0, 2 for what the user can mend, 130 after Ctrl-C, 141 into a closed pipe."""
+    """Run the command and return its exit code: 0, 2 for a user's mistake, 130 after Ctrl-C, 141 into a closed pipe."""
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("default", SingularWarning)
@@ -180,7 +180,7 @@ class LastingOutput:
         self.stream, self.lasts, self.broken = stream, lasts, False
 
     def __getattr__(self, name: str) -> Any:
-        """Return what the stream has."""
+        """Return an attribute of the stream."""
         return getattr(self.stream, name)
 
     def write(self, text: str) -> int:
@@ -188,7 +188,7 @@ class LastingOutput:
         return self._unbroken(lambda: self.stream.write(text)) or 0
 
     def flush(self) -> None:
-        """Bring what is written on its way."""
+        """Flush the written text."""
         self._unbroken(self.stream.flush)
 
     def _unbroken(self, act: Callable[[], Any]) -> Any:
@@ -205,7 +205,7 @@ class LastingOutput:
 
 
 def fail(*messages: str) -> int:
-    """Say on stderr what was wrong, each in one line, and return the exit code."""
+    """Print mistakes on stderr, each in one line, and return the exit code."""
     print(f"{PROGRAM}:", "\n  ".join(" ".join(message.split()) for message in messages), file=sys.stderr)
     return BAD_INPUT
 

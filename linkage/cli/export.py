@@ -73,7 +73,7 @@ def export_command(options: Namespace) -> int:
     option("file", metavar="FILE", help="the file, named .toml or .json"),
 )
 def save_command(options: Namespace) -> int:
-    """Write a machine into a file, and say what such a file does not hold."""
+    """Write a machine into a file, and say which parts such a file does not hold."""
     from ..files import left_out, save
 
     machine = machine_of(options)

@@ -1,4 +1,4 @@
-"""`hydrolinkage follow NAME` and `chart NAME`: the strokes along a path of places; what is lifted at every place of a field."""
+"""`hydrolinkage follow NAME` and `chart NAME`: the strokes along a path of places; the load at every place of a field."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ def follow_command(options: Namespace) -> int:
 
 
 def path_targets(machine: Mechanism, file: str) -> dict[str, Target]:
-    """Return the targets that a CSV file gives, by their names; FileError with the line for what cannot be read."""
+    """Return the targets of a CSV file, by their names; FileError with the line for one that cannot be read."""
     text = read(file, SIZE).decode("utf-8-sig", "replace")
     first = text.partition("\n")[0]
     delimiter = max(";\t,", key=first.count)
@@ -107,7 +107,7 @@ def path_targets(machine: Mechanism, file: str) -> dict[str, Target]:
 
 
 def heading_quantity(machine: Mechanism, file: str, heading: str) -> tuple[str, RequestLike, str]:
-    """Return a heading's name, what it means, and its unit, "" of SI: `x(M) [mm]`, `M_x, mm`, `tilt`; FileError for anything else."""
+    """Return a heading's name, its quantity, and its unit, "" of SI: `x(M) [mm]`, `M_x, mm`, `tilt`; FileError for anything else."""
     match = HEADING.fullmatch(heading.lstrip("'"))
     name, unit = (match["name"], match["unit"] or match["bracketed"] or "") if match else (heading.strip(), "")
     sign = {"°": "deg"}.get(unit, unit)
@@ -226,7 +226,7 @@ def chart_command(options: Namespace) -> int:
 
 
 def axis_said(option: str, text: str) -> FloatArray:
-    """Return the places along an axis [m]; DefinitionError for what says none."""
+    """Return the places along an axis [m]; DefinitionError for a text without places."""
     span = parse_span(text, "length")
     parts = [part.strip() for part in text.split(":")]
     if span is None and len(parts) == 1:

@@ -71,7 +71,7 @@ def package_of(entry: EntryPoint) -> str:
 
 
 def group_title(entry: EntryPoint, package: str) -> str:
-    """Return the title of the kind that a machine is of: what its package says of itself, and whose it is where it is not shipped."""
+    """Return the title of a machine's group: its package's docstring, and the distribution where it is not shipped."""
     node = syntax(package)
     says = (ast.get_docstring(node) or "").partition("\n")[0] if node is not None else ""
     title = re.split(r"[,:.]", says)[0].strip() or package
@@ -100,7 +100,7 @@ def docstring(module: str, name: str) -> str | None:
 
 
 def command_help(entry: EntryPoint) -> str:
-    """Return what a command says of itself, out of its source, `Command("name", "help", ...)`; "" where that says nothing."""
+    """Return a command's help from its source, `Command("name", "help", ...)`; "" without one."""
     path = source_file(entry.module)
     text = path.read_text(encoding="utf-8") if path is not None else ""
     found = re.search(rf"""\bCommand\(\s*"{entry.name}",\s*("(?:[^"\\\n]|\\.)*")""", text)

@@ -1,4 +1,4 @@
-"""`hydrolinkage optimise FILE`, `synthesise FILE`, `study FILE`: what a study file asks for, as text, tables, pictures, a live page."""
+"""`hydrolinkage optimise FILE`, `synthesise FILE`, `study FILE`: the results of a study file as text, tables, pictures, a live page."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ STUDY = (
 
 
 def finder(trust: list[str]) -> FindMachine:
-    """Return what finds a study file's machine: an installed one, a file beside it, or a class of what is trusted."""
+    """Return a finder of a study file's machine: an installed one, a file beside it, or a class of a trusted file."""
 
     def find_machine(text: str, base: Path) -> type[Mechanism]:
         place, name = split(text)
@@ -69,7 +69,7 @@ def finder(trust: list[str]) -> FindMachine:
 
 
 def settings_of(texts: list[str]) -> Settings:
-    """Return what reads settings such as `OB=180mm` for a machine."""
+    """Return a reader of settings such as `OB=180mm` for a machine."""
     return lambda found: dict(parsed_setting(found.plan, text) for text in texts)
 
 
@@ -117,7 +117,7 @@ def optimise_command(options: Namespace) -> int:
 
 
 def write_results(outputs: Mapping[str, Sequence[Path]], writers: Mapping[str, Callable[[Path], object]]) -> None:
-    """Write the files of a search, each by what it holds, and say their names."""
+    """Write the files of a search, each by its contents, and print their names."""
     for name, paths in outputs.items():
         for path in paths:
             writers[name](path)
@@ -125,7 +125,7 @@ def write_results(outputs: Mapping[str, Sequence[Path]], writers: Mapping[str, C
 
 
 def front_columns(search: SearchFile, found: Front) -> list[Column]:
-    """Return the designs of a front: their objectives and what varied."""
+    """Return the designs of a front: their objectives and variables."""
     plan = search.machine.plan
     objectives = zip(map(str, found.objectives), found.units, zip(*(each.values for each in found.points), strict=True), strict=True)
     columns = [Column(name, np.array(values, float), unit) for name, unit, values in objectives]
@@ -180,7 +180,7 @@ def synthesise_command(options: Namespace) -> int:
 
 
 def outputs_asked(options: Namespace) -> dict[str, Path]:
-    """Return the files that the arguments ask for, by what they hold, checked before the work is done."""
+    """Return the files that the arguments ask for, by their contents, checked before the work is done."""
     found: dict[str, Path] = {}
     if options.csv is not None:
         found["table"] = Path(options.csv)

@@ -1,4 +1,4 @@
-"""What the options of commands mean: settings and strokes as text, load cases, columns by their names, exit codes."""
+"""The meaning of commands' options: settings and strokes as text, load cases, columns by their names, exit codes."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def overs_of(machine: Mechanism, texts: Sequence[str]) -> list[Over] | None:
 
 
 def parsed_over(machine: Mechanism, text: str) -> Over:
-    """Return what one text means: a declared Over by its name, or strokes such as `phi=15deg:80deg,t=0`."""
+    """Return the `Over` of a text: a declared one by its name, or strokes such as `phi=15deg:80deg,t=0`."""
     declared, title = machine.plan.of_kind(Over), machine.plan.title
     if "=" not in text:
         if text.strip() in declared:
@@ -94,7 +94,7 @@ def parsed_over(machine: Mechanism, text: str) -> Over:
 
 
 def with_overs(machine: Mechanism, overs: Sequence[Over] | None) -> Mechanism:
-    """Return the same design of a machine that runs only over what is given; itself where nothing is."""
+    """Return the same design of a machine that runs only over the given places; itself without any."""
     if overs is None:
         return machine
     cls, own = type(machine), machine.plan.of_kind(Over)
@@ -106,7 +106,7 @@ def with_overs(machine: Mechanism, overs: Sequence[Over] | None) -> Mechanism:
 
 
 def judged_over(machine: Mechanism, options: Namespace) -> list[Over | Motion] | None:
-    """Return where a judgement looks: what `--over` says, else what `--at` leaves open, else None, all that the machine runs."""
+    """Return the places of a judgement: those of `--over`, else those that `--at` leaves open, else None, all that the machine runs."""
     chosen = overs_of(machine, options.over)
     if chosen or not options.strokes:
         return [*chosen] if chosen else None
@@ -118,7 +118,7 @@ POSES = 21
 
 
 def judged_code(verdicts: Sequence[Verdict], options: Namespace) -> int:
-    """Return the exit code of what was judged: 1 where that is asked for and a verdict fails.
+    """Return the exit code of a judgement: with `--check` 1 where a verdict fails.
 
     Rules that say nothing do not fail; how many there are is said.
     """
@@ -131,19 +131,19 @@ def judged_code(verdicts: Sequence[Verdict], options: Namespace) -> int:
 
 
 def print_verdicts(verdicts: Sequence[Verdict], options: Namespace) -> int:
-    """Print verdicts below what a command shows, but not into CSV, and return the exit code."""
+    """Print verdicts below a command's output, but not into CSV, and return the exit code."""
     if getattr(options, "csv", None) != "-":
         print("", *verdicts, sep="\n")
     return judged_code(verdicts, options)
 
 
 def design(machine: type[Kind], texts: Sequence[str]) -> Kind:
-    """Return a design of a machine under settings such as `OB=180mm`; DefinitionError for what is unknown or unfit."""
+    """Return a design of a machine under settings such as `OB=180mm`; DefinitionError for unknown or unfit ones."""
     return design_with(machine, dict(parsed_setting(machine.plan, text) for text in texts))
 
 
 def design_with(machine: type[Kind], given: Mapping[str, Any]) -> Kind:
-    """Return a design of a machine with these dimensions; DefinitionError for what is unknown or unfit."""
+    """Return a design of a machine with these dimensions; DefinitionError for unknown or unfit ones."""
     try:
         signature(machine.__init__).bind(None, **given)
     except TypeError as error:
@@ -229,7 +229,7 @@ def stroke_steps(machine: Mechanism, run: Run, count: int, every: str | None) ->
 
 
 def poses_at(machine: Mechanism, options: Namespace, count: int) -> dict[str, FloatArray]:
-    """Return the strokes of all that `--at` leaves open, arrays of one shape: what is not given goes over its range."""
+    """Return the strokes of all that `--at` leaves open, arrays of one shape: strokes not given go over their ranges."""
     given = strokes_given(machine, options)
     return stroke_grid(machine, given | {
         name: np.linspace(stroke.start, stroke.end, count) for name, stroke in machine.strokes.items() if name not in given
@@ -245,7 +245,7 @@ def stroke_grid(machine: Mechanism, axes: Mapping[str, FloatArray]) -> dict[str,
 
 
 def with_gaps(machine: Mechanism, strokes: At) -> Motion:
-    """Return the motion at strokes, NaN where it cannot be assembled, of which one remark says where, what is missing and the remedy.
+    """Return the motion at strokes, NaN where it cannot be assembled; one remark has the place, the missing length and the remedy.
 
     Raises AssemblyError where nothing can be assembled, SingularError at a change point.
     """
@@ -271,14 +271,14 @@ def run_with_gaps(machine: Mechanism, run: Run, count: int) -> Motion:
 
 
 def tell_gaps(motion: Motion, error: AssemblyError | None = None) -> None:
-    """Say in one remark where a motion cannot be assembled, what is missing there and the remedy; `error` is what says so."""
+    """Print in one remark where a motion cannot be assembled, the missing length and the remedy; `error` has the words, if given."""
     if error is not None or not motion.reached.all():
         gaps = "" if motion.reached.all() else said("What cannot be assembled is left empty.")
         say_remark(f"{error or out_of_reach(motion)} {gaps}")
 
 
 def strokes_or_motion(machine: Mechanism, options: Namespace) -> At | Motion:
-    """Return the strokes that `--at` gives, or the motion over what `--over` names, with gaps."""
+    """Return the strokes that `--at` gives, or the motion over the places of `--over`, with gaps."""
     given = strokes_given(machine, options)
     if options.over is None:
         return given

@@ -1,4 +1,4 @@
-"""`hydrolinkage show NAME`: what a machine is, its dimensions, its construction, and what to know of it."""
+"""`hydrolinkage show NAME`: a machine's description, its dimensions, its construction, and its verdicts."""
 
 from __future__ import annotations
 
@@ -128,7 +128,7 @@ def sections(machine: Mechanism) -> Iterator[tuple[str, Iterable[str]]]:
 
 
 def said_of_itself(machine: Mechanism) -> list[str]:
-    """Return what a class says of itself, its paragraphs as wide as the terminal; what is indented stays as it is written."""
+    """Return a class's docstring, its paragraphs as wide as the terminal; indented lines stay as they are written."""
     lines = []
     for each in re.split(r"\n[ \t]*\n", cleandoc(type(machine).__doc__ or "")):
         lines += [*(each.splitlines() if re.search(r"^[ *-]", each, re.MULTILINE) else wrapped(" ".join(each.split()), "")), ""]

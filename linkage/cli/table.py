@@ -1,4 +1,4 @@
-"""`hydrolinkage table NAME`, `forces NAME`, `limits NAME`: results over the stroke, what carries them, how far a machine goes."""
+"""`hydrolinkage table NAME`, `forces NAME`, `limits NAME`: results over the stroke, the forces behind them, the limits of motion."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ def table_command(options: Namespace) -> int:
 
 
 def worst_pins(machine: Mechanism, over: Sequence[Over | Motion] | None, acting: Acting) -> str:
-    """Return the table of the largest force of every joint over what is given, else over all that the machine runs.
+    """Return the table of the largest force of every joint over the given places, else over all that the machine runs.
 
     In all load cases and directions that `acting` leaves open; DefinitionError where nothing acts.
     """
@@ -187,7 +187,7 @@ def write_columns(columns: Sequence[Column], path: Path, labels: Sequence[str] =
     CHECK,
 )
 def forces_command(options: Namespace) -> int:
-    """Print what a machine's drives, cylinders and pins carry."""
+    """Print the forces of a machine's drives, cylinders and pins."""
     machine = settings.machine_of(options)
     acting, motions = settings.acting_of(machine, options), settings.motions_at(machine, options)
     over, plain = settings.judged_over(machine, options), settings.plain_value(acting)

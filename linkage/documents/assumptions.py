@@ -1,4 +1,4 @@
-"""What a calculation takes for granted, what it did not look at, and the standards that its rules cite."""
+"""Assumptions of a calculation, its omissions, and the standards that its rules cite."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ from .run import ReportSubject
 
 
 def assumptions_section(subject: ReportSubject) -> Section:
-    """Return the section of what holds for all numbers of a report, and of what none of them says."""
+    """Return the section of the assumptions behind all numbers of a report, and of its omissions."""
     beside = said("Not looked at, but for what a rule above judges:")
     return Section(said("Assumptions"), (tuple(assumed(subject)), beside, tuple(left_open(subject))))
 
 
 def assumed(subject: ReportSubject) -> Iterator[str]:
-    """Yield what is taken for granted."""
+    """Yield the assumptions."""
     elements = subject.machine.plan.of_kind(ForceElement)
     yield said("The bodies are rigid. Pins, guides and slots have no play.")
     yield said("The machine is planar: all parts move and all forces act in one plane. Both sides of the machine count together in it.")
@@ -58,7 +58,7 @@ def pace_words(subject: ReportSubject) -> Iterator[str]:
 
 
 def with_weight(subject: ReportSubject) -> list[str]:
-    """Return the names of what has weight."""
+    """Return the names of the elements with weight."""
     return [name for name, each in subject.machine.plan.of_kind(ForceElement).items() if isinstance(each, (Weight, LinkMass))]
 
 
@@ -84,7 +84,7 @@ def friction_words(subject: ReportSubject) -> str:
 
 
 def left_open(subject: ReportSubject) -> Iterator[str]:
-    """Yield what a report does not say."""
+    """Yield the omissions of a report."""
     plan = subject.machine.plan
     yield said("strength and stiffness of members, pins, bushes and welds; fatigue; wear")
     if all(place.instants is None for place in subject.judge.places):
@@ -109,7 +109,7 @@ GRAVITY = "ISO 80000-4"
 
 
 def standards_section(subject: ReportSubject, verdicts: Iterable[Verdict]) -> Section:
-    """Return the section of the standards that rules and inputs of a report cite, with what each is used for."""
+    """Return the section of the standards that rules and inputs of a report cite, each with its uses."""
     uses: dict[str, list[str]] = {}
 
     def cite(text: str, use: str) -> None:

@@ -1,4 +1,4 @@
-"""Where a long formula breaks: in front of its signs of operation, behind its commas, and inside what is longer than a line."""
+"""Line breaks of a long formula: in front of its operators, behind its commas, and inside terms longer than a line."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ def cuts(box: Box) -> list[Box]:
 
 
 def opened(box: Box) -> list[Box]:
-    """Return what a box is made of, so that a line may break in it; one that cannot be opened whole."""
+    """Return the parts of a box, so that a line may break in it; a box that cannot be opened as a whole."""
     match box:
         case Fraction(over, under):
             return [in_parentheses(over), row_of(Sign("operator", "/"), in_parentheses(under))]

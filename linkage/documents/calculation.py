@@ -1,4 +1,4 @@
-"""The equations with their numbers, as a calculation sheet has them, and what they leave out."""
+"""The equations with their numbers, as a calculation sheet has them, and their omissions."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class FilledEquations:
 
 
 def without_rounding(value: Any) -> Any:
-    """Return a value, one number or two, as floats; zero for what is nothing but the rounding of its last digits."""
+    """Return a value, one number or two, as floats; zero for the rounding of its last digits."""
     if isinstance(value, tuple):
         return tuple(map(without_rounding, value))
     return 0.0 if abs(value) < 10.0**-DIGITS else float(value)
@@ -59,7 +59,7 @@ def has_loads(machine: Mechanism) -> bool:
 
 
 def calculation_blocks(found: FilledEquations, pose_words: str, is_timed: bool) -> Iterator[Block]:
-    """Yield the numbered equations with their numbers, and what is said of them; `is_timed` are those of a path in time."""
+    """Yield the numbered equations with their numbers, and remarks on them; `is_timed` are those of a path in time."""
     listing = found.listing
     yield said(
         "The equations of the vector method in the order in which they are solved; the numbers are those of {pose}. "

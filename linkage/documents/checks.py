@@ -1,4 +1,4 @@
-"""What proves the numbers: each check with its measured figure and its bound, by a way that the calculation did not take."""
+"""Checks of the numbers: each with its measured figure and its bound, by another way than the calculation's."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ NUMERIC = 1e-6
 @final
 @dataclass(frozen=True)
 class Check:
-    """A check: its name, what is compared, the largest relative difference found, its bound; NaN where it could not be made."""
+    """A check: its name, its comparison, the largest relative difference found, its bound; NaN where it could not be made."""
 
     name: str
     what: str

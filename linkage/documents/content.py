@@ -1,4 +1,4 @@
-"""What a document is made of, whatever it is written as: sections of text, tables, equations, pictures."""
+"""The contents of a document in any format: sections of text, tables, equations, pictures."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ class TableBlock:
 @final
 @dataclass(frozen=True)
 class Equality:
-    """An equation in LaTeX: its number, 0 for none, and what stands between its signs of equality."""
+    """An equation in LaTeX: its number, 0 for none, and the terms between its signs of equality."""
 
     number: int
     steps: tuple[str, ...]
@@ -77,7 +77,7 @@ class Equality:
 @final
 @dataclass(frozen=True)
 class Illustration:
-    """A picture: its name, its size [inch], the room beside its axes [inch: left, right, bottom, top], and what paints it on them."""
+    """A picture: its name, its size [inch], the room beside its axes [inch: left, right, bottom, top], and its paint function."""
 
     name: str
     caption: str
@@ -124,7 +124,7 @@ def small_kind(block: Block) -> type | None:
 @final
 @dataclass(frozen=True)
 class Document:
-    """A whole document: its title, its title block, what it says of itself, and its sections."""
+    """A whole document: its title, its title block, its facts, and its sections."""
 
     title: str
     subtitle: str
@@ -136,7 +136,7 @@ class Document:
 
     @property
     def footer(self) -> str:
-        """What stands at the foot of every page, beside its number."""
+        """The foot of every page, beside its number."""
         return " · ".join(each for each in (self.block.short, self.title) if each)
 
 

@@ -1,4 +1,4 @@
-"""What a document was made of: a hash of its inputs that any process finds again, and the version that calculated it."""
+"""The provenance of a document: a hash of its inputs that any process finds again, and the version that calculated it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What drives, members and pins carry: over all that the machine runs, in each load case, and blocked at the relief valve's pressure."""
+"""Forces of drives, members and pins: over all that the machine runs, in each load case, and blocked at the relief valve's pressure."""
 
 from __future__ import annotations
 
@@ -194,7 +194,7 @@ NEAR = 1e-9
 
 
 def blocked_blocks(subject: ReportSubject) -> Iterator[Block]:
-    """Yield what pins carry where the machine runs against a stop and a cylinder has the relief valve's pressure; nothing without one."""
+    """Yield the pins' forces where the machine runs against a stop and a cylinder has the relief valve's pressure; empty without one."""
     held = blocked_cylinders(subject)
     if not held:
         if any("bore" in each.numbers for each in subject.machine.plan.of_kind(TwoPoint).values()):
@@ -272,7 +272,7 @@ def worst_blocked(subject: ReportSubject, point: str, held: Iterable[str]) -> li
 @final
 @dataclass(frozen=True)
 class Stop:
-    """A point against a stop over some poses: what joints and cylinders carry of the machine's own loads and of two unit forces there."""
+    """A point against a stop over some poses: the forces of joints and cylinders from the machine's own loads and two unit forces there."""
 
     motion: Motion
     own: PinForces
@@ -307,7 +307,7 @@ class Stop:
         return np.where(np.isfinite(least), least, np.nan), way, opens
 
     def joint_sizes(self, force: FloatArray, way: FloatArray) -> Iterator[tuple[tuple[str, ...], tuple[str, ...], FloatArray]]:
-        """Yield, of each joint that transmits a force, what tells it apart, its cells, and the size of its force [N]."""
+        """Yield, of each joint that transmits a force, its key, its cells, and the size of its force [N]."""
         across, up = ({(each.point, each.on, each.by, each.kind): each.force for each in unit.joints} for unit in self.units)
         for joint in self.own.joints:
             if joint.has_force:

@@ -53,7 +53,7 @@ def html_text(document: Document) -> str:
 
 
 def footer(document: Document) -> str:
-    """Return the last line: what the document was made by."""
+    """Return the last line: the version and the hash of the document."""
     return " · ".join(f"{name}: {value}" for name, value in document.facts[-2:])
 
 

@@ -51,7 +51,7 @@ def timed_blocks(subject: ReportSubject, run: Run, motion: Motion) -> Iterator[B
 
 
 def pace_columns(subject: ReportSubject, motion: Motion, run: Run) -> list[Column]:
-    """Return how fast cylinders go, the power that they give and the oil that lines give, over a motion in time; not of what stands."""
+    """Return the speeds of moving cylinders, their power and the oil of lines, over a motion in time."""
     found = list[Column]()
     words = {word: digits for word, digits in PACES.items() if word in REQUESTS}
     for name in subject.machine.plan.of_kind(ForceElement):
@@ -107,7 +107,7 @@ def inertia_blocks(subject: ReportSubject, run: Run, along: Motion, beside: str)
 
 
 def curve(run: Run, along: Motion, column: Column, beside: str, slow: Column | None = None) -> Illustration:
-    """Return a column over time as a picture; dashed what it is without inertia."""
+    """Return a column over time as a picture; dashed without inertia."""
     caption = said("{column} over time{beside}.", column=column.heading, beside=beside)
     caption += said(" Dashed: without inertia.") if slow is not None else ""
     name = "_".join(NO_LETTER.sub("_", each) for each in ("as_it_runs", column.name, run.title) if each)
@@ -115,7 +115,7 @@ def curve(run: Run, along: Motion, column: Column, beside: str, slow: Column | N
 
 
 def two_curves(ax: Axes, motion: Motion, column: Column, slow: Column | None) -> None:
-    """Draw a column over time, and dashed what it is without inertia."""
+    """Draw a column over time, and dashed without inertia."""
     draw_column(ax, motion, column, None, [])
     if slow is not None and motion.time is not None:
         ax.plot(motion.time, slow.drawn, color=ACCENT, linewidth=1.2, linestyle=(0, (4, 2)), zorder=4.5)

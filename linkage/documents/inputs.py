@@ -1,4 +1,4 @@
-"""What a calculation starts from: strokes, dimensions with their sources, loads, load cases, the definition itself."""
+"""Inputs of a calculation: strokes, dimensions with their sources, loads, load cases, the definition itself."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from .sources import comments_in
 
 
 def inputs_section(subject: ReportSubject, listing: Equations) -> Section:
-    """Return the section of what is given, with the drawing of its dimensions."""
+    """Return the section of the inputs, with the drawing of the dimensions."""
     machine, notes = subject.machine, subject.notes
     prose = [plain_words(translated(each)) for each in own_paragraphs(type(machine))[1:]]  # the first line is the subtitle
     blocks: list[Block] = [*prose, stroke_table(subject, listing)]
@@ -100,7 +100,7 @@ def stroke_table(subject: ReportSubject, listing: Equations) -> TableBlock:
 
 
 def dimension_table(machine: Mechanism, listing: Equations, notes: Mapping[str, str]) -> TableBlock:
-    """Return the design variables: name, symbol, value, unit, where each stands; one that was changed says what it was."""
+    """Return the design variables: name, symbol, value, unit, place; a changed one with its former value."""
     rows: list[tuple[Cell, ...]] = []
     for name, value in machine.dimensions.items():
         entry = machine.plan.table.entries[name]
@@ -137,7 +137,7 @@ def with_units(element: ForceElement, text: str) -> str:
 
 
 def number_units(element: object) -> dict[str, str]:
-    """Return the units that the numbers of an element are shown in, and those of what it is made of, such as a tank on a line."""
+    """Return the display units of an element's numbers, and of its parts', such as a tank on a line."""
     found: dict[str, str] = {}
     for value in vars(element).values():
         for each in value if isinstance(value, (list, tuple)) else (value,):

@@ -1,4 +1,4 @@
-"""What comes out over the stroke: tables, curves, cylinders, the forces of the joints, the limits of motion."""
+"""Results over the stroke: tables, curves, cylinders, the forces of the joints, the limits of motion."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def sketch_section(subject: ReportSubject, path: Sequence[str]) -> Section:
 
 
 def positions(ax: Axes, motion: Motion, path: Sequence[str]) -> None:
-    """Draw a mechanism at both ends of what it reaches, and the paths of points."""
+    """Draw a mechanism at both ends of its reach, and the paths of points."""
     reached = np.flatnonzero(motion.reached).tolist()
     mechanism(ax, motion, int(reached[0]), faint=True)
     mechanism(ax, motion, int(reached[-1]))
@@ -115,7 +115,7 @@ def results_blocks(
 
 
 def run_blocks(subject: ReportSubject, run: Run) -> Iterator[Block]:
-    """Yield what moves along a run and what is held, where there is something to say."""
+    """Yield the strokes that move along a run and those held, where there are any."""
     held, words = subject.words(dict(run.held)), run_words(subject.machine, run)
     text = said("Along {stroke}, with {held} held.", stroke=", ".join(run.ways), held=held) if held and run.is_curve else ""
     if not run.is_curve:
@@ -221,7 +221,7 @@ def lies_beyond(values: FloatArray, answer: Answer, is_least: bool) -> bool:
 
 
 def beyond_words(subject: ReportSubject, answers: Sequence[Answer], column: Column) -> str:
-    """Return what the lines beside a curve are."""
+    """Return the labels of the lines beside a curve."""
     parts = [
         said("{side} {value}, {place}", side=said("least") if isinstance(each.question, Least) else said("greatest"),
              value=f"{amount_text(subject, each, column)} {unit_sign(column.unit)}".strip(), place=each.place)
@@ -231,7 +231,7 @@ def beyond_words(subject: ReportSubject, answers: Sequence[Answer], column: Colu
 
 
 def draw_column(ax: Axes, motion: Motion, column: Column, bound: Sequence[object] | None, beyond: Sequence[tuple[Answer, str]]) -> None:
-    """Draw a column over the stroke with its limit, and lines with their values for what lies beyond it elsewhere."""
+    """Draw a column over the stroke with its limit, and lines with their values for extremes beyond it elsewhere."""
     panel(ax, motion, column, bound)
     for axis in (ax.xaxis, ax.yaxis):
         axis.set_major_formatter(SpokenTicks())
@@ -261,7 +261,7 @@ HEADING_SHARE = 0.97
 
 
 def column_grids(subject: ReportSubject, caption: str, columns: Sequence[Column], outside: Sequence[bool]) -> Iterator[TableBlock]:
-    """Yield columns of results as tables as wide as a page. Rows outside what is judged end with a dagger.
+    """Yield columns of results as tables as wide as a page. Rows outside the judged places end with a dagger.
 
     The first column leads. Where it stands still between rows, a number does.
     """
@@ -293,14 +293,14 @@ def figures(value: float) -> str:
 
 
 def members_sections(subject: ReportSubject) -> list[Section]:
-    """Return the sections of what members show of themselves, such as cylinders their thrust and pressure."""
+    """Return the sections of the members' own results, such as the thrust and pressure of cylinders."""
     members = speakers(subject.machine.plan, Tabled)
     titles = dict.fromkeys(member.section for member in members.values())
     return [members_section(subject, {name: each for name, each in members.items() if each.section == one}) for one in titles]
 
 
 def members_section(subject: ReportSubject, members: Mapping[str, Tabled]) -> Section:
-    """Return the section of what some members show of themselves, which have one title."""
+    """Return the section of some members' own results, which have one title."""
     first = next(iter(members.values()))
     title, caption = translated(first.section), translated(first.caption)
     with unwarned():
@@ -328,7 +328,7 @@ def end_cells(subject: ReportSubject, answers: Sequence[Answer], end: type[Measu
 
 
 def sides_asked(quantity: object) -> tuple[Callable[[Any], Measure], ...]:
-    """Return what is asked of a quantity: its least and its greatest; of one that is unlimited in places, such as a reserve, the least.
+    """Return the measures of a quantity: its least and its greatest; of one that is unlimited in places, such as a reserve, the least.
 
     Of a pressure the greatest: the least is nought, on the side that does not hold.
     """
@@ -336,7 +336,7 @@ def sides_asked(quantity: object) -> tuple[Callable[[Any], Measure], ...]:
 
 
 def column_questions(subject: ReportSubject, member: str, column: Column) -> list[Measure]:
-    """Return what is asked of a column that a member shows of itself."""
+    """Return the questions of a column of a member."""
     quantity = column.request if column.request is not None else values_in_rows(subject, member, column)
     return [side(quantity) for side in sides_asked(quantity)]
 
@@ -374,7 +374,7 @@ def amount_text(subject: ReportSubject, answer: Answer, column: Column) -> str:
 
 
 def limits_section(subject: ReportSubject) -> Section:
-    """Return the section of how far every stroke reaches, what stops it, and the least transmission angles.
+    """Return the section of how far every stroke reaches, its limits, and the least transmission angles.
 
     It looks where the verdicts do. The other strokes are held where the first `Over` begins.
     """
@@ -404,7 +404,7 @@ def limits_section(subject: ReportSubject) -> Section:
 
 
 def limit_rows(limits: StrokeLimits) -> Iterator[tuple[Cell, ...]]:
-    """Yield what limits a stroke."""
+    """Yield the limits of a stroke."""
     name = limits.stroke
 
     def place(value: float) -> str:

@@ -23,7 +23,7 @@ JSON = dict[str, object]
 
 
 def check_typst(path: Path) -> None:
-    """Raise DefinitionError where what sets a PDF is not installed."""
+    """Raise DefinitionError where Typst, which sets a PDF, is not installed."""
     if find_spec("typst") is None:
         raise DefinitionError(
             f'{path.name}: a PDF is set by Typst, which is not installed: pip install "hydrolinkage[pdf]" '
@@ -48,7 +48,7 @@ def pdf(document: Document) -> bytes:
 
 
 def document_data(document: Document) -> JSON:
-    """Return what a document says as the template takes it."""
+    """Return a document as data for the template."""
     captions, mark = captions_of(document.sections), document.verdict
     return {
         "title": document.title,

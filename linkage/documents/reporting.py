@@ -199,7 +199,7 @@ def report_document(
     start: int = 1,
     block: TitleBlock | None = None,
 ) -> Document:
-    """Return what a report says, before it is written as a file; each number in its own unit where no system of units is named."""
+    """Return the contents of a report, before it is written as a file; each number in its own unit unless a system of units is named."""
     subject = ReportSubject.at(machine, at, count, over, situation_of("report", acting, case=case))
     fits = isinstance(title_block, Mapping) and all(isinstance(each, str) for pair in title_block.items() for each in pair)
     require(fits, "title_block", title_block, 'rows of text are expected, title_block={"Checked by": "N. N."}')
@@ -260,7 +260,7 @@ def composed(
 
 
 def look_ahead(subject: ReportSubject) -> None:
-    """Look in one pass for what verdicts, members and drives ask, which their sections then find; what is refused, they say."""
+    """Answer the questions of verdicts, members and drives in one pass for their sections, which report refusals themselves."""
     with unwarned(), suppress(LinkageError):
         members = [question for name, column in subject.member_columns for question in column_questions(subject, name, column)]
         drives = [end(request) for _, request, _ in drives_asked(subject) for end in (least, most)] if has_loads(subject.machine) else []
@@ -335,7 +335,7 @@ def of_source(section: Section) -> Section:
 
 
 def title_rows(subject: ReportSubject, title_block: Mapping[str, str], mark: Mark, broken: str) -> tuple[tuple[str, str], ...]:
-    """Return the rows of the title block: what was calculated, of what inputs, when, by which version, and which rules are not kept."""
+    """Return the rows of the title block: the machine, its inputs, the date, the version, and the rules that are not kept."""
     machine, cls = subject.machine, type(subject.machine)
     seen: dict[str, tuple[float, ...]] = {}
     for run in subject.runs:
@@ -429,7 +429,7 @@ JudgedRow: TypeAlias = tuple[str, "bool | None", Answer, "Column | None", float]
 
 
 def limit_answers(subject: ReportSubject, limits: Mapping[str, Sequence[Any]]) -> list[JudgedRow]:
-    """Return what the judge says of the limits of columns, by their headings; of those that it can be asked of."""
+    """Return the judge's answers to the limits of columns, by their headings, where the columns have requests."""
     columns = subject.columns_along(replace(subject.run, case=None), subject.curve)
     asked, quantities = {}, subject.quantities(limits)
     for name, given in limits.items():
@@ -464,7 +464,7 @@ def worst_places(subject: ReportSubject, answers: Sequence[JudgedRow]) -> Iterat
 
 
 def value_cell(subject: ReportSubject, answer: Answer, column: Column | None) -> str:
-    """Return an answer's value with its unit, of a limit as its column has it; a dash where nothing says what it measures."""
+    """Return an answer's value with its unit, of a limit as its column has it; a dash where its kind is unknown."""
     if column is not None:
         return f"{amount_text(subject, answer, column)} {unit_sign(column.unit)}".strip()
     measure = answer.question.left if isinstance(answer.question, Constraint) else answer.question

@@ -1,4 +1,4 @@
-"""What a document looks at: one design, the judge of all that it runs, and the runs along which its tables and curves go."""
+"""The subject of a document: one design, the judge of all that it runs, and the runs of its tables and curves."""
 
 from __future__ import annotations
 
@@ -211,11 +211,11 @@ class ReportSubject:
 
     @cached_property
     def member_columns(self) -> list[tuple[str, Column]]:
-        """What members show of themselves at the poses of the curves, each with the member's name; nothing for one that is refused."""
+        """The members' columns at the poses of the curves, each with the member's name; none for a member that is refused."""
         return [(name, asked_by_name(name, column)) for name, column in self.columns_of_members(self.curve)]
 
     def columns_of_members(self, motion: Motion, case: Case = None) -> list[tuple[str, Column]]:
-        """Return what members show of themselves in a load case, each with the member's name; nothing for one that is refused."""
+        """Return the members' columns in a load case, each with the member's name; none for a member that is refused."""
         found: list[tuple[str, Column]] = []
         for name, member in speakers(self.machine.plan, Tabled).items():
             with unwarned(), suppress(LinkageError):
@@ -223,7 +223,7 @@ class ReportSubject:
         return found
 
     def quantities(self, names: Container[str]) -> dict[str, MeasuredQuantity]:
-        """Return what asks for some columns of results and of members anywhere, by name; nothing for one that only the table gives."""
+        """Return the requests of some columns of results and of members, by name; none for one that only the table gives."""
         with unwarned():
             own = column_requests(self.machine, self.curve, self.columns, names).items()
             asked = {name: request for name, (_, request, why) in own if not (why and is_column(request))}
@@ -244,7 +244,7 @@ class ReportSubject:
             return [pin_forces_under(motion, each) for motion, there in situations for each in there]
 
     def case_words(self, name: str) -> str:
-        """Return what a load case is called, with its name where sentences name it by another one."""
+        """Return the title of a load case, with its name where sentences use that."""
         known = self.machine.plan.of_kind(LoadCase).get(name, self.judge.acting.case)
         label = known.label if isinstance(known, LoadCase) else said("own loads") if name == PLAIN_CASE else name
         return label if label == name or len(self.judge.cases) == 1 else f"{label} ({name})"

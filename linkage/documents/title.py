@@ -12,7 +12,7 @@ from ..language import said
 @final
 @dataclass(frozen=True)
 class TitleBlock:
-    """What a title block says, each as text; "" leaves an empty line to write on. DefinitionError for anything but one line of text."""
+    """The lines of a title block, each as text; "" leaves an empty line to write on. DefinitionError for anything but one line of text."""
 
     number: str = ""
     revision: str = ""
@@ -37,7 +37,7 @@ class TitleBlock:
 
     @property
     def signatures(self) -> tuple[tuple[str, str], ...]:
-        """What each who signs has done, and the name."""
+        """The words for each signature, and the name."""
         return (said("prepared"), self.prepared), (said("checked"), self.checked), (said("approved"), self.approved)
 
     @property

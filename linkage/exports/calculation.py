@@ -1,4 +1,4 @@
-"""A design's equations as columns over a stroke: what each is, what it equals, its numbers, and what they give of the results."""
+"""A design's equations as columns over a stroke: their names, formulas and numbers, and their parts in the results."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ BY_ENGINE = "told by the engine: a number, not a formula"
 @final
 @dataclass(frozen=True, eq=False)
 class CalculatedColumn:
-    """One quantity over the poses: the number of its equation, its name, what it says and its SI unit; `expr` is None for plain numbers.
+    """One quantity over the poses: the number of its equation, its name, its words and its SI unit; `expr` is None for plain numbers.
 
     `turns` is not None for the direction of a vector, which goes on over the poses without a jump: whole turns added at the first one.
     `checks` marks a difference that is zero where pins found together fit.
@@ -186,7 +186,7 @@ class Calculation:
     # -- other designs ---------------------------------------------------------------------------------
 
     def at_design(self, design: Mechanism, poses: Mapping[str, Any]) -> tuple[Motion, dict[sympy.Symbol, Any]]:
-        """Return another design's motion at some poses, and what the formulas give there, by symbol; plain numbers are the engine's."""
+        """Return another design's motion at some poses, and the formulas' values there, by symbol; plain numbers are the engine's."""
         own = self.equations
         other = Equations(design, own._lines, own._listing, 1, None, own._forces)
         motion, known = design.at(**poses), other._inputs(poses, "nan")
@@ -274,7 +274,7 @@ LITTLE = 0.1
 @final
 @dataclass(frozen=True, eq=False)
 class LiveResult:
-    """A column of results; what gives it, in the calculation's symbols, or None, and the dimensions that must stay 0 or 1 for that."""
+    """A column of results; its formula in the calculation's symbols, or None, and the dimensions that must stay 0 or 1 for it."""
 
     column: Column
     expr: Any = None
@@ -282,7 +282,7 @@ class LiveResult:
 
 
 def live_results(calculation: Calculation) -> list[LiveResult]:
-    """Return the machine's table over the calculation's poses, each column with what gives it."""
+    """Return the machine's table over the calculation's poses, each column with its formula."""
     table = results(calculation.design, calculation.motion, calculation.run.case)
     return FormulaSearch(calculation, table).found()
 
@@ -344,7 +344,7 @@ class FormulaSearch:
         yield from (each.symbol for each in reversed(self.calculation.columns) if each.expr is not None and each.symbol not in own)
 
     def _combined(self, place: int, simple: list[sympy.Expr]) -> Iterator[sympy.Expr]:
-        """Yield a quantity that is divided by a dimension, or multiplied, and differences of what gives other columns."""
+        """Yield a quantity divided by a dimension, or multiplied, and differences of formulas of other columns."""
         if self.here is not None:
             table, known = self.here
             for each in self.calculation.columns:

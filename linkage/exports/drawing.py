@@ -279,7 +279,7 @@ def svg_number(value: float) -> str:
 
 
 def reach(part: Part) -> FloatArray:
-    """Return corners of what a part covers, shape (n, 2) [mm]."""
+    """Return corners of the area that a part covers, shape (n, 2) [mm]."""
     match part:
         case Polyline():
             return part.vertices

@@ -37,7 +37,7 @@ MOST_POSES = 50
 @final
 @dataclass(frozen=True, eq=False)
 class ExportJob:
-    """What is to be written: a machine or a motion, the file's name, and what `export` was told beside them."""
+    """The work of an export: a machine or a motion, the file's name, and the other arguments of `export`."""
 
     what: Mechanism | Motion
     name: str
@@ -128,7 +128,7 @@ class Csv(Exporter):
 
 
 def motion_columns(motion: Motion) -> list[Column]:
-    """Return what a table of a motion holds: strokes, points, outputs; in time how fast the strokes go and how that changes.
+    """Return the columns of a motion's table: strokes, points, outputs; in time also the strokes' rates and accelerations.
 
     Of one design over an `Over` its results too, in a load case that occurs there.
     """
@@ -189,7 +189,7 @@ EXPORTERS = Plugins[Exporter](
 
 
 def exporter_of(file: Path, format: str | Exporter | None = None) -> Exporter:
-    """Return what writes a file: the format that is named or given, else the one that the ending of the file's name says.
+    """Return the exporter of a file: the format that is named or given, else that of the file's ending.
 
     DefinitionError where there is none, naming those that are installed.
     """
@@ -289,7 +289,7 @@ def export(
 
 
 def check_exportable(what: Mechanism | Motion, exporter: Exporter, at: object, trace: object, columns: object) -> None:
-    """Raise DefinitionError for what is neither a machine nor a motion, and for what does not go with a kind of file."""
+    """Raise DefinitionError for anything but a machine or a motion, and for arguments that a kind of file does not take."""
     if not isinstance(what, Motion):
         require_mechanism(what)
     title = what.plan.title

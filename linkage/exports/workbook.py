@@ -185,7 +185,7 @@ class Sheets:
         sheet.write_formula(row, 0, f'=IF(MAX({worst})>{FITS!r},"{text}","")', self.warning, "")
 
     def _remarks(self) -> list[str]:
-        """Return what a reader should know: conventions, the words of the equations, and what does not follow a changed number."""
+        """Return remarks for a reader: conventions, the words of the equations, and cells that do not follow a changed number."""
         calculation, lines = self.calculation, self.calculation.equations
         dead = [column.name for column in calculation.columns if column.expr is None]
         lost = [result.column.name for result in self.results if result.expr is None]
@@ -322,7 +322,7 @@ class Sheets:
     # -- results ---------------------------------------------------------------------------------------
 
     def _results(self, sheet: Worksheet) -> None:
-        """Write the machine's own table, in its units; what no equation gives as numbers."""
+        """Write the machine's own table, in its units; columns without an equation as numbers."""
         sheet.set_column(0, max(len(self.results) - 1, 0), 14)
         for column, result in enumerate(self.results):
             dead = result.expr is None
@@ -351,7 +351,7 @@ class Sheets:
         return f"=IF(AND({tests}),{shown},NA())"
 
     def _chart(self, sheet: Worksheet) -> None:
-        """Draw what the machine is about over its stroke."""
+        """Draw the machine's featured column over its stroke."""
         columns, stroke = [result.column for result in self.results], self.calculation.run.stroke
         names = [each.name for each in columns]
         shown = names.index(column_among(self.design, columns, None).name)
@@ -393,12 +393,12 @@ def tidy(value: float) -> float:
 
 
 def to_si(unit: str) -> str:
-    """Return what turns a number in a unit into SI, as the end of a formula."""
+    """Return the end of a formula that turns a number in a unit into SI."""
     return "*PI()/180" if unit and factor(unit) == deg else "" if factor(unit) == 1.0 else f"*{factor(unit)!r}"
 
 
 def from_si(unit: str) -> str:
-    """Return what turns SI into a number in a unit, as the end of a formula."""
+    """Return the end of a formula that turns SI into a number in a unit."""
     return "*180/PI()" if unit and factor(unit) == deg else "" if factor(unit) == 1.0 else f"/{factor(unit)!r}"
 
 

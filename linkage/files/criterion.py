@@ -95,7 +95,7 @@ def measure_said(text: object, machine: Mechanism, over: Mapping[str, object] | 
 
 
 def measure_or_constant(found: Any, machine: Mechanism) -> Measure:
-    """Return a measure, or what has one value for a design as one; DefinitionError for what has a value at every pose."""
+    """Return a measure, also of a quantity with one value for a design; DefinitionError for one with a value at every pose."""
     is_quantity = isinstance(found, (str, Quantity, Request))
     return at(found) if is_quantity and not strokes_behind(machine.plan, found) else as_measure(found)
 
@@ -137,7 +137,7 @@ class CriterionParser(Grammar):
         self.machine, self.plan = machine, machine.plan
 
     def whole(self) -> Any:
-        """Return what the whole text says: a number, a quantity, a measure or a condition."""
+        """Return the meaning of the whole text: a number, a quantity, a measure or a condition."""
         try:
             return self.compared(self.tree) if isinstance(self.tree, ast.Compare) else self.meaning(self.tree)
         except DefinitionError as error:
@@ -179,7 +179,7 @@ class CriterionParser(Grammar):
         return Amount(number, units[0]) if is_multiple else number
 
     def kind_of(self, part: object) -> MeasureKind | None:
-        """Return what a part of a sum measures; None for a number, which may be added to anything."""
+        """Return the kind of a term in a sum; None for a number, which may be added to anything."""
         if isinstance(part, Amount):
             return MeasureKind(KINDS[part.measures]) if part.measures in KINDS else None
         return kind_of_quantity(self.plan, part) if isinstance(part, (Quantity, Request)) else None

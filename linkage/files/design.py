@@ -1,4 +1,4 @@
-"""What is written: a class as it is declared, or an instance with its dimensions as the new defaults."""
+"""Designs to write: a class as it is declared, or an instance with its dimensions as the new defaults."""
 
 from __future__ import annotations
 
@@ -76,7 +76,7 @@ class Design:
         return self.read_back(str(given), own_form(given), expression if isinstance(given, Quantity) else arrow_in)
 
     def read_back(self, text: str, says: object, read: Callable[[str, Names], Any]) -> str:
-        """Return a text; DefinitionError unless it is read as what it says."""
+        """Return a text; DefinitionError unless reading it gives the original again."""
         ensure(own_form(read(text, self.names)) == says, f"{text} does not read back as it is; give its parts names of their own.")
         return text
 
@@ -158,7 +158,7 @@ def measured_labels(design: Design, members: Mapping[str, Member]) -> dict[str, 
 
 
 def own_form(member: object) -> Any:
-    """Return what a member says, as nested tuples that compare; its own name does not count."""
+    """Return a member as nested tuples that compare; its own name does not count."""
     match member:
         case Ref():
             return member.target
@@ -170,7 +170,7 @@ def own_form(member: object) -> Any:
 
 
 def form(part: object) -> Any:
-    """Return what a part of a member says: its name where it has one."""
+    """Return a part of a member as a comparable value: its name where it has one."""
     match part:
         case tuple():
             return tuple(map(form, part))

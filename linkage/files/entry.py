@@ -68,14 +68,14 @@ class Argument:
 
 
 def argument_kept(member: object, argument: str) -> Any:
-    """Return what a member was given for an argument; DefinitionError where it does not keep it."""
+    """Return the argument that a member was made with; DefinitionError where it does not keep it."""
     values = [getattr(member, name) for name in (argument, *KEPT_AS.get(argument, ())) if hasattr(member, name)]
     ensure(values, f"it has no attribute {argument}; let its class keep each argument in the attribute of that name.")
     return next((each for each in values if each is not None and not ismethod(each)), None)
 
 
 def parameters_of(cls: type[Any]) -> list[Parameter]:
-    """Return what a class is called with."""
+    """Return the parameters of a class's `__init__`."""
     return list(signature(cls.__init__).parameters.values())[1:]
 
 
@@ -122,7 +122,7 @@ def kind_of(cls: type[Any], parameter: Parameter, said: FileTable) -> Kind:
 
 
 def read_table(given: Mapping[Any, object], names: Names, arguments: Iterable[Argument], mistakes: Mistakes) -> Keywords:
-    """Return the arguments that a table says, by name; what is wrong or missing is noted under its key."""
+    """Return the arguments of a table, by name; wrong or missing ones are noted under their keys."""
     found: Keywords = {}
     for each in arguments:
         if isinstance(each.kind, Within):
@@ -263,7 +263,7 @@ class FileEntry:
         return [next(word for word, kind in KINDS.items() if kind is each.kind) for each in self.built_from]
 
     def _parents(self) -> str:
-        """Return what a member could be built from, as it is written."""
+        """Return an example of the members that this one is built from, as it is written."""
         words = self._kind_words()
         names = [[*EXAMPLES.get(word, ()), *"PQRSTUVW"][words[:place].count(word)] for place, word in enumerate(words)]
         listed = ", ".join(f'"{each}"' for each in names)
@@ -272,7 +272,7 @@ class FileEntry:
     # -- reading ---------------------------------------------------------------------------------------
 
     def read(self, given: object, names: Names) -> Member:
-        """Return the member that an entry says; DefinitionError, with all mistakes by their keys, for what cannot be."""
+        """Return the member of an entry; DefinitionError, with all mistakes by their keys, for a wrong entry."""
         given = entry_as(given, Mapping, f"is not a table {{ key = value }} with the keys {', '.join(self.keys)}")
         mistakes = Mistakes()
         labels = self._labels(given)
@@ -310,7 +310,7 @@ class FileEntry:
         return dict.fromkeys(labels)
 
     def _read_parents(self, given: Any, names: Names) -> tuple[Any, ...]:
-        """Return what a member is built from, of a list."""
+        """Return the references that a member is built from, of a list."""
         words = self._kind_words()
         what = f"two {words[0]}s" if words in (["point"] * 2, ["guide"] * 2) else " and ".join(f"a {word}" for word in words)
         fits = is_listed(given) and len(given) == len(self.built_from)
@@ -320,7 +320,7 @@ class FileEntry:
     # -- writing ---------------------------------------------------------------------------------------
 
     def write(self, member: Any, design: Design) -> Any:
-        """Return a member as what a file holds: numbers, texts, lists, tables of them; DefinitionError for what it cannot."""
+        """Return a member as data of a file: numbers, texts, lists, tables of them; DefinitionError for other values."""
         values = member.parents if isinstance(member, Step) else [argument_kept(member, each.name) for each in self.built_from]
         parents = [each.kind.write(value, design, "") for each, value in zip(self.built_from, values, strict=True)]
         if self.word:

@@ -40,7 +40,7 @@ OWN_WORDS = r"(?P<name>[^\W\d]\w*(?:\.[^\W\d]\w*)*)|(?P<sign>\*\*|[-+*/(),=])"
 
 @lru_cache(maxsize=16)
 def words_with_numbers(others: str, units: tuple[str, ...]) -> re.Pattern[str]:
-    """Return the pattern of one word: a number with a unit, what else a grammar knows, or the end."""
+    """Return the pattern of one word: a number with a unit, the further words of a grammar, or the end."""
     unit = "|".join(re.escape(name) for name in sorted(units, key=len, reverse=True))
     number = rf"(?P<number>{DIGITS}(?:[ \t]*(?P<unit>{unit})(?!\w))?)"
     return re.compile(rf"\s*(?:{number}|{others}|(?P<end>\Z))")
@@ -134,7 +134,7 @@ BINARY: dict[str, Callable[[Any, Any], Any]] = {
 
 
 def constant(name: str) -> float | None:
-    """Return what a name that stands for a number is: "pi", or a unit, `2 * mm`; None for any other."""
+    """Return the value of a constant by its name: "pi", or a unit, `2 * mm`; None for any other name."""
     return math.pi if name == "pi" else UNITS[name][0] if name in UNITS else None
 
 
@@ -159,7 +159,7 @@ SIGNS: Mapping[type[ast.operator], str] = {ast.Add: "+", ast.Sub: "-", ast.Mult:
 
 
 class Grammar(ABC):
-    """Reads one text by the tree that Python's parser makes of it. A subclass says what its words and functions are."""
+    """A parser of one text by Python's syntax tree. A subclass defines its words and functions."""
 
     grammar: ClassVar[str] = GRAMMAR
     pattern: ClassVar[str] = OWN_WORDS
@@ -178,7 +178,7 @@ class Grammar(ABC):
             raise DefinitionError(f"{text!r}: {self.misfit(error)}; {self.grammar}.") from None
 
     def misfit(self, error: SyntaxError) -> str:
-        """Return what is expected where a word does not fit, in words."""
+        """Return the expected words at the place of a wrong one."""
         place = bisect_right(self.starts, error.offset - 1) - 1 if error.offset else len(self.tokens) - 1
         word, before = self.tokens[place].text, self.tokens[max(place - 1, 0)]
         if error.msg.endswith("was never closed"):
@@ -191,11 +191,11 @@ class Grammar(ABC):
 
     @abstractmethod
     def atom(self, token: Token) -> Any:
-        """Return a number, or what a name stands for."""
+        """Return a number, or the value of a name."""
 
     @abstractmethod
     def called(self, node: ast.Call, depth: int) -> Any:
-        """Return what a function makes of its arguments."""
+        """Return the value of a function's call."""
 
     @abstractmethod
     def joined(self, sign: str, a: Any, b: Any) -> Any:
@@ -224,7 +224,7 @@ class Grammar(ABC):
         )
 
     def meaning(self, node: ast.expr, depth: int = 0) -> Any:
-        """Return what a part says; of numbers alone it is a number."""
+        """Return the value of a part; of numbers alone it is a number."""
         if depth > NESTING:
             raise self.too_deep()
         match node:
@@ -271,7 +271,7 @@ class Parser(Grammar):
         return self.names.quantity(self.checked(token.text, "quantity"))
 
     def called(self, node: ast.Call, depth: int, kind: str = "quantity") -> Member:
-        """Return what a function makes of its arguments; it must be of a kind."""
+        """Return the value of a function's call; it must be of a kind."""
         name = self.word(node.func).text
         if name not in CALLS:
             raise DefinitionError(f"{self.text!r}: {unknown('Function', name, CALLS)}")

@@ -1,4 +1,4 @@
-"""The names a file declares, with what each of them is."""
+"""The names that a file declares, each with its kind."""
 
 from __future__ import annotations
 
@@ -100,13 +100,13 @@ def listed(given: object) -> Sequence[Any]:
 
 
 def entry_as(given: object, kind: type[Kind] | tuple[type[Kind], ...], expected: str) -> Kind:
-    """Return what a file says where it is of a kind; DefinitionError for anything else, in the words of `require_entry`."""
+    """Return a value of a kind from a file; DefinitionError for anything else, in the words of `require_entry`."""
     require_entry(isinstance(given, kind), given, expected)
     return cast(Kind, given)
 
 
 def require_entry(holds: object, given: object, expected: str) -> None:
-    """Refuse what a file says where something does not hold of it: `"S": a list is expected.`, `"S" is no list.`"""
+    """Refuse a value of a file unless a condition holds: `"S": a list is expected.`, `"S" is no list.`"""
     if not holds:
         raise DefinitionError(f"{shortened(given)}{' ' if expected.startswith('is ') else ': '}{expected}.")
 

@@ -103,7 +103,7 @@ def machines_of(members: Mapping[str, Member]) -> dict[str, type[Mechanism]]:
 
 
 def beside(folder: Path | None, load: Callable[[Path], type[Mechanism]]) -> Callable[[str], type[Mechanism]]:
-    """Return what loads the machine of a file in the folder of the one that is read, each once; DefinitionError for one elsewhere."""
+    """Return a loader of machines from files in the folder of the current one, each once; DefinitionError for one elsewhere."""
 
     @cache
     def loaded(name: str) -> type[Mechanism]:

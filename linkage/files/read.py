@@ -112,7 +112,7 @@ def sections_of(data: object, faults: Faults) -> dict[str, FileTable]:
 
 
 def head_read(data: FileTable, faults: Faults) -> tuple[str, str | None, Featured]:
-    """Return the class's name, its docstring and what it is about; anything else is noted."""
+    """Return the class's name, its docstring and its features; anything else is noted."""
     title, doc, featured, given = data.get("name"), data.get("doc"), Featured(), data.get("featured", {})
     with faults.at("name"):
         ensure(title is not None, 'the name of the mechanism is missing; begin with name = "ThreePointHitch".')
@@ -204,7 +204,7 @@ def member_read(name: str, section: str, given: object, names: Names, title: str
 
 
 def class_made(title: str, doc: str | None, featured: Featured, names: Names, faults: Faults) -> type[Mechanism]:
-    """Return the class with the members that are built; what is wrong with it as a whole comes with the file's name and key."""
+    """Return the class with the members that are built; faults of the whole class come with the file's name and key."""
     try:
         with np.errstate(all="ignore"):
             own = {"__module__": __name__, "__doc__": doc, "about": featured}

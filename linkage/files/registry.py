@@ -40,7 +40,7 @@ _COMPARED = re.compile(r"([^<>=!]+)(<=|>=)([^<>=!]+)")
 
 
 def over_read(given: object, names: Names) -> Over:
-    """Return where is looked, as a table says it; DefinitionError, with the key, for what it is not."""
+    """Return the `Over` of a table; DefinitionError, with the key, for a wrong one."""
     given = entry_as(given, Mapping, 'is not a table of strokes, such as { phi = ["15 deg", "80 deg"], t = 0.0 }')
     given, known = dict(by_whole_names(given, tuple(STEPS))), names.strokes
     if "csv" in given:
@@ -276,7 +276,7 @@ class Registry:
         return found
 
     def kind(self, section: str) -> str:
-        """Return what the members of a section are: `point`, `quantity`, ..."""
+        """Return the kind of a section's members: `point`, `quantity`, ..."""
         found: str = next(iter(self.sections[section].values())).describes.kind
         return found
 
@@ -362,7 +362,7 @@ def class_of(path: Any, section: str, trust: Collection[str]) -> type[Member]:
 
 
 def imported(path: str) -> Any:
-    """Return what an import path names among what is imported already, without running anything; None where there is none."""
+    """Return the object of an import path among the modules imported already, without running any code; None where there is none."""
     module, _, name = path.partition(":")
     found: Any = sys.modules.get(module)
     for part in name.split("."):

@@ -1,4 +1,4 @@
-"""From a file or a text to plain tables, TOML by the standard library, JSON without its loopholes; and what is wrong with them."""
+"""Sources: from a file or a text to plain tables, TOML by the standard library, JSON without its loopholes; and their mistakes."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ class Source:
 
 
 def source(path_or_text: str | os.PathLike[str]) -> Source:
-    """Return what a file holds, or a text: one that has several lines or begins with `{`. FileError for what cannot be read."""
+    """Return the text of a file, or a text with several lines or a leading `{`. FileError for a file that cannot be read."""
     if not isinstance(path_or_text, (str, os.PathLike)):
         raise FileError(f"a path or a text is expected, not {type(path_or_text).__name__}.")
     if isinstance(path_or_text, str) and ("\n" in path_or_text or path_or_text.lstrip().startswith("{")):
@@ -68,7 +68,7 @@ def source(path_or_text: str | os.PathLike[str]) -> Source:
 
 
 def decoded(name: str, raw: bytes, is_json: bool) -> Source:
-    """Return the tables that some bytes say; FileError, with the line, for what is neither TOML nor JSON."""
+    """Return the tables in some bytes; FileError, with the line, for text that is neither TOML nor JSON."""
     if len(raw) > FILE_BYTES:
         raise FileError(f"{name}: the file is larger than {FILE_BYTES / 1e6:g} MB; a mechanism's file is a few kB.")
     try:
@@ -164,7 +164,7 @@ def csv_rows(path: Path) -> Iterator[tuple[int, list[str]]]:
 
 
 def delimiter_of(text: str) -> str:
-    """Return what stands between the cells of a table, by its first row."""
+    """Return the delimiter of a table's cells, by its first row."""
     first = next((line for line in text.splitlines() if line.strip() and not line.startswith("#")), "")
     unquoted = re.sub(r'"[^"]*"', "", first)
     return next((each for each in DELIMITERS if each in unquoted), ",")
@@ -238,7 +238,7 @@ class Mistakes:
 
     @contextmanager
     def at(self, *key: str) -> Iterator[None]:
-        """Note what goes wrong inside under a key, and go on behind."""
+        """Note errors inside under a key, and continue behind."""
         try:
             yield
         except SeveralError as error:
@@ -253,7 +253,7 @@ class Mistakes:
 
 
 def each_of(given: Iterable[tuple[object, object]], read: Callable[[Any, Any], Any]) -> list[Any]:
-    """Return what is read of each key and value; SeveralError with all mistakes, each under its key."""
+    """Return the results of reading each key and value; SeveralError with all mistakes, each under its key."""
     found, mistakes = [], Mistakes()
     for key, value in given:
         with mistakes.at(str(key)):

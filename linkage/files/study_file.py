@@ -1,4 +1,4 @@
-"""What every study file has: the machine and its settings, ranges and values in an engineer's words, and where results go.
+"""The parts of every study file: the machine and its settings, ranges and values with units, and the outputs.
 
     machine = "three_point_hitch"               # of `hydrolinkage list`, a machine's file, or package.module:Class of a trusted package
     set = { OB = "310 mm", M = ["220 mm", "950 mm"] }
@@ -149,7 +149,7 @@ def file_path(head: StudyHead, given: object) -> Path:
 
 
 def by_dimensions(given: object, what: str, read: Callable[[str, Any], Any], words: Sequence[str] = ()) -> dict[Any, Any]:
-    """Return what is read of the entries of a table, by the whole names of dimensions; SeveralError, each mistake under its name."""
+    """Return the results of reading a table's entries, by the whole names of dimensions; SeveralError, each mistake under its name."""
     if not isinstance(given, Mapping):
         raise DefinitionError(f"{what} = {shortened(given)}: a table by the names of dimensions is expected, such as [{what}] OB = ...")
     return dict(each_of(by_whole_names(given, words), lambda name, value: (name, read(name, value))))
@@ -168,13 +168,13 @@ def settings_said(plan: Plan, given: object, faults: Faults) -> Keywords:
 
 
 def measure_of_name(plan: Plan, name: str) -> str:
-    """Return what a dimension measures, "length" for a point; "" where nothing says so."""
+    """Return the kind of a dimension, "length" for a point; "" where nothing tells it."""
     known = name in plan.table.spellings
     return plan_measure(plan, plan.table.spellings[name][0]) if known else "length" if f"{name}.x" in plan.table.spellings else ""
 
 
 def amount_said(given: Any, measures: str) -> float:
-    """Return a number as it is [SI], or that of a text whose unit measures what it should; DefinitionError for anything else."""
+    """Return a number [SI], or that of a text with a unit of the right kind; DefinitionError for anything else."""
     if isinstance(given, str):
         return parse(given, measures)
     ensure(is_number(given), f'{shortened(given)} is no number and no text with a unit, such as "60 mm".')
@@ -198,7 +198,7 @@ RANGE_KEYS = ("from", "to", "step", "around", "choices")
 
 
 def vary_said(head: StudyHead, given: object) -> dict[Any, Any]:
-    """Return what varies as `optimise` takes it; SeveralError with all mistakes, each under its name."""
+    """Return `vary` as `optimise` takes it; SeveralError with all mistakes, each under its name."""
 
     def varied(name: str, value: object) -> dict[Any, Any]:
         names = tuple(part.strip() for part in name.split(","))
@@ -221,7 +221,7 @@ def vary_said(head: StudyHead, given: object) -> dict[Any, Any]:
 
 
 def range_said(given: object, plan: Plan, name: str) -> Any:
-    """Return what a dimension ranges over as `optimise` takes it: a tuple, `around(...)`, or a list of choices."""
+    """Return the range of a dimension as `optimise` takes it: a tuple, `around(...)`, or a list of choices."""
     measures, ends = measure_of_name(plan, name), None
     match given:
         case list() | tuple():
@@ -259,7 +259,7 @@ TOLERANCE_KEYS = ("limits", "law")
 
 
 def tolerances_said(key: str) -> Read:
-    """Return what reads tolerances by the names of dimensions under a key."""
+    """Return a reader of tolerances by the names of dimensions under a key."""
 
     def read(head: StudyHead, given: object) -> Keywords:
         def one(name: str, value: object) -> Tolerance:
@@ -344,7 +344,7 @@ def case_said(head: StudyHead, given: object) -> Any:
 
 
 def count_from(least: int) -> Read:
-    """Return what reads a whole number of at least so much."""
+    """Return a reader of a whole number of at least so much."""
 
     def read(head: StudyHead, given: Any) -> int:
         require_entry(is_whole(given) and given >= least, given, f"a whole number is expected, at least {least}")
@@ -354,12 +354,12 @@ def count_from(least: int) -> Read:
 
 
 def one_of(words: Sequence[str]) -> Read:
-    """Return what reads one of a few words."""
+    """Return a reader of one of a few words."""
     return lambda head, given: one_word("it", given, words)
 
 
 def texts_said(given: object, read: Callable[[object], Any]) -> list[Any]:
-    """Return what is read of each text of a list, or of a single one; SeveralError with all mistakes, each under its number."""
+    """Return the results of reading each text of a list, or a single one; SeveralError with all mistakes, each under its number."""
     return each_of(enumerate(listed(given), 1), lambda number, text: read(text))
 
 
@@ -367,7 +367,7 @@ def texts_said(given: object, read: Callable[[object], Any]) -> list[Any]:
 
 
 def outputs_said(head: StudyHead, kinds: Mapping[str, Sequence[str]]) -> dict[str, tuple[Path, ...]]:
-    """Return the files of [outputs] by what they hold, each checked to be writable; mistakes are noted.
+    """Return the files of [outputs] by their contents, each checked to be writable; mistakes are noted.
 
     `kinds` are the endings that a file's name may have, by what it holds.
     """

@@ -1,4 +1,4 @@
-"""Studies as a file: a survey over a box, a zone, tolerances, what matters most, and settings that give wanted values.
+"""Studies as a file: a survey over a box, a zone, tolerances, the tornado of tolerances, and settings that meet targets.
 
     machine = "three_point_hitch"
 
@@ -101,7 +101,7 @@ class TextMeasures:
         return measures, conditions
 
     def problem(self, machine: Mechanism, measures: Mapping[str, Measure], conditions: Mapping[str, Sequence[Constraint]]) -> Problem:
-        """Return what looks at them; DefinitionError where they ask for what a machine has not."""
+        """Return the problem that evaluates them; DefinitionError for measures that a machine does not have."""
         kept = [one for each in conditions.values() for one in each]
         counts = {0: 1} | {each: max(3, round(self.poses ** (1.0 / each))) for each in range(1, 6)}
         return Problem(machine, [*measures.values()], kept, NOWHERE, over=dict(self.over), counts=counts)
@@ -141,7 +141,7 @@ def named_measures(given: Any) -> dict[str, str]:
 @final
 @immutable
 class TaskResult:
-    """What a study came to: sentences, a table, the study's own result, and whether there is a solution."""
+    """The result of a study file: sentences, a table, the study's own result, and whether there is a solution."""
 
     text: str
     columns: tuple[Column, ...]
@@ -309,7 +309,7 @@ def setting_parts(name: str, value: object) -> list[tuple[str, Any]]:
 
 
 def summary_of(values: Any, unit: str) -> str:
-    """Return what a survey found of a measure, in words."""
+    """Return a survey's values of a measure, in words."""
     if values.dtype.kind == "b":
         return f"{100.0 * float(np.mean(values)):.1f} % keep it"
     known = values[np.isfinite(values)]
@@ -446,7 +446,7 @@ class StudyFile:
     outputs: Mapping[str, tuple[Path, ...]]
 
     def run(self, section: str, folder: Path | None = None, progress: bool | Progress = False) -> TaskResult:
-        """Return what the study of a section comes to; `folder` stands above the file's own."""
+        """Return the result of a section's study; `folder` replaces the file's own."""
         kept: Keywords = {"folder": folder or self.folder, "progress": progress} if section == "survey" else {}
         return TASKS[section](self.machine, **self.tasks[section], **kept)
 

@@ -1,4 +1,4 @@
-"""A synthesis as a file: the task, what may vary, what must be kept, and where the results go.
+"""A synthesis as a file: the task, the variables, the conditions, and the outputs.
 
     machine = "four_bar"
 
@@ -84,7 +84,7 @@ class SearchFile:
     outputs: Mapping[str, tuple[Path, ...]]
 
     def run(self, folder: str | os.PathLike[str] | None = None, progress: bool | Progress = False) -> Any:
-        """Return what the search finds; `folder` stands above the file's own."""
+        """Return the result of the search; `folder` replaces the file's own."""
         return self.search(self.machine, **{**self.arguments, "folder": folder or self.arguments.get("folder")}, progress=progress)
 
 
@@ -116,12 +116,12 @@ def read_search(path: str | os.PathLike[str], find: FindMachine, settings: Setti
 
 
 def objective_said(head: StudyHead, given: object) -> Measure:
-    """Return what a text says is to be least or greatest."""
+    """Return the measure of a text, to minimise or maximise."""
     return measure_said(given, head.machine, head.found["over"])
 
 
 def objectives_said(head: StudyHead, given: object) -> list[Measure]:
-    """Return what is to be least or greatest: the measure of a text, or those of a list, mistakes under their numbers."""
+    """Return the measures to minimise or maximise: that of a text, or those of a list, mistakes under their numbers."""
     return study_file.texts_said(given, partial(objective_said, head)) if isinstance(given, list) else [objective_said(head, given)]
 
 
@@ -233,7 +233,7 @@ def read_synthesis(path: str | os.PathLike[str], find: FindMachine, settings: Se
 
 
 def by_class(read: Read, *, is_of_points: bool = False) -> Read:
-    """Return what reads one thing of a machine; of several the same by class, from a table by their names or from one thing for all.
+    """Return a reader of one thing of a machine; of several machines by class, from a table by their names or from one thing for all.
 
     What is read by points is one thing where another name than a machine's stands in the table.
     """
@@ -263,7 +263,7 @@ def timed_said(head: StudyHead, given: object) -> object:
 
 
 def switch_said(key: str) -> Read:
-    """Return what reads true or false under a key."""
+    """Return a reader of true or false under a key."""
 
     def read(head: StudyHead, given: object) -> bool:
         if not isinstance(given, bool):
@@ -278,7 +278,7 @@ POINTS = 'points = [[30, 60], [15, 70]] with unit = "mm", or a CSV file, "points
 
 
 def whose(name: str) -> Read:
-    """Return what reads whose path, values or poses are wanted: a point, a quantity, two points; of several machines by class."""
+    """Return a reader of the task's subject: a point, a quantity, two points; of several machines by class."""
 
     def read(head: StudyHead, given: object) -> Any:
         if not isinstance(given, str) or not given.strip():
@@ -297,7 +297,7 @@ def whose(name: str) -> Read:
 
 
 def wanted_points(name: str) -> Read:
-    """Return what reads the points of a task; the column of the stroke goes by its own name or `at`."""
+    """Return a reader of the points of a task; the column of the stroke goes by its own name or `at`."""
 
     def read(head: StudyHead, given: object) -> Keywords:
         if "of" not in head.found:
@@ -359,7 +359,7 @@ SYNTHESIS_TASKS: Mapping[str, Callable[..., Any]] = {"path": path_task, "functio
 
 
 def task_said(name: str) -> Read:
-    """Return what reads the table of a task. The path of several machines may be left to their couplers' points."""
+    """Return a reader of a task's table. The path of several machines may be left to their couplers' points."""
 
     def read(head: StudyHead, given: object) -> Any:
         given = entry_as(given, Mapping, f'a table is expected, {name} = {{ of = "P", points = "points.csv" }}')
@@ -400,7 +400,7 @@ _HEADING = re.compile(r"(?P<name>[^\[(,/]*?)\s*(?:[\[(,/]\s*(?P<unit>[^\])]*?)\s
 @final
 @dataclass(frozen=True)
 class PointColumn:
-    """A column of wanted values: its names, the first of which messages use, what it measures, and whether it may be missing."""
+    """A column of a task's points: its names, the first of which messages use, its kind, and whether it may be missing."""
 
     names: tuple[str, ...]
     measures: str
@@ -408,12 +408,12 @@ class PointColumn:
 
     @property
     def name(self) -> str:
-        """What it is called."""
+        """Its first name."""
         return self.names[0]
 
 
 def units_said(given: object) -> dict[str, float]:
-    """Return factors of units by what they measure: of `"mm"`, or of a list `["mm", "deg"]`; DefinitionError for anything but a unit."""
+    """Return factors of units by their kinds: of `"mm"`, or of a list `["mm", "deg"]`; DefinitionError for anything but a unit."""
     names = [known_name("Unit", each, UNITS) for each in (given if isinstance(given, list) else [given])]
     return {UNITS[name][1]: factor(name) for name in names}
 
@@ -441,7 +441,7 @@ def points_said(given: object, columns: Sequence[PointColumn], units: Mapping[st
 
 
 def points_of_file(path: Path, columns: Sequence[PointColumn], units: Mapping[str, float]) -> dict[str, FloatArray]:
-    """Return the columns of a CSV file [SI]; DefinitionError with the file and the line of what is wrong."""
+    """Return the columns of a CSV file [SI]; DefinitionError with the file and the line of a mistake."""
     rows = [*csv_rows(path)]
     ensure(rows, f"{path.name} holds no row; write a heading such as x [mm], y [mm], and a row for each point.")
     line, first = rows[0]
@@ -484,7 +484,7 @@ def headings_read(
 
 
 def known_unit(what: str, unit: str, measures: str) -> str:
-    """Return a unit of what should be measured; DefinitionError for another one."""
+    """Return a unit of the right kind; DefinitionError for another one."""
     if unit not in UNITS:
         raise DefinitionError(f"{what}: {unknown('Unit', unit, UNITS)}")
     if measures and UNITS[unit][1] != measures:

@@ -1,4 +1,4 @@
-"""What an argument may be: each kind of it, how it is read from a file and how it is written into one."""
+"""Kinds of arguments: how each is read from a file and how it is written into one."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ DEEPEST = 3
 
 
 def file_value(value: object, design: Design, name: str = "") -> Any:
-    """Return a value as a file holds it, by what it is: an expression, a name, a number, a word, lists and tables of them.
+    """Return a value as data of a file: an expression, a name, a number, a word, lists and tables of them.
 
     `name` is that of its design variable, where it is one. DefinitionError for what a file cannot hold.
     """
@@ -79,14 +79,14 @@ def quantity_of(given: Any, names: Names) -> Quantity:
 
 
 def number_of(given: object, names: Names, measures: str = "") -> float:
-    """Return a number as it is given, or that of a text without names whose unit measures what it should [SI]."""
+    """Return a number, or that of a text without names and with a unit of the right kind [SI]."""
     found: float = amount_of(given, names, measures)
     require_entry(not isinstance(found, Quantity), given, "a number is expected here, with no names in it")
     return found
 
 
 def amount_of(given: object, names: Names, measures: str) -> Any:
-    """Return a number [SI], that of a text such as `1200 kg` whose unit measures what it should, or an expression as a quantity.
+    """Return a number [SI], that of a text such as `1200 kg` with a unit of the right kind, or an expression as a quantity.
 
     Where nothing says what it should measure, a number with a unit knows what it does.
     """
@@ -113,7 +113,7 @@ def several(what: str, one: Read) -> Read:
 
 
 def list_reader(one: Read, wrong: str, most: float = inf) -> Read:
-    """Return what reads a list, each item by itself; `wrong` says what anything else, {given}, is not."""
+    """Return a reader of a list, each item by itself; `wrong` is the message for anything else, {given}."""
 
     def read(given: object, names: Names) -> tuple[Any, ...]:
         if not is_listed(given) or len(given) > most:
@@ -124,7 +124,7 @@ def list_reader(one: Read, wrong: str, most: float = inf) -> Read:
 
 
 def point_or(place: Read) -> Read:
-    """Return what reads the name of a point, or a place by two coordinates."""
+    """Return a reader of a point's name, or of a place by two coordinates."""
     return lambda given, names: names.checked(given, "point") if isinstance(given, str) else place(given, names)
 
 

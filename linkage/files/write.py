@@ -59,7 +59,7 @@ def to_dict(machine: Machine) -> Keywords:
 
 
 def head_table(machine: Machine, order: list[str]) -> Keywords:
-    """Return what stands above the sections: name, docstring, the members' order where these do not keep it, what it is about [SI]."""
+    """Return the head of a file, above the sections: name, docstring, the members' order where these do not keep it, features [SI]."""
     design = machine if isinstance(machine, Mechanism) else machine()
     cls = type(design)
     doc = cleandoc(cls.__doc__ or "")
@@ -73,7 +73,7 @@ def head_table(machine: Machine, order: list[str]) -> Keywords:
 
 
 def left_out(machine: Machine) -> tuple[str, ...]:
-    """Return the names of what a class has beside its members, which a file does not hold: functions, checks, values of its own."""
+    """Return the names in a class that a file does not hold: functions, checks, values of its own."""
     cls: Any = type(machine) if isinstance(machine, Mechanism) else machine
     if not (isinstance(cls, type) and issubclass(cls, Mechanism)):
         require_mechanism(cls)
@@ -83,12 +83,12 @@ def left_out(machine: Machine) -> tuple[str, ...]:
 
 
 def to_toml(machine: Machine) -> str:
-    """Return a mechanism as TOML text; numbers are exact. DefinitionError for what a file cannot hold."""
+    """Return a mechanism as TOML text; numbers are exact. DefinitionError for values that a file cannot hold."""
     return "\n\n".join(toml_blocks(to_dict(machine), "")) + "\n"
 
 
 def to_json(machine: Machine) -> str:
-    """Return a mechanism as JSON text; numbers are exact. DefinitionError for what a file cannot hold."""
+    """Return a mechanism as JSON text; numbers are exact. DefinitionError for values that a file cannot hold."""
     sections = []
     for name, value in to_dict(machine).items():
         text = json_inline(value)

@@ -1,4 +1,4 @@
-"""The equations of forces: what acts, the driving forces by virtual work, what cylinders carry, and what elements add to that.
+"""The equations of forces: the loads, the driving forces by virtual work, the thrusts of cylinders, and further lines of elements.
 
 The laws of force run on the symbols of the listing, as they run on arrays and on the nodes of a program; one that has no formula is a given
 number. A load that is vertical is a weight P, times the transfer ratio of its point; any other a vector F. Signs and frictionless virtual
@@ -202,7 +202,7 @@ class ForceLines:
         """The supports whose loads are given numbers."""
 
     def write_forces(self) -> None:
-        """Write all lines; DefinitionError for what has no chain of derivatives, and for cylinders that hold strokes together."""
+        """Write all lines; DefinitionError without a chain of derivatives, and for cylinders that hold strokes together."""
         shut = ", ".join(case_of(self.plan, self.case).shut_names)
         ensure(not shut, f"{self.plan.title}: the load case shuts {shut}, and equations are of open lines; take thrust(motion, case=...).")
         elements = {each.name: each for each in applied_elements(self.plan, Acting(case=self.case))}
@@ -228,7 +228,7 @@ class ForceLines:
     # -- what acts -------------------------------------------------------------------------------------
 
     def _acting(self, applied: AppliedElement) -> Iterator[Pulled]:
-        """Write what an element does at rest in the load case, and yield its loads; members with a thrust of their own are kept."""
+        """Write the loads of an element at rest in the load case, and yield them; members with a thrust of their own are kept."""
         name, element, factor = applied.name, applied.in_case, applied.factor
         if element.feeds(self.plan.members):
             return
@@ -284,7 +284,7 @@ class ForceLines:
     # -- what holds ------------------------------------------------------------------------------------
 
     def _hold(self, lines: Sequence[PressureLine]) -> None:
-        """Write what the cylinders of all lines carry: one line after the other where their strokes allow it, else together."""
+        """Write the thrusts of all lines' cylinders: one line after the other where their strokes allow it, else together."""
         left, strokes = list(lines), [line.stroke for line in lines]
         levers = {line: self._levers(line, strokes) for line in lines}
         needs = {stroke: self.listing.names.force(f"Q_{stroke}") for stroke in strokes}
@@ -315,7 +315,7 @@ class ForceLines:
         return found
 
     def _levers(self, line: PressureLine, strokes: Sequence[str]) -> dict[str, sympy.Expr]:
-        """Return what a unit of pressure in a line does on a unit of each stroke."""
+        """Return the work of a unit of pressure in a line on a unit of each stroke."""
         names = " and ".join(each.name for each in line.cylinders)
         ensure(not line.changes_shares, f"{self.plan.title}: {names} share their load by the sides that work; take thrust(motion) of each.")
         parts = {name: [self._area(line, each) * self._chains[name].growths[each.ends] for each in line.cylinders] for name in strokes}
@@ -427,7 +427,7 @@ class ForceLines:
         return term(float(self.design.at(**strokes).value(quantity)))
 
     def ratio(self, target: Reference, *, wrt: str | None = None, order: int = 1) -> Any:
-        """Return the derivative of a loaded point, shape (2,), or of a member's length; DefinitionError for what no line gives."""
+        """Return the derivative of a loaded point, shape (2,), or of a member's length; DefinitionError where no line gives it."""
         ensure(order == 1, f"{self.plan.title}: no equation gives a ratio of order {order}.")
         chain = self._chains.get(stroke_of(self.plan, wrt))
         if chain is not None and isinstance(target, Distance):

@@ -39,7 +39,7 @@ X_AXIS = vector_symbol("i")
 
 
 def symbolic_value(member: Member, reading: Listing) -> Any:
-    """Return what a member equals: a SymPy vector, or a term for a quantity; None for a point of plain coordinates."""
+    """Return a member as a formula: a SymPy vector, or a term for a quantity; None for a point of plain coordinates."""
     match member:
         case CosineAngle():
             return Term(Tcos(*(reading.value(side).expr for side in member.triangle)), ANGLE)
@@ -70,7 +70,7 @@ def symbolic_value(member: Member, reading: Listing) -> Any:
 
 
 def x_axis_of(axes: Axes, reading: Listing) -> sympy.MatrixExpr:
-    """Return the x axis; of a part its own one, along what carries it, mirrored and turned as the part is."""
+    """Return the x axis; of a part its own one, along its carrier, mirrored and turned as the part is."""
     along = TurnVL(reading.between(*axes.carrier), sympy.S.Zero, sympy.S.One) if axes.carrier else X_AXIS
     own = -along if axes.mirrored else along
     return own if axes.is_level else TurnV(own, reading.value(axes.angle).as_angle().expr)
@@ -81,7 +81,7 @@ def x_axis_of(axes: Axes, reading: Listing) -> sympy.MatrixExpr:
 @final
 @immutable
 class ListingLine:
-    """One line: a symbol, what it equals, and what it measures."""
+    """One line: a symbol, its formula, and its unit."""
 
     lhs: sympy.Basic
     rhs: sympy.Basic
@@ -96,7 +96,7 @@ class ListingLine:
 @final
 @immutable
 class GivenNumber:
-    """A symbol that no line gives, what its value is at the poses of a motion [SI], and what it measures."""
+    """A symbol that no line gives, its value at the poses of a motion [SI], and its unit."""
 
     symbol: sympy.Symbol | sympy.MatrixSymbol
     value: Callable[[Motion], Numbers]
@@ -279,7 +279,7 @@ class Listing:
         return Term(self.names.quantity(name), self.units[name])
 
     def at_pose(self, quantity: Quantity, strokes: Mapping[str, float]) -> Term:
-        """Return the symbol of what a quantity is at one pose of the strokes: a given number."""
+        """Return the symbol of a quantity at one pose of the strokes: a given number."""
         found = AtPose(quantity, strokes)
         symbol = self.names.force(f"{joined_names(*(name_of(each) for each in quantity.parts()))}_0")
         self.givens.append(GivenNumber(symbol, lambda motion: motion.value(found), LENGTH))
@@ -310,7 +310,7 @@ class Listing:
         return Line(start, along)  # type: ignore[arg-type]
 
     def curve(self, curve: Tabulated, x: Term, order: int = 0) -> Term:
-        """Return what a table gives, by its name."""
+        """Return the value of a table, by its name."""
         return Term(curve_function(curve, order)(term(x).expr))
 
     def angle_of(self, vector: Place) -> Term:

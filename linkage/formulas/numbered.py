@@ -103,7 +103,7 @@ def equations(
 
 
 def by_parts(lines: Sequence[ListingLine], listing: Listing) -> list[ListingLine]:
-    """Return lines with those of one part behind each other as far as what they hang on lets them; as they are, where there are no parts.
+    """Return lines with those of one part behind each other as far as their dependencies allow; unchanged without parts.
 
     A part whose lines can all be written comes first, the machine's own lines last.
     """
@@ -256,7 +256,7 @@ class SheetLine:
 
     @property
     def steps(self) -> tuple[str, ...]:
-        """What stands between the signs of equality, without repetition."""
+        """The terms between the signs of equality, without repetition."""
         first = self.results[0]
         kept = [self.symbol, self.formula, *([self.numbers] if self.numbers else []), *self.results]
         return tuple(step for place, step in enumerate(kept) if place != 1 or step != first)
@@ -284,7 +284,7 @@ def value_in_equation(value: Scalar, unit: Unit) -> str:
 
 
 def value_shown(value: Scalar, unit: Unit) -> str:
-    """Return a value in the unit it is shown in, with that unit; what is not shown in SI follows the system of units that is chosen."""
+    """Return a value with its display unit; units other than SI follow the chosen system of units."""
     if np.ndim(value):
         return f"({', '.join(plain_number(float(part) / unit.shown_factor) for part in value)}) {unit.text}".rstrip()
     name, size = unit.text, unit.shown_factor
@@ -338,13 +338,13 @@ class Equations(Sequence[Equation], Shown):
 
     @property
     def symbols(self) -> dict[str, sympy.Basic]:
-        """Every SymPy symbol by its text: what is given, then the left sides."""
+        """Every SymPy symbol by its text: the given ones, then the left sides."""
         given = {symbol.name: symbol for each in self._items for symbol in each.symbols}
         return given | {each.name: each.lhs for each in self._items if each.lhs.is_Symbol or each.lhs.is_Matrix}
 
     @property
     def headings(self) -> dict[int, str]:
-        """What stands over the equations that begin a part of the machine, by their numbers: `lower (Arm)`; none without parts."""
+        """The headings over the equations that begin a part of the machine, by their numbers: `lower (Arm)`; none without parts."""
         titles = self.part_titles
         before = [None, *(each.part for each in self._items)]
         begun = [each for each, last in zip(self._items, before, strict=False) if each.part != last]
@@ -352,7 +352,7 @@ class Equations(Sequence[Equation], Shown):
 
     @property
     def part_titles(self) -> dict[str, str]:
-        """What each part is called in a heading, `lower (Arm)`, by its name, the machine itself by ""; none without parts."""
+        """The heading of each part, `lower (Arm)`, by its name, the machine itself by ""; none without parts."""
         parts = self.machine.plan.of_kind(Part)
         return {"": self.machine.plan.title} | {name: f"{name} ({part.plan.title})" for name, part in parts.items()} if parts else {}
 
@@ -469,7 +469,7 @@ class Equations(Sequence[Equation], Shown):
 
     @property
     def together(self) -> tuple[str, ...]:
-        """The pins that are found together, by iteration: no closed form gives them, and the equations are what they keep."""
+        """The pins that are found together, by iteration: they have no closed form, and the equations are their constraints."""
         return tuple(self._listing.unknowns)
 
     @property
@@ -549,7 +549,7 @@ def uses(equations: Equations, words: tuple[Word, ...]) -> bool:
 
 
 def legend(equations: Equations, listing: Listing, values: dict[str, str], forces: ForceLines | None = None) -> list[str]:
-    """Return the lines in front: conventions, definitions, and what is given, with `values` where there are any."""
+    """Return the lines in front: conventions, definitions, and the given symbols, with `values` where there are any."""
     lines = [*CONVENTION, *(text for words, text in DEFINITIONS if uses(equations, words))]
     if uses(equations, (X_AXIS,)):
         lines.append("i: the unit vector of the x axis")
@@ -566,7 +566,7 @@ def legend(equations: Equations, listing: Listing, values: dict[str, str], force
 
 
 def given_lines(equations: Equations, listing: Listing, values: dict[str, str], others: Sequence[sympy.Basic]) -> list[str]:
-    """Return what the equations start from: strokes, points, dimensions; `Given: S; A, O; L0, L_OB`."""
+    """Return the inputs of the equations: strokes, points, dimensions; `Given: S; A, O; L0, L_OB`."""
     plan, names = listing.plan, listing.names
     made = {each.lhs for each in equations}
     used = set().union(*(each.symbols for each in equations)) - made if len(equations) else set()

@@ -1,4 +1,4 @@
-"""Scalars of the symbolic reading: SymPy expressions that know what they measure and obey NumPy's functions."""
+"""Scalars of the symbolic reading: SymPy expressions with units that obey NumPy's functions."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ from .names import Cross, Deg, Dot, Norm, TurnV
 @final
 @dataclass(frozen=True)
 class Unit:
-    """Powers of metre and radian; not `known` where a formula mixes what it cannot follow."""
+    """Powers of metre and radian; not `known` where a formula mixes units that it cannot follow."""
 
     length: Fraction = Fraction(0)
     angle: Fraction = Fraction(0)
@@ -97,7 +97,7 @@ KINDS = {"length": LENGTH, "coordinate": LENGTH, "angle": ANGLE}
 
 
 def input_units(plan: Plan) -> dict[str, Unit]:
-    """Return what each stroke and design variable measures; a `Dimension` by the place where it is used."""
+    """Return the unit of each stroke and design variable; a `Dimension` by the place where it is used."""
     found = list(plan.table.lengths.values())
     for member in plan.members.values():
         for part in (member, *unnamed(member)):
@@ -141,7 +141,7 @@ class Term(Operators["Term | float", "Term"]):
         return self
 
     def applied(self, function: str, *operands: Term | float) -> Term:
-        """Return what NumPy's function of that name makes of terms and numbers."""
+        """Apply NumPy's function of that name to terms and numbers."""
         return FUNCTIONS[function](*map(term, operands))
 
     def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: Term | float, **options: object) -> Term:
@@ -208,7 +208,7 @@ def as_number(function: Callable[..., sympy.Expr]) -> Callable[..., Term]:
 
 
 def keeping_unit(function: Callable[..., sympy.Expr]) -> Callable[..., Term]:
-    """Return a function whose value measures what its arguments measure."""
+    """Return a function whose value has the unit of its arguments."""
     return lambda *terms: Term(function(*(each.expr for each in terms)), max(terms, key=lambda each: each.unit != NUMBER).unit)
 
 
@@ -295,7 +295,7 @@ def within_half_a_turn(angle: Term) -> Term:
 
 
 class VectorReading(Protocol):
-    """What a place reads its vectors from: the listing."""
+    """The vectors of a place: the listing implements it."""
 
     def between(self, P: str, Q: str) -> sympy.MatrixExpr:
         """Return the vector PQ."""
@@ -380,5 +380,5 @@ def vector_expr(given: Place | Vec) -> sympy.MatrixExpr:
 
 
 def vector_unit(given: Place | Vec) -> Unit:
-    """Return what a vector is measured in; of two plain numbers a number."""
+    """Return the unit of a vector; of two plain numbers a number."""
     return given.unit if isinstance(given, Place) else term(given.x).unit

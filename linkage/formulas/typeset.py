@@ -1,4 +1,4 @@
-r"""LaTeX as the equations write it, read into boxes: what a page sets in type without LaTeX, as MathML or by hand.
+r"""LaTeX of the equations, parsed into boxes, to be set in type without LaTeX, as MathML or by hand.
 
 Only what the printers here and SymPy's own emit is known: scripts, \frac, \sqrt, \vec, \overrightarrow, \left ... \right,
 \operatorname, \mathit, \mathrm, \text, pmatrix and cases. A command that is not known stands as its name.

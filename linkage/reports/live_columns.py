@@ -26,7 +26,7 @@ CLOSE = 1e-6
 
 
 def is_column(request: object) -> bool:
-    """Return whether a request is for a column of the table alone: what no other request asks for."""
+    """Return whether a request is for a column of the table alone, which no other request gives."""
     return isinstance(request, LawRequest) and bool(request.column)
 
 
@@ -44,7 +44,7 @@ def column_over(machine: Mechanism, place: int, name: str, motion: AnyMotion) ->
 def column_requests(
     machine: Mechanism, motion: Motion, columns: Sequence[Column] | None = None, only: Container[str] | None = None, case: Case = None
 ) -> dict[str, LiveColumn]:
-    """Return the columns of a motion of one design by their names: each, what asks for it, and why that does not give it, or "".
+    """Return the columns of a motion of one design by their names: each, its request, and why that gives other values, or "".
 
     `columns` are its results, where they are known already; `only` are the names of those that are wanted, by default all. They are of a
     load case, what asks for them of any.
@@ -79,7 +79,7 @@ def at_its_rates(motion: Motion, request: RequestLike) -> RequestLike:
 
 
 def not_followed(motion: Motion, request: RequestLike, column: Column) -> str:
-    """Return why a program does not give what a column holds, NaN at the same poses, in words; empty where it does."""
+    """Return why a program's values differ from a column's, NaN at the same poses, in words; empty where they agree."""
     own, request = np.broadcast_to(np.asarray(column.values, float), motion.shape), at_its_rates(motion, request)
     try:
         found = motion._requested(request) if isinstance(request, Request) else motion[request]

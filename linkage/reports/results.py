@@ -1,4 +1,4 @@
-"""A machine's table of results: its columns, what its drives must do, and what its members show."""
+"""A machine's table of results: its columns, the forces of its drives, and its members' columns."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def column_in_case(motion: Motion, column: Column, case: Case) -> Column:
 
 
 def request_in_case(request: Asked, case: Case) -> Asked:
-    """Return what is asked for in a load case."""
+    """Return a request in a load case."""
     return cast(Asked, request.under(Acting(case=case), keep=True)) if isinstance(request, Request) and case is not None else request
 
 
@@ -73,7 +73,7 @@ def columns_about(machine: Mechanism, found: Sequence[Column]) -> list[str]:
 
 
 def column_among(machine: Mechanism, found: Sequence[Column], name: str | None) -> Column:
-    """Return a column of results by name; without one, what the machine is about if it changes, else the last that does."""
+    """Return a column of results by name; without one, the featured column if it changes, else the last that does."""
     columns = {column.name: column for column in found if column.name not in machine.strokes}
     if name is None and columns:
         moving = [each for each, column in columns.items() if is_changing(column.drawn)]
@@ -102,7 +102,7 @@ def columns_by(machine: Mechanism, motion: Motion) -> list[Column]:
 
 
 def force_columns(motion: Motion, case: Case = None, direction: str | None = None) -> list[Column]:
-    """Return the generalised forces of a motion's strokes and what its members show, in a load case, while it moves in a direction.
+    """Return the generalised forces of a motion's strokes and its members' columns, in a load case, while it moves in a direction.
 
     Nothing where nothing acts; NaN at dead points. The direction is of the stroke in its forces, of each cylinder in what is its own.
     """
@@ -146,7 +146,7 @@ def member_columns(motion: Motion, case: Case = None, direction: str | None = No
 
 
 def asked_by_name(member: str, column: Column) -> Column:
-    """Return a member's column with what it is asked for by: the request of the column's name, of the member, where there is one."""
+    """Return a member's column with its request: that of the column's name, of the member, where there is one."""
     if column.request is not None or column.name not in REQUESTS:
         return column
     return replace(column, request=request_function(column.name)(member))

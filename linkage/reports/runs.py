@@ -1,4 +1,4 @@
-"""Where a machine is shown, one function for every reader: along what it declares as `Over`s, else along one stroke."""
+"""Runs of a machine, the same for every reader: along its declared `Over`s, else along one stroke."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ NOTHING: At = MappingProxyType({})
 
 
 def runs_of(machine: Mechanism, at: At | Motion = NOTHING, over: object = None, acting: Acting | None = None) -> tuple[Run, ...]:
-    """Return where a machine is shown: what its pictures, tables, pages and reports go along.
+    """Return the runs of a machine, which its pictures, tables, pages and reports follow.
 
     Parameters
     ----------
@@ -137,7 +137,7 @@ def worst_answer(machine: Mechanism, motion: Motion, place: Domain, acting: Acti
 
 
 def run_along(motion: Motion) -> tuple[Run, int]:
-    """Return what moves along a motion of one axis, through all its places, and the number from 0 of the first of them.
+    """Return the run along a motion of one axis, through all its places, and the number from 0 of the first of them.
 
     Of a sweep along an `Over.path` these are the places of the path, in a load case that occurs there. Of one that is not reached
     everywhere it is the longest part that is.
@@ -181,7 +181,7 @@ def one_run(machine: Mechanism, at: At) -> Run:
 
 
 def stroke_way(machine: Mechanism, name: str, value: object) -> tuple[float, ...]:
-    """Return what a stroke is given: one value, or those that it passes; DefinitionError for anything else."""
+    """Return a stroke's values: one, or those that it passes; DefinitionError for anything else."""
     title = machine.plan.title
     known_name("Stroke", name, machine.strokes, where=title)
     require_kind(machine.plan, name, value, f"{title}: at: {name}")

@@ -84,12 +84,12 @@ DAGGER = " †"
 
 
 def dagger_ends(outside: Sequence[bool]) -> list[str]:
-    """Return how each row of a table ends, by whether it is outside what is judged."""
+    """Return the end of each row of a table, by whether it is outside the judged places."""
     return [DAGGER if each else "" for each in outside]
 
 
 def dagger_words() -> str:
-    """Return what explains the daggers of a table, below it."""
+    """Return the explanation of a table's daggers, below it."""
     return said("† This pose is not among those that are judged.")
 
 

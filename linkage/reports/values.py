@@ -16,7 +16,7 @@ STEPS = ("length", "angle")  # kinds of variables that a step's label makes
 
 
 def dimension_unit(machine: Mechanism, name: str) -> str:
-    """Return the unit that a design variable is given in, else the one that what it measures is shown in."""
+    """Return the unit that a design variable is given in, else the display unit of its kind."""
     return machine.plan.table.entries[name].unit or display_unit(plan_measure(machine.plan, name), "mm")
 
 

@@ -1,4 +1,4 @@
-"""A machine as a sketch: pins by coordinates, named links, what slides and what drives; read from drawings and other programs' files."""
+"""A machine as a sketch: pins by coordinates, named links, slides and drives; read from drawings and other programs' files."""
 
 from ..star import declare_public
 from .machine_sketch import MachineSketch, SketchDrive, SketchSlide, SketchWeight

@@ -38,7 +38,7 @@ def read_dxf(found: FoundMachine, path: str, layers: Mapping[str, Sequence[str]]
 
 @final
 class DrawingReader:
-    """The entities of a drawing by the roles of their layers, on their way into what is found."""
+    """The entities of a drawing by the roles of their layers, on their way into a `FoundMachine`."""
 
     def __init__(self, found: FoundMachine, entities: Sequence[Any], layers: Mapping[str, Sequence[str]]) -> None:
         self.found, self.entities = found, entities
@@ -121,7 +121,7 @@ class DrawingReader:
             self.found.left_out.append(f"a line of the layer {line.dxf.layer} without pins")
 
     def drive(self, role: str, P: str, Q: str) -> None:
-        """Enter what drives between two pins; a crank turns about the fixed one, and brings its own link."""
+        """Enter a drive between two pins; a crank turns about the fixed one, and brings its own link."""
         if role == "cylinder":
             self.found.drives.append(FoundDrive("cylinder", (P, Q)))
             return
@@ -134,7 +134,7 @@ class DrawingReader:
 
 
 def corners_of(entity: Any) -> list[Place]:
-    """Return the corners of a line, a polyline or a hatch, arcs by chords; a closed one ends where it begins. What has no form has none."""
+    """Return the corners of a line, a polyline or a hatch, arcs by chords; a closed one ends where it begins. Others have none."""
     if entity.dxftype() == "LINE":
         return [(float(each.x), float(each.y)) for each in (entity.dxf.start, entity.dxf.end)]
     from ezdxf import path as curves

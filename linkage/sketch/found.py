@@ -1,4 +1,4 @@
-"""What a reader of a file finds, piece by piece, and how it becomes a sketch: names made legal, units, slides on their lines, drives."""
+"""Findings of a file's reader, piece by piece, and their way to a sketch: names made legal, units, slides on their lines, drives."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class FoundPoint:
 @final
 @dataclass
 class FoundDrive:
-    """What drives: a crank about its first key or a cylinder between two; the stroke [units of the file, rad] where the file gives it.
+    """A drive: a crank about its first key or a cylinder between two; the stroke [units of the file, rad] where the file gives it.
 
     A text is a length with a unit of its own, which no scale of the drawing changes.
     """

@@ -69,12 +69,12 @@ def read_element(found: FoundMachine, element: Element) -> None:
 
 
 def is_drawn(element: Element) -> bool:
-    """Return whether an element is on the layer of what is only drawn."""
+    """Return whether an element is on the layer for drawings only."""
     return element.get("layer", "").isdigit() and int(element.get("layer", "")[:9]) == DRAWING
 
 
 def parsed_xml(file: str, text: str) -> Element:
-    """Return the root of an XML text; FileError for entities, for too deep an one, and for what is none."""
+    """Return the root of an XML text; FileError for entities, for too deep an one, and for other text."""
     has_types = "<!" in text.replace("<!--", "")
     ensure_file(not has_types, f"{file}: it declares a document type or entities, which are not read; take that line out.")
     parser: Any = XMLPullParser(("start", "end"))

@@ -1,4 +1,4 @@
-"""The value of this room: where pins are drawn, which links join them, what is fixed, what slides and what drives."""
+"""The value of this room: the pins' places, the links that join them, fixed pins, slides and drives."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class SketchSlide:
 @final
 @dataclass(frozen=True)
 class SketchDrive:
-    """What drives a sketch, a crank or a cylinder, by a stroke of its own.
+    """A drive of a sketch, a crank or a cylinder, by a stroke of its own.
 
     Parameters
     ----------
@@ -83,7 +83,7 @@ class SketchWeight:
 @final
 @dataclass(frozen=True)
 class MachineSketch:
-    """Pins by coordinates, named links, what is fixed, what slides and what drives: a machine as one draws it.
+    """Pins by coordinates, named links, fixed pins, slides and drives: a machine as one draws it.
 
     Parameters
     ----------
@@ -132,7 +132,7 @@ class MachineSketch:
             ensure(len({*names}) == len(names), f"{self.name}: {what} names a point twice.")
 
     def named(self) -> Iterator[tuple[str, tuple[str, ...]]]:
-        """Yield in words what names points, and which."""
+        """Yield in words every item that names points, with the points."""
         yield "what is fixed", self.fixed
         yield from ((f"the link {name}", points) for name, points in self.links.items())
         for name, slide in self.slides.items():
@@ -202,7 +202,7 @@ class MachineSketch:
         return {name: table for name, table in found.items() if table}
 
     def check_driven(self) -> None:
-        """Raise DefinitionError where nothing drives the sketch, naming what could."""
+        """Raise DefinitionError where nothing drives the sketch, naming possible drives."""
         if self.drives:
             return
         arms = [(P, Q) for points in self.links.values() for P in points for Q in points if P in self.fixed and Q not in self.fixed]
@@ -219,7 +219,7 @@ class MachineSketch:
         return {label: self.lengths[label] for label in pairs if label in self.lengths}
 
     def to_class(self) -> type[Mechanism]:
-        """Return the class of mechanism in the parts-list form; what no length gives is measured from the coordinates.
+        """Return the class of mechanism in the parts-list form; lengths not given are measured from the coordinates.
 
         Returns
         -------

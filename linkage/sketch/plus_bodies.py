@@ -34,7 +34,7 @@ def read_plus_bodies(found: FoundMachine, data: Mapping[str, Any]) -> None:
 
 
 class BodyReader:
-    """One document on its way into what is found."""
+    """One document on its way into a `FoundMachine`."""
 
     def __init__(self, found: FoundMachine, data: Mapping[str, Any]) -> None:
         self.found, self.file = found, found.file
@@ -81,7 +81,7 @@ class BodyReader:
         return x + u * cos(angle) - v * sin(angle), y + u * sin(angle) + v * cos(angle)
 
     def root(self, key: str) -> str:
-        """Return what stands for all that is one with an attachment or a body."""
+        """Return the representative of an attachment's or a body's merged group."""
         while self.one[key] != key:
             key = self.one[key]
         return key

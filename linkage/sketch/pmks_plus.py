@@ -120,7 +120,7 @@ def enter_cylinder(found: FoundMachine, joint: PlusJoint, known: Mapping[str, Pl
 
 
 def read_short_address(found: FoundMachine, text: str) -> None:
-    """Read what stands behind the ? of an address, `2P.Ay,1E8.K,0.1011...`; FileError where its checks say that it is damaged."""
+    """Read the text behind the ? of an address, `2P.Ay,1E8.K,0.1011...`; FileError where its checks show damage."""
     body, mark, digest = text.rpartition("*")
     if mark and len(digest) == DIGEST:
         ensure_file(digest_of(body) == digest, f"{found.file}: the address is damaged, its digest does not fit; copy it whole.")
@@ -247,6 +247,6 @@ def is_set(given: object) -> bool:
 
 
 def address_text(text: str) -> str:
-    """Return what stands behind the ? of an address, letters unescaped where it is a short one; the text itself where it is no address."""
+    """Return the text behind the ? of an address, letters unescaped where it is a short one; the text itself where it is no address."""
     query = text.partition("?")[2] or text
     return query if re.search(r"(?:^|&)j=", query) else unquote(query)

@@ -94,7 +94,7 @@ def is_frame(name: str) -> bool:
 
 
 def drive_pmks(found: FoundMachine, joints: list[PmksJoint]) -> None:
-    """Enter what drives: the joint that says so, else the first of the frame."""
+    """Enter the drive: the joint marked so, else the first of the frame."""
     chosen = [joint for joint in joints if joint.drives]
     on_frame = [joint for joint in joints if joint.kind != "RP" and len(joint.links) == 2 and any(map(is_frame, joint.links))]
     if not chosen and on_frame:
@@ -108,7 +108,7 @@ def drive_pmks(found: FoundMachine, joints: list[PmksJoint]) -> None:
 
 
 def pmks_text(sketch: MachineSketch) -> str:
-    """Return a sketch as text of PMKS in mm; DefinitionError for what it cannot say."""
+    """Return a sketch as text of PMKS in mm; DefinitionError for parts it cannot express."""
     drives = [*sketch.drives.values()]
     kinds = ", ".join(f"a {each.kind}" for each in drives)
     ensure(

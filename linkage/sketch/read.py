@@ -1,4 +1,4 @@
-"""The door to files of other programs: which one a file is of, and what its sketch is."""
+"""The door to files of other programs: which one wrote a file, and its sketch."""
 
 from __future__ import annotations
 
@@ -93,14 +93,14 @@ def is_foreign(text: str) -> bool:
 
 
 def is_address(text: str) -> bool:
-    """Return whether a text is a share address, or what stands behind its ?."""
+    """Return whether a text is a share address, or the part behind its ?."""
     query = address_text(text)
     begins = WEB.match(text), SHORT.match(query), re.match(r"j=[^&]*&l=", query)
     return text.startswith(ENVELOPE) or text.rpartition("#")[2].startswith(ADDRESS) or any(begins)
 
 
 def content_of(file: Place, layers: Mapping[str, Sequence[str]]) -> tuple[FoundMachine, str]:
-    """Return what a file or a share address holds, and a name for it."""
+    """Return the machine in a file or a share address, and a name for it."""
     text = str(file)
     if is_address(text):
         found = FoundMachine("the address")
@@ -157,7 +157,7 @@ def read_address(found: FoundMachine, text: str) -> None:
 
 
 def json_reader(data: Mapping[str, Any]) -> Callable[[FoundMachine, Mapping[str, Any]], None] | None:
-    """Return what reads a JSON file by its keys; None where no program is known that writes these."""
+    """Return the reader of a JSON file by its keys; None where no known program writes these."""
     if "board" in data and "points" in data:
         return read_board
     if data.get("version") == 2 and "bodies" in data and "attachments" in data:

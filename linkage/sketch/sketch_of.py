@@ -100,7 +100,7 @@ def is_found_anew(member: object) -> bool:
 
 
 def drives_of(design: Mechanism, joints: list[tuple[str, Joint]], strokes: Mapping[str, float]) -> Iterator[tuple[str, SketchDrive]]:
-    """Yield what drives, by its stroke; DefinitionError for a driven length or angle that does not follow one stroke one to one."""
+    """Yield the drives, by their strokes; DefinitionError for a driven length or angle that does not follow one stroke one to one."""
     plan = design.plan
     driven: list[tuple[str, str, tuple[str, str], Quantity]] = []
     for name, joint in joints:
@@ -126,7 +126,7 @@ def value_at(design: Mechanism, quantity: Quantity, strokes: Mapping[str, float]
 
 
 def slides_of(design: Mechanism, joints: list[tuple[str, Joint]], motion: Motion) -> Iterator[SketchSlide]:
-    """Yield what slides; DefinitionError for a joint that is neither a slide nor a crank of the frame."""
+    """Yield the slides; DefinitionError for a joint that is neither a slide nor a crank of the frame."""
     plan, seen = design.plan, set[tuple[str, tuple[str, ...]]]()
     for name, joint in joints:
         if (joint.kind == "crank" and joint.by == FRAME_SIDE) or (joint.point, joint.track) in seen:

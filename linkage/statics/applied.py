@@ -1,4 +1,4 @@
-"""What acts on a motion in a situation: the machine's own loads or given ones, as a load case has them, at the rates of a movement."""
+"""The loads on a motion in a situation: the machine's own or given ones, in a load case, at the rates of a movement."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class AppliedLoads:
 @final
 @dataclass(frozen=True)
 class AppliedElement:
-    """A force element that counts: as it is, in the gravity of a load case, and what its loads are multiplied by."""
+    """A force element that counts: in the gravity of a load case, with the factor of its loads."""
 
     name: str
     element: ForceElement
@@ -64,7 +64,7 @@ Parts: TypeAlias = tuple[list[Load], list[Push]]
 
 
 def applied_loads(motion: AnyMotion, acting: Acting, rates: Rates, without: str = "") -> AppliedLoads:
-    """Return what acts on a motion in a situation; DefinitionError for anything but a force element, and for a wrong force.
+    """Return the loads on a motion in a situation; DefinitionError for anything but a force element, and for a wrong force.
 
     `rates` are those of the situation at the motion's poses. An element named `without` is left out. Of a traced motion the forces are
     nodes; LawError, with the element's name, for a law that cannot be traced.

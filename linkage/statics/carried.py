@@ -1,4 +1,4 @@
-"""What bounded elements carry of the machine's own loads and of a load at a point: affine in the load, so that two solves tell it all.
+"""Forces of bounded elements under the machine's own loads and a load at a point: affine in the load, so that two solves give all.
 
 An element is bounded where it says so, `ForceElement.bounds`: a cylinder by its circuit, a support by being able to push alone. Beside
 these forces stand the members' own conditions, those of their verdicts, pose by pose: a rope that would push, a line that runs empty.
@@ -104,7 +104,7 @@ class LoadAt:
 
     @cached_property
     def some(self) -> Motion:
-        """Three poses, by which it is seen what is the same at all of them."""
+        """Three poses, which show the values that are the same at all of them."""
         return self.motion({name: np.repeat(value, 3) for name, value in self.plan.sketch_strokes.items()})
 
     @cached_property
@@ -136,12 +136,12 @@ class LoadAt:
 
     @cached_property
     def kinds(self) -> tuple[str, ...]:
-        """What each bounded force is limited by, in their order: the name of a cylinder, "tipping", "slipping", a member's condition."""
+        """The limit of each bounded force, in their order: the name of a cylinder, "tipping", "slipping", a member's condition."""
         slips = (SLIPPING, SLIPPING) if any(map(is_rough, self.supports.values())) else ()
         return (*self.bounded, *(TIPPING for _ in self.outermost), *slips, *(each.name for each in self.limits))
 
     def carried(self, motion: AnyMotion, acting: Acting) -> list[FloatArray]:
-        """Return the bounded forces in a situation: thrusts, axle loads, what is left of the ground's friction either way [N]."""
+        """Return the bounded forces in a situation: thrusts, axle loads, the unused ground friction either way [N]."""
         found = [pump_thrust(motion, each, acting) for each in self.bounded.values()]
         if self.supports:
             ends = standing_of(motion, acting, self.outermost)
@@ -152,7 +152,7 @@ class LoadAt:
         return found
 
     def own_and_share(self, motion: AnyMotion) -> tuple[list[FloatArray], list[FloatArray]]:
-        """Return what each bounded force and each condition is by the own loads, and how it grows with the load."""
+        """Return each bounded force and condition under the own loads, and its growth with the load."""
         forces, loaded = self.carried(motion, self.own), self.with_load(PROBE, motion)
         if any(each.closed_thrust(motion, self.own) is not None for each in self.bounded.values()):
             share = [(b - a) / PROBE for a, b in zip(forces, self.carried(motion, loaded), strict=True)]
@@ -188,7 +188,7 @@ class LoadAt:
 
     @cached_property
     def program(self) -> Kernel | None:
-        """The kernel of what each bounded element carries of the own loads, then of one newton of the load; None where there is none."""
+        """The kernel of each bounded element's force from the own loads, then from one newton of the load; None where there is none."""
         case = self.case if self.case is None or isinstance(self.case, str) else id(self.case)
         way = tuple(each if isinstance(each, float) else each.identity for each in self.along)
         key = ("carried", self.point, way, case, self.without, self.kinds)
@@ -226,7 +226,7 @@ class LoadAt:
         return self.greatest_loads(self.motion(strokes))
 
     def _run(self, kernel: Kernel, inputs: Mapping[str, Numbers], count: int) -> FloatArray | None:
-        """Return the forces of the own loads and of one newton (2, elements, n); None where what is taken for granted does not hold."""
+        """Return the forces of the own loads and of one newton (2, elements, n); None where an assumption fails."""
         found = kernel(inputs, way=way_of(count), size=(1, count))
         return found.values[:, 0].reshape(2, -1, count) if np.all(found.guards > 0.0) else None
 
@@ -299,7 +299,7 @@ class MemberLimit:
     is_least: bool
 
     def value(self, motion: AnyMotion, acting: Acting) -> FloatArray:
-        """Return what is compared, shape (...)."""
+        """Return the compared value, shape (...)."""
         request = self.request
         return request.under(acting, keep=True).law(motion) if isinstance(request, LawRequest) else motion.value(request)
 
@@ -321,7 +321,7 @@ class MemberLimit:
         return bool(np.any(np.abs(back + out - 2.0 * own) > 1e2 * STRAIGHT * (np.abs(back) + np.abs(out))))
 
     def greatest_load(self, motion: Motion, beside: Callable[[FloatArray | float], Acting]) -> FloatArray:
-        """Return the greatest load that keeps it [N], shape (...), where `beside(load)` is what acts with one; see `greatest_load`."""
+        """Return the greatest load that keeps it [N], shape (...); `beside(load)` is the situation with it; see `greatest_load`."""
 
         def spare(load: FloatArray) -> FloatArray:
             return self.spare(motion, beside(load))
@@ -396,7 +396,7 @@ Direction: TypeAlias = "tuple[Any, Any]"
 
 
 def pull_direction(along: object, title: str = "") -> Direction:
-    """Return a direction of length one as numbers, quantities or arrays; DefinitionError for what is none."""
+    """Return a direction of length one as numbers, quantities or arrays; DefinitionError for anything else."""
     parts = list(along) if isinstance(along, (list, tuple, np.ndarray)) else []
     try:
         if len(parts) == 2 and any(isinstance(each, (Quantity, str)) for each in parts):

@@ -107,7 +107,7 @@ class System:
 
     @cached_property
     def runs(self) -> tuple[tuple[tuple[int, Load, Wrench], ...], ...]:
-        """What one unit of each rope's force puts on bodies: the body, the load, its wrench."""
+        """One unit of each rope's force on bodies: the body, the load, its wrench."""
         poses, none, found = self.poses, np.zeros(self.poses.count), []
         for name, run in self.structure.holders.reeved.items():
             pushed = self.pushed.get(name)
@@ -120,7 +120,7 @@ class System:
         return tuple(found)
 
     def run_entries(self) -> Iterator[tuple[int, int, FloatArray]]:
-        """Yield the column of each rope, the equation and what a unit of its force adds there, shape (n,)."""
+        """Yield the column of each rope, the equation and the entry of a unit of its force there, shape (n,)."""
         for index, run in enumerate(self.runs, len(self.unknowns)):
             for body, _, wrench in run:
                 yield from ((index, row, value) for row, value in self.parts(body, wrench))
@@ -159,12 +159,12 @@ class System:
         return found
 
     def entries(self, column: UnitWrench) -> Iterator[tuple[int, FloatArray]]:
-        """Yield the equations in which a unit wrench stands, with what it adds there, shape (n,)."""
+        """Yield the equations of a unit wrench, with its entries there, shape (n,)."""
         yield from self.parts(column.contact.on, column.wrench)
         yield from self.parts(column.contact.by, column.wrench, -1.0)
 
     def parts(self, body: int, wrench: Wrench, sign: float = 1.0) -> Iterator[tuple[int, FloatArray]]:
-        """Yield the equations of a body with what a wrench on it adds there, shape (n,): forces along x and y, moment over the scale."""
+        """Yield the equations of a body with a wrench's entries there, shape (n,): forces along x and y, moment over the scale."""
         if body == FRAME:
             return
         start = self.starts[body]
@@ -240,7 +240,7 @@ class System:
         return LinearForm(row, self.poses.zeros(len(self.frictions)), self.poses.zeros())
 
     def thrust(self, strut: Strut) -> LinearForm:
-        """Return a two-point member's thrust [N]: what pushes its far end against all that acts there."""
+        """Return a two-point member's thrust [N]: the push on its far end that balances all forces there."""
         if strut.pair is not None:
             return self.unknown(self.structure.sliding_joint(strut.pair, "t"), "t", 1.0)
         body, arm = self.structure.body_of(strut), self.poses.at(strut.Q) - self.poses.at(strut.P)
@@ -259,7 +259,7 @@ class System:
         return LinearForm(row, friction, -sum(((force * along).sum(axis=0) for force in pushes), self.poses.zeros()))
 
     def known(self, way: int = 1) -> list[tuple[LinearForm, FloatArray]]:
-        """Return what the thrusts of members are bound to: those of a law to its value, those of one line to each other's areas.
+        """Return the equations of the members' thrusts: those of a law with its value, those of one line with each other's areas.
 
         `way` is 1 where the first cylinder of a line pushes, -1 where it pulls: it tells which side's area a cylinder works with.
         """
@@ -274,7 +274,7 @@ class System:
         return found + list(self.tied())
 
     def tied(self) -> Iterator[tuple[LinearForm, FloatArray]]:
-        """Yield what the thrusts of members on ties are bound to: there are less forces than members."""
+        """Yield the equations of members on ties, whose thrusts follow fewer forces."""
         ties = [line for line in self.structure.holders.every_line if line.tie is not None and line.tie.run is None]
         if not ties:
             return
@@ -399,7 +399,7 @@ def newton(q: FloatArray, coefficient: FloatArray, pressing: list[tuple[FloatArr
     unit = np.eye(q.shape[1])
 
     def at(q: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return the sizes of the pressing forces (n, frictions), what is missed, and the Jacobian (n, frictions, frictions)."""
+        """Return the sizes of the pressing forces (n, frictions), the residuals, and the Jacobian (n, frictions, frictions)."""
         forces = [F + (G * q[:, None]).sum(axis=2) for F, G in pressing]
         size = np.stack([np.sqrt((F * F).sum(axis=1)) for F in forces], axis=1)
         slopes = [(F[:, :, None] * G).sum(axis=1) for F, (_, G) in zip(forces, pressing, strict=True)]
@@ -501,7 +501,7 @@ class Speeds:
         self._spins: dict[int, FloatArray] = {}
 
     def point(self, name: str) -> FloatArray:
-        """Return a point's velocity, shape (2, n) [m/s, or per unit of what moves]."""
+        """Return a point's velocity, shape (2, n) [m/s, or per unit of the drive]."""
         if name not in self._points:
             parts = [self.poses.rate(name, stroke) * rate for stroke, rate in self.rates.items()]
             self._points[name] = sum(parts, np.zeros((2, self.poses.count)))
@@ -518,7 +518,7 @@ class Speeds:
         return self.point(start) + quarter_turned(place - self.poses.at(start)) * self.spin(body)
 
     def spin(self, body: int) -> FloatArray:
-        """Return a body's turning, shape (n,) [rad/s, or per unit of what moves]."""
+        """Return a body's angular velocity, shape (n,) [rad/s, or per unit of the drive]."""
         if body not in self._spins:
             axis = self.axis(body)
             if axis is None:
@@ -535,7 +535,7 @@ class Speeds:
         return max(float(np.max(np.abs(self.spin(body)), initial=0.0)) for body in range(FRAME, len(self.structure.bodies)))
 
     def axis(self, body: int) -> tuple[str, str] | None:
-        """Return two points that turn with a body, or with what it slides on without turning; None if neither turns."""
+        """Return two points that turn with a body, or with its track where it slides without turning; None if neither turns."""
         if body == FRAME or body >= len(self.structure.bodies):
             return None
         if self.structure.bodies[body].slides:

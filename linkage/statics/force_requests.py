@@ -141,7 +141,7 @@ class JointPart:
         return structure.contacts[joints.index(joint)], joint, sign
 
     def in_plan(self, request: LawRequest, motion: TracedMotion) -> LawInPlan:
-        """Return what it is in the plan of a traced motion, where its bodies have their full names."""
+        """Return its law in the plan of a traced motion, where its bodies have their full names."""
         require_rest(request, motion)
         self.check_component(motion.plan)
         structure, acts = structure_in_plan(motion, request.situation)
@@ -169,7 +169,7 @@ class JointPart:
 
 
 def structure_in_plan(motion: TracedMotion, acting: Acting) -> tuple[Structure, tuple[Hashable, ...]]:
-    """Return the bodies and joints in a situation, and what tells what acts there from what acts in others, by a traced motion.
+    """Build bodies and joints for one situation of a traced motion; also return a key of the loads in it.
 
     Of the machine's own loads it is worked out once for all joints; given loads are not kept alive.
     """
@@ -244,7 +244,7 @@ def pin_forces_under(motion: Motion, acting: Acting) -> PinForces:
 
 
 def thrust_from_forces(member: str, acting: Acting) -> LawRequest:
-    """Return the request for what a driven length or a two-point element carries: of `pin_forces(motion).thrusts`, by its name."""
+    """Return the request for the thrust of a driven length or a two-point element, `pin_forces(motion).thrusts`, by its name."""
 
     def formula(motion: AnyMotion, acting: Acting) -> FloatArray:
         return np.asarray(pin_forces_under(require_motion(motion), acting).thrusts[member])
@@ -273,7 +273,7 @@ LEAST = 1e-3
 
 
 def drive_remarks(judge: Judge) -> list[Remark]:
-    """Return what the drives of strokes give that no cylinder holds, of one design of a machine with cylinders.
+    """Return the forces of drives of strokes that no cylinder holds, of one design of a machine with cylinders.
 
     Strokes that put oil into closed lines or wind ropes are held by these; in a load case that shuts a line, others may be.
     """

@@ -58,7 +58,7 @@ class PressureLine:
 @final
 @dataclass(frozen=True)
 class Holders:
-    """The lines that hold, in the order declared, and those that keep what is in them, each with the input that changes that."""
+    """The lines that hold, in the order declared, and those with a closed volume or length, each with the input that changes it."""
 
     lines: tuple[PressureLine, ...] = ()
     closed: tuple[PressureLine, ...] = ()
@@ -320,7 +320,7 @@ def stroke_followed(plan: Plan, member: TwoPoint) -> str:
 @final
 @dataclass(frozen=True)
 class Levers:
-    """The work of each line's first cylinder, with what the others of its line add, on a unit of each stroke taken: (n, lines, strokes).
+    """The work of each line's first cylinder, plus the others of its line, on a unit of each stroke taken: (n, lines, strokes).
 
     `sizes` are those of its parts, `shares` the thrusts of each line's cylinders over that of its first, (n,) each. Of a tie they are the
     work and the thrusts at one unit of its force. `cuts` is the work of each line on a unit of what changes a closed one, `kept` the
@@ -334,7 +334,7 @@ class Levers:
     kept: tuple[tuple[FloatArray, ...], ...] = ()
 
     def thrust(self, holders: Holders, member: TwoPoint, need: FloatArray, cuts: Sequence[FloatArray]) -> FloatArray:
-        """Return what all lines together put on a cylinder (n,), where strokes need (n, lines), and what changes closed lines (n,) each."""
+        """Return the thrust [N] of a cylinder, shape (n,), from the needs (n, lines) and the closed lines' forces (n,) of all its lines."""
         units = self.thrusts(need) if holders.lines else need
         firsts = [units[:, place] for place in range(len(holders.lines))]
         parts = [unit * each for unit, each in zip(firsts, share_of(member, holders.lines, self.shares), strict=True) if each is not None]
@@ -349,7 +349,7 @@ class Levers:
         return reduce(np.subtract, (unit * work for unit, work in zip(units, self.cuts[place], strict=True)), cuts[place])
 
     def thrusts(self, need: FloatArray) -> FloatArray:
-        """Return the thrusts of the lines' first cylinders (n, lines) that give the strokes what they need (n, strokes)."""
+        """Return the thrusts of the lines' first cylinders (n, lines) that balance the strokes' needs (n, strokes)."""
         if self.matrix.shape[1] == 1:
             return need / self.matrix[:, 0]
         turned = np.swapaxes(self.matrix, 1, 2)

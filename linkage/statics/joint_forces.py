@@ -153,7 +153,7 @@ class PinForces(Shown):
 
     @property
     def tensions(self) -> Mapping[str, FloatArray]:
-        """What the ropes whose length is held pull with by their names, shape (...) [N]; below zero they would have to push."""
+        """The tensions of ropes with a held length by their names, shape (...) [N]; below zero they would have to push."""
         return self._found.tensions
 
     @cached_property
@@ -170,7 +170,7 @@ class PinForces(Shown):
 
     @cached_property
     def _ground(self) -> tuple[Load, ...]:
-        """What the ground puts on a vehicle's frame; nothing for a machine that stands on no supports."""
+        """The ground's forces on a vehicle's frame; none for a machine without supports."""
         return ground_loads(self.motion, self._found.applied.acting)
 
     @cached_property
@@ -224,7 +224,7 @@ class PinForces(Shown):
         return sign * joint.force
 
     def gland(self, member: Reference) -> GlandForce:
-        """Return what guides the rod of a cylinder in its barrel, where it is two bodies; DefinitionError for any other member.
+        """Return the forces that guide a cylinder's rod in its barrel, where it is two bodies; DefinitionError for any other member.
 
         Parameters
         ----------
@@ -275,7 +275,7 @@ class PinForces(Shown):
         return self.on_bodies[found]
 
     def body_named(self, name: str) -> str:
-        """Return a body's name for what it goes by; else the name as given.
+        """Return a body's name for one of its aliases; else the name as given.
 
         Parameters
         ----------
@@ -344,7 +344,7 @@ class PinForces(Shown):
 @final
 @dataclass(frozen=True, eq=False)
 class GlandForce:
-    """What guides the rod of a cylinder in its barrel: it acts on the rod from the barrel, at the gland, the barrel's end.
+    """The guiding forces of a cylinder's rod in its barrel: from the barrel on the rod, at the gland, the barrel's end.
 
     `lateral` is the force across, shape (...) [N], positive to the left of A -> B; `moment` that about the gland, shape (...) [Nm],
     positive counter-clockwise; `place` where that is, shape (2, ...) [m], and `point` its name.
@@ -362,7 +362,7 @@ class GlandForce:
 @final
 @dataclass(frozen=True, eq=False)
 class JointForce:
-    """What one joint transmits: the force on the body `on` from the body `by`, shape (2, ...) [N], with a couple (...) [Nm].
+    """The force of one joint: on the body `on` from the body `by`, shape (2, ...) [N], with a couple (...) [Nm].
 
     `kind` is a pin, a guide, a slot, a driven point, a crank's drive, a slider or a telescope. `axis` are the two points that give
     the body's own x axis; for the frame it is None. `has_force`: whether it transmits a force; a crank's drive has only a couple.
@@ -439,7 +439,7 @@ def range_text(values: FloatArray, unit: str) -> str:
 
 
 def remarks_on(found: PoseForces) -> Iterator[str]:
-    """Yield in words where forces are not what the machine is meant to have: where it locks itself, comes apart, goes slack, tips over."""
+    """Yield in words where forces are not as the machine is meant to work: it locks, comes apart, goes slack, tips over."""
     poses, applied = found.poses, found.applied
     yield from locked_words(found, applied.rates.direction)
     yield from lift_off_words(found)

@@ -1,4 +1,4 @@
-"""The locked mechanism as bodies and joints: what the equations of equilibrium are written for.
+"""The locked mechanism as bodies and joints, for the equations of equilibrium.
 
 Everything about a joint comes from what its member says of it in `joints()`; no kind of step is known here.
 """
@@ -227,7 +227,7 @@ RIGID = 1e-7
 
 
 def known_struts(thrusts: Sequence[Push]) -> list[Strut]:
-    """Return the members whose thrust is known, each once: what several laws put on one adds up; those without names are counted."""
+    """Return the members whose thrust is known, each once; several laws on one add up, those without names are counted."""
     found: list[Push] = []
     for each in thrusts:
         place = next((k for k, other in enumerate(found) if each.member.name and same(each.member, other.member)), None)
@@ -339,7 +339,7 @@ class Structure:
             yield from (Contact("pin", point, other, first, "xy", pinned(point)) for other in others)
 
     def step_joints(self) -> Iterator[Contact]:
-        """Yield what the steps, guides and slides hold: equal slides once, of drives that a cylinder replaces what is left."""
+        """Yield the joints of steps, guides and slides: equal slides once, and of drives that a cylinder replaces the other directions."""
         seen: set[tuple[str, tuple[str, ...]]] = set()
         for name, joint in sorted(self.plan.joints, key=lambda each: ORDER.get(each[1].kind, len(ORDER))):
             self.check(name, joint)
@@ -362,7 +362,7 @@ class Structure:
             yield Contact(kind, joint.point, on, by, holds, joint, name, track)
 
     def sliding_joints(self) -> Iterator[Contact]:
-        """Yield what members of two bodies hold between these: across and against turning, and along where such a member acts."""
+        """Yield the joints between the two bodies of a member: across and against turning, and along where such a member acts."""
         acting = {each.pair for each in self.struts}
         for pair in self.pairs:
             by, on = (self.bodies.index(body) for body in pair.bodies)
@@ -392,7 +392,7 @@ class Structure:
         known_name("Point", joint.point, self.plan.points, where=opening)
 
     def left(self, owner: str, joint: Joint) -> str:
-        """Return what a joint still holds when cylinders have taken over strokes."""
+        """Return the directions a joint still holds when cylinders have taken over strokes."""
         carrier = joint.by.points if joint.kind == "crank" else ()  # a part's own angle does not follow what moves the body it is on
         strokes, given = {letter: set[str]() for letter in joint.holds}, set[str]()
         for drive in joint.drives:
@@ -408,7 +408,7 @@ class Structure:
         return "".join(letter for letter in joint.holds if letter not in gone and letter not in given)
 
     def drives(self, contact: Contact) -> Iterator[tuple[Quantity, str, float]]:
-        """Yield what a contact drives: the quantity, the letter of the force that is conjugate to it, and its sign."""
+        """Yield the drives of a contact: the quantity, the letter of the force that is conjugate to it, and its sign."""
         for drive in contact.joint.drives:
             if drive.along in contact.holds and drive.along:
                 parts = [(1.0, drive.quantity)]
@@ -512,7 +512,7 @@ class Structure:
 
     @cached_property
     def names(self) -> dict[str, str]:
-        """The names of all bodies by what they go by: their own, their link's, their points; not what several go by."""
+        """The names of all bodies by their aliases: their own, their link's, their points; without ambiguous ones."""
         labels = [(body.label, body.name) for body in self.bodies if body.label]
         for each in self.struts:  # a cylinder with points along it goes by its ends and by all its points, too
             if each.host == each.name:
@@ -525,7 +525,7 @@ class Structure:
         return found | {name: name for name in (FRAME_NAME, *self.own_names)}
 
     def full_name(self, name: str) -> str:
-        """Return a body's name for what it goes by: its own, its link's, its points, or two or more of them (`O B`); else as given."""
+        """Return a body's name for an alias: its own, its link's, its points, or two or more of them (`O B`); else as given."""
         if not isinstance(name, str):
             raise unknown("Body", name, self.names, where=self.plan.title)
         if name in self.names:

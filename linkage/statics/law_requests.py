@@ -55,13 +55,13 @@ class TracedMotion(OnePose):
         self.through: set[str] = set()
 
     def _refused(self, what: Request, words: str) -> Mask:
-        """Return that no pose is refused: what is made of the program here is looked at where it is asked for."""
+        """Return that no pose is refused: a program's poses are examined where its values are asked for."""
         return np.zeros((), bool)
 
     # -- what several laws ask for ---------------------------------------------------------------------------
 
     def _once(self, key: Hashable, make: Callable[[], Made]) -> Made:
-        """Return numbers that several laws of a program ask for, traced once; what they read and assume counts for each of the laws."""
+        """Return numbers that several laws of a program share, traced once; their readings and assumptions count for each of the laws."""
         kept, notes, key = self._reading.kept, self.notes, ("shared", self.plan, key)
         if key not in kept:
             before, owner = self._told, notes.owner
@@ -82,7 +82,7 @@ class TracedMotion(OnePose):
 
     @property
     def _told(self) -> Told:
-        """What has been read and noted so far."""
+        """The readings and notes so far."""
         return self.read, self.through, self.notes.assumed, self.notes.switches, self.notes.gaps
 
     @_told.setter
@@ -212,7 +212,7 @@ class TracedMotion(OnePose):
         return self.value(Distance(P, Q))
 
     def sketched(self, quantity: Quantity) -> FloatArray:
-        """Return what a quantity is at the sketch pose; DefinitionError where groups have to be solved for it."""
+        """Return the value of a quantity at the sketch pose; DefinitionError where groups have to be solved for it."""
         if self.plan.reaches(quantity) & set(self.plan.groups):
             raise DefinitionError("it asks for the sketch pose, which groups of links have no closed form for")
         inputs = {name: value for name, value in self.inputs.items() if name not in self.plan.followed}  # there they begin
@@ -326,7 +326,7 @@ TracedLaw: TypeAlias = tuple[TracedMotion, Node]
 @final
 @dataclass(frozen=True, eq=False)
 class LawInPlan:
-    """What a formula is in a plan: what tells it from others, the members that it reads, and those it is differentiated through.
+    """A formula in a plan: its key, the members that it reads, and those it is differentiated through.
 
     `trace` gives it on a traced motion of the plan, `traced_with` tells the formulas that are traced in one with it, None where it has been
     traced to know this, `sentence` what it is of there.
@@ -341,7 +341,7 @@ class LawInPlan:
 
 
 def law_in_plan(motion: TracedMotion, trace: Callable[[TracedMotion], TracedLaw], sentence: str = "") -> LawInPlan:
-    """Return what a formula is in the plan of a traced motion, from its nodes there; UntracedError where it has no program."""
+    """Return a formula in the plan of a traced motion, from its nodes there; UntracedError where it has no program."""
     traced, node = trace(motion)
     notes = traced.notes
     key = "law", motion._reading.graph, node.number, *notes.assumed, None, *notes.switches, None, *notes.gaps
@@ -351,7 +351,7 @@ def law_in_plan(motion: TracedMotion, trace: Callable[[TracedMotion], TracedLaw]
 @final
 @dataclass(frozen=True, eq=False, kw_only=True)
 class LawRequest(Request):
-    """What a formula gives over a motion's poses: `formula(motion, acting)`, plain arithmetic on what a motion tells; [SI], shape (...).
+    """A formula over a motion's poses as a request: `formula(motion, acting)`, plain arithmetic on a motion; [SI], shape (...).
 
     On a traced motion it gives one number of a program. Where `acting` is None it hangs on no situation, and is `formula(motion)`.
     `text` is what one writes, of the situation where it hangs on one; `known` tells the formula from others, whatever the situation:
@@ -482,7 +482,7 @@ class LawRequest(Request):
         return self.key if self.in_plan is None else self.in_plan.traced_with
 
     def _in(self, plan: Plan) -> LawInPlan:
-        """Return what it is in the plan that it is bound to."""
+        """Return its law in the plan that it is bound to."""
         assert self.in_plan is not None, f"{self} is not bound to {plan.title}"
         return self.in_plan
 
@@ -520,7 +520,7 @@ class LawRequest(Request):
 
 
 def situation_identity(acting: Acting) -> Hashable:
-    """Return what tells loads in a load case from others, which it does not keep alive; None where one of them may change.
+    """Return a key of loads in a load case, which it does not keep alive; None where one of them may change.
 
     The direction and the drive are not in it. Members that were declared do not change, nor do frozen dataclasses. What their laws
     compute with is taken not to change either.
@@ -534,7 +534,7 @@ def situation_identity(acting: Acting) -> Hashable:
 
 
 def rates_identity(rates: StrokeRates) -> Hashable:
-    """Return what tells rates of strokes from others; an ellipsis for arrays, which may change."""
+    """Return a key of rates of strokes; an ellipsis for arrays, which may change."""
     if rates is None or isinstance(rates, str):
         return rates
     plain = all(isinstance(each, float | int) for each in rates.values())
@@ -542,7 +542,7 @@ def rates_identity(rates: StrokeRates) -> Hashable:
 
 
 def once_in(motion: AnyMotion, acting: Acting, what: Hashable, make: Callable[[], Made]) -> Made:
-    """Return what several ask of a motion in one situation, made once; each time where its loads may change."""
+    """Return a shared result of a motion in one situation, cached; made each time where its loads may change."""
     identity = situation_identity(acting)
     return make() if identity is None else motion._once((what, identity, acting.direction, acting.drive), make)
 

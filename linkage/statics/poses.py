@@ -81,7 +81,7 @@ class FlatPoses:
         return self._kept[(point,)]
 
     def ratio(self, target: Reference, drive: str) -> FloatArray:
-        """Return the ratio of a point (2, n) or a quantity (n,); what is near singular has been reported already."""
+        """Return the ratio of a point (2, n) or a quantity (n,); poses near singular ones have been reported already."""
         with unwarned():
             return self.flattened(self.motion.ratio(target, wrt=drive))
 
@@ -105,7 +105,7 @@ class FlatPoses:
 
 
 class AnyMotion(Poses, Protocol):
-    """What the statics ask of a motion, besides what force elements ask: all that is known of it at its poses."""
+    """A motion as statics reads it, beyond the readings of force elements: everything known at its poses."""
 
     @property
     def plan(self) -> Plan: ...
@@ -132,7 +132,7 @@ class AnyMotion(Poses, Protocol):
 
     @property
     def unreachable(self) -> str:
-        """What is done about other poses: "raise" or "nan"."""
+        """The treatment of other poses: "raise" or "nan"."""
 
     @property
     def _reading(self) -> Reading:
@@ -145,7 +145,7 @@ class AnyMotion(Poses, Protocol):
         """Return numbers as the arrays it works with."""
 
     def _once(self, key: Hashable, make: Callable[[], Made]) -> Made:
-        """Return what several ask of it, made once."""
+        """Return a shared result, made once."""
 
 
 def plan_of(motion: Poses) -> Plan:

@@ -64,7 +64,7 @@ class Rope(ForceElement, Tabled, HasVerdicts):
         self._check_numbers()
 
     def _misgiven(self) -> Iterator[str]:
-        """Yield what of it cannot be as it is given, with the remedy."""
+        """Yield its wrong arguments, with the remedy."""
         for each in self.run:
             if not isinstance(each, (str, Point, Pulley)):
                 yield f'Rope({cited(each)}): neither a point nor a Pulley; write Rope(A, sheave, "D", length=2.4)'
@@ -200,7 +200,7 @@ class Rope(ForceElement, Tabled, HasVerdicts):
 
     @property
     def cut(self) -> str:
-        """The input by which its length changes: itself, or how much longer it is than what it follows."""
+        """The input that changes its length: itself, or its stretch beyond the quantity it follows."""
         return f"{self.name}.{'length' if isinstance(quantity(self.given('length')), Number) else 'stretch'}"
 
     def cuts(self, members: NamedMembers) -> tuple[str, ...]:
@@ -212,7 +212,7 @@ class Rope(ForceElement, Tabled, HasVerdicts):
         return [] if self.force is None else self.pulls(motion, self.number(motion, "force"))
 
     def pulls(self, motion: Poses, tension: FloatArray | float = 1.0) -> list[Load]:
-        """Return what a tension pulls with, at every point that it runs over [N].
+        """Return the pulls of a tension on every point that it runs over [N].
 
         Parameters
         ----------
@@ -282,7 +282,7 @@ class Rope(ForceElement, Tabled, HasVerdicts):
         return np.asarray(1.0 / reduce(np.add, ways))[()]
 
     def back_pushes(self, motion: Poses) -> list[Load]:
-        """Return what it puts on points for each newton that the rope it draws back against would have to push with.
+        """Return its forces on points for each newton that the rope it draws back against would have to push with.
 
         Parameters
         ----------
@@ -301,7 +301,7 @@ class Rope(ForceElement, Tabled, HasVerdicts):
 
     @takes_situation
     def tension(self, motion: AnyMotion, loads: Loads = None, **situation: Unpack[ActingKeywords]) -> FloatArray:
-        """Return what it pulls with, shape (...) [N]: of a part of several falls each of them; below zero it would have to push.
+        """Return its tension, shape (...) [N]: for a part of several falls that of each; below zero it would have to push.
 
         `loads` are the machine's own unless others are given. A direction is that of the strokes.
 
@@ -349,7 +349,7 @@ class Rope(ForceElement, Tabled, HasVerdicts):
         return found if self.drawn_back_by(motion.plan.members) is None else np.maximum(found, 0.0)
 
     def pull_in(self, motion: AnyMotion, acting: Acting) -> FloatArray:
-        """Return what it would pull with alone, shape (...) [N]: below zero it would have to push.
+        """Return the tension it would have alone, shape (...) [N]: below zero it would have to push.
 
         Parameters
         ----------

@@ -52,7 +52,7 @@ class PoseForces:
 
     @property
     def tensions(self) -> Mapping[str, FloatArray]:
-        """What ropes pull with by their names, shape (...) [N]."""
+        """The tensions of ropes by their names, shape (...) [N]."""
         found: dict[str, FloatArray] = {}
         for name, run in self.structure.holders.reeved.items():
             force = self.runs[name]
@@ -62,7 +62,7 @@ class PoseForces:
         return found
 
     def run_loads(self) -> Iterator[Load]:
-        """Yield what ropes put on the points that they run over."""
+        """Yield the forces of ropes on the points that they run over."""
         motion = self.poses.motion
         for name, run in self.structure.holders.reeved.items():
             force = self.runs[name]
@@ -167,7 +167,7 @@ def locked_words(found: PoseForces | Solution, direction: str) -> list[str]:
 @final
 @dataclass(frozen=True)
 class Equilibrium:
-    """A system with what its thrusts are bound to, and a column for each support that takes the place of a known drive force.
+    """A system with the equations of its thrusts, and a column for each support that replaces a known drive force.
 
     `way` is 1 where the first cylinders of lines push, -1 where they pull; `given` are forms whose values are known besides.
     """
@@ -274,7 +274,7 @@ class Equilibrium:
         return self.A[sorted({0, n // 3, (2 * n) // 3, n - 1})]
 
     def redundant_words(self, count: int) -> str:
-        """Return which links hold twice what is held already: those without which the rest is still held."""
+        """Return the redundant links: those without which the others still hold everything."""
         system, structure, spare = self.system, self.system.structure, []
         for body, part in enumerate(structure.bodies):
             gone = [index for index, column in enumerate(system.unknowns) if body in (column.contact.on, column.contact.by)]
@@ -291,7 +291,7 @@ class Equilibrium:
         return f'{what}. {found}. Take one out, or ask for split="least squares".'
 
     def loose_words(self) -> str:
-        """Return which bodies nothing holds, the lines of the class that place them, and what to do."""
+        """Return the bodies that nothing holds, the lines of the class that place them, and the remedy."""
         loose, structure = list(self.loose()), self.system.structure
         plan, shared = structure.plan, [[each.name for each in line.cylinders] for line in structure.holders.lines]
         names = f"{', '.join(loose[:-1])} and {loose[-1]} are" if len(loose) > 1 else f"{''.join(loose)} is"
@@ -318,7 +318,7 @@ class Equilibrium:
 
     @cached_property
     def ways(self) -> FloatArray:
-        """How bodies can move while all joints hold, at the first pose, shape (rows, ways): what does no work against any joint force."""
+        """The motions that all joints allow at the first pose, shape (rows, ways): they do no work against any joint force."""
         rows = self.system.starts[-1]
         u, s, _ = np.linalg.svd(self.sample[0])
         return np.asarray(u[:rows, int((s > RANK * s.max(initial=0.0)).sum()) :])
@@ -352,7 +352,7 @@ STILL = 1e-9
 @final
 @dataclass(frozen=True)
 class Slip:
-    """How two bodies move against each other in a direction that their joint holds, beside what its drives say, on a unit of a stroke.
+    """The slip of two bodies in a direction that their joint holds, beyond its drives, on a unit of a stroke.
 
     `way` and `driven` (n,) in m, of a couple in rad; `size` is how fast both bodies move there (n,).
     """
@@ -366,12 +366,12 @@ class Slip:
 
     @property
     def miss(self) -> FloatArray:
-        """What the drives do not explain (n,)."""
+        """The slip that the drives do not explain (n,)."""
         return np.asarray(np.abs(self.way - self.driven))
 
 
 def slips(structure: Structure, poses: FlatPoses) -> Iterator[Slip]:
-    """Yield what the joints of steps from other packages let slip, by each stroke and in each direction that they hold."""
+    """Yield the slips in joints of steps from other packages, by each stroke and in each direction that they hold."""
     members = structure.plan.members
     own = [each for each in structure.contacts if each.owner and type(members[each.owner]).__module__.split(".")[0] != "linkage"]
     system = System(structure, poses, (), length=1.0)
@@ -382,7 +382,7 @@ def slips(structure: Structure, poses: FlatPoses) -> Iterator[Slip]:
 
 
 def slips_in(contact: Contact, system: System, speeds: Speeds, stroke: str) -> Iterator[Slip]:
-    """Yield what one joint lets slip by a stroke; where a drive along a curve of the frame follows its point, nothing."""
+    """Yield the slips of one joint by a stroke; none where a drive along a curve of the frame follows its point."""
     poses, drives = system.poses, list(system.structure.drives(contact))
     place = acting_place(contact, poses)
     on, by = (speeds.material(body, place, contact) for body in (contact.on, contact.by))
@@ -400,7 +400,7 @@ def slips_in(contact: Contact, system: System, speeds: Speeds, stroke: str) -> I
 
 
 def assumed_joints(structure: Structure, poses: FlatPoses) -> list[FloatArray]:
-    """Return numbers of a program, each shape (1,), above zero where joints hold what they say, exactly or roughly and near."""
+    """Return numbers of a program, each shape (1,), above zero where joints hold their directions, exactly or roughly and near."""
     found, plan = list(slips(structure, poses)), structure.plan
     if not found:
         return []
@@ -431,7 +431,7 @@ def check_joints(structure: Structure, poses: FlatPoses) -> None:
 
 
 def disagreeing(poses: FlatPoses, miss: FloatArray, limit: FloatArray | float, size: FloatArray | float) -> Mask:
-    """Return where a miss (n,) is above its limit, and above what the poses themselves lose of a result of some size."""
+    """Return where a miss (n,) is above its limit, and above the rounding of the poses in a result of some size."""
     bad = np.asarray(~(miss <= limit))
     if bad.any():
         motion, mask = require_motion(poses.motion), poses.mask(bad)
@@ -451,14 +451,14 @@ def disagreeing(poses: FlatPoses, miss: FloatArray, limit: FloatArray | float, s
 @final
 @dataclass(frozen=True)
 class Looseness:
-    """What can still move while the drives are locked: the names of the bodies, and the sentence that says so; empty where it is held."""
+    """The loose bodies while the drives are locked: their names and a sentence; empty where all are held."""
 
     bodies: tuple[str, ...] = ()
     sentence: str = ""
 
 
 def looseness(plan: Plan) -> Looseness:
-    """Return what is loose in a machine, worked out once a class and state of its lines; nothing where joint forces are not provided."""
+    """Return the loose bodies of a machine, cached by class and state of its lines; none where joint forces are not provided."""
 
     def made(_: Plan) -> Looseness:
         with unwarned():

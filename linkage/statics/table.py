@@ -1,4 +1,4 @@
-"""The largest force of every joint over poses, load cases and directions of motion: what goes into an FEM model."""
+"""The largest force of every joint over poses, load cases and directions of motion, as input for an FEM model."""
 
 from __future__ import annotations
 
@@ -163,7 +163,7 @@ def judged_table(judge: Judge) -> tuple[PinLoad, ...]:
 
 
 def judged_row(judge: Judge, key: tuple[str, str, str, str], answer: Answer, known: dict[Hashable, PinForces]) -> PinLoad | None:
-    """Return a joint's row for what the judge answers, of a batch that of the design with the largest force; None without a value.
+    """Return a joint's row for the judge's answer, of a batch that of the design with the largest force; None without a value.
 
     `known` are the forces of places and situations that other joints have their largest forces at.
     """
@@ -184,7 +184,7 @@ def judged_row(judge: Judge, key: tuple[str, str, str, str], answer: Answer, kno
 
 
 def joint_key(joint: JointForce | PinLoad) -> tuple[str, str, str, str]:
-    """Return what tells a joint from others."""
+    """Return a key of a joint."""
     return joint.point, joint.on, joint.by, joint.kind
 
 

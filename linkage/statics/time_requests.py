@@ -1,4 +1,4 @@
-"""What one asks of a machine that runs: how fast its points move, and how much its inertia adds to a force.
+"""Requests for a running machine: the speed of its points, and the part of inertia in a force.
 
 Rates and accelerations of the strokes are those of a motion in time, or stand beside the strokes in `evaluate` and `function`.
 """
@@ -38,7 +38,7 @@ def own_rates(motion: AnyMotion, what: str, acting: Acting | None = None) -> Map
 
 
 def point_request(word: str, point: Reference, measures: str, formula: Callable[[AnyMotion, str], FloatArray]) -> LawRequest:
-    """Return the request for what a formula gives of a point that moves."""
+    """Return the request for a formula of a point that moves."""
     name = name_of(point)
 
     def examine(plan: Plan) -> None:

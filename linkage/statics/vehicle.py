@@ -143,7 +143,7 @@ def standing_if_any(motion: AnyMotion, acting: Acting) -> Standing | None:
 
 
 def ground_loads(motion: AnyMotion, acting: Acting) -> tuple[Load, ...]:
-    """Return what the ground puts on a vehicle, by its supports: the axle loads, and at the first one what holds it along the ground."""
+    """Return the ground's forces on a vehicle, by its supports: the axle loads, and at the first one the force along the ground."""
     found = standing_if_any(motion, acting)
     if found is None:
         return ()
@@ -225,7 +225,7 @@ def is_rough(support: Support) -> bool:
 @final
 @dataclass(frozen=True, eq=False)
 class Balance:
-    """What acts on a vehicle from outside, without its supports, at the first of them: across the ground [N], about it [Nm], (n,) each.
+    """The outer loads of a vehicle without its supports, at the first of them: across the ground [N], about it [Nm], (n,) each.
 
     `across` is what each support's newton gives across the ground, `levers` its lever about the first support, (n,) each [m].
     """
@@ -247,7 +247,7 @@ class Balance:
         )
 
     def outer(self, order: FloatArray) -> list[FloatArray | None]:
-        """Return what the two outermost supports carry alone, at their places among all, None at others; NaN where they are others."""
+        """Return the loads of the two outermost supports alone, at their places among all, None at others; NaN where they are others."""
         found: list[FloatArray | None] = [None] * len(self.across)
         for i, j in {(int(i), int(j)) for i, j in zip(order[0], order[-1], strict=True)}:
             here = (order[0] == i) & (order[-1] == j)
@@ -277,7 +277,7 @@ def part_along(a: FloatArray, b: FloatArray) -> FloatArray:
 def balance_of(
     poses: FlatPoses, supports: Mapping[str, Support], ways: Mapping[str, FloatArray], force: FloatArray, moment: FloatArray
 ) -> Balance:
-    """Return what a force and a moment at the first support, and the supports in their directions, do to the frame."""
+    """Return the balance of a frame under a force and a moment at the first support, with the supports in their directions."""
     first = next(iter(supports))
     start = poses.at(name_of(supports[first].point))
     across = {name: part_along(way, ways[first]) for name, way in ways.items()}
@@ -342,7 +342,7 @@ def by_place(*given: list[FloatArray]) -> tuple[FloatArray, ...]:
 
 
 def bare_loads(motion: Motion, supports: Mapping[str, Support]) -> Mapping[str, float]:
-    """Return what the weights of the frame alone put on each support [N], of one design; DefinitionError where that stands on nothing.
+    """Return the loads of each support from the weights of the frame alone [N], of one design; DefinitionError without a footing.
 
     It is the same at all poses; of a batch, and where no pose is reached, there are none.
     """
@@ -432,7 +432,7 @@ def rough_in(plan: Plan) -> None:
 
 
 def load_over(name: str, motion: AnyMotion, acting: Acting) -> FloatArray:
-    """Return the load of an axle over a motion's poses [N], shape (...); of one read as that of a part, what it is in the whole."""
+    """Return the load of an axle over a motion's poses [N], shape (...); of one read in a part, its load in the whole."""
     held = motion._of_the_whole(motion.plan.members[name]) if isinstance(motion, Motion) else None
     if held is not None:
         whole, support = held
@@ -460,7 +460,7 @@ def used_over(motion: AnyMotion, acting: Acting) -> FloatArray:
 
 @final
 class AxleLoad(Tabled, HasVerdicts):
-    """What shows and judges a support under the frame: its load in tables, whether it lifts off, whether the vehicle slips."""
+    """The table and verdicts of a support under the frame: its load, whether it lifts off, whether the vehicle slips."""
 
     def __init__(self, support: Support, plan: Plan) -> None:
         self.support = support
@@ -521,7 +521,7 @@ SLIPPING = noted("slipping {place}: along the ground it needs {share} % of its f
 
 
 def load_sentence(found: Answer, bare: float) -> str:
-    """Return what becomes of an axle's load, in words; `bare` is that of the vehicle alone [N]."""
+    """Return the change of an axle's load, in words; `bare` is that of the vehicle alone [N]."""
     load, place = float(found.value), found.place
     if load < 0.0:
         return translated(TIPPING).format(place=place, force=show(-load, "kN", 4))

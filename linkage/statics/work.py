@@ -1,4 +1,4 @@
-"""Forces by virtual work, through the exact transfer ratios: a stroke's generalised force, and what one straight member carries."""
+"""Forces by virtual work, through the exact transfer ratios: a stroke's generalised force, and one straight member's thrust."""
 
 from __future__ import annotations
 
@@ -122,7 +122,7 @@ def work_gap(poses: FlatPoses, applied: AppliedLoads, drives: Mapping[str, Float
 
 
 def without_held(applied: AppliedLoads, holders: Holders) -> AppliedLoads:
-    """Return what acts without what laws put on members that hold: what these carry in all follows from the strokes they hold."""
+    """Return the loads without the laws' thrusts in holding members; these carry the sum that their strokes need."""
     held = holders.every_cylinder
     return replace(applied, thrusts=tuple(each for each in applied.thrusts if not is_among(each.member, held)))
 
@@ -141,7 +141,7 @@ def work_misses(poses: FlatPoses, applied: AppliedLoads, drives: Mapping[str, Fl
 
 
 def without_work(found: PoseForces) -> tuple[Mask, str]:
-    """Return the poses (n,) at which a drive's force by equilibrium is not that by virtual work, and what disagrees in words.
+    """Return the poses (n,) at which a drive's force by equilibrium differs from that by virtual work, and which in words.
 
     Poses near singular ones lose as much as they are said to. With friction it says nothing.
     """
@@ -163,7 +163,7 @@ def without_work(found: PoseForces) -> tuple[Mask, str]:
 
 
 def member_thrust(motion: AnyMotion, member: TwoPoint, acting: Acting) -> FloatArray:
-    """Return what a two-point member carries, shape (...) [N], positive where it pushes its ends apart.
+    """Return the thrust of a two-point member, shape (...) [N], positive where it pushes its ends apart.
 
     Of one that holds, by virtual work on the strokes that the cylinders have taken over; with friction by equilibrium. Of one with a
     law of its own, that. One that is not of the class replaces the class's cylinder between the same points.
@@ -214,13 +214,13 @@ def member_thrust_on(motion: AnyMotion, member: TwoPoint, acting: Acting) -> Flo
 
 
 def pump_thrust(motion: AnyMotion, element: TwoPoint, acting: Acting) -> FloatArray:
-    """Return what a cylinder carries [N] without what closed lines put on it, which its bounds do not tell."""
+    """Return the thrust of a cylinder [N] less that of its closed lines, which its bounds leave out."""
     thrust, closed = member_thrust(motion, element, acting), element.closed_thrust(motion, acting)
     return thrust if closed is None else thrust - closed
 
 
 def closed_force(motion: AnyMotion, element: ForceElement, acting: Acting) -> FloatArray | None:
-    """Return the force of a closed tie by the work on what changes it, shape (...); None where the element keeps nothing.
+    """Return the force of a closed tie by the work on its input, shape (...); None where the element has a free length or volume.
 
     A direction is that of the strokes. SingularError where friction locks the mechanism.
     """
@@ -263,7 +263,7 @@ def with_friction(motion: AnyMotion, applied: AppliedLoads, what: str) -> PoseFo
 def frictionless(
     motion: AnyMotion, applied: AppliedLoads, acting: Acting, rates: Rates, holders: Holders, points: Iterable[str], what: str
 ) -> tuple[FlatPoses, tuple[Levers, ...], tuple[FloatArray, list[FloatArray]]]:
-    """Return the poses at which cylinders hold, their levers there, and what is needed by virtual work.
+    """Return the poses at which cylinders hold, their levers there, and their needs by virtual work.
 
     That is what the strokes that are taken over need, shape (n, lines), and what changes closed lines, (n,) each. `points` are those that
     forces hang on, besides those that carry loads.
@@ -280,12 +280,12 @@ def frictionless(
 
 
 def kept(motion: AnyMotion, acting: Acting, rates: Rates, what: Hashable, make: Callable[[], Made]) -> Made:
-    """Return what all cylinders ask of the same loads on a motion, made once. Made each time where it moves as one of them says."""
+    """Return a shared result of all cylinders for the same loads on a motion, cached; made each time where its movement depends on one."""
     return once_in(motion, acting, ("held", what), make) if rates is AT_REST or rates.is_timed else make()
 
 
 def applied_on(motion: AnyMotion, acting: Acting, rates: Rates) -> AppliedLoads:
-    """Return the loads that act, at a motion's poses or as nodes; UntracedError where a program cannot follow what they follow."""
+    """Return the loads that act, at a motion's poses or as nodes; UntracedError where a program cannot follow them."""
     applied = applied_loads(motion, acting, rates)
     if isinstance(motion, TracedMotion) and rates and not rates.is_timed and len(motion.plan.strokes) > 1:
         numbers = []

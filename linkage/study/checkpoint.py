@@ -46,7 +46,7 @@ class Checkpoint:
 
     @classmethod
     def of(cls, folder: str | os.PathLike[str], facts: Facts) -> Checkpoint:
-        """Return the checkpoint of a study; DefinitionError where the folder holds another one, with what differs."""
+        """Return the checkpoint of a study; DefinitionError where the folder holds another one, with the differences."""
         place = folder_given(folder)
         note = place / NOTE
         known = read_note(note)
@@ -67,7 +67,7 @@ class Checkpoint:
         return cls(place, blake2b(json.dumps(facts, sort_keys=True).encode()).digest())
 
     def stage(self, name: str, content: bytes) -> Checkpoint:
-        """Return the checkpoint of a stage of the study, in a folder of its own; `content` is what the stage begins with."""
+        """Return the checkpoint of a stage of the study, in a folder of its own; `content` is the stage's initial state."""
         place = self.folder / name
         with in_words(place):
             place.mkdir(exist_ok=True)
@@ -113,14 +113,14 @@ def folder_given(folder: str | os.PathLike[str]) -> Path:
 
 
 def how_far(done: int, total: int, what: str, place: Path | None) -> str:
-    """Return how far some work is, and what becomes of it, which is kept at a place if anywhere."""
+    """Return how much of some work is done, and where it is kept, if anywhere."""
     if place is None:
         return f"{done} of {total} {what} are done and lost with this call; a folder= would have kept them."
     return f"{done} of {total} {what} are done and kept in {place}; the same call goes on from there."
 
 
 def read_note(note: Path) -> dict[str, object] | None:
-    """Return what a folder says of its study, None where it says nothing; FileError where it cannot be read."""
+    """Return the note of a study in a folder, None without one; FileError where it cannot be read."""
     check_name(note)
     with in_words(note):
         is_there = note.exists()
@@ -136,7 +136,7 @@ def read_note(note: Path) -> dict[str, object] | None:
 
 
 def facts_of(task: Task, designs: Designs, version: str | int) -> dict[str, object]:
-    """Return what makes a study the same: the machine, its dimensions, the designs, what is measured and how."""
+    """Return the facts that identify a study: the machine, its dimensions, the designs, the measures and the method."""
     machine, measure = task.machine, task.measure
     facts = {
         **facts_of_machine(machine, designs.columns),
@@ -152,7 +152,7 @@ def facts_of(task: Task, designs: Designs, version: str | int) -> dict[str, obje
 
 
 def facts_of_machine(machine: Mechanism, varied: Container[str]) -> dict[str, object]:
-    """Return what makes a machine the same, but for dimensions that are varied."""
+    """Return the facts that identify a machine, except the dimensions that are varied."""
     return {
         "machine": f"{type(machine).__module__}.{type(machine).__qualname__}",
         "members": digest(plan_text(machine)),
@@ -235,7 +235,7 @@ def measure_text(measure: object, has_version: bool = False) -> str:
 
 
 def outside_values(value: FunctionType | type, source: str) -> dict[str, object]:
-    """Return what a function or a class reads from its defaults and from the functions and the module around it, by name."""
+    """Return the values that a function or a class reads from its defaults and from the functions and the module around it, by name."""
     found: dict[str, object] = {}
     around = vars(sys.modules[value.__module__])
     if isinstance(value, FunctionType):

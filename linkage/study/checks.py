@@ -1,4 +1,4 @@
-"""Of which machines a study can be, and what it says of a dimension."""
+"""Checks of a study's machine, and of its dimensions."""
 
 from __future__ import annotations
 

@@ -135,7 +135,7 @@ Measure: TypeAlias = Callable[[Any], Mapping[str, Any]]
 
 
 class StudyWork(Protocol):
-    """What all batches of a study have in common: what is done with some of its designs, `piece` at a time, on one back end."""
+    """The work common to all batches of a study: some of its designs, `piece` at a time, on one back end."""
 
     @property
     def machine(self) -> Mechanism:
@@ -151,7 +151,7 @@ class StudyWork(Protocol):
 
     @property
     def what(self) -> str:
-        """What has to be sent to a worker, in words."""
+        """The data to send to a worker, in words."""
 
     def done(self, rows: DesignValues, start: int, stop: int) -> list[dict[str, Array]]:
         """Return the results of the designs from start to before stop, of each piece: arrays whose first axis is that of the designs."""
@@ -169,7 +169,7 @@ class Task:
     what: str = "measure or the mechanism's class"
 
     def done(self, rows: DesignValues, start: int, stop: int) -> list[dict[str, Array]]:
-        """Return what is measured of the designs from start to before stop, of each piece."""
+        """Return the measures of the designs from start to before stop, of each piece."""
         whole, title, done = self.machine.replaced(**rows), self.machine.plan.title, []
         for first in range(start, stop, self.piece):
             last = min(first + self.piece, stop)
@@ -186,7 +186,7 @@ class Task:
 @final
 @immutable
 class Batch:
-    """The results of the designs from start to before stop; what they took by the clock and of a processor [s]; whether from a folder."""
+    """The results of the designs from start to before stop; their wall-clock and processor time [s]; whether from a folder."""
 
     start: int
     stop: int
@@ -197,7 +197,7 @@ class Batch:
 
 
 def measure_batch(task: StudyWork, start: int, stop: int, rows: DesignValues, attempt: int) -> Batch:
-    """Return a batch, measured; raises StudyError where `measure` fails, DefinitionError where it returns what it should not.
+    """Return a measured batch; StudyError where `measure` fails, DefinitionError where it returns a wrong value.
 
     `attempt` sets a second try apart from the first for executors that know a call by its arguments.
     """

@@ -112,7 +112,7 @@ def shown(problem: Problem, constraint: Constraint) -> str:
 @final
 @immutable
 class GivenWay:
-    """A design of which some conditions give way as little as they can: by how much in parts of their sizes, and what they are then."""
+    """A design whose conditions give way as little as possible: by how much in parts of their sizes, and their values then."""
 
     found: SearchEnd
     machine: Mechanism

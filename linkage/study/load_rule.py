@@ -1,4 +1,4 @@
-"""Rules of what may be lifted: which share of what tips and of what the hydraulics lift is printed in a chart."""
+"""Rules for load charts: the shares of the tipping load and of the hydraulic load that a chart prints."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ FACTORS: Mapping[str, str] = MappingProxyType(
 @refuses_changes
 @dataclass(frozen=True)
 class LoadRule:
-    """Factors of the load by what limits it: `LoadRule("works rule", hydraulic=0.9, tipping=0.7)`.
+    """Factors of the load by its limit: `LoadRule("works rule", hydraulic=0.9, tipping=0.7)`.
 
     `hydraulic` of what each cylinder carries, `tipping` and `slipping` of what the supports do, `pressure` of the pump's pressure with
     which cylinders lift, not of what holds. Each is above 0 and not above 1. `remark` is written beside it in a legend.

@@ -34,7 +34,7 @@ Measured: TypeAlias = QuantityLike | Measure
 
 
 def number_bound(plan: Plan, quantity: object) -> Request | None:
-    """Return a quantity bound to a plan as nodes of its program; None for what has none: a measure, a function of a motion.
+    """Return a quantity bound to a plan as nodes of its program; None without one: a measure, a function of a motion.
 
     DefinitionError for anything but a quantity, and for a point, which has two coordinates.
     """
@@ -47,7 +47,7 @@ def number_bound(plan: Plan, quantity: object) -> Request | None:
 
 
 def traced_number(plan: Plan, quantity: object) -> Request:
-    """Return a quantity bound to a plan; DefinitionError for what has no gradient in the program."""
+    """Return a quantity bound to a plan; DefinitionError for one without a gradient in the program."""
     found = number_bound(plan, quantity)
     if found is None:
         what = f"{plan.title}: {words_of(quantity)} is no part of the program, so that its gradient is not known"
@@ -120,7 +120,7 @@ class StudyPoses:
         return each_at_its_stroke(self.base.plan, machine.dimensions, strokes, self.base, place)
 
     def of_function(self, machine: Mechanism, quantity: Any) -> FloatArray:
-        """Return what a function of a motion, or a request without a program, gives of m designs: (m, n), or a number each, (m, 1)."""
+        """Return the values of a function of a motion, or of a request without a program, of m designs: (m, n), or one each, (m, 1)."""
         motion = self.of_all(machine)
         if isinstance(quantity, Request):
             return eager(motion, quantity).reshape(-1, self.pose_count)
@@ -134,7 +134,7 @@ class StudyPoses:
         return np.where(lost | ~np.isfinite(result.ravel()), np.nan, result.ravel())[:, None]
 
     def of_leaf(self, machine: Mechanism, leaf: Leaf, way: RunOptions) -> FloatArray:
-        """Return what is taken of a quantity over the poses, of m designs, shape (m,)."""
+        """Return the measure of a quantity over the poses, of m designs, shape (m,)."""
         if isinstance(leaf, At):
             return self.at(leaf).values(machine, leaf.quantity, way)[:, 0]
         if isinstance(leaf, Integral):
@@ -213,14 +213,14 @@ class StudyPoses:
 
 
 def function_value(quantity: Callable[[Motion], Any], motion: Motion) -> Any:
-    """Return what a function of a motion gives; DefinitionError, with the line, for whatever goes wrong in it."""
+    """Return the value of a function of a motion; DefinitionError, with the line, for any error in it."""
     name = getattr(quantity, "__name__", cited(quantity))
     with told(f"{motion.plan.title}: the function {name} of a motion of many settings"):
         return quantity(motion)
 
 
 def real_numbers(found: Any, what: str, expected: str) -> FloatArray:
-    """Return what a function gives as an array of floats; DefinitionError for anything else, and complex numbers: a part would be lost."""
+    """Return a function's values as an array of floats; DefinitionError for anything else, and complex numbers: a part would be lost."""
     with suppress(TypeError, ValueError):
         if not np.iscomplexobj(found):
             return np.asarray(found, float)
@@ -289,13 +289,13 @@ def check_no_worst(leaf: Leaf) -> None:
 
 
 def fold_start(leaf: Leaf) -> float:
-    """Return what an extreme has before the first pose; DefinitionError for one over another stroke."""
+    """Return the start value of an extreme before the first pose; DefinitionError for one over another stroke."""
     check_no_worst(leaf)
     return np.inf if leaf.sense < 0.0 else -np.inf
 
 
 def fold(leaf: Leaf, total: Any, values: FloatArray) -> FloatArray:
-    """Return what an extreme has after one more pose; NaN where one of them has no value."""
+    """Return an extreme after one more pose; NaN where one of them has no value."""
     best = np.minimum if leaf.sense < 0.0 else np.maximum
     return np.asarray(best(total, values, out=total if isinstance(total, np.ndarray) else None))
 

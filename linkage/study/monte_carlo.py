@@ -240,7 +240,7 @@ class MonteCarloRun:
                 self.moments[title] = np.concatenate(found[self._key(each)], axis=1)
 
     def _key(self, quantity: Measured | Worst) -> Hashable:
-        """Return what tells a quantity from others."""
+        """Return a hashable key of a quantity."""
         found = number_bound(self.poses.base.plan, quantity)
         return id(quantity) if found is None else found.key
 
@@ -312,7 +312,7 @@ class MonteCarloRun:
         return [known.size / self.count, float(known.mean()), float(known.std(ddof=min(known.size - 1, 1))), *cuts]
 
     def _on_threads(self, work: Callable[[Task], Found], tasks: Sequence[Task]) -> list[Found]:
-        """Return what a function gives for each task; the first by itself, so that kernels are made once."""
+        """Return a function's results for each task; the first is done alone, so that kernels are made once."""
         if self.threads == 1 or len(tasks) < 2:
             return [work(task) for task in tasks]
         first = work(tasks[0])

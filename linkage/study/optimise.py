@@ -80,7 +80,7 @@ NEAR = 0.1
 
 
 class SearchKeywords(TypedDict, total=False):
-    """What a search takes beside what is to be least or greatest and what varies; `optimise` says what each is."""
+    """The keywords of a search besides its objective and `vary`; `optimise` explains each."""
 
     subject_to: object
     regions: Mapping[str, object] | None
@@ -308,7 +308,7 @@ def default_limit(problem: Problem, evolved: int = 0) -> int:
 
 
 def objectives_of(machine: Mechanism, minimise: object, maximise: object) -> tuple[list[Measure], float]:
-    """Return what is to be least, or of a single one greatest (the sense is then -1.0).
+    """Return the measures to minimise, or a single one to maximise (the sense is then -1.0).
 
     DefinitionError for none, and for what has a value at every pose.
     """
@@ -339,7 +339,7 @@ def check_counts(title: str, starts: object, seed: object, limit: object) -> Non
 
 
 def check_objectives_move(problem: Problem) -> None:
-    """Raise StudyError where nothing that varies moves what is sought: it is the same of designs spread over the box."""
+    """Raise StudyError where no variable moves the objective: it is the same for designs spread over the box."""
     alone, space = problem.changed(count=None), problem.space
     units = unit_points(MOVED, len(space.variables), "sobol", 0) if space.variables else np.zeros((1, 0))
     some = islice(space.combinations(), MOVED)
@@ -394,7 +394,7 @@ def pieces_in_cases(constraints: Sequence[Constraint], cases: Sequence[Case], ju
 
 
 def with_spread(problem: Problem, tolerances: Mapping[str, ToleranceLike], sigmas: object) -> Problem:
-    """Return a problem whose numbers are worse by so many standard deviations of what tolerances of dimensions make of them."""
+    """Return a problem whose numbers are worse by so many standard deviations from the tolerances of dimensions."""
     title = problem.plan.title
     sigmas = require_number(f"{title}: sigmas", sigmas, "a number is expected, zero or more", least=0.0)
     present = problem.space.unit(problem.space.present(problem.machine))
@@ -465,7 +465,7 @@ class Journal:
         return cls(path, {str(entry["task"]): entry for entry in entries if "task" in entry})
 
     def result(self, task: str, problem: Problem, combination: tuple[int, ...]) -> SearchEnd | None:
-        """Return what a local search came to, as it is kept, with the designs that it looked at."""
+        """Return the stored result of a local search, with the designs that it looked at."""
         try:
             entry = self.known[task]
             unit = np.array(entry["unit"], float)
@@ -479,7 +479,7 @@ class Journal:
         return found
 
     def keep(self, task: str, found: SearchEnd, looked_at: int) -> None:
-        """Write down what a local search came to, and how many designs it looked at."""
+        """Store the result of a local search, and the number of designs it looked at."""
         if self.path is None:
             return
         kept = {name: value for name, value in vars(found).items() if name != "combination"}  # the task says it
@@ -529,7 +529,7 @@ class DesignSearch:
         return self.chosen([*self.ends(tasks), *self.best_looked_at(screened)], searched=len(screened))
 
     def ends(self, tasks: Sequence[tuple[tuple[int, ...], int, FloatArray]]) -> list[SearchEnd]:
-        """Return what the local searches come to, of a combination, a number and a start each: all, or those within the limit."""
+        """Return the results of local searches, of a combination, a number and a start each: all, or those within the limit."""
         ended: list[SearchEnd] = []
         self.tell(0, len(tasks))
         for done, (combination, number, unit) in enumerate(tasks):
@@ -643,7 +643,7 @@ class DesignSearch:
     # -- local searches -------------------------------------------------------------------------------------
 
     def ended(self, combination: tuple[int, ...], unit: FloatArray, number: int) -> SearchEnd:
-        """Return what the local search from a start comes to, or came to before."""
+        """Return the result of the local search from a start, or the stored one."""
         task = f"{list(combination)} {number}{self.spread_words}"
         known = self.journal.result(task, self.problem, combination)
         if known is not None:

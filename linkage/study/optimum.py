@@ -1,4 +1,4 @@
-"""What a search found: the design, what limits it, what more of it would give, and how sure it is."""
+"""Results of a search: the design, its limits, the worth of relaxing each, and how certain it is."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ MOST_STEPS, JUDGED, NEAR_KEPT = 1 << 14, 24, 1e-3
 @final
 @immutable
 class Kept:
-    """A condition of a design: its two sides [SI], what is to spare (below zero: missing), and whether it is active.
+    """A condition of a design: its two sides [SI], the spare (below zero: missing), and whether it is active.
 
     `gain` is by what part the objective would be better if the condition gave way `by` so much [SI]: by 1 % of its limit, of a limit
     of zero by 1 % of the size of what is compared.
@@ -95,7 +95,7 @@ class Kept:
 @final
 @immutable
 class AtBound:
-    """A variable that stands at an end of its range, and by what part the objective would be better `by` so much farther [SI]."""
+    """A variable at an end of its range, and the gain of the objective, as a part, `by` so much farther [SI]."""
 
     variable: Varied
     value: float
@@ -147,7 +147,7 @@ class Optimum(Shown):
 
     @property
     def gain(self) -> float:
-        """By what part of the start's objective it is better; NaN where the start cannot be assembled."""
+        """The gain over the start's objective, as a part; NaN where the start cannot be assembled."""
         if not np.isfinite(self.start_value) or self.start_value == 0.0:
             return float("nan")
         return float(-self.problem.sense * (self.value - self.start_value) / abs(self.start_value))
@@ -211,7 +211,7 @@ class Optimum(Shown):
         return Rounded(machine, value, cost, missing, text)
 
     def rows(self, rounded: Rounded | None = None) -> tuple[ResultRow, ...]:
-        """Return what varied, the objective and the conditions, before and after, and of a rounded design too."""
+        """Return the variables, the objective and the conditions, before and after, and of a rounded design too."""
         problem, plan = self.problem, self.problem.plan
         machines = [self.start, self.machine, *([rounded.machine] if rounded else [])]
         at_end = {each.variable.name: each for each in self.bounds}
@@ -254,7 +254,7 @@ class Optimum(Shown):
                 writer.writerow("" if each != each else each if isinstance(each, str) else repr(each) for each in row)
 
     def designs_jsonl(self, path: Place) -> None:
-        """Write every design that was looked at into a file of JSON lines, in SI; null stands for what has no value."""
+        """Write every design that was looked at into a file of JSON lines, in SI; null where there is no value."""
         names = [*tried_names(self.tried[0].space), "value", "missing"]
         with replacing_text(path) as stream:
             for stage, *row in tried_rows(None, "", self.tried):
@@ -303,7 +303,7 @@ def described(problem: Problem, found: SearchEnd, ended: Sequence[SearchEnd], se
 
 
 def as_kept(problem: Problem, constraint: Constraint, now: Mapping[Leaf, float], price: float, scale: float) -> Kept:
-    """Return how a design keeps a constraint, by its leaves' numbers and by what part the objective gains for one [SI] less of it.
+    """Return how a design keeps a constraint, from its leaves' numbers and the objective's gain for one [SI] less of it.
 
     `scale` is the size of what is compared [SI].
     """
@@ -315,7 +315,7 @@ def as_kept(problem: Problem, constraint: Constraint, now: Mapping[Leaf, float],
 
 
 def numbers_judged(problem: Problem, machine: Mechanism) -> tuple[LeafNumbers | None, float]:
-    """Return the leaves' numbers of a machine, between the poses too, and what it misses in parts of the conditions' sizes.
+    """Return the leaves' numbers of a machine, between the poses too, and its misses in parts of the conditions' sizes.
 
     None, and infinite, where it cannot be assembled over the whole stroke.
     """
@@ -329,13 +329,13 @@ def numbers_judged(problem: Problem, machine: Mechanism) -> tuple[LeafNumbers | 
 
 
 def worth_of(problem: Problem, machine: Mechanism) -> tuple[float, float]:
-    """Return the objective of a machine and what it misses; NaN where it cannot be assembled."""
+    """Return the objective of a machine and its misses; NaN where it cannot be assembled."""
     values, missing = numbers_judged(problem, machine)
     return float("nan") if values is None else true_worth(problem, values), missing
 
 
 def multipliers(local: Local, unit: FloatArray) -> tuple[FloatArray, FloatArray, tuple[FloatArray, FloatArray]]:
-    """Return what limits a design, in scaled numbers: the prices of constraints and of variables' bounds, zero or above, and two ways on.
+    """Return the limits of a design in scaled numbers: the prices of constraints and of variables' bounds, zero or above, and two ways on.
 
     The prices are the Lagrange multipliers that leave least of the objective's derivatives unexplained; zero where a derivative is
     infinite, at a dead point. On the ways, by the unit coordinates (n,), the objective gets better: what of its derivatives nothing of
@@ -376,7 +376,7 @@ def multipliers(local: Local, unit: FloatArray) -> tuple[FloatArray, FloatArray,
 
 
 def edges(problem: Problem, found: SearchEnd, ways: Sequence[FloatArray], part: float) -> list[str]:
-    """Return what of the machine itself stops a design where it would get better: links that no longer meet, what is refused.
+    """Return the reasons why the machine itself stops a better design: links that no longer meet, a refusal.
 
     `ways` are those on which it would, `part` is what a scaled number of the objective is of it.
     """
@@ -393,7 +393,7 @@ def edges(problem: Problem, found: SearchEnd, ways: Sequence[FloatArray], part: 
 
 
 def stopped_by(problem: Problem, combination: Sequence[int], unit: FloatArray) -> str:
-    """Return why a design is none: refused, not assembled, or without a value of what is asked; "" for one that is."""
+    """Return why a design is impossible: refused, not assembled, or a measure without a value; "" for a possible one."""
     try:
         machine = problem.machine_of(unit, combination)
         problem.assembled(machine)
@@ -406,7 +406,7 @@ def stopped_by(problem: Problem, combination: Sequence[int], unit: FloatArray) -
 
 
 def what_of(message: str) -> str:
-    """Return what a message says is wrong, without the figures and the remedy, which are of a design that nobody asked for."""
+    """Return the fault in a message, without the figures and the remedy, which belong to an intermediate design."""
     text = " ".join(message.split())
     return text.partition(": " if " cannot be assembled" in text else "; ")[0].rstrip(".")
 
@@ -536,7 +536,7 @@ class StepSearch:
 @final
 @immutable
 class Rounded(Told):
-    """A design on drawing dimensions: the machine, its objective [SI], what that costs as a part, and what is missing of the conditions."""
+    """A design on drawing dimensions: the machine, its objective [SI], the cost as a part, and its misses of the conditions."""
 
     machine: Mechanism
     value: float
@@ -656,21 +656,21 @@ class EvaluatedDesigns:
 
     @property
     def order(self) -> Index:
-        """The designs, the best first: those that keep all, by the objective; then by what is missing."""
+        """The designs, the best first: those that keep all, by the objective; then by their misses."""
         worth = np.where(np.isfinite(self.value), self.sense * self.value, np.inf)
         short = np.where(np.isfinite(self.missing), self.missing, 1e9) + 1e9 * (1.0 - self.reached)
         return np.lexsort((worth, np.where(short <= 1e-9, 0.0, short)))
 
     @property
     def best(self) -> tuple[float, float]:
-        """How good the best one is: what is missing, then the objective."""
+        """The rank of the best one: its misses, then the objective."""
         place = self.order[0]
         short = float(np.nan_to_num(self.missing[place], nan=1e9, posinf=1e9)) + 1e9 * (1.0 - float(self.reached[place]))
         return (short if short > 1e-9 else 0.0), float(np.nan_to_num(self.sense * self.value[place], nan=np.inf))
 
 
 def tried_names(space: Space) -> list[str]:
-    """Return the names of what varies: the variables, then what the choices set."""
+    """Return the names of the variables, then of the choices' dimensions."""
     return [*(each.name for each in space.variables), *(name for names in space.names for name in names)]
 
 
@@ -705,7 +705,7 @@ ROUNDED_TO_NOTHING = 1e-9
 @final
 @dataclass(frozen=True)
 class ResultRow:
-    """A number before and after a search [SI], and what more of it would give: `gain` is a part of the objective, `by` for how much less.
+    """A number before and after a search [SI], and the worth of more of it: `gain` is a part of the objective, `by` for how much less.
 
     NaN stands where there is no such number. `unit` is that in which the numbers are shown.
     """

@@ -111,7 +111,7 @@ def evolved_front(problem: Problem, combination: Sequence[int], seed: int, left:
         return np.zeros((1, 0))
 
     class Generation(Asked):  # type: ignore[misc]
-        """A generation's objectives and what is missing, as pymoo asks for them."""
+        """A generation's objectives and misses, as pymoo asks for them."""
 
         def _evaluate(self, x: FloatArray, out: dict[str, Any], *args: object, **options: object) -> None:
             values, missing, reached = problem.merits_of_each(combination, np.asarray(x, float))

@@ -52,7 +52,7 @@ def check_bounded(problem: Problem, now: LeafNumbers, best: SearchEnd) -> None:
 
 
 def boundless_error(named: str, divisor: object, remedy: str) -> StudyError:
-    """Return the error of a number without a bound, with what it is divided by where that is known."""
+    """Return the error of a number without a bound, with its divisor where that is known."""
     if divisor is None:
         text = "grows without bounds in the box, as at a pole; keep what it is divided by away from zero"
     else:
@@ -69,7 +69,7 @@ def divided_by(problem: Problem) -> list[Measure]:
 
 
 def values_at(problem: Problem, units: FloatArray, combination: Sequence[int]) -> dict[str, FloatArray]:
-    """Return the objective and what it is divided by at designs (m, n), each (m,); NaN where one cannot be assembled or misses much."""
+    """Return the objective and its divisors at designs (m, n), each (m,); NaN where one cannot be assembled or misses much."""
     designs = problem.dimensions_at(units, combination)
     look = problem.evaluated(designs)
     numbers, found, nothing = dict(look.numbers), {}, np.zeros(len(units))

@@ -298,7 +298,7 @@ class WatchedValues:
 
 @final
 class Problem:
-    """What is to be least, under which constraints, of designs in a space."""
+    """An objective to minimise, under constraints, over the designs in a space."""
 
     def __init__(
         self,
@@ -339,7 +339,7 @@ class Problem:
         return sum(prod(map(len, each.axes.values())) * max(len(each.singles), 1) for each in self.sets)
 
     def changed(self, **other: Any) -> Problem:
-        """Return the same problem with some of its arguments changed, with samples of its own; what counts designs goes along."""
+        """Return the same problem with some of its arguments changed, with samples of its own; it shares the count of designs."""
         return Problem(**{name: getattr(self, name) for name in ARGUMENTS} | other)
 
     def on_branch(self, combination: Sequence[int]) -> Problem:
@@ -354,19 +354,19 @@ class Problem:
         return known
 
     def __reduce__(self) -> tuple[object, ...]:
-        """Return what pickle is to make the problem of: what follows from it does not go."""
+        """Return the state for pickle: the arguments of the problem, without its samples."""
         return Problem, tuple(getattr(self, name) for name in ARGUMENTS[:-1])
 
     @property
     def facts(self) -> str:
-        """What makes a search the same, as text."""
+        """The identity of a search, as text."""
         said = [self.plan.title, self.plan, self.sense, *self.objectives, *self.constraints, self.space.variables, self.space.choices]
         ends = [(name, end_words(one.low), end_words(one.high)) for name, one in self.ranges.items()]
         exact = [repr(each) for one in (*self.objectives, *(held.margin for held in self.constraints)) for each in one.numbers]
         return "; ".join(map(str, [*said, *exact, ends, sorted(self.machine.dimensions.items())]))
 
     def function_texts(self) -> list[str]:
-        """Return the source texts of the functions of a motion among what is asked; DefinitionError for one without, such as a lambda."""
+        """Return the source texts of the functions of a motion in the problem; DefinitionError for one without, such as a lambda."""
         asked = [leaf.bare_quantity for leaf in self.leaves]
         try:
             return [measure_text(each) for each in asked if callable(each) and not isinstance(each, (Quantity, Request))]
@@ -441,7 +441,7 @@ class Problem:
         return with_values(self.machine.dimensions, self.space.chosen(combination) | self.space.dimensions_at(unit))
 
     def evaluated(self, designs: Mapping[str, Numbers], *, slopes: bool = False) -> Evaluated:
-        """Return what is seen of designs, of one with derivatives by the unit coordinates.
+        """Return the values of designs, of a single one with derivatives by the unit coordinates.
 
         A design that is refused, for a charge below the gas's as an example, counts as one that cannot be assembled; `refusal` says
         why. What is refused of the machine as it is set too is a mistake in the question.
@@ -469,7 +469,7 @@ class Problem:
 
     @cached_property
     def _can_be_asked(self) -> bool:
-        """Whether what is asked has an answer for the machine as it is set."""
+        """Whether all measures have a value for the machine as it is set."""
         try:
             self._look(self.machine.dimensions, 1, slopes=False)
         except DefinitionError:
@@ -477,7 +477,7 @@ class Problem:
         return True
 
     def _nothing(self, *, slopes: bool) -> Evaluated:
-        """Return what is seen of a design that is refused."""
+        """Return the empty values of a design that is refused."""
         n = len(self.space.variables) if slopes else 0
         rows = {}
         for leaf in self.leaves:
@@ -487,7 +487,7 @@ class Problem:
         return Evaluated(rows, np.zeros((1, 0)), np.zeros((n, 0)), np.zeros(1, bool), np.zeros(1))
 
     def _look(self, designs: Mapping[str, Numbers], m: int, *, slopes: bool) -> Evaluated:
-        """Return what is seen of m designs; DefinitionError where one of them is refused."""
+        """Return the values of m designs; DefinitionError where one of them is refused."""
         ends = self._ends(designs, slopes=slopes)
         whole, reached, margins, margin_slopes = np.ones(m, bool), np.ones(m), np.zeros((m, 0)), np.zeros((0, 0))
         found: dict[PoseSet, Samples] = {}
@@ -601,12 +601,12 @@ class Problem:
         return Rows(mean * span, (slopes * poses.weights).sum(axis=-1, keepdims=True) * float(span[0, 0]) + grown * mean[0], lost)
 
     def merits(self, combination: Sequence[int], unit: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return of designs (m, n) the objective, what is missing in parts of the conditions' sizes, and the part reached, all (m,)."""
+        """Return of designs (m, n) the objective, the misses in parts of the conditions' sizes, and the part reached, all (m,)."""
         values, missing, reached = self.merits_of_each(combination, unit)
         return (values.max(axis=0) if self.sense > 0.0 else values.min(axis=0)), missing, reached
 
     def merits_of_each(self, combination: Sequence[int], unit: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return of designs (m, n) each objective (k, m), what is missing in parts of the conditions' sizes, and the part reached."""
+        """Return of designs (m, n) each objective (k, m), the misses in parts of the conditions' sizes, and the part reached."""
         look = self.evaluated(self.dimensions_at(unit, combination))
         shape, numbers = look.reached.shape, look.numbers
         with np.errstate(all="ignore"):
@@ -616,12 +616,12 @@ class Problem:
         return np.where(look.whole, values, np.nan), np.where(look.whole, missing, np.nan), look.reached
 
     def missing_of_each(self, combination: Sequence[int], unit: FloatArray) -> FloatArray:
-        """Return by what part of its size each condition is missed by designs (m, n), shape (conditions, m); infinite out of reach."""
+        """Return by how much of its size designs (m, n) miss each condition, shape (conditions, m); infinite out of reach."""
         look = self.evaluated(self.dimensions_at(unit, combination))
         return np.where(look.whole, self._missing(look), np.inf)
 
     def _missing(self, look: Evaluated) -> FloatArray:
-        """Return by what part of its size each condition is missed, zero where it is kept, shape (conditions, m).
+        """Return by how much of its size each condition is missed, zero where it is kept, shape (conditions, m).
 
         They are measured with their size over the first designs that were looked at.
         """
@@ -839,7 +839,7 @@ def terms_size(measure: Measure, sizes: Mapping[Leaf, float], values: Mapping[Le
 
 
 def scale_among(constraint: Constraint, sizes: Mapping[Leaf, float], values: Mapping[Leaf, float], change: float = 0.0) -> float:
-    """Return what a constraint's numbers are measured with: the number it is compared with, without one the size of its terms.
+    """Return the scale of a constraint's numbers: the number it is compared with, without one the size of its terms.
 
     `sizes` are those of the leaves over the stroke; terms whose margin has a `change` over the box are at least as large.
     """

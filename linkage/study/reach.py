@@ -27,7 +27,7 @@ ROUNDS, HALVED, AT_END = 4, 20, 1e-5
 @final
 @immutable
 class Reach:
-    """What a point reaches: heights of level lines, ascending, and the parts of each that are reached, (line, left, right) [m]."""
+    """The reach of a point: heights of level lines, ascending, and the parts of each that are reached, (line, left, right) [m]."""
 
     heights: FloatArray
     spans: tuple[tuple[int, float, float], ...]

@@ -1,4 +1,4 @@
-"""Quantities at poses of designs, with exact derivatives by dimensions: what a search asks of the program, in one call for all."""
+"""Quantities at poses of designs, with exact derivatives by dimensions: one call of the program for a whole search."""
 
 from __future__ import annotations
 
@@ -198,7 +198,7 @@ GOES_THROUGH = ("add", "subtract", "multiply", "divide", "negative", "absolute",
 
 
 def divisors_of(plan: Plan, quantity: object) -> tuple[Any, ...]:
-    """Return what a quantity is divided by, directly or in its parts: where one of these passes zero it has no bounds."""
+    """Return the divisors of a quantity and of its parts; where one passes zero the quantity has no bounds."""
     sign, parts = operation(stands_for(plan.members, quantity))
     if sign not in GOES_THROUGH:
         return ()
@@ -233,7 +233,7 @@ def no_value(plan: Plan, leaf: Leaf) -> str:
 
 
 def loop_margins(plan: Plan) -> list[NodeRequest]:
-    """Return what is above zero where each loop of links that moves is assembled: a squared sine, or a length [m]."""
+    """Return requests above zero where each loop of moving links is assembled: a squared sine, or a length [m]."""
 
     def margin(place: int) -> NodeRequest:
         def nodes(plan: Plan) -> tuple[Node, ...]:

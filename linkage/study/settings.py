@@ -127,7 +127,7 @@ def settings_for(
 
 
 def roots_of(curve: Curve, low: float, high: float) -> tuple[FloatArray, FloatArray, list[float]]:
-    """Return the samples of a curve between two values, what it is there, and where it is zero."""
+    """Return the samples of a curve between two values, its values there, and its zeros."""
     at = ends_of_reach(curve, np.linspace(low, high, SAMPLES))
     off = curve(at)
     found = np.sort(np.concatenate([at[off == 0.0], zeros_passed(curve, at, off), zeros_touched(curve, at, off)]))
@@ -258,7 +258,7 @@ TOLD = 1e-3
 @final
 @immutable
 class Search:
-    """A box of settings of a machine, and what is aimed at with them: targets, their requests, the poses they are wanted at.
+    """A box of settings of a machine, and the goals: targets, their requests, and their poses.
 
     `scale` says in how many units each target is weighed.
     """
@@ -402,7 +402,7 @@ class Search:
         return f"{wanted}: with {' or with '.join(words)}.{more}"
 
     def _near_words(self, words: str, off: FloatArray) -> str:
-        """Return the nearest setting, and what is missing of each target."""
+        """Return the nearest setting, and the miss of each target."""
         parts = []
         for place, miss in enumerate(off * self.scale):
             name = self.words(place, float(self.targets[place].value) + float(miss))

@@ -56,7 +56,7 @@ class Graded(NamedTuple):
 
 
 def graded(measure: Measure, of_leaf: Callable[[Leaf], Graded]) -> Graded:
-    """Return what a measure makes of its leaves' numbers, with its derivatives by the chain rule."""
+    """Return a measure of its leaves' numbers, with its derivatives by the chain rule."""
     if isinstance(measure, Leaf):
         return of_leaf(measure)
     if not isinstance(measure, CombinedMeasure):
@@ -82,7 +82,7 @@ def graded(measure: Measure, of_leaf: Callable[[Leaf], Graded]) -> Graded:
 @final
 @immutable
 class Row:
-    """One line of the solver's problem: which constraint it belongs to, None for what every design keeps, and its scaled numbers.
+    """One line of the solver's problem: its constraint, None for one that every design keeps, and its scaled numbers.
 
     Those of `is_reach` are of the loops, which can be assembled.
     """
@@ -97,7 +97,7 @@ class Row:
 @final
 @immutable
 class SearchEnd:
-    """What a local search came to: its combination of choices, unit coordinates, the objective, what is missing at most.
+    """The result of a local search: its combination of choices, unit coordinates, the objective, the largest miss.
 
     `whole` says whether it is assembled throughout.
     """
@@ -175,7 +175,7 @@ class Local:
     # -- scales and auxiliary variables ------------------------------------------------------------------
 
     def _scales(self, look: Evaluated) -> tuple[dict[Leaf, float], list[float], float]:
-        """Return what the leaves, the constraints and the objective are measured with.
+        """Return the scales of the leaves, the constraints and the objective.
 
         An objective by itself, where it is next to nothing by what the box makes of it.
         """
@@ -201,11 +201,11 @@ class Local:
     # -- the solver's view -------------------------------------------------------------------------------
 
     def evaluated_at(self, unit: FloatArray) -> Evaluated:
-        """Return what is seen of unit coordinates, once."""
+        """Return the values at unit coordinates, cached."""
         return self._looked_at(unit)[0]
 
     def _looked_at(self, unit: FloatArray) -> tuple[Evaluated, bool]:
-        """Return what is seen of unit coordinates, once, and whether a search can work with it."""
+        """Return the values at unit coordinates, cached, and whether a search can work with them."""
         key = np.asarray(unit, float).tobytes()
         found = self._looks.get(key)
         if found is None:
@@ -303,7 +303,7 @@ class Local:
         return found
 
     def _margins(self, look: Evaluated, way: FloatArray, loss: float, here: Evaluated) -> Row:
-        """Return the lines of the links, which are assembled: of what is known `here` itself, of the rest from the look."""
+        """Return the lines of the assembled links: with the values known `here`, and the others from the look."""
         slopes = np.zeros((look.margins.shape[1], self.width))
         slopes[:, : self.n] = look.margin_slopes.T
         values, slopes = without_gaps(look.margins[0] - self.clear, slopes)
@@ -398,7 +398,7 @@ class Local:
         return np.concatenate([row.values for row in rows]), np.concatenate([row.slopes for row in rows])
 
     def _sequential(self, z: FloatArray, bounds: object, most: int) -> FloatArray:
-        """Return what SLSQP comes to."""
+        """Return the result of SLSQP."""
         from scipy.optimize import minimize
 
         parts = {"fun": lambda at, equations: self._stacked(at, equations)[0], "jac": lambda at, equations: self._stacked(at, equations)[1]}
@@ -419,7 +419,7 @@ class Local:
         return watch.better(np.asarray(result.x, float))
 
     def _fitted(self, squares: LeastSquares, z: FloatArray, ends: tuple[FloatArray, FloatArray], most: int) -> FloatArray:
-        """Return what steps of Levenberg and Marquardt come to that keep all lines; the own unknowns are kept."""
+        """Return the result of Levenberg and Marquardt's steps that keep all lines; its own unknowns are stored."""
         w, price, damping = len(self.own), 1.0, DAMPED
         low, high = (np.concatenate([each, np.full(w, end)]) for each, end in zip(ends, (0.0, 1.0), strict=True))
         at = np.concatenate([z, self.own])
@@ -476,11 +476,11 @@ class Local:
         return max((float(values.max(initial=0.0)) for values in missed), default=0.0)
 
     def judged(self, unit: FloatArray) -> SearchEnd:
-        """Return the objective and what is missing at unit coordinates, between the samples too."""
+        """Return the objective and the misses at unit coordinates, between the samples too."""
         return self._truth(unit)[0]
 
     def run(self, rounds: int = ROUNDS) -> SearchEnd:
-        """Return what a search from the start comes to, with poses between the samples added until none is worse than these.
+        """Return the result of a search from the start, with poses between the samples added until none is worse than these.
 
         Where the limit of designs is reached it is the best so far; without variables and unknowns of its own it is the start.
         """
@@ -502,7 +502,7 @@ class Local:
                 return self.judged(self._nearest_good(np.clip(best, 0.0, 1.0)))
 
     def least(self) -> SearchEnd | None:
-        """Return what an elastic search comes to by its samples alone; None where that is no design."""
+        """Return the result of an elastic search by its samples alone; None where that is no design."""
         unit = np.clip(self.solve(self.start)[: self.n], 0.0, 1.0)
         with self.problem.count.without_limit():
             look = self.evaluated_at(unit)
@@ -543,7 +543,7 @@ class Local:
         return True
 
     def refine(self, unit: FloatArray) -> bool:
-        """Add the tops between the samples; return whether one of them is worse than these by what counts."""
+        """Add the tops between the samples; return whether one of them is noticeably worse than these."""
         problem, design = self.problem, self.problem.dimensions_at(unit, self.combination)
         before, added = self.evaluated_at(unit).of_one, False
         for leaf in problem.leaves:
@@ -558,14 +558,14 @@ class Local:
         return any(self._is_worse(leaf, after[leaf], before[leaf]) for leaf in problem.leaves)
 
     def _is_worse(self, leaf: Leaf, value: float, known: float) -> bool:
-        """Return whether a leaf's value is worse than what is known of it, by what counts."""
+        """Return whether a leaf's value is noticeably worse than the known one."""
         if isinstance(leaf, Integral):
             return bool(abs(value - known) > 0.1 * MET * max(self.leaf_scales[leaf], abs(value)))
         worse = (value - known) * leaf.sense
         return bool(leaf.sense) and bool(worse > 0.1 * MET * max(self.leaf_scales[leaf], abs(value)))
 
     def _truth(self, unit: FloatArray) -> tuple[SearchEnd, bool]:
-        """Return the truth between the samples too, and whether it is worse than what was known; its poses are samples from then on."""
+        """Return the result between the samples too, and whether it is worse than known; its poses become samples."""
         problem, design = self.problem, self.problem.dimensions_at(unit, self.combination)
         look = self.evaluated_at(unit)
         if not bool(look.whole[0]):
@@ -641,7 +641,7 @@ def divisors(expressions: Sequence[Measure]) -> list[Measure]:
 
 
 def local_search(local: Local, nearly: float = np.inf) -> SearchEnd:
-    """Return what a search comes to; where it misses conditions by no more than `nearly`, they give way as little as can be, and again."""
+    """Return the result of a search; conditions missed by no more than `nearly` give way as little as possible, and it runs again."""
     problem, combination, found = local.problem, local.combination, local.run()
     if found.feasible or not (local.n and np.isfinite(found.value)) or found.missing > nearly or problem.count.is_spent:
         return found
@@ -654,7 +654,7 @@ def local_search(local: Local, nearly: float = np.inf) -> SearchEnd:
 
 
 def worth_in_order(problem: Problem, found: SearchEnd) -> tuple[bool, float]:
-    """Return by what the ends of local searches are put in order, the best first: those that keep all, by the objective."""
+    """Return the sort key of the ends of local searches, the best first: those that keep all, by the objective."""
     return not found.feasible, problem.sense * found.value if found.feasible else found.missing
 
 
@@ -684,7 +684,7 @@ class Watch:
         return self.best if self.merit < self.merits(z)[1] - NO_GAIN * (1.0 + abs(self.merit)) else z
 
     def merits(self, z: FloatArray) -> tuple[float, float]:
-        """Return the scaled objective, and it with what is missing."""
+        """Return the scaled objective, and its sum with the misses."""
         value, _ = self.local.objective(z)
         return value, value + MISSING * max(self.local.violation(z), 0.0)
 
@@ -731,7 +731,7 @@ def single_extreme(constraint: Constraint) -> tuple[Leaf, float, float] | None:
 
 
 def scales_of(problem: Problem, look: Evaluated) -> list[float]:
-    """Return what the numbers of each constraint are measured with: their size over the stroke, or their change over the box.
+    """Return the scales of each constraint's numbers: their size over the stroke, or their change over the box.
 
     `look` is that of one design with derivatives. The number that a constraint is compared with comes first; where that is zero,
     `least(q) >= 0`, it has a size too.

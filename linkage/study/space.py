@@ -1,4 +1,4 @@
-"""What a search may vary: ranges of dimensions, in steps or not, choices, and rows of a catalogue."""
+"""The space of a search: ranges of dimensions, in steps or not, choices, and rows of a catalogue."""
 
 from __future__ import annotations
 
@@ -218,7 +218,7 @@ class Space:
 
     @classmethod
     def of(cls, machine: Mechanism, vary: Any, regions: Any = None) -> Space:
-        """Return what `vary` and `regions` say; DefinitionError for an unknown dimension, an empty range, or anything else."""
+        """Return the space of `vary` and `regions`; DefinitionError for an unknown dimension, an empty range, or anything else."""
         title, spellings = machine.plan.title, machine.plan.table.spellings
         require(isinstance(vary, Mapping) and vary, f"{title}: vary", vary, 'a dictionary is expected, such as vary={"OB": (0.27, 0.33)}')
         variables: list[Varied] = []
@@ -261,7 +261,7 @@ class Space:
 
     @property
     def conditions(self) -> list[Constraint]:
-        """What the regions are as conditions."""
+        """The regions as conditions."""
         return [least(inside_region(each.point, each.region)) >= 0.0 for each in self.regions]
 
     def drawn(self, unit: FloatArray, title: str, seed: int) -> FloatArray:
@@ -297,7 +297,7 @@ class Space:
         return product(*(range(len(rows)) for _, rows in self.choices))
 
     def _set_by(self, combination: Sequence[int]) -> Iterator[tuple[str, float]]:
-        """Yield what a combination sets, dimensions [SI] by their owners and sides by their names."""
+        """Yield the settings of a combination, dimensions [SI] by their owners and sides by their names."""
         for (owners, rows), row in zip(self.choices, combination, strict=True):
             for (owner, sign), value in zip(owners, rows[row], strict=True):
                 yield owner, sign * value

@@ -36,7 +36,7 @@ CANNOT_SEND = "cannot be sent to a worker: put both at the top of a module that 
 
 
 class Executor(Protocol):
-    """What runs functions elsewhere and returns futures: any executor of `concurrent.futures`, and what behaves like one."""
+    """A pool that runs functions elsewhere and returns futures: any executor of `concurrent.futures`, or one with the same methods."""
 
     def submit(self, fn: Callable[..., Any], /, *args: Any) -> Any:
         """Return the future of a call."""
@@ -58,7 +58,7 @@ class LocalExecutor:
 
 @final
 class SurveyRun:
-    """What is done of a study, what is under way, and what is left."""
+    """The progress of a study: the batches done, under way, and left."""
 
     def __init__(self, task: StudyWork, designs: Designs, executor: Executor, checkpoint: Checkpoint | None, tell: Progress) -> None:
         self.task, self.designs, self.executor, self.checkpoint, self.tell = task, designs, executor, checkpoint, tell
@@ -72,7 +72,7 @@ class SurveyRun:
         self._tries: dict[int, int] = {}
 
     def go(self) -> None:
-        """Do all that is left, as many batches at a time as the executor has use for; what is done is kept whatever happens."""
+        """Do all batches left, as many at a time as the executor can use; finished ones are kept even after an error."""
         for batch in self.checkpoint.batches() if self.checkpoint else ():
             if self.left.remove(batch.start, batch.stop):
                 self._enter(batch)
@@ -99,7 +99,7 @@ class SurveyRun:
 
     @property
     def state(self) -> str:
-        """How far the study is, and what becomes of it."""
+        """How much of the study is done, and where it is kept."""
         return how_far(self.designs_done, self.designs.count, "designs", self.checkpoint.folder if self.checkpoint else None)
 
     def _send(self) -> None:
@@ -141,7 +141,7 @@ class SurveyRun:
             self.tell(self.designs_done, self.designs.count)
 
     def _error(self, what: str, error: Exception, designs: tuple[int, int] | None = None) -> StudyError:
-        """Return the error for what stops the study on the way, after keeping the results so far."""
+        """Return the error for an interruption of the study, after keeping the results so far."""
         self._stop()
         said = f"{type(error).__name__}: {error}".rstrip(": .\n")
         return StudyError(f"{self.task.machine.plan.title}: {self.state} {what} ({said}).", designs=designs)
@@ -163,7 +163,7 @@ class SurveyRun:
         self.batches.append(replace(batch, values=None))
 
     def _stop(self) -> None:
-        """Call back what has not begun yet, and keep what has come meanwhile."""
+        """Cancel the batches that have not begun yet, and keep those finished meanwhile."""
         for future in [*self._under_way]:
             future.cancel()
         while not self._back.empty():
@@ -214,7 +214,7 @@ class OpenRanges:
 
 @final
 class BatchSizes:
-    """What is known of the executor: how long a piece takes it, and how many batches keep all of its workers busy."""
+    """The executor's measured speed: how long a piece takes it, and how many batches keep all of its workers busy."""
 
     def __init__(self, most: int) -> None:
         self.most = most
@@ -222,7 +222,7 @@ class BatchSizes:
         self._each: deque[float] = deque(maxlen=8)
 
     def next_pieces(self, left: int) -> int:
-        """Return how many pieces the next batch has when so many are left: one to begin with, then equal parts of what is left.
+        """Return how many pieces the next batch has when so many are left: one to begin with, then equal parts of the rest.
 
         Towards the end they are smaller than usual, so that all workers finish together.
         """
@@ -284,7 +284,7 @@ SMALLEST, LARGEST, PARTS = 64, 2048, 64
 @final
 @immutable
 class Survey(Mapping[str, Array], Shown):
-    """What was measured: `found["travel"]`, shape (m,), for each name that `measure` gave.
+    """The measured values: `found["travel"]`, shape (m,), for each name that `measure` gave.
 
     `batches` are the batches in the order in which they came: start, stop, seconds, cpu, and kept for those from the folder.
     """
@@ -339,7 +339,7 @@ def survey(
     piece: int | None = None,
     version: str | int = "",
 ) -> Survey:
-    """Return what `measure` gives for many designs: `survey(hitch, {"OB": array, "M": (xs, ys)}, measure)["travel"]`, shape (m,).
+    """Return the values of `measure` for many designs: `survey(hitch, {"OB": array, "M": (xs, ys)}, measure)["travel"]`, shape (m,).
 
     `vary` are dimensions by name [SI], each an array (m,); `over`, which elsewhere says where strokes run, is refused.
 

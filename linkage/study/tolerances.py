@@ -252,7 +252,7 @@ POSES = 21
 @final
 @dataclass(frozen=True)
 class Effect:
-    """What one dimension does to a quantity: its gradient, and the quantity's change [SI] at either limit of the tolerance.
+    """The effect of one dimension on a quantity: its gradient, and the quantity's change [SI] at either limit of the tolerance.
 
     `low` and `high` are the real changes, `linear_low` and `linear_high` those that the gradient tells; `share` is the dimension's of the
     variance, to the first order. NaN where the machine cannot be assembled at a limit.
@@ -317,7 +317,7 @@ class Tornado:
 def tornado(
     machine: Mechanism, quantity: Measured, tolerances: Mapping[str, ToleranceLike], *, unit: str = "", **strokes: object
 ) -> Tornado:
-    """Return what every tolerance by itself does to a quantity at one pose, the dimension that does most first.
+    """Return the effect of every single tolerance on a quantity at one pose, the largest first.
 
     `tornado(hitch, "tilt", {"OB": 0.1 * mm, "CD": 0.2 * mm}, unit="deg", S=0.1)`. Gradients are exact; those of a measure over the strokes
     looked at, `most("tilt")`, and of a function of a motion are central differences over a thousandth of the tolerance. `unit` is that

@@ -25,7 +25,7 @@ def is_side(name: str) -> bool:
 
 
 def sided_step(machine: Mechanism, name: object) -> str:
-    """Return the step whose side a name such as `B.side` stands for; "" for other names, DefinitionError for what has no side."""
+    """Return the step whose side a name such as `B.side` stands for; "" for other names, DefinitionError for a step without a side."""
     plan = machine.plan
     if not isinstance(name, str) or not is_side(name):
         return ""
@@ -52,12 +52,12 @@ def on_sides(machine: Mechanism, sides: Mapping[str, Side]) -> Mechanism:
 
 
 def sided_now(member: Member) -> Side | None:
-    """Return the side of a step; None for what has none."""
+    """Return the side of a step; None without one."""
     return member.side if isinstance(member, Step) else None
 
 
 def class_like(kind: type[Mechanism], own: Mapping[str, object], sent: Callable[[Mechanism], tuple[object, ...]]) -> type[Mechanism]:
-    """Return a subclass of the same name with members of its own; `sent` says what pickle is to make its designs of."""
+    """Return a subclass of the same name with members of its own; `sent` returns the pickled state of its designs."""
     text = {"__module__": kind.__module__, "__qualname__": kind.__qualname__, "__doc__": kind.__doc__}
     maker: Any = type(kind)
     made: type[Mechanism] = maker(kind.__name__, (kind,), {**text, **own, "__reduce__": sent})
@@ -97,7 +97,7 @@ class Travel(Range):
 
 
 def fitted_rows(machine: Mechanism, vary: Any) -> tuple[Mechanism, Any, dict[str, Range]]:
-    """Return a machine of which a search can set cylinders by rows, what varies then, and the ranges of the strokes that drive these.
+    """Return a machine whose cylinders a search can set by rows, its variables then, and the ranges of the strokes that drive these.
 
     Rows of the cylinders that `vary` names become rows of their dimensions; DefinitionError for anything else.
     """
@@ -123,7 +123,7 @@ def fitted_rows(machine: Mechanism, vary: Any) -> tuple[Mechanism, Any, dict[str
 
 
 def fields_of(plan: Plan, name: str, rows: object) -> tuple[str, ...]:
-    """Return what the rows for an element say of it; DefinitionError for rows that say nothing, or what it does not have."""
+    """Return the fields that the rows for an element set; DefinitionError for rows without any, or unknown fields."""
     listed = list(rows) if is_listed(rows) else []
     fields = {getattr(type(row), "_fields", ()) for row in listed}
     known = plan.of_kind(TwoPoint)[name].parameters
@@ -134,7 +134,7 @@ def fields_of(plan: Plan, name: str, rows: object) -> tuple[str, ...]:
 
 
 def rows_fitted(machine: Mechanism, cylinder: str, rows: Sequence[Any]) -> tuple[tuple[str, ...], list[Sequence[float]], dict[str, Range]]:
-    """Return the names of what the rows of a cylinder set, these rows as numbers [SI], and the range of the stroke that drives it.
+    """Return the names of the dimensions that a cylinder's rows set, the rows as numbers [SI], and the range of the stroke that drives it.
 
     DefinitionError where one of them follows an expression.
     """
@@ -168,7 +168,7 @@ def rows_fitted(machine: Mechanism, cylinder: str, rows: Sequence[Any]) -> tuple
 
 
 def length_of(machine: Mechanism, name: str) -> tuple[str, list[tuple[str, float]]]:
-    """Return the stroke that drives a cylinder, and what else its length is a sum of: dimensions by name, "" of others, with values [m].
+    """Return the stroke that drives a cylinder, and the other terms of its length: dimensions by name, "" of others, with values [m].
 
     DefinitionError where its length is no stroke and what stands beside it.
     """

@@ -1,4 +1,4 @@
-"""The working field: what is lifted at every place that a point reaches, and what limits it there.
+"""The working field: the load at every place that a point reaches, and its limit there.
 
 A place is reached on one branch of the strokes or on several, with strokes to spare on infinitely many: the one counts on which most is
 carried. The load at a pose is the largest that leaves every bounded element within its bounds (`statics/carried.py`); factors of a rule
@@ -61,7 +61,7 @@ FEW, BEYOND = 6, 0.25
 @final
 @immutable
 class WorkingField:
-    """What is lifted at a point over a grid of places; arrays of the shape (heights, radii).
+    """The loads at a point over a grid of places; arrays of the shape (heights, radii).
 
     `load` [N] is NaN out of reach, infinite where nothing limits it; `limiter` names what does: an element, a limit by its name,
     "tipping", "out of reach". `strokes` are those of the pose by name [m or rad], `of` the load that each limiter leaves [N], factors of
@@ -91,7 +91,7 @@ class WorkingField:
 
     @property
     def limiters(self) -> tuple[str, ...]:
-        """What may limit the load, in order, as far as it does somewhere."""
+        """The limits of the load, in order, as far as they apply somewhere."""
         found = set(self.limiter.ravel().tolist())
         return tuple(each for each in (*self.of, NOT_LIMITED, OUT_OF_REACH) if each in found)
 
@@ -191,7 +191,7 @@ def working_field(
     without: Sequence[Reference] = (),
     limits: Mapping[str, object] | None = None,
 ) -> WorkingField:
-    """Return what a machine lifts at a point over places x by y [m]: `working_field(digger, "L", x=np.linspace(1, 6, 14), y=[0, 1, 2])`.
+    """Return a machine's loads at a point over places x by y [m]: `working_field(digger, "L", x=np.linspace(1, 6, 14), y=[0, 1, 2])`.
 
     The load pulls against the direction `along`, beside the machine's own loads of a `case`; `without` names loads that are left out.
     Strokes on `hold` stand still. The others run as far as they are declared, or as `over` says, Over(S=(0.0, 0.2)) or a dictionary
@@ -342,7 +342,7 @@ def ends_of(unit: FloatArray) -> FloatArray:
 
 
 def best_of_parabolas(values: FloatArray, loads: int, spare: int) -> tuple[FloatArray, FloatArray]:
-    """Return where the least of the first `loads` parabolas is greatest, (n, s) from -1 to 1, and what it is there (n,).
+    """Return where the least of the first `loads` parabolas is greatest, (n, s) from -1 to 1, and its value there (n,).
 
     `values` (r, n, 3**s) are theirs at -1, 0 and 1 of each spare stroke. The others count where they are below zero. -inf where some
     value is missing. Of two strokes the best of the second is looked for at each value of the first, as limits meet at a slant.
@@ -410,7 +410,7 @@ def ranges_over(machine: Mechanism, over: object, title: str) -> StrokeRanges:
 
 
 def check_strokes(plan: Plan, hold: object, targets: Sequence[Target], title: str) -> None:
-    """Raise DefinitionError where fewer strokes are left than a place and what is kept take."""
+    """Raise DefinitionError where fewer strokes are left than a place and the kept values take."""
     free = [name for name in plan.strokes if not isinstance(hold, Mapping) or name not in hold]
     if len(free) < len(targets):
         kept = f" and {len(targets) - 2} kept value{'s' * (len(targets) > 3)}" if len(targets) > 2 else ""
@@ -550,11 +550,11 @@ class FieldSearch:
 
     @cached_property
     def goals(self) -> FloatArray:
-        """What is wanted at each place (places, t), x running fastest, both ascending."""
+        """The targets' values at each place (places, t), x running fastest, both ascending."""
         return self.goals_over(*self.ascending)
 
     def goals_over(self, across: FloatArray, up: FloatArray) -> FloatArray:
-        """Return what is wanted over places x by y (places, t), x running fastest."""
+        """Return the targets' values over places x by y (places, t), x running fastest."""
         rest = np.broadcast_to(self.rest, (across.size * up.size, self.rest.size))
         return np.concatenate([np.tile(across, up.size)[:, None], np.repeat(up, across.size)[:, None], rest], axis=1)
 
@@ -567,7 +567,7 @@ class FieldSearch:
 
     @cached_property
     def turns(self) -> list[tuple[ManyPlaces, Index, list[FloatArray] | None]]:
-        """What is looked at: the spare strokes at values over their ranges, and others at their ends in the place of them.
+        """The searches to make: the spare strokes at values over their ranges, and others at their ends in the place of them.
 
         Poses on which the strokes to spare run form curves, which end where another stroke does: with these no short one is missed.
         """
@@ -604,11 +604,11 @@ class FieldSearch:
 
     @cached_property
     def limiter_names(self) -> tuple[str, ...]:
-        """What may limit the load: cylinders, "tipping", "slipping", further limits."""
+        """The possible limits of the load: cylinders, "tipping", "slipping", further limits."""
         return (*dict.fromkeys(self.loads.kinds), *self.limits)
 
     def carried(self, poses: PlacePoses) -> LoadsFound:
-        """Return what each limiter leaves at poses, factors included; NaN where they are not reached."""
+        """Return the load that each limiter allows at poses, factors included; NaN where they are not reached."""
         rows = self.many.places.strokes_at(poses.unit)
         count = len(poses.place)
         kinds = self.loads.kinds
@@ -725,7 +725,7 @@ class FieldSearch:
         )  # fmt: skip
 
     def remarks(self, failing: Mapping[str, int]) -> tuple[str, ...]:
-        """Return what a reader of the chart has to know: what acts beside the load, which strokes stand, what is spare, what fails."""
+        """Return the remarks for a reader of the chart: loads beside the load, fixed and spare strokes, failing conditions."""
         plan, left, places = self.machine.plan, self.loads.without, self.many.places
         staying = [each.name for name, each in plan.of_kind(Weight).items() if name not in left and name_of(each.point) == self.point]
         found = [said("{name} hangs at {point} beside the load", name=name, point=self.point) for name in staying]

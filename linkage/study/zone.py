@@ -99,7 +99,7 @@ def shaped(value: Any, shape: tuple[int, ...]) -> Any:
 
 
 def remarks(machine: Mechanism, quantity: QuantityLike, box: Box, strokes: Mapping[str, FloatArray], seen: FloatArray) -> list[str]:
-    """Return what a zone leaves out, and what stands near a dead point, in words."""
+    """Return the omissions of a zone, and its settings near a dead point, in words."""
     grid = grid_of(len(box.ranges))
     count = len(box.choices)
     settings = box.settings(np.tile(grid, (count, 1)), np.repeat(np.arange(count), len(grid)))

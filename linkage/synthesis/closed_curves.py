@@ -47,7 +47,7 @@ class ClosedCurves:
 
     @classmethod
     def of(cls, samples: ComplexArray, harmonics: int = HARMONICS) -> Self:
-        """Return curves of samples (m, n), at equal steps of what has come round after n of them, such as a crank."""
+        """Return curves from samples (m, n), at equal steps of a parameter that comes round after n of them, such as a crank."""
         n = samples.shape[1]
         weight, along = ways(samples)
         weight /= n
@@ -70,7 +70,7 @@ class ClosedCurves:
 
     @property
     def amplitudes(self) -> FloatArray:
-        """What no shift, turn, size and start changes: |c_k| (m, 2 h), in parts of the size."""
+        """The amplitudes |c_k| (m, 2 h), in parts of the size, which no shift, turn, size or start changes."""
         return np.asarray(np.abs(self.descriptors) / np.where(self.size > 0.0, self.size, 1.0)[:, None])
 
     def shares_of_turn(self, along: FloatArray) -> FloatArray:

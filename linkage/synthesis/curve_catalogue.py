@@ -68,7 +68,7 @@ WAY = RunOptions("numpy")
 @final
 @immutable
 class CurveClass:
-    """A machine whose first two fixed points stand 1 m apart, and what of it varies: lengths, further fixed points, angles.
+    """A machine whose first two fixed points stand 1 m apart, with its variables: lengths, further fixed points, angles.
 
     What its places do not hang on stays as it is, and the angles that are held. `fixed` are the two points.
     """
@@ -305,7 +305,7 @@ class CurveCatalogue(Shown):
 
     @property
     def variables(self) -> tuple[Varied, ...]:
-        """The dimensions of a design that is laid: what varies, and the first two fixed points."""
+        """The dimensions of a design that is laid: the variables, and the first two fixed points."""
         owners = [*self.kind.fixed, *(each.owner for each in self.kind.variables)]
         return tuple(Varied(name, name, 1.0, 0.0, 1.0, None, "") for name in owners)
 

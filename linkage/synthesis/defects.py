@@ -1,4 +1,4 @@
-"""What is wrong with a machine for a task, in words: where it cannot be assembled, and the circuit, the branch and the order of points."""
+"""Defects of a machine for a task, in words: where it cannot be assembled, and the circuit, the branch and the order of points."""
 
 from __future__ import annotations
 

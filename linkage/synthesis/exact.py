@@ -135,7 +135,7 @@ class ExactMachine(Told, Shown):
 
     @property
     def sentence(self) -> str:
-        """What it is in words: its kind, order, circuit and branch, its least transmission angle."""
+        """The answer in words: its kind, order, circuit and branch, its least transmission angle."""
         count = len(self.strokes)
         if self.why:
             where = self.why

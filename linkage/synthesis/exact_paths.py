@@ -108,7 +108,7 @@ def complex_rows(name: str, given: object, count: int) -> ComplexArray:
 
 
 def dyad_terms(z: ComplexArray, p: ComplexArray, q: ComplexArray) -> tuple[tuple[ComplexArray, ...], tuple[ComplexArray, ...]]:
-    """Return what one pivot gives to the equations at places (m, 3), of points (m, 5).
+    """Return one pivot's terms of the equations at places (m, 3), of points (m, 5).
 
     These are the values (m, 4) of e, of q x and of p X, and their derivatives by the homogeneous three (m, 4, 3).
     """

@@ -158,7 +158,7 @@ class GuidingLink(Told, Shown):
 
     @property
     def sentence(self) -> str:
-        """What it is in words."""
+        """The link in words."""
         x, y = (show(each, "mm", 4) for each in self.point)
         if self.slides:
             return said("circle point ({x}, {y}) slides at {angle}", x=x, y=y, angle=show(self.direction, "deg", 4))

@@ -133,7 +133,7 @@ class Timing:
 
 
 def fit_kernels(plan: Plan, requests: Sequence[Request], owners: tuple[str, ...]) -> tuple[Kernel, Kernel]:
-    """Return whether every point has a place, and what a task wants, as a kernel; and with the derivatives behind them as another."""
+    """Return a kernel of whether every point has a place and of a task's quantities; and another with their derivatives."""
     values = [*all_placed().nodes(plan), *(node for each in requests for node in each.nodes(plan))]
     shares = [node for each in requests for node in slope(each, owners).nodes(plan)] if owners else []
     return Kernel(values), Kernel([*values, *shares])
@@ -180,7 +180,7 @@ class Fit:
         return Grid(self.plan, designs, every, per_design=own)
 
     def values(self, designs: Mapping[str, Any], strokes: FloatArray, count: int) -> tuple[FloatArray, Mask]:
-        """Return what is wanted of m designs at strokes, (m, r, n), NaN out of reach, and where it is reached (m, n)."""
+        """Return the task's quantities of m designs at strokes, (m, r, n), NaN out of reach, and where they are reached (m, n)."""
         found = self._run(self.kernel, designs, strokes, count)
         return found[1:].swapaxes(0, 1), np.isfinite(found[0])
 
@@ -212,7 +212,7 @@ class Fit:
         return found
 
     def swept(self, unit: FloatArray, count: int = WHOLE) -> tuple[FloatArray, Mask]:
-        """Return what is wanted over the whole stroke, (m, r, count), and where it is reached; of a crank without the end of its turn."""
+        """Return the task's quantities over the whole stroke, (m, r, count), and where reached; of a crank without its last pose."""
         strokes = self.timing.start + self.timing.span * np.linspace(0.0, 1.0, count, endpoint=not self.timing.turn)
         size = max(PIECE // count, 1)
         parts = [self.values(self.dimensions_of(each), strokes, len(each)) for each in np.split(unit, range(size, len(unit), size))]

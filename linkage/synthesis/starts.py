@@ -42,7 +42,7 @@ APART = 0.05
 @final
 @immutable
 class Likeness:
-    """What moves, turns and scales a whole mechanism by its dimensions: which of it keeps the form of its paths.
+    """The dimensions that move, turn and scale a whole mechanism and keep the form of its paths.
 
     `points` are the variables (x, y) of fixed points, `lengths` those of lengths, `angles` those of directions in the frame, by their
     place. A turn adds to the stroke what it turns by, where `with_stroke`.
@@ -58,7 +58,7 @@ class Likeness:
 
     @classmethod
     def of(cls, fit: Fit, sample: FloatArray, *, timed: bool) -> Likeness:
-        """Return what keeps the form of a task's path, tried on some designs (m, n) that are assembled over the whole stroke."""
+        """Return the likeness of a task's path, tried on some designs (m, n) that are assembled over the whole stroke."""
         variables = fit.space.variables
         places = {each.owner: place for place, each in enumerate(variables) if each.step is None}
         pairs = [(name, f"{name[:-2]}.y") for name in places if name.endswith(".x")]
@@ -177,7 +177,7 @@ class Starts:
 
     @property
     def part(self) -> tuple[tuple[int, ...], Mapping[str, FloatArray]]:
-        """The combination of choices, and what a worker is to know of its designs."""
+        """The combination of choices, and the data of its designs for a worker."""
         return self.fit.combination, {"at": self.at, "base": self.base}
 
 
@@ -233,7 +233,7 @@ def poses_of(fit: Fit, timed: object) -> int:
 
 
 def patterns(fit: Fit, timed: object, count: int) -> tuple[Index, FloatArray, FloatArray]:
-    """Return how the points may lie on the poses of a sweep: their poses (k, n), and what bases (k, n) and unknowns (k, w) that means."""
+    """Return how the points may lie on the poses of a sweep: their poses (k, n), with bases (k, n) and unknowns (k, w)."""
     timing, n = fit.timing, fit.rows.count
     if timed == "steps" and timing.turn:
         around = fit.rows.steps_round

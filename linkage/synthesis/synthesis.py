@@ -1,4 +1,4 @@
-"""What a synthesis found: the machines that do a task, the best first, and what those miss that do not run."""
+"""Results of a synthesis: the machines that do a task, the best first, and near misses with their reasons."""
 
 from __future__ import annotations
 
@@ -84,7 +84,7 @@ class SynthesisedMachine(Told, Shown):
 @final
 @immutable
 class Miss:
-    """A machine that comes near a task but is no answer: its `error` [SI^2], and `why`, where it is not assembled or what it misses."""
+    """A machine near a task that is no answer: its `error` [SI^2], and `why`, where it is not assembled or misses a condition."""
 
     machine: Mechanism
     error: float
@@ -97,7 +97,7 @@ class Miss:
 @final
 @immutable
 class RoundedMachine(Told):
-    """A machine on drawing dimensions, its `error` [SI^2], what it misses at the most [SI], and what that costs in words."""
+    """A machine on drawing dimensions, its `error` [SI^2], its largest miss [SI], and the cost of rounding in words."""
 
     machine: Mechanism
     error: float
@@ -149,7 +149,7 @@ class Synthesis(Told, Shown):
 
     @property
     def sentence(self) -> str:
-        """The answers in words, the best of them and the count; or what misses least, and why."""
+        """The answers in words, the best of them and the count; or the nearest miss, and why."""
         title, found, searched = self.problem.plan.title, self.solutions, self.searched
         if self.classes:
             title = said_of(len(self.classes), "{n} class", "{n} classes")
@@ -180,7 +180,7 @@ class Synthesis(Told, Shown):
 
     @property
     def table(self) -> str:
-        """What each class can, a line for each: its links, the error, the size and the least transmission angle of its best machine."""
+        """A table of the classes, a line each: the links, the error, the size and the least transmission angle of the best machine."""
         classes = self.classes or (self,)
         unit = miss_unit(classes[0].fits[0])
         headings = [
@@ -218,7 +218,7 @@ class Synthesis(Told, Shown):
         return total
 
     def point_measures(self, place: int = 0) -> tuple[Measure, ...]:
-        """Return the square of what an answer misses at each point as a measure [SI^2]; `each**0.5 <= 0.5 * mm` is a condition."""
+        """Return the squared miss of an answer at each point as a measure [SI^2]; `each**0.5 <= 0.5 * mm` is a condition."""
         answer = self.answer_at(place, "measure")
         fit = self.fit_of(answer)
         slides = fit.timing.width == fit.rows.count
@@ -229,7 +229,7 @@ class Synthesis(Told, Shown):
         return next(each for each in self.own(answer).fits if each.combination == answer.combination)
 
     def own(self, answer: SynthesisedMachine) -> Synthesis:
-        """Return what was found of the class of an answer: itself where one class was searched."""
+        """Return the results of the class of an answer: itself where one class was searched."""
         return next((each for each in self.classes if any(answer is one for one in each.solutions)), self)
 
     def answer_at(self, place: int, asked: str) -> SynthesisedMachine:
@@ -333,7 +333,7 @@ def synthesised_classes(
     progress: Any,
     options: Mapping[str, Any],
 ) -> Synthesis:
-    """Return what several classes can, each searched by `one`, the synthesis of one machine, one after the other; see `synthesise`.
+    """Return the results of several classes, each searched by `one`, the synthesis of one machine, one after the other; see `synthesise`.
 
     `by_class` are what may be said class by class; `options` go to each search, with its part of the limit and a folder of its own.
     """
@@ -360,7 +360,7 @@ def synthesised_classes(
 def search_of_class(
     machine: Mechanism, asked: Sequence[tuple[str, Any, type]], by_class: Mapping[str, Any]
 ) -> tuple[Mechanism, dict[str, Any]]:
-    """Return a machine, and what its search is given: the task in its own names, and what is said of its class alone or of all."""
+    """Return a machine, and the arguments of its search: the task in its own names, and the options of its class or of all."""
     task = task_named_in(machine, task_of(machine.plan.title, asked))
     task.rows(machine)  # refuses what is no point of it
     options = {name: of_class(value, type(machine)) for name, value in by_class.items()}
@@ -386,10 +386,10 @@ def shipped_machines() -> list[Mechanism]:
 
 
 def compared(found: list[Synthesis], limit: int | None) -> Synthesis:
-    """Return what was found of all classes, ranked over all; of answers of the same error the one of fewer links first."""
+    """Return the results of all classes, ranked together; of answers with the same error the one of fewer links first."""
 
     def rank(one: tuple[Synthesis, SynthesisedMachine]) -> tuple[float, ...]:
-        """Return by what answers are ranked: the error to three digits, then what is asked."""
+        """Return the sort key of an answer: the error to three digits, then the ranking measure."""
         own, answer = one
         ranked = 0.0 if np.isnan(answer.ranked) else answer.ranked
         return told_error(answer.error, own.exact), ranked, links_of(answer.machine), answer.error
@@ -431,7 +431,7 @@ def laid_machine(machine: Mechanism, task: Task) -> Mechanism:
 
 
 def run_of_task(machine: Mechanism, task: Task) -> FloatArray:
-    """Return what a task wants of a machine over its first stroke, shape (r, poses), NaN out of reach."""
+    """Return a task's quantities of a machine over its first stroke, shape (r, poses), NaN out of reach."""
     (name, stroke), *others = machine.strokes.items()
     held = {other: each.start for other, each in others}
     strokes: dict[str, Any] = {**held, name: np.linspace(stroke.start, stroke.end, ROUND)}
@@ -484,7 +484,7 @@ def default_box(machine: Mechanism, task: Task) -> dict[str, tuple[float, float]
 
 
 def misses_of(fit: Fit, at: FloatArray, base: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return the strokes (n,) at which a design comes to the points, what it has there (r, n), and how far each is missed (n,)."""
+    """Return the strokes (n,) at which a design comes to the points, its values there (r, n), and how far each is missed (n,)."""
     strokes = fit.strokes(at[None], base[None])
     values, _ = fit.values(fit.dimensions_of(at[None]), strokes, 1)
     far = np.linalg.norm(fit.rows.off(values)[0], axis=0)

@@ -206,7 +206,7 @@ def synthesise(
 
 
 def facts_of_search(search: TaskSearch) -> dict[str, Any]:
-    """Return what makes a search the same; DefinitionError for a function that a folder cannot tell from another one."""
+    """Return the facts that identify a search; DefinitionError for a function that a folder cannot tell from another one."""
     problem, task = search.problem, search.task
     functions, held = problem.function_texts(), problem.constraints
     wanted = [array if array is None else array.tolist() for array in (search.rows.wanted, search.rows.weights, task.at)]
@@ -280,7 +280,7 @@ def check_timed(problem: Problem, timing: Timing, at: FloatArray) -> None:
 @final
 @immutable
 class Ends:
-    """What local searches of one combination of choices came to: designs (m, n + w), bases (m, n), errors, and which are good."""
+    """The results of local searches of one combination of choices: designs (m, n + w), bases (m, n), errors, and which are good."""
 
     fit: Fit
     at: FloatArray
@@ -345,7 +345,7 @@ class TaskSearch:
 
     @property
     def shared(self) -> tuple[Problem, TaskRows, Timing, FloatArray | None]:
-        """What all fits have in common."""
+        """The arguments that all fits share."""
         return self.problem, self.rows, self.timing, self.task.at
 
     def fit(self, combination: Combination) -> Fit:
@@ -411,7 +411,7 @@ class TaskSearch:
     # -- local searches ------------------------------------------------------------------------------------
 
     def searched(self, stages: Stages, first: Sequence[Starts]) -> list[Ends]:
-        """Return what the local searches come to, then those that go on with the conditions."""
+        """Return the results of the local searches, then those that continue with the conditions."""
         free = self.descended(stages, "free", first, self.many * len(first))
         found = [[each] for each in free]
         if not self.problem.count.is_spent:  # again, through machines that run
@@ -440,7 +440,7 @@ class TaskSearch:
         return [each for own, way in zip(found, ways, strict=True) for each in [*own, *way.ends]]
 
     def hop(self, stages: Stages, found: Sequence[list[Ends]]) -> None:
-        """Add what searches come to that begin again about the best answers, where these are nearly exact."""
+        """Add the results of searches that begin again about the best answers, where these are nearly exact."""
         best, before = self.best_of(found), np.inf
         for wave in range(HOPS):
             if not exact_error(self.rows) < best <= self.rows.count * (NEARLY * self.rows.size) ** 2 or best > 0.5 * before:
@@ -453,7 +453,7 @@ class TaskSearch:
             best, before = self.best_of(found), best
 
     def best_of(self, found: Sequence[Sequence[Ends]]) -> float:
-        """Return the least error of what runs, keeps the conditions and comes to the points in order [SI^2]."""
+        """Return the least error of answers that run, keep the conditions and come to the points in order [SI^2]."""
         return min([np.inf, *(float(one) for own in found for each in own for one in each.error[self.good_in_order(each)])])
 
     def about_best(self, own: Sequence[Ends], wave: int) -> Starts:
@@ -473,7 +473,7 @@ class TaskSearch:
         return Starts(fit, at, base.reshape(len(at), -1), 0)
 
     def that_run_first(self, first: Starts, ends: Ends) -> Starts:
-        """Return the starts that run over the whole stroke, of searches that come to what does not.
+        """Return the starts that run over the whole stroke, in place of searches whose results do not run.
 
         Where there are enough ends that do, only of those that came to less than the best of them.
         """
@@ -579,7 +579,7 @@ class TaskSearch:
         return found
 
     def order(self, each: SynthesisedMachine) -> tuple[float, bool, float]:
-        """Return by what answers are ordered: by the error to three digits, or exact, then by what is asked, then by the error.
+        """Return the sort key of answers: the error to three digits, or exact, then the ranking measure, then the error.
 
         Where nothing is asked, an exact answer that passes near a change point comes after those that do not.
         """
@@ -664,7 +664,7 @@ class Polishing:
         return {"at": self.at[self.now], "first": self.first[self.now], "base": self.base[self.now]}
 
     def enter(self, at: FloatArray, base: FloatArray) -> None:
-        """Take in what searches came to."""
+        """Add the results of searches."""
         ends = self.search.ends_of(self.fit, at, base)
         self.ends.append(ends)
         self.best = min([self.best, *ends.error[self.search.good_in_order(ends)].tolist()])

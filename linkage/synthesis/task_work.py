@@ -1,4 +1,4 @@
-"""What workers do of a synthesis: a population looked at, laid onto the task, and local searches, piece by piece, each by itself."""
+"""Work of a synthesis for workers: populations measured and laid onto the task, and local searches, piece by piece."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def joined_rows(parts: Sequence[Part]) -> Designs:
 
 @immutable
 class FitWork(ABC):
-    """Work on designs by the fit of their combination; what it says of each design does not depend on who does it."""
+    """Work on designs by the fit of their combination; the result of each design does not depend on the worker."""
 
     problem: Problem
     rows: TaskRows
@@ -73,7 +73,7 @@ class FitWork(ABC):
 
     @abstractmethod
     def found(self, fit: Fit, rows: DesignValues) -> dict[str, Array]:
-        """Return what is found of designs of one combination, arrays (m, ...)."""
+        """Return the results of designs of one combination, arrays (m, ...)."""
 
     @property
     def machine(self) -> Mechanism:
@@ -82,12 +82,12 @@ class FitWork(ABC):
 
     @property
     def facts(self) -> str:
-        """What makes the work the same, beside the task and its designs, as text."""
+        """The facts that identify the work, beside the task and its designs, as text."""
         return f"{type(self).__name__} {self.piece}"
 
     @property
     def nothing(self) -> dict[str, Array]:
-        """What is found of no design."""
+        """The empty result."""
         at, base = np.zeros((0, len(self.problem.space.variables) + self.timing.width)), np.zeros((0, self.rows.count))
         return {"at": at, "base": base, "error": np.zeros(0), "ended": np.zeros(0, bool)}
 
@@ -96,7 +96,7 @@ class FitWork(ABC):
         return Fit(self.problem.on_branch(combination).changed(count=None), self.rows, self.timing, combination, self.known)
 
     def done(self, rows: DesignValues, start: int, stop: int) -> list[dict[str, Array]]:
-        """Return what is found of the designs from start to before stop, of each piece, with how many designs were `looked` at."""
+        """Return the results of the designs from start to before stop, of each piece, with how many designs were `looked` at."""
         return [self._of_piece(rows, first, min(first + self.piece, stop - start)) for first in range(0, stop - start, self.piece)]
 
     def _of_piece(self, rows: DesignValues, first: int, stop: int) -> dict[str, Array]:
@@ -236,7 +236,7 @@ class Stages:
         tell(0, total)
 
     def carried_out(self, name: str, work: FitWork, parts: Sequence[Part], *, told: int = 0) -> list[dict[str, Array]]:
-        """Return what is found of the designs of each part, arrays (m, ...) by name; in the progress it counts as so many designs."""
+        """Return the results of the designs of each part, arrays (m, ...) by name; in the progress it counts as so many designs."""
         rows = joined_rows(parts)
         found = self._found(name, work, rows, told) if rows.count else work.nothing
         ends = np.cumsum([len(next(iter(columns.values()))) for _, columns in parts])

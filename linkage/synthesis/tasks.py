@@ -34,7 +34,7 @@ SAME_PLACE = 1e-9
 @final
 @immutable
 class TaskRows:
-    """What a task wants: quantities, their values (r, n) [SI], NaN where none, the weight of each, and which count modulo a turn.
+    """The values wanted by a task: quantities, their values (r, n) [SI], NaN where none, the weight of each, and which count modulo a turn.
 
     `is_path` says that the first two are the coordinates of one point, and no other; `is_closed` that this path is a closed curve.
     """
@@ -59,7 +59,7 @@ class TaskRows:
 
     @cached_property
     def size(self) -> float:
-        """How large the task is [SI]: the largest of what its values differ by, or are, weighed."""
+        """The size of the task [SI]: the largest weighed span of its values, or the largest value."""
         spans = (np.nanmax(self.wanted, axis=1) - np.nanmin(self.wanted, axis=1)) * self.weights
         return float(spans.max()) or float(np.nanmax(np.abs(self.wanted))) or 1.0
 
@@ -111,7 +111,7 @@ class PathTask:
         vars(self).update(points=found, of=of, at=timed, in_order=ordered, closed=shut)
 
     def rows(self, machine: Mechanism) -> TaskRows:
-        """Return what is wanted of a machine.
+        """Return the values wanted of a machine.
 
         Parameters
         ----------
@@ -163,7 +163,7 @@ class FunctionTask:
         vars(self).update(values=rows[0], of=quantities[0], others=others, within=read_only(scale), at=at, in_order=True)
 
     def rows(self, machine: Mechanism) -> TaskRows:
-        """Return what is wanted of a machine.
+        """Return the values wanted of a machine.
 
         Parameters
         ----------
@@ -216,7 +216,7 @@ class PoseTask:
         vars(self).update(parts, of=of, at=timed, length=length, in_order=ordered)
 
     def rows(self, machine: Mechanism) -> TaskRows:
-        """Return what is wanted of a machine.
+        """Return the values wanted of a machine.
 
         Parameters
         ----------
@@ -250,7 +250,7 @@ Task: TypeAlias = PathTask | FunctionTask | PoseTask
 
 
 def task_named_in(machine: Mechanism, task: Task) -> Task:
-    """Return a task that says by one name of a machine what it is of; DefinitionError where neither it nor the machine says so."""
+    """Return a task with its subject by one name of a machine; DefinitionError where neither tells it."""
     of, title = of_class(task.of, type(machine)), machine.plan.title
     if of is None and isinstance(task, PathTask):
         of = machine.featured().coupler or None
@@ -269,7 +269,7 @@ def is_by_class(given: object) -> bool:
 
 
 def of_class(given: Any, kind: type[Mechanism]) -> Any:
-    """Return what is said of a class, by itself or by the nearest of its bases; what is not said class by class as it is."""
+    """Return the value for a class, its own or its nearest base's; a value that is not given class by class as it is."""
     return next((given[each] for each in kind.__mro__ if each in given), None) if is_by_class(given) else given
 
 
@@ -355,7 +355,7 @@ Squares: TypeAlias = tuple[Measure, ...]
 def task_error(
     machine: Mechanism, task: Task, strokes: object = None, *, timed: bool | None = None, over: Mapping[str, object] | None = None
 ) -> Measure:
-    """Return the sum of the squares of what a machine misses of a task, as a measure [SI^2]: what `synthesise` makes least.
+    """Return the sum of a machine's squared misses of a task, as a measure [SI^2]; `synthesise` minimises it.
 
     `optimise(machine, minimise=task_error(machine, task), vary=...)`. Timed points count at their strokes. An untimed one counts where the
     machine comes nearest to it in the whole stroke. `strokes` (n,) are those at which a machine comes to the points: an untimed point then
@@ -392,7 +392,7 @@ def task_error(
 def point_errors(
     machine: Mechanism, task: Task, strokes: object = None, *, timed: bool | None = None, over: Mapping[str, object] | None = None
 ) -> Squares:
-    """Return the squares of what a machine misses at each point of a task, as measures [SI^2]; see `task_error`.
+    """Return a machine's squared misses at each point of a task, as measures [SI^2]; see `task_error`.
 
     `[each**0.5 <= 0.5 * mm for each in point_errors(...)]` are conditions: no point is missed by more.
 
@@ -462,7 +462,7 @@ def squared_sum(parts: Sequence[Any]) -> Any:
 def squares_near(
     machine: Mechanism, rows: TaskRows, stroke: str, held: Mapping[str, float], strokes: FloatArray, *, slides: bool
 ) -> Squares:
-    """Return the squared misses at strokes (n,). Where a point `slides`, what lies along its path there does not count.
+    """Return the squared misses at strokes (n,). Where a point `slides`, the miss along its path there does not count.
 
     Of a miss v where the path goes along t, that leaves v^2 - (v t)^2 / t^2, the sum of the squares of their minors over t^2. It is the
     squared distance from the path, with its first derivatives, where v is across the path. A point whose v is not, as at the end of a

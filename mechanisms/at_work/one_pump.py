@@ -36,7 +36,7 @@ class PumpedExcavator(Excavator):
 
 
 class PumpedTelehandler(Telehandler):
-    """The telehandler on one pump of 90 l/min, which gives 20 bar more than what needs most; the lift is served first."""
+    """The telehandler on one pump of 90 l/min, 20 bar above the greatest need; the lift is served first."""
 
     stacking, reaching = None, None  # type: ignore[assignment]
     supply = Pump(240 * bar, flow=90 * litre / minute, power=25 * 1e3, margin=20 * bar, first=["ram"])
@@ -53,7 +53,7 @@ class PumpedTelehandler(Telehandler):
 
 
 class PumpedForwarder(Forwarder):
-    """The forwarder's crane on one pump of 120 l/min, least pressure first: what goes easily goes before what is heavy."""
+    """The forwarder's crane on one pump of 120 l/min, least pressure first: light movements go before heavy ones."""
 
     loading, opening = None, None  # type: ignore[assignment]
     supply = Pump(

@@ -141,7 +141,7 @@ def print_skeleton(crane: CraneSkeleton) -> None:
 
 
 def print_crane(crane: Crane, options: Namespace) -> None:
-    """Print the bound of moments and what the cylinders give over boom's and arm's angle, the load map with its limiters, the reach."""
+    """Print the bound of moments and the cylinders' moments over boom's and arm's angle, the load map with its limiters, the reach."""
     limits = crane.limits_of()
     phi, psi = (np.linspace(*limits[name], COUNT) for name in ("phi", "psi"))
     falls, rises = arm_bound(crane, psi)

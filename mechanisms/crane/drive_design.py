@@ -52,7 +52,7 @@ class JudgedSize:
 
     @property
     def value(self) -> float:
-        """What was to be least, infinite where there is no drive."""
+        """The objective of the search, infinite where there is no drive."""
         return np.inf if self.optimum is None else self.optimum.value
 
     @property
@@ -87,7 +87,7 @@ class DriveDesign:
 
     @property
     def sentences(self) -> list[str]:
-        """What became of every size, in words: those that are too small in one sentence, by the energy that they swallow."""
+        """The result of every size, in words: those that are too small in one sentence, by the energy that they swallow."""
         small, found = [each for each in self.sizes if each.is_too_small], []
         if small:
             ends = small if len(small) == 1 else (small[0], small[-1])
@@ -128,7 +128,7 @@ def work_of(moment: Callable[[FloatArray], FloatArray], start: float, end: float
 def judged(
     cylinders: DriveCylinders, could: Callable[[float, float], float], asked: float, task: Callable[[float, float], Mapping[str, Any]]
 ) -> tuple[JudgedSize, ...]:
-    """Return every size of a series judged: by the energy bound first, then by a search, of which a task gives what `optimise` takes.
+    """Return every size of a series judged: by the energy bound first, then by a search, whose arguments `task` gives.
 
     The reason why none is found is what the drive that misses least falls short of, moments by the source's letters.
     """
@@ -245,7 +245,7 @@ LEAST_TRANSMISSION = 25 * deg
 @final
 @dataclass(frozen=True)
 class ArmRules:
-    """What an arm drive has to keep beside its moments, and how the source's lost signs are read.
+    """The conditions of an arm drive beside its moments, and the reading of the source's lost signs.
 
     `excess` is k_r of (2.61): M_g2 is over M_l2 by no more than (k_r - 1) K_A, from `excess_from` on, "phi_0" or "psi_0". `above` is
     what the lever's pins stay above the boom's axis at both ends (2.63): "r_6", a height [m], or None. `angles` reads (2.65): "free" does
@@ -351,7 +351,7 @@ def design_arm_drive(
 
 
 def arm_drive(duty: DriveDuty, cylinders: DriveCylinders, rules: ArmRules, bore: float, rod: float, scheme: str = "a") -> DrivenArm:
-    """Return an arm drive for a duty, its lengths those of the shipped one: what a search begins with."""
+    """Return an arm drive for a duty, its lengths those of the shipped one: the start of a search."""
     machine, _ = SCHEMES[scheme]
     numbers = {name: getattr(duty, name) for name in ("l_p", "K_A", "K_A1", "phi_0", "phi_k", "psi_0", "psi_k")}
     own = () if issubclass(machine, DirectArmDrive) else ("r_6", "delta", "crank") if scheme == "b" else ("r_6", "delta")

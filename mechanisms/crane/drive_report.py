@@ -1,4 +1,4 @@
-"""What a drive gives against what is asked of it: columns, the worst movements, verdicts.
+"""A drive's moments against the required ones: columns, the worst movements, verdicts.
 
 Source: Syunyov, Seliverstov, Gerasimov, Sokolov, "Lesosechnye mashiny v fokuse bioenergetiki", (2.29), (2.33), (2.34), (2.44), (2.62).
 """
@@ -67,7 +67,7 @@ def movements_of(motion: Motion) -> tuple[Movement, ...]:
 
 
 def drive_columns(motion: Motion) -> list[Column]:
-    """Return the angle, the cylinder's length and lever, and for every movement the moments asked for and given, and what is over."""
+    """Return the angle, the cylinder's length and lever, and for every movement the required and available moments, and the surplus."""
     angle = angle_of(motion)
     found = [Column(angle, motion.strokes[angle], "deg", 2, angle), Column(noted("length"), motion["length"], "mm", 1, "length")]
     found.append(Column(noted("lever"), np.abs(motion.ratio("length")), "mm", 1, np.abs(ratio("length"))))
@@ -79,14 +79,14 @@ def drive_columns(motion: Motion) -> list[Column]:
 
 
 def featured_drive(*movements: str) -> Featured:
-    """Return what a drive is about: how much moment it has over the one asked for in each movement, which may not fall below zero."""
+    """Return a drive's features: its surplus of moment in each movement, which may not fall below zero."""
     return Featured(f"{movements[0]}: over", (), {f"{name}: over": (0.0, said("too weak"), "below") for name in movements})
 
 
 @final
 @dataclass(frozen=True)
 class WorstMovement:
-    """Where a movement has least and most moment over what is asked [N m], and the greatest moment asked for."""
+    """The places of a movement's least and greatest surplus of moment [N m], and the greatest required moment."""
 
     movement: Movement
     least: Answer
@@ -127,7 +127,7 @@ def worst_movements(motion: Motion) -> list[WorstMovement]:
 
 
 def drive_verdicts(motion: Motion) -> list[Verdict]:
-    """Return whether the drive carries what is asked, and its least lever; that its cylinder is long enough its own verdict says."""
+    """Return whether the drive carries the required moments, and its least lever; its cylinder's length has its own verdict."""
     return [*(each.verdict for each in worst_movements(motion)), lever_verdict(motion)]
 
 

@@ -77,7 +77,7 @@ class BoomDrive(Mechanism):
         return drive_columns(motion)
 
     def featured(self) -> Featured:
-        """Return what the drive has over the moment asked for, which may not fall below zero."""
+        """Return the drive's surplus of moment, which may not fall below zero."""
         return featured_drive("lifting")
 
     def rules(self, motion: Motion) -> list[Verdict]:
@@ -88,7 +88,7 @@ class BoomDrive(Mechanism):
 # -- the arm's -------------------------------------------------------------------------------------------------
 
 class DrivenArm(Mechanism):
-    """An arm PT on the boom, what is asked about its hinge P, and the cylinder that a drive of it has.
+    """An arm PT on the boom, the required moments about its hinge P, and the cylinder of its drive.
 
     Drawn on the boom: x leads towards its end, y away from the side that the arm folds to. psi is the angle between boom and arm. It is
     0 folded back and 180 deg straight, as in the source. M_l1, M_l2 are the bounds of moments (2.39) to (2.43), positive where a moment
@@ -151,7 +151,7 @@ class DrivenArm(Mechanism):
         return drive_columns(motion) if "psi" in motion.strokes else super().columns(motion)
 
     def featured(self) -> Featured:
-        """Return what the drive has over the moment asked for, which may not fall below zero, folding, and opening; else its angle."""
+        """Return the drive's surplus of moment, folding and opening, which may not fall below zero; else its angle."""
         return featured_drive("folding", "opening") if "psi" in self.strokes else Featured("psi", ["T"])
 
     def rules(self, motion: Motion) -> list[Verdict]:

@@ -1,4 +1,4 @@
-"""What a forestry crane is to do, what it asks of its drives, and the cylinders they are chosen from.
+"""The duty of a forestry crane, the required moments of its drives, and the cylinders they are chosen from.
 
 Source: Syunyov, Seliverstov, Gerasimov, Sokolov, "Lesosechnye mashiny v fokuse bioenergetiki", chapter 2: the inputs of the skeleton's
 synthesis (2.5) to (2.18), and (2.19) to (2.27), (2.36), (2.39) to (2.43).
@@ -42,7 +42,7 @@ LONGEST_REACH = 40.0
 @final
 @dataclass(frozen=True)
 class Duty:
-    """What a forwarder's crane is to do: reach L, rated moment M, the vehicle and its load; by default those of the source's example.
+    """The duty of a forwarder's crane: reach L, rated moment M, the vehicle and its load; by default the source's example.
 
     Lengths in m, M in N m, `payload` in kg, `rho_w` in kg/m3, psi_0 in rad. Heights from the ground: H_p of the platform, H_w of the tool,
     H_k of the cab, H_max the legal one. A x B is the stack's ground plan, k_d the share of it that is wood. c is how far the column's axis
@@ -90,7 +90,7 @@ class Duty:
         return self.M / self.L
 
     def dimensions(self) -> Mapping[str, float]:
-        """Return what a crane's class takes of it: `CraneSkeleton(**duty.dimensions())`."""
+        """Return the dimensions of a crane's class: `CraneSkeleton(**duty.dimensions())`."""
         names = ("L", "M", "H_p", "H_w", "H_k", "H_max", "h_s", "c", "psi_0", "Q")
         return {name: getattr(self, name) for name in names}
 
@@ -141,7 +141,7 @@ def boom_bound(crane: CraneSkeleton, phi: ArrayLike, *, case: str = LIFTING) -> 
 
 
 def arm_bound(crane: CraneSkeleton, psi: ArrayLike, *, case: str = LIFTING) -> tuple[FloatArray, FloatArray]:
-    """Return M_l1 and M_l2 (psi) [N m], over all positions of the boom: what unfolds the arm and what folds it.
+    """Return M_l1 and M_l2 (psi) [N m], over all positions of the boom: the moments that unfold and fold the arm.
 
     M_l1 is not above zero and holds with the telescope in, where the cylinder folds the arm; M_l2 is not below zero and holds with the
     telescope out. Both have the shape of psi.
@@ -222,7 +222,7 @@ FAITHFUL = 1e-6
 
 
 def duty_of(crane: CraneSkeleton) -> DriveDuty:
-    """Return what a crane asks of its drives, one design: its lengths and angles, and the moments of its own weights and load.
+    """Return the required moments of a crane's drives, one design: its lengths and angles, and the moments of its weights and load.
 
     K_A, K_A1 and K_B are its drives' forces with the arm level, telescope out or in, and the boom level. DefinitionError where its bound
     of moments is not of that form, as with loads of another kind.
@@ -251,7 +251,7 @@ SIZES_MM = ((63, 36), (70, 40), (80, 45), (90, 50), (100, 56), (110, 63), (125, 
 @final
 @dataclass(frozen=True)
 class DriveCylinders:
-    """The cylinders a drive is chosen from: (bore, rod) [m] in ascending order, what they are fed with and how long they are.
+    """The cylinders a drive is chosen from: (bore, rod) [m] in ascending order, their pressure and their lengths.
 
     `pressure` is gauge [Pa], `efficiency` the cylinder's. One of bore D with the stroke S is S + f_0 + f_1 D long closed (2.36) and comes
     out by no more than `longest` bores.
@@ -276,7 +276,7 @@ class DriveCylinders:
         positive(one_number(self.longest, "longest"), "longest")
 
     def dimensions(self, bore: float, rod: float) -> Mapping[str, float]:
-        """Return what a drive's class takes of one of them."""
+        """Return the dimensions of a drive's class for one of them."""
         return {"D": bore, "d": rod, "p": self.pressure, "n": self.efficiency, "f_0": self.f_0, "f_1": self.f_1}
 
     def swallowed(self, bore: float, rod: float = 0.0) -> float:

@@ -80,7 +80,7 @@ def surroundings(ax: Axes, crane: CraneSkeleton) -> None:
 
 
 def crane_moments(crane: Crane) -> Figure:
-    """Return what boom and arm are given by their cylinders and asked for at worst, over their angles."""
+    """Return the moments of boom and arm, from the cylinders and required at worst, over their angles."""
     title = "Moments of boom and arm: given by the cylinder, asked for at worst"
     page, axes = titled(title, (17.0, 5.4), 3, rect=(0.005, 0.01, 0.985, 0.98), w_pad=0.12, h_pad=0.08)
     motions = [drive.working(COUNT) for drive in (boom_drive_of(crane), arm_drive_of(crane))]
@@ -173,7 +173,7 @@ def drive_moments(drive: BoomDrive | DrivenArm) -> Figure:
 
 
 def title_of(drive: BoomDrive | DrivenArm) -> str:
-    """Return what is drawn, with its cylinder."""
+    """Return the title of a drive, with its cylinder."""
     what = "Boom drive" if isinstance(drive, BoomDrive) else "Arm drive"
     return f"{what}, cylinder {drive['D'] * 1e3:.0f}/{drive['d'] * 1e3:.0f} mm, stroke {drive['S'] * 1e3:.0f} mm"
 

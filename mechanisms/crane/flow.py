@@ -1,4 +1,4 @@
-"""From a duty to a crane: each stage takes what the one before found, or what the user gives instead.
+"""From a duty to a crane: each stage takes the result of the one before, or the user's in its place.
 
 `design_crane` is the whole way; its stages are `design_skeleton`, `duty_of` what it asks of its drives, `design_boom_drive`,
 `design_arm_drive`, and `with_drives`, the whole crane.
@@ -72,7 +72,7 @@ def design_skeleton(
 @final
 @immutable
 class CraneDesign:
-    """A crane designed from its duty: what each stage found, None where the user gave its result, and the whole crane."""
+    """A crane designed from its duty: the result of each stage, None where the user gave it, and the whole crane."""
 
     skeleton: Optimum | None
     boom: DriveDesign | None
@@ -92,7 +92,7 @@ def design_crane(
     cab: float | None = None,
     progress: Any = False,
 ) -> CraneDesign:
-    """Return a crane for a duty, by default the source's: skeleton, boom drive, arm drive, each from what the stage before found.
+    """Return a crane for a duty, by default the source's: skeleton, boom drive, arm drive, each from the stage before.
 
     `skeleton`, `boom` or `arm` replace a stage's result; `scheme` is that of the arm's drive, "a" to "d" of fig. 2.13, of
     which c and d want an arm that folds little, such as Duty(psi_0=60 * deg). `cylinders` are those the drives are chosen from; `reading`
@@ -141,7 +141,7 @@ def with_drives(skeleton: CraneSkeleton, boom: BoomDrive, arm: DrivenArm) -> Cra
 
 
 def number_of(drive: BoomDrive | DrivenArm, name: str) -> float:
-    """Return a number of a drive, a design variable or what follows from some."""
+    """Return a number of a drive, a design variable or a value that follows from some."""
     return float(drive[name]) if name in drive.dimensions else float(drive.working(2)[name][0])
 
 
@@ -155,14 +155,14 @@ def cylinder_numbers(name: str, drive: BoomDrive | DrivenArm) -> dict[str, float
 
 
 def boom_drive_of(crane: Crane) -> BoomDrive:
-    """Return the boom's drive of a whole crane of one design on its own, with what the crane asks of it."""
+    """Return the boom's drive of a whole crane of one design on its own, with the crane's required moments."""
     duty = duty_of(crane)
     asked = {name: getattr(duty, name) for name in ("l_c", "K_B", "K_A", "phi_0", "phi_k", "psi_k")}
     return BoomDrive(**asked, **own_numbers(crane, "lift"), **{f"r_{k}": float(crane[f"boom_r{k}"]) for k in range(1, 5)})
 
 
 def arm_drive_of(crane: Crane) -> DrivenArm:
-    """Return the arm's drive of a whole crane of one design on its own, with what the crane asks of it."""
+    """Return the arm's drive of a whole crane of one design on its own, with the crane's required moments."""
     duty = duty_of(crane)
     drive, count = next((drive, count) for drive, made, count in CRANES if isinstance(crane, made))
     asked = {name: getattr(duty, name) for name in ("l_p", "K_A", "K_A1", "phi_0", "phi_k", "psi_0", "psi_k")}

@@ -1,4 +1,4 @@
-"""What a crane's cylinders give, its load map and all that the tip reaches, and the load cases for strength with the forces of all pins.
+"""A crane's cylinder moments, its load map, the reach of its tip, and the load cases for strength with the forces of all pins.
 
 The map is the tip's working field, the drives as far as design and cylinders' lengths let them. Sources: (2.29), (2.44); end of 2.1.3.
 """
@@ -42,7 +42,7 @@ PLAY = 1e-6
 
 
 def sides(motion: Motion, stroke: str) -> tuple[float, float]:
-    """Return what the cylinder of a stroke pushes and pulls with at the pump's pressure [N], both positive, of one design.
+    """Return the push and the pull of a stroke's cylinder at the pump's pressure [N], both positive, of one design.
 
     It is p n times the area, less the back pressure's share. The side that a cylinder does not work with gives nothing.
     DefinitionError for a cylinder without a line.
@@ -68,13 +68,13 @@ def along_stroke(crane: Crane, stroke: str, at: ArrayLike) -> dict[str, Any]:
 
 
 def boom_moment(crane: Crane, phi: ArrayLike) -> FloatArray:
-    """Return M_g(phi) [N m], the shape of phi: what the boom's cylinder lifts with, its piston side at the pump's pressure. (2.29)"""
+    """Return M_g(phi) [N m], the shape of phi: the lifting moment of the boom's cylinder at the pump's pressure. (2.29)"""
     push, _ = sides(crane.position(1), "phi")
     return -push * lever(crane, "phi", phi)
 
 
 def arm_moment(crane: Crane, psi: ArrayLike) -> tuple[FloatArray, FloatArray]:
-    """Return M_g1 and M_g2 (psi) [N m], the shape of psi: what the arm's cylinder gives with its two sides. (2.44)
+    """Return M_g1 and M_g2 (psi) [N m], the shape of psi: the moments of the arm's cylinder with its two sides. (2.44)
 
     M_g1 folds the arm and is negative, M_g2 unfolds it; a cylinder that opens the arm while it grows folds it by its rod side.
     """
@@ -152,7 +152,7 @@ def load_map(
 
 
 def envelope(crane: Crane) -> Reach:
-    """Return all that the tip of one crane reaches, its border and area; what stands in the way, vehicle and ground, is not looked at."""
+    """Return the reach of one crane's tip, its border and area; obstacles such as vehicle and ground are left out."""
     return load_map(crane, [0.0], [0.0]).search.reach
 
 

@@ -1,4 +1,4 @@
-"""The skeleton of a forestry crane: column, boom, arm and telescope, their masses, and what a good one has to keep, (2.4)-(2.18).
+"""The skeleton of a forestry crane: column, boom, arm and telescope, their masses, and the conditions of a good one, (2.4)-(2.18).
 
 Angles go as in the source: phi is the boom's from the upward vertical, psi the inner one between boom and arm, 180 deg where they
 are in line. Forces hold with g = 9.81 m/s2, by the load case `lifting`. Every margin is a named output [m], kept where it is not negative.
@@ -148,7 +148,7 @@ class CraneSkeleton(Mechanism):
                 raise DefinitionError(f"{long} is outside the regressions (2.8), (2.9); give a shorter telescope.")
 
     def columns(self, motion: Motion) -> list[Column]:
-        """Return the table of results without what hangs on the design alone."""
+        """Return the table of results without the values of the design alone."""
         found = []
         for each in super().columns(motion):
             name = each.name if each.name in self.plan.members else each.name.removesuffix("_x").removesuffix("_y")
@@ -156,7 +156,7 @@ class CraneSkeleton(Mechanism):
         return found
 
     def rules(self, motion: Motion) -> list[Verdict]:
-        """Return which of the source's conditions on the skeleton this design keeps, with what is to spare; of a batch nothing."""
+        """Return the source's conditions on the skeleton as verdicts on this design, with their spare; of a batch none."""
         return [] if any(np.ndim(value) for value in self.dimensions.values()) else self.judged()
 
     @classmethod

@@ -1,4 +1,4 @@
-"""`hydrolinkage grapple`: what a grapple's lever gives and what its stems need over its angle, its verdicts and figures."""
+"""`hydrolinkage grapple`: a grapple's available and required moments over its angle, its verdicts and figures."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ Gripping = Command(
 
 @Gripping
 def print_grapple(options: Namespace) -> int:
-    """Print what a grapple's lever gives and what its stems need."""
+    """Print a grapple's available and required moments."""
     machine = machine_like(options, Grapple, "grapple") if options.design is None else designed(options)
     path = figure_path(options, machine, "grapple")
     by_angle = {tuple(each.strokes["theta"].ravel()): (run, each) for run, each in reversed(motions_at(machine, options))}

@@ -1,4 +1,4 @@
-"""What a grapple has to do and what it may be made of, checked in words; and the design problem (2.95). Pressures are gauge [Pa].
+"""The duty of a grapple and its materials, checked in words; and the design problem (2.95). Pressures are gauge [Pa].
 
 Bore, stroke and the place of E come from their lists; OC is all that is left free. Every combination is looked at over its range of OC,
 all designs at once; from the best of each of the most promising ones `optimise` goes on to the optimum with its conditions.
@@ -50,7 +50,7 @@ def assumed_moment(D: Quantity, arm: Quantity) -> Quantity:
 @refuses_changes
 @dataclass(frozen=True)
 class Duty:
-    """The stems [m], the wrap angles [rad] and what the lever may be driven by; every number as in `Grapple`.
+    """The stems [m], the wrap angles [rad] and the possible drives of the lever; every number as in `Grapple`.
 
     `cylinders` are bores and rods [m], `strokes` standard strokes [m]; `box` is the room for the pin E: left, right, low, high [m] (2.89).
     `moment` gives M_1; `inner` puts the cylinder at the inner hinge, where its rod side works. DefinitionError for what cannot be.
@@ -185,13 +185,13 @@ class Combination:
 
 
 def share_of() -> Request:
-    """Return the request for M_g / M_1: the cylinder's reserve, which is what its pump gives over what the stem needs."""
+    """Return the request for M_g / M_1: the cylinder's reserve, available over required."""
     share: Request = reserve("lift")
     return share
 
 
 def arm_to_spare() -> Request:
-    """Return the request for what the cylinder's line keeps off the hinge beyond bush and rod [m]. (2.93)"""
+    """Return the request for the distance of the cylinder's line from the hinge beyond bush and rod [m]. (2.93)"""
     spare: Request = abs(ratio("EC")) - (ref("bush") + ref("rod") / 2)
     return spare
 
@@ -221,7 +221,7 @@ def shortest(machine: Grapple, S: float) -> float:
 
 
 def looked_at(duty: Duty, designs: Grapple, objective: str) -> tuple[FloatArray, FloatArray]:
-    """Return what is to spare of the scarcest condition and the objective of designs, shape (designs,), at some poses."""
+    """Return the spare of the scarcest condition and the objective of designs, shape (designs,), at some poses."""
     stroke = designs.strokes["theta"]
     stems, way = np.linspace(0.0, stroke.end, 21), np.linspace(stroke.start, stroke.end, 13)
     share, arm = designs.evaluate([share_of(), abs(ratio("EC"))], theta=stems, unreachable="nan")

@@ -117,7 +117,7 @@ class Grapple(Mechanism):
     claw = Outline([(0, 0.03), (-0.02, -0.035), (0.08, -0.07), (0.24, -0.075), (0.35, -0.03), (0.35, 0.03), (0.08, -0.02)], on=(A, O))
 
     def __init__(self, **dimensions: Any) -> None:
-        """Set the design [SI]; DefinitionError also for what cannot be: no stem, a wrap of no angle, a side that is neither."""
+        """Set the design [SI]; DefinitionError also for impossible values: no stem, a wrap of no angle, an unknown side."""
         super().__init__(**dimensions)
         for name in ("D_0", "d_0", "hinge_gap", "opening", "bush", "bore", "rod", "S", "rho"):
             if name in self.dimensions:
@@ -137,7 +137,7 @@ class Grapple(Mechanism):
         return Featured("M_g/M_1", ["A"], {"M_g/M_1": (1.0, said("too weak for the stem"), "below")})
 
     def rules(self, motion: Motion) -> list[Verdict]:
-        """Return what an engineer should know: moment over the stems, way past the hinge, opening, stroke, E, the cylinder's size."""
+        """Return the verdicts: moment over the stems, way past the hinge, opening, stroke, E, the cylinder's size."""
         return grapple_verdicts(motion)
 
 
@@ -200,5 +200,5 @@ class CrossheadGrapple(Grapple):
     lift = Cylinder(E, K, bore="bore", rod="rod", closed="closed", stroke=S, works="rod")
 
     def rules(self, motion: Motion) -> list[Verdict]:
-        """Return what an engineer should know: moment over the stems, place over the housing, opening, stroke, hinge."""
+        """Return the verdicts: moment over the stems, place over the housing, opening, stroke, hinge."""
         return crosshead_verdicts(motion)

@@ -1,4 +1,4 @@
-"""What a grapple's lever gives and what its stems need, over the angle; its table and its verdicts. Pressures are gauge [Pa]."""
+"""A grapple's available and required moments over the angle; its table and its verdicts. Pressures are gauge [Pa]."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ def _over(motion: Motion, start: FloatArray, end: FloatArray, count: int) -> Mot
 
 
 def unplaced_words(motion: Motion) -> str:
-    """Return why the pin E has no place in a design of a motion, and what gives it one; empty where all have."""
+    """Return why the pin E has no place in a design of a motion, and the remedy; empty where all have."""
     x, y = motion["E"]
     if np.all(np.isfinite(x)) and np.all(np.isfinite(y)):
         return ""
@@ -75,7 +75,7 @@ def unplaced_words(motion: Motion) -> str:
 
 
 def require_placed(motion: Motion) -> Motion:
-    """Return a motion of grapples whose cylinders have a place for the pin E; DefinitionError, with what gives one, for others."""
+    """Return a motion of grapples whose cylinders have a place for the pin E; DefinitionError, with the remedy, for others."""
     words = unplaced_words(require_grapple(motion))
     ensure(not words, f"{motion.plan.title}: {words}")
     return motion
@@ -83,7 +83,7 @@ def require_placed(motion: Motion) -> Motion:
 
 @dataclass(frozen=True)
 class GrappleState:
-    """What the poses of a motion have, arrays of its shape: D [m], H [m], M_g and M_1 [N m] of one lever."""
+    """Values at the poses of a motion, arrays of its shape: D [m], H [m], M_g and M_1 [N m] of one lever."""
 
     motion: Motion
 
@@ -99,14 +99,14 @@ class GrappleState:
 
     @cached_property
     def given(self) -> FloatArray:
-        """M_g [N m], what the full pressure gives about the hinge of each of the levers whose stem the cylinder presses."""
+        """M_g [N m], the moment of the full pressure about the hinge of each of the levers whose stem the cylinder presses."""
         circuit: LiftCircuit = self.motion.plan.of_kind(LiftCircuit)["circuit"]
         levers = len(self.motion.plan.of_kind(Force))
         return circuit.largest(self.motion) * circuit.efficiency(self.motion, "mechanical") * self.H / levers
 
     @cached_property
     def needed(self) -> FloatArray:
-        """M_1 [N m], what the stem needs about the hinge."""
+        """M_1 [N m], the moment that the stem needs about the hinge."""
         return self.motion["M_1"]
 
 

@@ -99,7 +99,7 @@ def header_of(options: Namespace) -> HeaderBalancer:
 
 
 def changes(plan: Plan, options: Namespace) -> dict[str, float]:
-    """Return what `--set` changes."""
+    """Return the dimensions set by `--set`."""
     return dict(parsed_setting(plan, text) for text in options.settings)
 
 

@@ -1,4 +1,4 @@
-"""To what pressure the line is charged, and the paper's five criteria, the relief valve and its conclusions, as verdicts of one design.
+"""The charge pressure of the line, and the paper's five criteria, the relief valve and its conclusions, as verdicts of one design.
 
 The line is charged as published, for a reaction, and at the most; all over the following range. Pressures gauge [Pa].
 """
@@ -177,7 +177,7 @@ def hang_up(motion: Motion, way: Way) -> Verdict:
 
 
 def hysteresis(balance: HeaderState) -> Verdict:
-    """Return criterion 3: what the hysteresis is and who makes it; a plain bearing at O beside the machine's own."""
+    """Return criterion 3: the hysteresis and its parts; a plain bearing at O beside the machine's own."""
     whole, seals, pin = balance.hysteresis, balance.of_seals, balance.of_pin
     plain, rolling = balance.of_bearing(PLAIN), balance.of_bearing(0.0)
     share = float(np.max(pin / whole))
@@ -242,7 +242,7 @@ def reserve(balance: HeaderState) -> Verdict:
 
 
 def _smaller(balance: HeaderState, worst: float, pump: float) -> str:
-    """Return what a smaller standard bore would do for the seals' share, where the pump permits it."""
+    """Return the effect of a smaller standard bore on the seals' share, where the pump permits it."""
     size = balance.cylinder.sized(balance.motion)
     own, rod = size.single
     smaller = [CylinderSize(bore, rod, size.count, size.works) for bore in standard_bores() if rod < bore < own]
@@ -297,7 +297,7 @@ def vessels(balance: HeaderState) -> Verdict:
 
 
 def exchange(motion: Motion) -> Verdict:
-    """Return to what the line is charged at the most for each published header on this linkage: it is changed by the pressure alone."""
+    """Return the greatest charge of the line for each published header on this linkage: the pressure alone is changed."""
     says, ok = [], True
     for number, header in HEADERS.items():
         own = Motion(motion.plan, {**motion.designs, **header}, motion.strokes, motion.unreachable)

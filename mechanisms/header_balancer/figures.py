@@ -130,7 +130,7 @@ def _measured(ax: Axes, motion: Motion, measured: Sequence[Deviation]) -> None:
 
 
 def bearings(ax: Axes, motion: Motion) -> None:
-    """Draw figure 2 b: what plain bearings at O add to the reaction, up and down, as a force at a shoe."""
+    """Draw figure 2 b: the part of plain bearings at O in the reaction, up and down, as a force at a shoe."""
     balance, shoes = HeaderState(motion), float(motion.inputs["shoes"])
     radius = float(motion.inputs[f"{BEARING}.radius"])
     for label in ("moving up", "moving down"):

@@ -119,7 +119,7 @@ def dry_frictions(motion: Motion) -> list[str]:
 
 @dataclass(frozen=True)
 class HeaderState:
-    """What a motion's poses have: arm, pressures, reactions; every array of the motion's shape, kept once found."""
+    """Values at a motion's poses: arm, pressures, reactions; every array of the motion's shape, cached."""
 
     motion: Motion
 

@@ -85,7 +85,7 @@ class HeaderBalancer(Mechanism):
     )  # the header's section
 
     def __init__(self, **dimensions: Any) -> None:
-        """Set the design [SI]; DefinitionError also for what cannot be: no mass, no pressure, a shoe out of the stroke's reach."""
+        """Set the design [SI]; DefinitionError also for impossible values: no mass, no pressure, a shoe out of the stroke's reach."""
         super().__init__(**dimensions)
         for name in ("L_min", "L_OB", "L_OR", "m1", "charge", "follows", "shoes", "pump", "valve"):
             positive(self[name], name)
@@ -108,7 +108,7 @@ class HeaderBalancer(Mechanism):
         return reaction_columns(motion)
 
     def formulas(self, written: Formulas) -> None:
-        """Write, after what its elements say, (34), (36), (38) and (39), and the pressure at which the shoe carries nothing."""
+        """Write, after the lines of its elements, (34), (36), (38) and (39), and the pressure at which the shoe carries nothing."""
         super().formulas(written)
         write_reaction(written)
 

@@ -90,5 +90,5 @@ def valve(ax: Axes, x: float, y: float, *, upright: bool) -> None:
 
 
 def named(ax: Axes, place: tuple[float, float], text: str, ha: str) -> None:
-    """Write what a part is beside it."""
+    """Write a part's name beside it."""
     haloed(ax, text, np.array(place), style.SMALL, style.INK, ha=ha, va="center", zorder=14.0)

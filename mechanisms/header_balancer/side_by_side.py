@@ -1,4 +1,4 @@
-"""The three headers on one linkage, side by side: what is asked of all of them is asked at once, over the same heights of the shoe."""
+"""The three headers on one linkage, side by side: all are evaluated at once, over the same heights of the shoe."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the hitch lifts: (28) and (29), at the centre of gravity, at the hitch points, and behind them; where it lifts least, and why.
+"""The hitch's lifting capacity: (28) and (29), at the centre of gravity, at the hitch points, and behind them; its least, and why.
 
 Figure 2, the zones of capacity and tilt over the admissible settings, and the upper link for a vertical mast. Pressures are gauge.
 """
@@ -45,7 +45,7 @@ def circuit_of(motion: Motion) -> LiftCircuit:
 
 
 def own_loads(motion: AnyMotion) -> list[str]:
-    """Return the loads of the hitch without its implement, by name: masses, friction and what else is added to it."""
+    """Return the loads of the hitch without its implement, by name: masses, friction and added ones."""
     return [name for name in motion.plan.of_kind(ForceElement) if name not in NOT_OWN]
 
 
@@ -75,7 +75,7 @@ def lifting_circuit(plan: Plan) -> LiftCircuit:
 
 
 def write_capacity(written: Formulas) -> None:
-    """Write F_cyl (29) and G_g (28), as `capacity` has it: what other loads than the implement take of the cylinders counts off."""
+    """Write F_cyl (29) and G_g (28), as `capacity` has it: loads other than the implement reduce the cylinders' force."""
     lift, thrust = found_in(written.plan.members, "lift", written.plan.title), written.thrust("lift")
     if thrust is None:
         return
@@ -154,7 +154,7 @@ class Weakest:
 
     @property
     def sentence(self) -> str:
-        """The weakest point and what limits it."""
+        """The weakest point and its limit."""
         text = said(
             "least at S = {stroke}, F {height} high: {capacity} ({mass}). There the pressure limits it: G rises {ratio:.3f} {unit} "
             "for 1 {unit} of the cylinder, {stage}.",
@@ -223,7 +223,7 @@ def remedy(motion: Motion) -> str:
 
 
 def best_change(motion: Motion, names: Sequence[str], steps: FloatArray) -> tuple[int, float]:
-    """Return which of some dimensions, each changed by its step [m], raises the least capacity most, and by what share of it."""
+    """Return which of some dimensions, each changed by its step [m], raises the least capacity most, and by which share of it."""
     designs = {name: motion.designs[name] + np.where([each == name for each in names], steps, 0.0) for name in dict.fromkeys(names)}
     fine = Over.poses(S=closely(motion).strokes["S"].tolist())
     before, after = (Judge(motion.plan, motion.designs | each, [fine]) for each in ({}, designs))

@@ -1,4 +1,4 @@
-"""`hydrolinkage hitch`: what a hitch lifts over its stroke, its zones, its verdicts and figures."""
+"""`hydrolinkage hitch`: a hitch's capacity over its stroke, its zones, its verdicts and figures."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ Hitch = Command(
 
 @Hitch
 def print_hitch(options: Namespace) -> int:
-    """Print what a hitch lifts and what limits it."""
+    """Print a hitch's capacity and its limits."""
     machine = hitch_of(options)
     path = figure_path(options, machine, "hitch")
     motions, tables = motions_at(machine, options), list[Table]()

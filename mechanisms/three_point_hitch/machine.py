@@ -88,7 +88,7 @@ class ThreePointHitch(Mechanism):
         return [*points, growth, lifts, Column(noted("tilt"), motion["tilt"], "deg", 3, "tilt")]
 
     def formulas(self, written: Formulas) -> None:
-        """Write, after what its elements say, F_cyl = p_max area (29) and the lifting capacity G_g = F_cyl eta / I_G (28)."""
+        """Write, after the lines of its elements, F_cyl = p_max area (29) and the lifting capacity G_g = F_cyl eta / I_G (28)."""
         super().formulas(written)
         write_capacity(written)
 
@@ -99,7 +99,7 @@ class ThreePointHitch(Mechanism):
         return Featured("capacity", ["G"], limits)
 
     def rules(self, motion: Motion) -> list[Verdict]:
-        """Return what an engineer should know: capacity and its weakest point, pressure, oil, upper link, mast, front axle."""
+        """Return the verdicts: capacity and its weakest point, pressure, oil, upper link, mast, front axle."""
         return rules(self, motion)
 
 
@@ -157,7 +157,7 @@ class HitchCategory1(ThreePointHitch):
 
 @dataclass(frozen=True)
 class Category:
-    """What ISO 730 fixes of a category [m], and a machine of such proportions, whose other dimensions are illustrative."""
+    """The dimensions of an ISO 730 category [m], and a machine of such proportions, whose other dimensions are illustrative."""
 
     number: int
     mast_height: float

@@ -1,4 +1,4 @@
-"""The hitch's tables and the tractor's balance, and what an engineer should know of both, in sentences.
+"""The hitch's tables and the tractor's balance, and the verdicts on both, in sentences.
 
 The balance is the front axle's load, and the implement's mass and the slope at which the tractor tips. Moments are about the driving
 wheels' contact with the ground, the origin; tyres are rigid, inertia is left out. Heavy is the implement `load` at G, the tractor at
@@ -188,7 +188,7 @@ def limit_verdict(judge: Judge) -> Verdict:
 
 
 def test_verdict(judge: Judge) -> Verdict:
-    """Return what can be lifted through the whole range at 90 % of the pressure, the way tractors are tested."""
+    """Return the load lifted through the whole range at 90 % of the pressure, the way tractors are tested."""
     parts, places = [], (said("at the hitch points"), said("{distance} behind them", distance=show(BEHIND, "mm", ".0f")))
     for where, found in zip(places, judge.answers([least(lifted("F", SHARE)), least(MotionFunction(behind))]), strict=True):
         is_limited = bool(np.isfinite(found.value))

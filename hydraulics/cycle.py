@@ -278,7 +278,7 @@ def unchanged(arrays: Mapping[str, Array]) -> Mapping[str, Array]:
 @final
 @dataclass(frozen=True, eq=False)
 class PumpRun:
-    """What a run found: its cycle, of which design and in which situation. It stands with the path that the run made."""
+    """A pump's run: its cycle, with its design and its situation. It stands with the path that the run made."""
 
     cycle: PumpCycle
     designs: Mapping[str, Any]

@@ -264,7 +264,7 @@ class ForceLines:
         return Pulled(point, symbol, 0)
 
     def _numbers(self, name: str) -> Iterator[Pulled]:
-        """Keep what an element without a formula does as given numbers, told by the engine; yield its loads."""
+        """Keep the loads of an element without a formula as given numbers from the engine; yield them."""
         situation = Acting([name], case=self.case)
         acting = applied_loads(self._somewhere(), situation, AT_REST)
         for place, thrust in enumerate(acting.thrusts):
@@ -467,12 +467,12 @@ def counted_load(factor: float, value: Term) -> Term:
 
 
 def given_thrust(situation: Acting, place: int) -> Callable[[Motion], FloatArray]:
-    """Return what tells the thrust of an element over a motion [N]."""
+    """Return a function of a motion that gives an element's thrust [N]."""
     return lambda motion: applied_loads(motion, situation, AT_REST).thrusts[place].thrust
 
 
 def given_load(situation: Acting, place: int) -> Callable[[Motion], FloatArray]:
-    """Return what tells a load of an element over a motion, shape (2, ...) [N]."""
+    """Return a function of a motion that gives a load of an element, shape (2, ...) [N]."""
     return lambda motion: applied_loads(motion, situation, AT_REST).loads[place].force
 
 

@@ -56,7 +56,7 @@ def read_board(found: FoundMachine, data: Mapping[str, Any]) -> None:
 
 
 class BoardReader:
-    """A file of the board on its way into a sketch; FileError for what is not of its kind."""
+    """A file of the board on its way into a sketch; FileError for a file of another kind."""
 
     def __init__(self, found: FoundMachine, data: Mapping[str, Any]) -> None:
         self.found, self.data = found, data
@@ -111,7 +111,7 @@ class BoardReader:
         return self.found.number(table.get(key), f"{key} of {name}")
 
     def slide(self, name: str, table: Mapping[str, Any]) -> SketchSlide:
-        """Return what slides."""
+        """Return the sketch of a slide."""
         along = table.get("along")
         if not isinstance(along, list):
             return SketchSlide(str(table.get("point")), self.number(name, table, "along"))
@@ -126,7 +126,7 @@ class BoardReader:
         return SketchWeight(str(table.get("point")), mass)
 
     def drive(self, name: str, table: Mapping[str, Any]) -> SketchDrive:
-        """Return what drives."""
+        """Return the sketch of a drive."""
         kind, ends = str(table.get("kind")), self.texts(table.get("ends"), f"the ends of {name}", 2)
         is_known = kind in ("crank", "cylinder") and len(ends) == 2
         ensure_file(is_known, f"{self.found.file}: {name} is no crank and no cylinder with two ends.")

@@ -79,10 +79,13 @@ def group_title(entry: EntryPoint, package: str) -> str:
     return title if whose == PROGRAM else f"{title} ({whose})"
 
 
-def wrapped(text: str, start: str) -> list[str]:
-    """Return a text that begins with a start as lines no wider than the terminal; elsewhere than on one, than 100 columns."""
+def wrapped(text: str, start: str, hanging: str = "") -> list[str]:
+    """Return a text that begins with a start as lines no wider than the terminal; elsewhere than on one, than 100 columns.
+
+    All but the first are indented as far as the start, and by what is `hanging` more.
+    """
     width = max(get_terminal_size().columns if sys.stdout.isatty() else 100, len(start) + 20)
-    return wrap(text, width, initial_indent=start, subsequent_indent=" " * len(start)) or [start.rstrip()]
+    return wrap(text, width, initial_indent=start, subsequent_indent=" " * len(start) + hanging) or [start.rstrip()]
 
 
 def first_line(entry: EntryPoint) -> str:

@@ -10,10 +10,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..errors import DefinitionError, ensure
+from ..loads import TwoPoint
 from ..mechanism import Mechanism
 from ..plan import strokes_text, written_out
 from ..quantities import Dimension
 from ..reports import design_rows, stroke_rows
+from ..steps import Link
 from .command import Command, group, lined_up, machine_options, option, picture, picture_option, repeatable, whole_number
 from .listing import wrapped
 from .settings import CHECK, OVER, judged_code, machine_of, overs_of, strokes_given
@@ -61,10 +63,10 @@ def show_command(options: Namespace) -> int:
     for title, lines in sections(machine):
         print_section(title, lines)
     if options.equations:
-        print_section("Equations", str(printed_equations(machine, options, at)).splitlines())
+        print_section("Equations", str(printed_equations(machine, options, at)).splitlines(), fits=False)
     verdicts = machine.verdicts(over=over)
     print_section("Verdict", verdicts)
-    print_section("About it", said_of_itself(machine))
+    print_section("About it", said_of_itself(machine), fits=False)
     return judged_code(verdicts, options)
 
 
@@ -94,7 +96,7 @@ def show_modes(machine: Mechanism, at: dict[str, float], path: Path | None) -> i
         raise DefinitionError(f"{machine.plan.title} cannot be assembled in any mode at {said}; say --at with another stroke.")
     for number, mode in enumerate(modes, 1):
         said = ", ".join([*([str(mode)] * bool(str(mode))), *(["as declared"] * mode.is_declared)])
-        print_section(f"{number}. {said}", mode.code.splitlines() or ["(no line changes)"])
+        print_section(f"{number}. {said}", mode.code.splitlines() or ["(no line changes)"], fits=False)
     if path is not None:
         from ..pictures import draw
 
@@ -118,13 +120,24 @@ def sections(machine: Mechanism) -> Iterator[tuple[str, Iterable[str]]]:
     yield f"{type(machine).__name__}: strokes", lined_up(list(stroke_rows(machine)))
     yield "Design variables", lined_up(list(design_rows(machine)))
     count = f"{len(machine.strokes)} stroke{'s' if len(machine.strokes) != 1 else ''}"
-    cylinders = [f"cylinder {bar.P} {bar.Q}" for bar in machine.plan.cylinders]
     freedoms = f"Gruebler count {machine.gruebler} (a cylinder is two bodies on a slide), {count}"
-    yield "Bodies", [*map(str, machine.links), *cylinders, freedoms]
+    yield "Bodies", [*body_rows(machine), freedoms]
     dimensions, defaults = machine.plan.of_kind(Dimension), machine.plan.defaults
     changed = {name: value for name, value in machine.dimensions.items() if value != defaults[name]}
     written = written_out(machine.plan, changed)  # as this design has the members, without the dimensions listed already
     yield "Construction, in order", [f"{name} = {text}" for name, text in written.items() if name not in dimensions]
+
+
+def body_rows(machine: Mechanism) -> Iterator[str]:
+    """Yield the bodies with their points, by the names of the links and cylinders that they are: `boom.beam: boom.B boom.D`."""
+    links = [(name, {*link.point_names}) for name, link in machine.plan.of_kind(Link).items()]
+    for body in machine.links:
+        name = "" if body.fixed else next((name for name, points in links if points <= {*body.points}), "")
+        yield f"{name}: {body}" if name else str(body)
+    elements = {frozenset(each.ends): name for name, each in machine.plan.of_kind(TwoPoint).items()}
+    for bar in machine.plan.cylinders:
+        name = elements.get(frozenset((bar.P, bar.Q)), "")
+        yield f"cylinder {name}: {bar.P} {bar.Q}" if name else f"cylinder {bar.P} {bar.Q}"
 
 
 def said_of_itself(machine: Mechanism) -> list[str]:
@@ -135,8 +148,8 @@ def said_of_itself(machine: Mechanism) -> list[str]:
     return lines[:-1]
 
 
-def print_section(title: str, lines: Iterable[str]) -> None:
-    """Print a section; nothing where it has no lines."""
-    text = [f"  {line}".rstrip() for line in lines]
+def print_section(title: str, lines: Iterable[object], *, fits: bool = True) -> None:
+    """Print a section, its lines as wide as the terminal where they shall fit; nothing where it has no lines."""
+    text = [part.rstrip() for line in lines for part in (wrapped(f"{line}", "  ", "     ") if fits else [f"  {line}"])]
     if any(text):
         print("\n".join([title, *text, ""]))

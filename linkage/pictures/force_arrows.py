@@ -11,7 +11,7 @@ import numpy as np
 from ..checks import require_type
 from ..errors import AssemblyError, DefinitionError, SingularError, unknown, unwarned
 from ..language import noted, said, translated
-from ..loads import Case, ForceElement, Loads
+from ..loads import Case, ForceElement, LoadCase, Loads
 from ..motion import Motion
 from ..program import FloatArray
 from ..quantities import joined_names
@@ -155,7 +155,8 @@ def force_layer(forces: ForcesAt, body: str = "") -> ArrowLayer:
         if body in ("", bearer):
             arrows.append(VectorArrow(f"load {element} on {bearer}", at, force, colour, element))
             turning.append(TurningArrow(f"moment {element} on {bearer}", at, moment, colour, element))
-    words = {LOAD: said("load"), PIN: said("pin force"), MEMBER: said("of a cylinder or spring")}
+    case = f": {translated(found.case)}" if found.motion.plan.of_kind(LoadCase) else ""
+    words = {LOAD: f"{said('load')}{case}", PIN: said("pin force"), MEMBER: said("of a cylinder or spring")}
     if body:
         words |= {PIN: said("from a body or the frame"), MEMBER: said("from a cylinder or spring")}
     return layer_of(arrows, turning, words | {GROUND: said("from the ground")}, "" if body else translated(SENSE))

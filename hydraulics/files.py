@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from functools import singledispatch
 from typing import Any
 
-from linkage.checks import require
+from linkage.checks import is_listed, require
 from linkage.errors import DefinitionError, cited, ensure, known_name, unknown
 from linkage.quantities import Member, is_number, label
 from linkage.quantities.quantity import plain
@@ -84,7 +84,7 @@ def on_line_kind(block: type[Any], text: Callable[[Any], str]) -> Any:
     within = Within.of(block)
 
     def read(given: object, names: Any) -> tuple[Any, ...]:
-        each_of = list(given) if isinstance(given, (list, tuple)) else [given]
+        each_of = list(given) if is_listed(given) else [given]
         found: list[Any] = []
         for each in each_of:
             if isinstance(each, Mapping):

@@ -21,6 +21,7 @@ from typing import Any, ClassVar, Literal, Self, TypeAlias, TypeVar, Unpack, cas
 import numpy as np
 from numpy.typing import ArrayLike
 
+from linkage.checks import is_listed
 from linkage.errors import DefinitionError, cited, ensure, known_name, unknown, unwarned
 from linkage.frozen import immutable, refuses_changes
 from linkage.language import noted, said, translated, with_and
@@ -1185,7 +1186,7 @@ class Circuit(OnLines, HasVerdicts):
     def references(self) -> tuple[Reference, ...]:
         """Its cylinders, as they were given."""
         given = self.cylinder
-        return tuple(given) if isinstance(given, (list, tuple)) else (cast(Reference, given),)
+        return tuple(given) if is_listed(given) else (cast(Reference, given),)
 
     @property
     def cylinder_names(self) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, TypeGuard, TypeVar, cast
 
 import numpy as np
@@ -32,6 +32,21 @@ def is_whole(value: object) -> TypeGuard[int]:
 def is_listed(given: object) -> TypeGuard[Sequence[Any]]:
     """Return whether a value is a list or a tuple."""
     return isinstance(given, (list, tuple))
+
+
+def is_class_of(given: object, kind: type[Kind]) -> TypeGuard[type[Kind]]:
+    """Return whether a value is a class of a kind."""
+    return isinstance(given, type) and issubclass(given, kind)
+
+
+def instance_of(given: object, kind: type[Kind]) -> Kind | None:
+    """Return an object of a kind, of a class of it one that is made; None for anything else."""
+    return given if isinstance(given, kind) else given() if is_class_of(given, kind) else None
+
+
+def can_be_called(given: object) -> TypeGuard[Callable[..., Any]]:
+    """Return whether a value can be called as a function, which a class is not."""
+    return callable(given) and not isinstance(given, type)
 
 
 def two_of(given: object) -> tuple[Scalar, ...]:

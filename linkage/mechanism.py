@@ -16,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .assembly import Assembly, assembled, assemblies, width_words
-from .checks import require, require_one_design, require_type
+from .checks import is_class_of, is_listed, require, require_one_design, require_type
 from .errors import DefinitionError, cited, is_yes, known_name, told, unknown
 from .frozen import FrozenDict
 from .loads import PLAIN_CASE, Acting, ForceElement, LoadCase, check_together
@@ -94,7 +94,7 @@ def verdicts_of(machine: Mechanism, judge: Judge, motion: Motion | None = None) 
         if fault is None:
             raise
         own = []
-    if not isinstance(own, (list, tuple)) or not all(isinstance(each, str) for each in own):
+    if not is_listed(own) or not all(isinstance(each, str) for each in own):
         raise DefinitionError(f"{machine.plan.title}: rules(motion) gives {cited(own)}; a list of Verdicts and sentences is expected.")
     general = judge_verdicts(judge) if fault is None else [fault, *judge_verdicts(judge, fault.sentence)]
     return ShownList([*general, *(each if isinstance(each, Verdict) else Remark(each) for each in own)])
@@ -339,7 +339,7 @@ class Mechanism(Shown, metaclass=MechanismType):
         if over is not None:
             if strokes:
                 raise DefinitionError(f"{self.plan.title}: sweep(over=...) says where all strokes are; leave out {keywords(strokes)}.")
-            if isinstance(over, (list, tuple)):
+            if is_listed(over):
                 raise DefinitionError(f"{self.plan.title}: over={cited(over)}: a motion runs over one Over; give that one.")
             return self.judge((over,)).places[0].swept(count, unreachable)
         return Motion(self.plan, self._values, sweep_values(count, strokes, self.plan), unreachable)
@@ -648,7 +648,7 @@ class Mechanism(Shown, metaclass=MechanismType):
         """
         declared = {each.name: each for each in self.overs if each.name}
         overs: list[Over | Motion] = []
-        given: Sequence[object] = self.overs if over is None else over if isinstance(over, (list, tuple)) else (over,)
+        given: Sequence[object] = self.overs if over is None else over if is_listed(over) else (over,)
         for each in given or (over,):
             if isinstance(each, str):
                 overs.append(declared[known_name("Over", each, declared, where=self.plan.title)])
@@ -843,7 +843,7 @@ def check_bindable(name: str, what: str) -> None:
 
 def check_no_member(title: str, name: str, value: object) -> None:
     """Raise DefinitionError for a member written by mistake as none: its class, members in a list, or a comma too many."""
-    if isinstance(value, type) and issubclass(value, Member):
+    if is_class_of(value, Member):
         raise DefinitionError(f"{title}.{name} = {value.__name__} is the class, no member; write {name} = {value.__name__}(...).")
     machine = value if isinstance(value, type) else type(value)
     if issubclass(machine, Mechanism) and name != getattr(value, "__name__", ""):
@@ -860,6 +860,6 @@ def check_no_member(title: str, name: str, value: object) -> None:
 
 def require_mechanism(given: object) -> None:
     """Raise DefinitionError for anything but a design of a mechanism."""
-    if isinstance(given, type) and issubclass(given, Mechanism):
+    if is_class_of(given, Mechanism):
         raise DefinitionError(f"{given.__name__} is a class, the structure; give a design of it, {given.__name__}().")
     require_type("", given, Mechanism, "is no mechanism; give a design such as FourBar()")

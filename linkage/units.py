@@ -22,6 +22,7 @@ from contextvars import ContextVar
 from types import MappingProxyType
 from typing import Any, Self
 
+from .checks import is_listed
 from .errors import DefinitionError, article, cited, known_name, unknown
 from .language import noted, translated
 from .star import declare_public
@@ -200,7 +201,7 @@ def amounts_in(value: object) -> Iterator[Amount]:
     """Yield the amounts that a value is, or that stand in it where it is a list or a tuple."""
     if isinstance(value, Amount):
         yield value
-    elif isinstance(value, (list, tuple)) and not {*map(type, value)} <= {float, int}:
+    elif is_listed(value) and not {*map(type, value)} <= {float, int}:
         for each in value:
             yield from amounts_in(each)
 

@@ -13,6 +13,7 @@ from importlib.metadata import EntryPoint, PackageNotFoundError, version
 from typing import Any, NoReturn, TextIO, cast, final
 
 from .. import plugins
+from ..checks import is_class_of
 from ..disk import check_place, reason, spoken
 from ..errors import DefinitionError, FileError, LinkageError, SingularWarning, unknown
 from ..language import ENGLISH, language, languages
@@ -57,7 +58,7 @@ def load_command(entry: EntryPoint) -> Command:
     """Return a command; DefinitionError where it cannot be loaded or is none. A subclass, as there were, is taken with a warning."""
     title = f"The command {entry.name} ({entry.value})"
     found = plugins.guarded(entry.load, title)
-    if isinstance(found, type) and issubclass(found, Command):
+    if is_class_of(found, Command):
         what = f"{title} is a subclass; write a function under @Command(name, help, *options)."
         warnings.warn(what, FutureWarning, stacklevel=2)
         found = found.__new__(found)

@@ -10,6 +10,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, TypeVar
 
+from ..checks import is_class_of
 from ..disk import read
 from ..errors import DefinitionError, ensure, unknown
 from ..loads import ForceElement
@@ -139,7 +140,7 @@ def of_module(module: ModuleType, name: str, place: str) -> type[Mechanism]:
 
 def is_machine(found: object) -> bool:
     """Return whether something is a class of mechanism."""
-    return isinstance(found, type) and issubclass(found, Mechanism) and found is not Mechanism
+    return is_class_of(found, Mechanism) and found is not Mechanism
 
 
 def machine(found: Any, what: str) -> type[Mechanism]:

@@ -10,6 +10,7 @@ from functools import partial
 
 from matplotlib.axes import Axes
 
+from ..checks import is_listed
 from ..formulas.numbered import Equations
 from ..language import said, translated
 from ..loads import ForceElement, LoadCase
@@ -140,7 +141,7 @@ def number_units(element: object) -> dict[str, str]:
     """Return the display units of an element's numbers, and of its parts', such as a tank on a line."""
     found: dict[str, str] = {}
     for value in vars(element).values():
-        for each in value if isinstance(value, (list, tuple)) else (value,):
+        for each in value if is_listed(value) else (value,):
             if is_dataclass(each) and not isinstance(each, type) and not (isinstance(each, Member) and each.name):
                 found |= number_units(each)
     return found | dict(getattr(element, "numbers", getattr(element, "parameters", {})))

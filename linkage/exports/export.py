@@ -7,13 +7,14 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Any, final
 
 import numpy as np
 
 from .. import plugins
-from ..checks import require, require_type
+from ..checks import instance_of, require, require_type
 from ..disk import Place, check_name, check_place, replacing
 from ..errors import DefinitionError, ensure, known_name
 from ..mechanism import Mechanism, played_along, require_mechanism
@@ -173,7 +174,7 @@ class SketchFile(Exporter):
 EXPORTERS = Plugins[Exporter](
     plugins.EXPORTERS,
     "The exporter",
-    lambda found: found if isinstance(found, Exporter) else found() if isinstance(found, type) and issubclass(found, Exporter) else None,
+    partial(instance_of, kind=Exporter),
     "no subclass of linkage.exports.Exporter",
     {
         "xlsx": Workbook(),

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from .. import plugins
+from ..checks import is_class_of
 from ..errors import DefinitionError, unknown
 from ..mechanism import Mechanism
 from ..plan import Part
@@ -36,7 +37,7 @@ def machine_named(given: object, names: Names) -> type[Mechanism]:
     installed = plugins.entry_points(plugins.MACHINES)
     if given in installed:
         found = plugins.guarded(installed[given].load, f"the machine {given}")
-        if isinstance(found, type) and issubclass(found, Mechanism):
+        if is_class_of(found, Mechanism):
             return found
     raise unknown("Machine", given, [*names.machines, *installed])
 

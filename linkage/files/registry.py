@@ -17,6 +17,7 @@ from types import ModuleType
 from typing import Any, TypeAlias, final
 
 from .. import loads, plugins, steps, surroundings
+from ..checks import is_class_of
 from ..errors import DefinitionError, ensure, unknown
 from ..motion import OPTIONS, Over, Planes, stroke_unit
 from ..plan import Part
@@ -354,7 +355,7 @@ def class_of(path: Any, section: str, trust: Collection[str]) -> type[Member]:
         words = f"{path} is not imported, and a file runs no code unasked; import {module} first"
         raise DefinitionError(f'{words}, or say load(..., trust=["{package}"]) if you trust that package.')
     found = imported(path)
-    if not isinstance(found, type) or not issubclass(found, Member) or not worded(found) or found.file_section != section:
+    if not is_class_of(found, Member) or not worded(found) or found.file_section != section:
         raise DefinitionError(f"{path} is no class of members that stand in [{section}].")
     if any(getattr(getattr(found, name), "__isabstractmethod__", False) for name in dir(found)):
         raise DefinitionError(f"{path} is abstract; name a class that can be made.")

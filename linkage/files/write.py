@@ -11,6 +11,7 @@ from pathlib import Path
 from textwrap import fill
 from typing import Any
 
+from ..checks import is_class_of
 from ..disk import replacing_text
 from ..errors import DefinitionError, FileError
 from ..mechanism import Mechanism, declared, require_mechanism
@@ -29,7 +30,7 @@ def to_dict(machine: Machine) -> Keywords:
 
     Raises DefinitionError for what a file cannot hold: several designs at once, members and functions of unknown kinds.
     """
-    if not isinstance(machine, Mechanism) and not (isinstance(machine, type) and issubclass(machine, Mechanism)):
+    if not isinstance(machine, Mechanism) and not is_class_of(machine, Mechanism):
         raise DefinitionError(f"{shortened(machine)} is no mechanism; give a class of Mechanism, or a design of one.")
     members = members_to_write(machine)
     entries = {name: registry().writing(member) for name, member in members.items()}
@@ -75,7 +76,7 @@ def head_table(machine: Machine, order: list[str]) -> Keywords:
 def left_out(machine: Machine) -> tuple[str, ...]:
     """Return the names in a class that a file does not hold: functions, checks, values of its own."""
     cls: Any = type(machine) if isinstance(machine, Mechanism) else machine
-    if not (isinstance(cls, type) and issubclass(cls, Mechanism)):
+    if not is_class_of(cls, Mechanism):
         require_mechanism(cls)
     own = [base for base in cls.__mro__ if issubclass(base, Mechanism) and base is not Mechanism]
     names = {name for base in own for name in vars(base) if name == "__init__" or not name.startswith(("__", "_abc_"))}

@@ -14,7 +14,7 @@ import mpmath
 import numpy as np
 import sympy
 
-from ..checks import require, require_type, require_whole
+from ..checks import is_class_of, require, require_type, require_whole
 from ..errors import DefinitionError, ensure, known_name
 from ..frozen import immutable
 from ..language import translated
@@ -76,7 +76,7 @@ def equations(
     Equations
         The equations, printable.
     """
-    design = machine() if isinstance(machine, type) and issubclass(machine, Mechanism) else machine
+    design = machine() if is_class_of(machine, Mechanism) else machine
     require_mechanism(design)
     require_whole("start", start, "the first equation's number is expected, a whole number from 1 on", least=1)
     check_pose(design, at)

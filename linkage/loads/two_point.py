@@ -14,6 +14,7 @@ from typing import Any, ClassVar, Literal, TypeAlias, cast, final, get_args
 
 import numpy as np
 
+from ..checks import can_be_called
 from ..errors import DefinitionError, cited, told
 from ..frozen import immutable
 from ..quantities import Distance, Joint, Member, Reference, name_of, pinned
@@ -214,7 +215,7 @@ class Between(TwoPoint):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if not callable(self.law) or isinstance(self.law, type):
+        if not can_be_called(self.law):
             raise DefinitionError(f"{self._opening()}: law={cited(self.law)} is no function; give one of length [m] and rate [m/s].")
 
     def push(self, motion: Poses, length: Array, rate: Array) -> Array:

@@ -16,7 +16,7 @@ from typing import Any, TypeAlias, final
 
 import numpy as np
 
-from ..checks import require_type
+from ..checks import is_listed, require_type
 from ..errors import DefinitionError, cited, known_name, told, unwarned, warned_once
 from ..language import said
 from ..loads import AS_IT_RUNS, FRICTIONLESS, PLAIN, PLAIN_CASE, Acting, ForceElement, LoadCase
@@ -379,7 +379,7 @@ class Domain:
 
 def rubs(plan: Plan, motion: Motion, acting: Acting) -> bool:
     """Return whether the loads have friction, or act otherwise in motion than at rest."""
-    given = acting.loads if isinstance(acting.loads, (list, tuple)) else [acting.loads]
+    given = acting.loads if is_listed(acting.loads) else [acting.loads]
     listed = plan.of_kind(ForceElement).values() if acting.loads is None else given
     elements = [plan.members.get(each) if isinstance(each, str) else each for each in listed]
     own = [each for each in elements if isinstance(each, ForceElement)]
@@ -939,7 +939,7 @@ def zeros_over(motion: Motion) -> FloatArray:
 def questions_of(plan: Plan, given: object) -> list[Any]:
     """Return questions as a list; DefinitionError for anything else."""
     listed = [given] if isinstance(given, (Measure, Condition)) else given
-    if not isinstance(listed, (list, tuple)):
+    if not is_listed(listed):
         raise DefinitionError(f"{plan.title}: answers({cited(given)}): a list of questions is expected, [most(...) <= 8 * deg].")
     for each in listed:
         if not isinstance(each, (Measure, Condition)):

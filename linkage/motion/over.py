@@ -10,7 +10,7 @@ from typing import Any, ClassVar, Self, final
 import numpy as np
 import numpy.typing as npt
 
-from ..checks import require
+from ..checks import is_listed, require
 from ..errors import DefinitionError, cited, known_name, unknown
 from ..frozen import FrozenDict
 from ..language import said
@@ -154,18 +154,18 @@ class Over(Member):
             each = ", ".join(f"{name} has {count}" for name, count in counts.items())
             raise DefinitionError(f"Over.{shape}: {each} values; give each stroke as many, or one number where it is held.")
         instants = instants_given(time, values)
-        listed = only if isinstance(only, (list, tuple)) else (only,)
+        listed = only if is_listed(only) else (only,)
         for condition in listed:
             if not isinstance(condition, PoseCondition):
                 what = f"Over(only=...): {cited(condition)} is no condition on poses"
                 raise DefinitionError(f'{what}; write comparisons, only=[x("T") <= 4].')
         if isinstance(cases, (str, LoadCase)):
             raise DefinitionError(f"Over(cases={cited(cases)}): a list of load cases is expected, cases=({cited(cases)},).")
-        named = isinstance(cases, (list, tuple)) and all(isinstance(each, (str, LoadCase)) for each in cases)
+        named = is_listed(cases) and all(isinstance(each, (str, LoadCase)) for each in cases)
         if cases is not None and not (named and cases):
             raise DefinitionError(f'Over(cases={cited(cases)}): names of load cases are expected, cases=("full",); leave it out for all.')
         require(lost in ("", ALLOWED), "Over(lost", lost, '"allowed" is expected, or nothing: places that are lost are then a fault')
-        names = tuple(map(name_of, cases)) if isinstance(cases, (list, tuple)) else None
+        names = tuple(map(name_of, cases)) if is_listed(cases) else None
         held = {"shape": shape, "strokes": FrozenDict(values), "only": tuple(listed), "cases": names, "lost": lost, "time": instants}
         for name, value in held.items():
             object.__setattr__(self, name, value)
@@ -530,7 +530,7 @@ def place_values(shape: str, name: str, value: object) -> Any:
     if isinstance(value, (Course, Curve)):
         require(shape == "path", f"Over.{shape}({name}", value, "a course is of a path; write Over.path(...)")
         return value
-    if isinstance(value, (list, tuple)) and any(isinstance(each, (str, Quantity, Amount)) for each in value) and all(map(is_end, value)):
+    if is_listed(value) and any(isinstance(each, (str, Quantity, Amount)) for each in value) and all(map(is_end, value)):
         return tuple(amount_or_float(each) if is_number(each) else each for each in value)
     found = numbers_in(value)
     if found.ndim > 1 or not found.size or not np.all(np.isfinite(found)):

@@ -14,7 +14,7 @@ from typing import Any, NoReturn, TypeAlias, final
 
 import numpy as np
 
-from ..checks import require, require_number, require_one_design, require_type
+from ..checks import is_listed, require, require_number, require_one_design, require_type
 from ..errors import DefinitionError, SingularWarning, cited, unwarned, warn
 from ..frozen import FrozenDict, read_only, refuses_changes
 from ..language import said
@@ -722,7 +722,7 @@ def quantity_cited(quantity: object) -> str:
 
 def targets_given(given: object, title: str, example: str) -> Sequence[Target]:
     """Return a list of targets, one at least; DefinitionError for anything else."""
-    if not isinstance(given, (list, tuple)) or not given or not all(isinstance(each, Target) for each in given):
+    if not is_listed(given) or not given or not all(isinstance(each, Target) for each in given):
         raise DefinitionError(f"{title}: {cited(given)}: a list of targets is expected, {example}.")
     return given
 

@@ -16,6 +16,7 @@ from typing import Any, Protocol, TypeAlias, final, runtime_checkable
 import numpy as np
 import numpy.typing as npt
 
+from ..checks import can_be_called
 from ..errors import AssemblyError, DefinitionError, cited, told, unwarned
 from ..language import said
 from ..numeric.box import highest_in, values_a_stroke, weights_of
@@ -302,7 +303,7 @@ def require_function(motion: Any, f: Any) -> None:
     """Raise DefinitionError for anything but a motion and a function of one."""
     require_motion(motion)
     check_any(motion.strokes, motion.plan)
-    if not callable(f) or isinstance(f, type):
+    if not can_be_called(f):
         raise DefinitionError(f"{motion.plan.title}: {cited(f)} is no function of a motion; give one, such as lambda each: each.y('G').")
 
 

@@ -11,7 +11,7 @@ from typing import Any, ClassVar, TypeVar, final
 
 import numpy as np
 
-from ..checks import require_type
+from ..checks import is_listed, require_type
 from ..errors import DefinitionError, cited
 from ..frozen import refuses_changes
 from ..language import heading_of, noted
@@ -215,7 +215,7 @@ class Featured:
         require_type("Featured(path", self.path, (list, tuple), 'a list of points is expected, path=["G"]', of=str)
         require_type("Featured(limits", self.limits, Mapping, 'limits by column are expected, dict(tilt=(0.1, "most"))')
         for name, limit in self.limits.items():
-            value, *words = limit if isinstance(limit, (list, tuple)) and limit else (None,)
+            value, *words = limit if is_listed(limit) and limit else (None,)
             if not is_number(value) or len(words) > 2 or not all(isinstance(each, str) for each in words):
                 said = f"Featured(limits={{{cited(name)}: {cited(limit)}}})"
                 raise DefinitionError(f'{said}: write (value [SI], text) or (value, text, "below").')

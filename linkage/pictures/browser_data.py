@@ -12,7 +12,7 @@ from typing import Any, cast, final
 
 import numpy as np
 
-from ..checks import require, require_type
+from ..checks import is_listed, require, require_type
 from ..errors import DefinitionError, LinkageError, cited, known_name, unknown, unwarned
 from ..language import heading_of, language, translated
 from ..loads import PLAIN_CASE, Case, TwoPoint
@@ -219,7 +219,7 @@ def ranges_given(machine: Mechanism, vary: Any) -> dict[str, tuple[float, float]
 def slider_ends(machine: Mechanism, name: str, ends: Any, sign: int) -> tuple[float, float]:
     """Return a range that has the design's own value in it; DefinitionError for anything else."""
     what = f"{machine.plan.title}: vary: {name}"
-    is_range = isinstance(ends, (list, tuple)) and len(ends) == 2 and all(map(is_number, ends)) and ends[0] < ends[1]
+    is_range = is_listed(ends) and len(ends) == 2 and all(map(is_number, ends)) and ends[0] < ends[1]
     require(is_range, what, ends, "the least and the greatest value are expected, (0.28, 0.34)")
     require_kind(machine.plan, name, ends, what)
     is_length = machine.plan.table.entries[name].kind == "length"
@@ -236,7 +236,7 @@ def chosen_columns(machine: Mechanism, motion: Motion, given: Any, case: Case) -
     """Return the columns of a page in a load case, by name. An empty reason says that its program follows it."""
     if given is None:
         return column_requests(machine, motion, case=case)
-    is_list, expected = isinstance(given, (list, tuple)) and given, 'a list of columns is expected, such as ["tilt"]'
+    is_list, expected = is_listed(given) and given, 'a list of columns is expected, such as ["tilt"]'
     require(is_list, f"{machine.plan.title}: columns", given, expected)
     own = column_requests(machine, motion, case=case) if any(isinstance(each, (str, Column)) for each in given) else {}
     found: dict[str, LiveColumn] = {}

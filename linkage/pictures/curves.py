@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from ..checks import require, require_type
+from ..checks import is_listed, require, require_type
 from ..errors import DefinitionError, cited, known_name
 from ..language import noted, said, translated
 from ..mechanism import Mechanism
@@ -45,7 +45,7 @@ Curve: TypeAlias = tuple[Motion, Column, str]
 def plot_motion(motion: Motion, columns: Sequence[Column | RequestLike], limits: Mapping[str, Sequence[object]] | None) -> Figure:
     """Return a figure of columns over the stroke, a panel each; see `plot`."""
     along, case = StrokeAxis.of(motion), case_along(motion)
-    is_list = isinstance(columns, (list, tuple))
+    is_list = is_listed(columns)
     found = columns_named(motion, [request_in_case(each, case) for each in columns] if is_list else columns)
     return plot_curves(motion, [(motion, column, "") for column in found], limits, along.held, in_case_words(motion.plan, case))
 
@@ -61,7 +61,7 @@ def plot_machine(
         motion = motion_over(machine, run, np.linspace(0.0, 1.0, poses))
         own = {column.name: column for column in results(machine, motion, run.case)}
         shown = columns or columns_about(machine, [*own.values()])
-        if isinstance(shown, (list, tuple)):
+        if is_listed(shown):
             shown = [own.get(each, each) if isinstance(each, str) else each for each in shown]
             if len(runs) > 1 and any(isinstance(each, Column) for each in columns):
                 raise DefinitionError(f"{machine.plan.title}: a Column has values of one motion, and it runs {len(runs)} ways; name it.")
@@ -102,7 +102,7 @@ def plot_curves(first: Motion, curves: Sequence[Curve], limits: Mapping[str, Seq
 
 def columns_named(motion: Motion, columns: Sequence[Column | RequestLike]) -> list[Column]:
     """Return columns, those that go by their names from the motion's own table, and what is asked; DefinitionError for an unknown name."""
-    if not isinstance(columns, (list, tuple)) or not all(isinstance(each, (str, Column, Quantity, Request)) for each in columns):
+    if not is_listed(columns) or not all(isinstance(each, (str, Column, Quantity, Request)) for each in columns):
         raise DefinitionError(f'{motion.plan.title}: {cited(columns)}: a list of columns or their names is expected, such as ["tilt"].')
     names = [each for each in columns if isinstance(each, str)]
     own = {column.name: column for column in columns_of(motion)} if names else {}
@@ -168,7 +168,7 @@ class Limit(NamedTuple):
 
 def limit_of(given: Sequence[object], unit: str = "") -> Limit:
     """Return a limit from a tuple of its parts; DefinitionError for a side that is neither above nor below, and for another `unit`."""
-    parts = tuple(given) if isinstance(given, (list, tuple)) else ()
+    parts = tuple(given) if is_listed(given) else ()
     is_limit = 1 <= len(parts) <= 3 and is_number(parts[0]) and all(isinstance(each, str) for each in parts[1:])
     require(is_limit, "", given, 'is no limit; write (value [SI], text) or (value, text, "below")')
     found = Limit(*parts)

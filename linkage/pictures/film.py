@@ -18,7 +18,7 @@ from matplotlib.figure import Figure
 from matplotlib.text import Annotation, Text
 from PIL import Image
 
-from ..checks import require, require_type
+from ..checks import can_be_called, require, require_type
 from ..disk import check_place, replacing, spoken
 from ..errors import DefinitionError, FileError, LinkageError
 from ..language import said, translated
@@ -101,7 +101,7 @@ def animate(
         machine, at = played_along(machine, at)
     require_mechanism(machine)
     require_type("", path, (str, os.PathLike), "is no path of a file; give one that ends in .gif, .mp4 or .html")
-    is_function = progress is None or (callable(progress) and not isinstance(progress, type))
+    is_function = progress is None or can_be_called(progress)
     require(is_function, "progress", progress, "is no function; give one of (done, total)")
     target, poses = Path(path), frame_count(count)
     kind = target.suffix.lower()

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ..checks import require, require_type, require_whole
+from ..checks import is_listed, require, require_type, require_whole
 from ..errors import DefinitionError, cited, known_name
 from ..language import said, said_of
 from ..mechanism import Mechanism, require_mechanism
@@ -48,7 +48,7 @@ def draw_machine(
     if ax is not None and overlays:
         raise DefinitionError("draw(ax=...): forces, velocities, poles and gaps have a figure of their own; leave out ax=.")
     if isinstance(machine, Motion):
-        is_plain = at is None and isinstance(path, (list, tuple)) and not path and is_whole(count) and count == 101
+        is_plain = at is None and is_listed(path) and not path and is_whole(count) and count == 101
         if not is_plain:
             title = machine.plan.title
             what = "a motion is drawn at one of its poses, pose=, over a path in time at an instant, time="

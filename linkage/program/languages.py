@@ -8,12 +8,14 @@ from abc import ABC, abstractmethod
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from itertools import product
 from string import ascii_lowercase, ascii_uppercase
 from types import MappingProxyType
 from typing import final
 
 from .. import plugins
+from ..checks import instance_of
 from ..plugins import Plugins
 from .elimination import expanded
 from .node import Level, Node
@@ -341,7 +343,7 @@ class JavaScript:
 LANGUAGES = Plugins[Language | JavaScript](
     plugins.LANGUAGES,
     "The language",
-    lambda found: found if isinstance(found, Language) else found() if isinstance(found, type) and issubclass(found, Language) else None,
+    partial(instance_of, kind=Language),
     "no subclass of linkage.program.Language",
     {"c": C(), "javascript": JavaScript()},
 )

@@ -14,6 +14,7 @@ from typing import final
 import numpy as np
 from numpy.lib.mixins import NDArrayOperatorsMixin
 
+from ..checks import is_listed
 from ..errors import DefinitionError
 from ..vectors import Scalar
 from .node import Node
@@ -203,7 +204,7 @@ def elementwise(rule: Callable[..., Scalar], inputs: tuple[object, ...]) -> Scal
 
 def arrayed(value: object) -> Scalar:
     """Return a value, and each of a list of them, as an array of numbers that may be traced."""
-    return [arrayed(each) for each in value] if isinstance(value, (list, tuple)) else np.asarray(value, object)
+    return [arrayed(each) for each in value] if is_listed(value) else np.asarray(value, object)
 
 
 def node_of(number: object) -> Scalar:

@@ -8,7 +8,7 @@ from typing import TypeAlias
 import numpy as np
 
 from .. import motion as between
-from ..checks import require
+from ..checks import is_listed, require
 from ..errors import DefinitionError
 from ..language import said, with_and
 from ..motion import Motion, Request, out_of_reach, require_motion
@@ -54,8 +54,8 @@ def ranges_below_zero(motion: Motion, spare: Spare) -> list[Range]:
 
 def spans_in_words(spans: Sequence[Range], stroke: str, unit: str = "m") -> str:
     """Return stroke ranges as text: `from S = 0.5500 to 0.5660 m and at S = 0.7000 m`."""
-    for span in spans if isinstance(spans, (list, tuple)) else [spans]:
-        is_range = isinstance(span, (list, tuple)) and len(span) == 2 and all(map(is_number, span))
+    for span in spans if is_listed(spans) else [spans]:
+        is_range = is_listed(span) and len(span) == 2 and all(map(is_number, span))
         require(is_range, "", span, "is no range; give a list of (start, end) [m or rad]")
     words = []
     for low, high in spans:

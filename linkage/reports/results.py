@@ -9,6 +9,7 @@ from typing import TypeVar, cast
 
 import numpy as np
 
+from ..checks import is_listed
 from ..errors import DefinitionError, cited, known_name
 from ..files.criterion import REQUESTS, request_function
 from ..language import noted
@@ -95,7 +96,7 @@ def is_changing(values: FloatArray) -> bool:
 def columns_by(machine: Mechanism, motion: Motion) -> list[Column]:
     """Return the columns that a machine makes; DefinitionError where its own `columns` gives something else."""
     found = machine.columns(motion)
-    if not isinstance(found, (list, tuple)) or not all(isinstance(each, Column) for each in found):
+    if not is_listed(found) or not all(isinstance(each, Column) for each in found):
         said = f"columns(motion) gives {cited(found)}; a list of Column(name, values, unit) is expected"
         raise DefinitionError(f"{machine.plan.title}: {said}.")
     return list(found)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, TextIO
 
 import numpy as np
 
-from ..checks import require
+from ..checks import is_listed, require
 from ..errors import DefinitionError
 from ..language import said
 from ..motion import Column
@@ -25,7 +25,7 @@ NO_VALUE = "-"  # stands for NaN: not reached, or not limited
 
 def flat(columns: Sequence[Column]) -> list[FloatArray]:
     """Return the columns' values in their units, one row a pose: broadcast to one shape, the designs outermost."""
-    is_table = isinstance(columns, (list, tuple)) and columns and all(isinstance(each, Column) for each in columns)
+    is_table = is_listed(columns) and columns and all(isinstance(each, Column) for each in columns)
     require(is_table, "", columns, "is no table; give a list of columns, such as machine.columns(motion)")
     try:
         return [each.ravel() for each in np.broadcast_arrays(*(column.shown for column in columns))]

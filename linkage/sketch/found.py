@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from difflib import get_close_matches
 from itertools import combinations, permutations
 from math import cos, dist, hypot, inf, isfinite, pi, remainder, sin
-from typing import Any, final
+from typing import Any, TypeAlias, final
 from unicodedata import normalize
 
 from ..errors import FileError
@@ -283,7 +283,11 @@ def ensure_file(holds: object, message: str) -> None:
         raise FileError(message)
 
 
-def json_table(given: object, file: str, what: str) -> Mapping[str, Any]:
+JsonTable: TypeAlias = Mapping[str, Any]
+"""An object of a JSON file."""
+
+
+def json_table(given: object, file: str, what: str) -> JsonTable:
     """Return a table of a JSON file; FileError for anything else."""
     ensure_file(isinstance(given, dict), f"{file}: {what} is no table {{...}}.")
     return given  # type: ignore[return-value]

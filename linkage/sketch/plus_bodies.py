@@ -6,12 +6,11 @@ from base64 import urlsafe_b64decode
 from binascii import Error
 from collections.abc import Mapping
 from math import cos, sin
-from typing import Any
 from zlib import crc32
 
 from ..errors import FileError
 from ..units import parse
-from .found import FoundDrive, FoundMachine, ensure_file, json_list, json_table
+from .found import FoundDrive, FoundMachine, JsonTable, ensure_file, json_list, json_table
 
 ENVELOPE = "pmks2:"
 SLIDES = "prismatic", "pin-in-slot"
@@ -28,7 +27,7 @@ def json_in_address(file: str, text: str) -> str:
         raise FileError(f"{file}: the address is damaged; copy it whole.") from None
 
 
-def read_plus_bodies(found: FoundMachine, data: Mapping[str, Any]) -> None:
+def read_plus_bodies(found: FoundMachine, data: JsonTable) -> None:
     """Read bodies: attachments that pins join are one point, welded bodies one link, cylinders a length between their mounts."""
     BodyReader(found, data).read()
 
@@ -36,7 +35,7 @@ def read_plus_bodies(found: FoundMachine, data: Mapping[str, Any]) -> None:
 class BodyReader:
     """One document on its way into a `FoundMachine`."""
 
-    def __init__(self, found: FoundMachine, data: Mapping[str, Any]) -> None:
+    def __init__(self, found: FoundMachine, data: JsonTable) -> None:
         self.found, self.file = found, found.file
         found.unit = parse(f"1 {json_table(data.get('units'), self.file, 'units').get('length')}", "length")
         self.bodies = self.by_id(data, "bodies")
@@ -51,18 +50,18 @@ class BodyReader:
         for name in ("forces", "groups", "gears"):
             found.left_out += [f"{len(data[name])} {name}"] if isinstance(data.get(name), list) and data[name] else []
 
-    def by_id(self, data: Mapping[str, Any], name: str) -> dict[str, Mapping[str, Any]]:
+    def by_id(self, data: JsonTable, name: str) -> dict[str, JsonTable]:
         """Return the tables of a list by their ids."""
         tables = [json_table(each, self.file, f"an entry of {name}") for each in json_list(data.get(name, []), self.file, name)]
         found = {str(each.get("id")): each for each in tables}
         ensure_file(len(found) == len(tables), f"{self.file}: two of {name} have one id.")
         return found
 
-    def joint_of(self, table: Mapping[str, Any]) -> str:
+    def joint_of(self, table: JsonTable) -> str:
         """Return the id of the joint whose coordinate a driver or a limit is about."""
         return str(json_table(table.get("coordinate"), self.file, "a coordinate").get("jointId"))
 
-    def entry(self, table: Mapping[str, Mapping[str, Any]], key: object, what: str) -> Mapping[str, Any]:
+    def entry(self, table: Mapping[str, JsonTable], key: object, what: str) -> JsonTable:
         """Return the entry of an id; FileError where there is none."""
         ensure_file(isinstance(key, str) and key in table, f"{self.file}: there is no {what} {key!r}.")
         return table[str(key)]
@@ -73,7 +72,7 @@ class BodyReader:
         x, y, angle = (self.found.number(given.get(name, 0.0), f"{name} of {body}") for name in ("x", "y", "angle"))
         return x, y, angle
 
-    def place(self, attachment: Mapping[str, Any]) -> tuple[float, float]:
+    def place(self, attachment: JsonTable) -> tuple[float, float]:
         """Return where an attachment is, in the file's units."""
         x, y, angle = self.pose(attachment.get("bodyId"))
         point = json_table(attachment.get("point"), self.file, "a point")
@@ -86,14 +85,14 @@ class BodyReader:
             key = self.one[key]
         return key
 
-    def frame(self, joint: Mapping[str, Any], side: str) -> tuple[str, str, float]:
+    def frame(self, joint: JsonTable, side: str) -> tuple[str, str, float]:
         """Return the attachment, the body and the angle [rad] of a side of a joint."""
         given = json_table(joint.get(f"frame{side}"), self.file, "a frame")
         attachment = str(given.get("attachmentId"))
         body = str(self.entry(self.attachments, attachment, "attachment").get("bodyId"))
         return attachment, body, self.pose(body)[2] + self.found.number(given.get("angle", 0.0), "the angle of a frame")
 
-    def sides(self, joint: Mapping[str, Any]) -> list[tuple[str, str, float]]:
+    def sides(self, joint: JsonTable) -> list[tuple[str, str, float]]:
         """Return both sides of a joint, that of the guide first: the one that shows it, else the first one."""
         sides, shown = [self.frame(joint, "A"), self.frame(joint, "B")], joint.get("guideDisplay")
         guide = shown.get("bodyId") if isinstance(shown, dict) else sides[0][1]
@@ -135,7 +134,7 @@ class BodyReader:
             if self.entry(self.joints, key, "joint").get("kind") == "revolute":
                 self.crank(self.joints[key], driver)
 
-    def slide(self, key: str, joint: Mapping[str, Any], bodies: dict[str, list[str]]) -> None:
+    def slide(self, key: str, joint: JsonTable, bodies: dict[str, list[str]]) -> None:
         """Enter a slide: the point of one body on a line of the other, without turning where it is prismatic."""
         (_, carrier, angle), (mover, body, _) = self.sides(joint)
         point = self.found.known(self.root(mover), "a slide")
@@ -158,12 +157,12 @@ class BodyReader:
         initial = self.found.number(profile.get("initial", 0.0), "where a driver begins")
         return self.found.number(self.limits[key].get("upper"), "a limit") - initial
 
-    def mounts(self, cylinder: Mapping[str, Any]) -> list[str]:
+    def mounts(self, cylinder: JsonTable) -> list[str]:
         """Return the points that a cylinder is between, in so far as they are there."""
         ends = (str(cylinder.get(name)) for name in ("barrelMount", "rodMount"))
         return [self.root(end) for end in ends if end in self.attachments]
 
-    def cylinder(self, given: Mapping[str, Any]) -> None:
+    def cylinder(self, given: JsonTable) -> None:
         """Enter a cylinder between its mounts; without a driver it holds nothing and is left out."""
         ends = [self.found.known(end, f"the cylinder {given.get('label')}") for end in self.mounts(given)]
         ensure_file(len(ends) == 2, f"{self.file}: the cylinder {given.get('label')} has no two mounts.")
@@ -173,7 +172,7 @@ class BodyReader:
         else:
             self.found.left_out.append(f"the cylinder {given.get('label')}, which nothing drives")
 
-    def crank(self, joint: Mapping[str, Any], driver: Mapping[str, Any]) -> None:
+    def crank(self, joint: JsonTable, driver: JsonTable) -> None:
         """Enter a crank about a pin of the frame."""
         profile = json_table(driver.get("profile"), self.file, "a profile")
         backwards = self.found.number(profile.get("speed", 1.0), "a speed") < 0.0

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..numeric.convex import corner_turn
 from ..units import parse
-from .found import FoundDrive, FoundMachine, ensure_file, json_list
+from .found import FoundDrive, FoundMachine, JsonTable, ensure_file, json_list
 from .machine_sketch import line_angle
 
 DIGITS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_-"
@@ -213,7 +213,7 @@ def old_joint(found: FoundMachine, row: list[str]) -> PlusJoint:
     return PlusJoint(row[0], row[0], row[1], row[2], slides=row[4] == "P", fixed=row[5] == "t", drives=row[7] == "t", angle=angle)
 
 
-def read_plus_json(found: FoundMachine, data: Mapping[str, Any]) -> None:
+def read_plus_json(found: FoundMachine, data: JsonTable) -> None:
     """Read rows of joints under "j" and of links under "l"."""
     joints = [json_joint(found, json_list(row, found.file, "a joint")) for row in json_list(data["j"], found.file, "j")]
     links = []

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from math import atan2, cos, dist, sin
-from typing import Any
 
-from .found import TURN, FoundDrive, FoundMachine, ensure_file, json_list, json_table
+from .found import TURN, FoundDrive, FoundMachine, JsonTable, ensure_file, json_list, json_table
 from .machine_sketch import line_angle
 
 TOLD = 1e-6
 """A distance that differs from the coordinates by more than so much of the size is told."""
 
 
-def read_pylinkage(found: FoundMachine, data: Mapping[str, Any]) -> None:
+def read_pylinkage(found: FoundMachine, data: JsonTable) -> None:
     """Read joints by their parents, or joints and links where the file has these."""
     joints = [json_table(each, found.file, "a joint") for each in json_list(data["joints"], found.file, "joints")]
     if "links" in data:
@@ -27,7 +25,7 @@ def read_pylinkage(found: FoundMachine, data: Mapping[str, Any]) -> None:
         join_parents(found, joint)
 
 
-def enter_joint(found: FoundMachine, joint: Mapping[str, Any]) -> None:
+def enter_joint(found: FoundMachine, joint: JsonTable) -> None:
     """Enter the point of a joint, and the fixed points among its parents that are written in place."""
     name = str(joint.get("name"))
     for parent in ("joint0", "joint1", "joint2"):
@@ -55,7 +53,7 @@ def parent_name(given: object) -> str:
     return str(table.get("ref"))
 
 
-def join_parents(found: FoundMachine, joint: Mapping[str, Any]) -> None:
+def join_parents(found: FoundMachine, joint: JsonTable) -> None:
     """Enter the links, the slide and the drive of a joint, by its kind."""
     name, kind = str(joint.get("name")), joint.get("type")
     parents = [found.known(parent_name(joint[each]), name) for each in ("joint0", "joint1", "joint2") if joint.get(each) is not None]
@@ -84,7 +82,7 @@ def join_parents(found: FoundMachine, joint: Mapping[str, Any]) -> None:
                 found.notes.append(f"{key} of {name} is {given} in the file and {drawn:.6g} by its coordinates, which count.")
 
 
-def read_joints_and_links(found: FoundMachine, joints: list[Mapping[str, Any]], links: list[Mapping[str, Any]]) -> None:
+def read_joints_and_links(found: FoundMachine, joints: list[JsonTable], links: list[JsonTable]) -> None:
     """Read joints with positions, and links that name them."""
     for joint in joints:
         place = json_list(joint.get("position"), found.file, f"the position of {joint.get('id')}")

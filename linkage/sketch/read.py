@@ -7,7 +7,6 @@ from collections.abc import Callable, Mapping, Sequence
 from math import isfinite
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
 
 from ..disk import Place, read
 from ..errors import DefinitionError, FileError, ensure, unknown
@@ -15,7 +14,7 @@ from ..files.names import shortened
 from ..files.source import FILE_BYTES, decoded
 from .board_json import ADDRESS, board_in_address, read_board
 from .dxf_layers import read_dxf
-from .found import FoundDrive, FoundMachine, ensure_file
+from .found import FoundDrive, FoundMachine, JsonTable, ensure_file
 from .linkage_xml import read_linkage_xml
 from .machine_sketch import MachineSketch
 from .plus_bodies import ENVELOPE, json_in_address, read_plus_bodies
@@ -156,7 +155,7 @@ def read_address(found: FoundMachine, text: str) -> None:
         read_short_address(found, query)
 
 
-def json_reader(data: Mapping[str, Any]) -> Callable[[FoundMachine, Mapping[str, Any]], None] | None:
+def json_reader(data: JsonTable) -> Callable[[FoundMachine, JsonTable], None] | None:
     """Return the reader of a JSON file by its keys; None where no known program writes these."""
     if "board" in data and "points" in data:
         return read_board

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ..checks import is_class_of
 from ..errors import DefinitionError, ensure
 from ..loads import TwoPoint, Weight
 from ..mechanism import Mechanism, require_mechanism
@@ -46,7 +47,7 @@ def sketch_of(machine: Mechanism | type[Mechanism], at: Mapping[str, float] | No
     AssemblyError
         It cannot be assembled there.
     """
-    design = machine() if isinstance(machine, type) and issubclass(machine, Mechanism) else machine
+    design = machine() if is_class_of(machine, Mechanism) else machine
     require_mechanism(design)
     assert isinstance(design, Mechanism)
     plan, title = design.plan, design.plan.title

@@ -11,6 +11,7 @@ from typing import TypeAlias, TypeVar, final
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..checks import is_listed
 from ..errors import DefinitionError, SingularError, cited, known_name, told, unknown
 from ..loads import AS_IT_RUNS, FRICTIONLESS, PLAIN_CASE, Acting, Case, Damper, HasLoads, LoadCase, Loads
 from ..loads.acting import check_factor, shut_members
@@ -96,7 +97,7 @@ def element_parts(motion: Poses, fit: Callable[[ArrayLike, int, str, str], Float
         return [], thrusts
     with told(f"{motion.plan.title}: loads(motion) of {name}"):
         found = element.moving(motion, rates) if rates else element.loads(motion)
-    if not isinstance(found, (list, tuple)) or not all(isinstance(load, Load) for load in found):
+    if not is_listed(found) or not all(isinstance(load, Load) for load in found):
         raise DefinitionError(f"{motion.plan.title}: {name}: loads(motion) gives {found!r}; a list of Load(point, force) is expected.")
     forces = [fit(load.force, 1, name, f"force at {load.point}") * each.factor for load in found]
     return [replace(load, force=force, element=name) for load, force in zip(found, forces, strict=True)], []
@@ -128,7 +129,7 @@ def over_poses(motion: AnyMotion, values: ArrayLike, vector: int, name: str, wha
 def check_points(load: Load, plan: Plan, name: str) -> None:
     """Raise DefinitionError for a load at a point that there is not."""
     on: object = load.on
-    if not isinstance(on, (tuple, list)):
+    if not is_listed(on):
         what = f"on={cited(on)} is expected as names of points or of an element"
         raise DefinitionError(f'{plan.title}: {name}: {what}, on=("O", "B").')
     for point in (load.point, *(on if len(on) > 1 else ())):

@@ -11,6 +11,7 @@ from weakref import ref
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..checks import is_listed
 from ..errors import DefinitionError, LawError, UntracedError, unwarned
 from ..loads import DIRECTIONS, PLAIN, Acting, ForceElement, Load, LoadCase, Push, Rate, Rates, StrokeRates
 from ..motion import Motion, OnePose, Request, SmoothPiece, require_motion
@@ -95,7 +96,7 @@ class TracedMotion(OnePose):
             return self.number(cast(Scalar, made))
         if isinstance(made, np.ndarray):
             return self._array(made) if made.dtype == object else made
-        if isinstance(made, (tuple, list)):
+        if is_listed(made):
             return type(made)(map(self._own, made))
         if isinstance(made, Levers | AppliedLoads | Load | Push):
             own: dict[str, Any] = {each.name: self._own(getattr(made, each.name)) for each in fields(made)}
@@ -526,7 +527,7 @@ def situation_identity(acting: Acting) -> Hashable:
     compute with is taken not to change either.
     """
     loads = acting.loads
-    listed = () if loads is None else loads if isinstance(loads, (list, tuple)) else (loads,)
+    listed = () if loads is None else loads if is_listed(loads) else (loads,)
     given = (acting.case, *listed)
     parts: list[Hashable] = [each if each is None or isinstance(each, str) else ref(each) if is_unchanging(each) else ... for each in given]
     parts += [rates_identity(acting.rates), rates_identity(acting.accelerations), acting.inertia]

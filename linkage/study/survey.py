@@ -20,7 +20,7 @@ from typing import Any, Protocol, TypeAlias, final
 
 import numpy as np
 
-from ..checks import require, require_whole
+from ..checks import can_be_called, require, require_whole
 from ..errors import DefinitionError, LinkageError, StudyError, cited, known_name, one_word
 from ..frozen import FrozenDict, immutable, read_only
 from ..mechanism import Mechanism
@@ -247,7 +247,7 @@ Progress: TypeAlias = Callable[[int, int], object]
 
 def check_progress(progress: object) -> None:
     """Raise DefinitionError for anything but True, False or a function."""
-    is_function = callable(progress) and not isinstance(progress, type)
+    is_function = can_be_called(progress)
     expected = "say True for a bar, or give a function of (done, total) designs"
     require(isinstance(progress, bool) or is_function, "progress", progress, expected)
     if callable(progress):

@@ -16,7 +16,7 @@ from typing import Any, ClassVar, Self, TypeAlias, final
 import numpy as np
 import numpy.typing as npt
 
-from ..checks import require_number, require_type, two_of
+from ..checks import is_listed, require_number, require_type, two_of
 from ..errors import DefinitionError, FileError, cited, is_yes
 from ..quantities import Axes, Member, Operand, Reference, Stroke, is_number, label, name_of, needed_behind, needs, of_kind, spelled
 from ..quantities.axes import NOTHING, is_nothing, plus
@@ -408,7 +408,7 @@ def carrying_points(given: object, what: str) -> tuple[Reference, ...]:
     if isinstance(given, Link):
         given = given.points[:2]
     found = tuple(given.replace(",", " ").split()) if isinstance(given, str) else (given,) if isinstance(given, Member) else given
-    if not isinstance(found, (tuple, list)) or not 1 <= len(found) <= 2 or not all(isinstance(each, (str, Member)) for each in found):
+    if not is_listed(found) or not 1 <= len(found) <= 2 or not all(isinstance(each, (str, Member)) for each in found):
         raise DefinitionError(f'{what}: on={cited(given)} is no carrier; name two points of a body, on=("B", "C"), or one point.')
     return tuple(found)
 

@@ -16,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import plugins
-from ..checks import require, require_number, require_whole
+from ..checks import is_class_of, require, require_number, require_whole
 from ..errors import DefinitionError, StudyError, ensure
 from ..frozen import read_only
 from ..language import said, said_of
@@ -93,12 +93,9 @@ def shipped(name: str) -> type[Mechanism]:
     return REGISTERED[name]
 
 
-def as_machine(found: object) -> type[Mechanism] | None:
-    """Return a class of mechanism; None for anything else."""
-    return found if isinstance(found, type) and issubclass(found, Mechanism) else None
-
-
-REGISTERED: Plugins[type[Mechanism]] = Plugins(plugins.MACHINES, "The machine", as_machine, "no class of mechanism", {})
+REGISTERED = Plugins[type[Mechanism]](
+    plugins.MACHINES, "The machine", lambda found: found if is_class_of(found, Mechanism) else None, "no class of mechanism", {}
+)
 
 
 @final

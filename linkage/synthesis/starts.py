@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 from itertools import combinations
-from typing import Any, final
+from typing import final
 
 import numpy as np
 
@@ -18,7 +18,7 @@ from ..numeric.line import Index
 from ..plan import plan_measure
 from ..program import FloatArray
 from ..study.designs import DesignValues
-from .closed_curves import ClosedCurves, drawn_curve, laid_onto
+from .closed_curves import ClosedCurves, ComplexArray, drawn_curve, laid_onto
 from .fit import TURN, Fit
 
 POPULATION = 1 << 12
@@ -99,7 +99,7 @@ class Likeness:
         size = np.abs(wanted).max() + abs(by)
         return bool(np.isfinite(found).all() and np.abs(found - wanted).max() <= KEPT_SHAPE * size)
 
-    def applied(self, fit: Fit, values: FloatArray, factor: Any, by: Any) -> FloatArray:
+    def applied(self, fit: Fit, values: FloatArray, factor: ComplexArray, by: ComplexArray) -> FloatArray:
         """Return the variables (m, n) of mechanisms that are scaled and turned by complex factors, then shifted, (m,) each."""
         found = np.array(values, float)
         for x, y in self.points:
@@ -124,7 +124,7 @@ class Likeness:
             middle = np.sqrt(low * high)
         return np.array([np.where(low <= high, low, middle), np.where(low <= high, high, middle)])
 
-    def laid(self, path: Any, onto: Any, sizes: FloatArray) -> tuple[Any, Any, FloatArray]:
+    def laid(self, path: ComplexArray, onto: ComplexArray, sizes: FloatArray) -> tuple[ComplexArray, ComplexArray, FloatArray]:
         """Return by which factor and shift (m,) paths (m, n), complex, lie best on one (n,), and the errors (m,).
 
         The factors stay between `sizes` (2, m).
@@ -149,16 +149,15 @@ class Likeness:
         return factor, by, np.where(np.isfinite(error), error, np.inf)
 
 
-def as_complex(values: FloatArray) -> Any:
+def as_complex(values: FloatArray) -> ComplexArray:
     """Return coordinates (m, 2, n) as complex numbers (m, n)."""
     return values[:, 0] + 1j * values[:, 1]
 
 
 def by_owner(fit: Fit, values: FloatArray) -> DesignValues:
     """Return the dimensions of variables (m, n) [SI], beyond their ranges too."""
-    chosen: Mapping[str, Any] = fit.space.chosen(fit.combination)
     own = {each.owner: each.sign * values[:, place] for place, each in enumerate(fit.space.variables)}
-    return dict(fit.problem.machine.dimensions) | dict(chosen) | own
+    return dict(fit.problem.machine.dimensions) | dict(fit.space.chosen(fit.combination)) | own
 
 
 @final
@@ -278,7 +277,9 @@ def lengths_along(fit: Fit) -> list[tuple[FloatArray, bool]]:
     return found
 
 
-def best_patterns(likeness: Likeness, fit: Fit, unit: FloatArray, values: FloatArray, picks: Index) -> tuple[Index, Any, Any]:
+def best_patterns(
+    likeness: Likeness, fit: Fit, unit: FloatArray, values: FloatArray, picks: Index
+) -> tuple[Index, ComplexArray, ComplexArray]:
     """Return of every design (m, n) the best of patterns (k, n) of its values (m, r, poses), and by which factor and shift it lies best.
 
     The factors and shifts are complex numbers (m,).

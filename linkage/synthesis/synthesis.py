@@ -10,7 +10,7 @@ from typing import Any, final
 
 import numpy as np
 
-from ..checks import is_whole
+from ..checks import is_class_of, is_whole
 from ..disk import Place, replacing_text
 from ..errors import StudyError, cited, ensure
 from ..frozen import immutable
@@ -340,7 +340,7 @@ def synthesised_classes(
     starts, limit, folder = options["starts"], options["limit"], options["folder"]
     given = shipped_machines() if machines is None else machines
     ensure(given, f"synthesise({cited(machines)}): a design or a list of classes is expected, such as [FourBar, SliderCrank].")
-    designs: list[Any] = [each() if isinstance(each, type) and issubclass(each, Mechanism) else each for each in given]
+    designs: list[Any] = [each() if is_class_of(each, Mechanism) else each for each in given]
     for each in designs:
         check_one_design(each)
     check_counts("synthesise", 1 if starts == "catalogue" else starts, options["seed"], limit)

@@ -8,11 +8,11 @@ from copy import copy
 from dataclasses import dataclass
 from functools import cached_property, reduce
 from itertools import combinations
-from typing import Any, TypeAlias, final
+from typing import Any, TypeAlias, TypeGuard, final
 
 import numpy as np
 
-from ..checks import is_listed, require, require_number, require_type
+from ..checks import is_class_of, is_listed, require, require_number, require_type
 from ..errors import DefinitionError, cited, ensure, is_yes
 from ..frozen import frozen, immutable, read_only, refuses_changes
 from ..mechanism import Mechanism
@@ -21,7 +21,7 @@ from ..motion.measures import Measure, at, least, measure_of
 from ..motion.strokes import TURN, is_in_degrees
 from ..plan import Mask, Plan
 from ..program import FloatArray
-from ..quantities import angle, numbers_in, ref, x, y
+from ..quantities import Quantity, angle, numbers_in, ref, x, y
 from ..study.checks import check_one_design
 from ..study.problem import is_still, ranges_of
 from ..study.variants import Range
@@ -147,9 +147,9 @@ class FunctionTask:
     within: FloatArray
     in_order: bool
 
-    def __init__(self, strokes: Any, values: Any, of: Any, *, within: Any = None) -> None:
+    def __init__(self, strokes: object, values: object, of: object, *, within: object = None) -> None:
         several = is_listed(of)
-        quantities = list(of) if several else [of]
+        quantities = list(of) if is_listed(of) else [of]
         what = f"FunctionTask(of={cited(of)})"
         rows = rows_of_values(what, values, len(quantities)) if several else [table_of(what, "values", values, 0)]
         if within is None:
@@ -199,7 +199,9 @@ class PoseTask:
     length: float | None
     in_order: bool
 
-    def __init__(self, x: Any, y: Any, angle: Any, of: Any, at: Any = None, *, length: float | None = None, in_order: bool = True) -> None:
+    def __init__(
+        self, x: object, y: object, angle: object, of: object, at: object = None, *, length: float | None = None, in_order: bool = True
+    ) -> None:
         what = f"PoseTask(of={cited(of)})"
         for name, each, measures in (("x", x, "length"), ("y", y, "length"), ("angle", angle, "angle"), ("length", length, "length")):
             require_measure(each, measures, f"{what}: {name}")
@@ -263,9 +265,9 @@ def task_named_in(machine: Mechanism, task: Task) -> Task:
     return found
 
 
-def is_by_class(given: object) -> bool:
+def is_by_class(given: object) -> TypeGuard[Mapping[type[Mechanism], Any]]:
     """Return whether something is said class by class: a dictionary by classes of mechanism."""
-    return isinstance(given, Mapping) and bool(given) and all(isinstance(each, type) and issubclass(each, Mechanism) for each in given)
+    return isinstance(given, Mapping) and bool(given) and all(is_class_of(each, Mechanism) for each in given)
 
 
 def of_class(given: Any, kind: type[Mechanism]) -> Any:
@@ -471,7 +473,7 @@ def squares_near(
     speeds = [float(weight) * ratio(quantity, stroke) for quantity, weight in zip(rows.quantities, rows.weights, strict=True)]
     found = []
     for place, value in enumerate(strokes.tolist()):
-        where: dict[str, Any] = {**held, stroke: value}
+        where = {**held, stroke: value}
         off = misses_at(machine, rows, place)
         if slides and is_across(machine, off, speeds, where):
             minors = [one * fast - other * slow for (one, slow), (other, fast) in combinations(zip(off, speeds, strict=True), 2)]
@@ -487,7 +489,7 @@ EXACT = 1e-9
 """A miss that is smaller [SI] has no direction."""
 
 
-def is_across(machine: Mechanism, off: list[Any], speeds: list[Any], where: Mapping[str, Any]) -> bool:
+def is_across(machine: Mechanism, off: Sequence[Quantity], speeds: Sequence[Quantity], where: Mapping[str, float]) -> bool:
     """Return whether a miss stands across the path at a pose, and the point moves there."""
     values = np.array([np.ravel(each)[0] for each in machine.evaluate([*off, *speeds], **where)])
     missed, speed = values[: len(off)], values[len(off) :]

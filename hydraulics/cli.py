@@ -174,7 +174,8 @@ def print_cycle(options: Namespace) -> int:
         for place, (words, cycle, _) in enumerate(found):
             print(*([""] if place else []), *cycle_lines(words, cycle), sep="\n")
     if options.csv is not None:
-        write_cycle(options.csv, found)
+        ensure(len(found) == 1, f"--csv {options.csv}: there are {len(found)} cycles; choose one, --over NAME.")
+        write_table(cycle_columns(found[0][1]), len(found[0][1].time), options.csv)
     if path is not None:
         ensure(len(found) == 1, f"-o {path}: there are {len(found)} cycles; choose one, --over NAME.")
         draw_cycle(path, *found[0][1:])
@@ -215,12 +216,6 @@ def cycle_lines(words: str, cycle: PumpCycle) -> Sequence[str]:
     events = ["", *(str(event) for event in cycle.events)] if cycle.events else []
     lines = [*lined_up([line_heads(), *line_rows(cycle)]), "", *lined_up(energy_rows(cycle))]
     return [*head, said("{pump} {sentence}", pump=cycle.pump, sentence=cycle.verdict.sentence), "", *lines, *events]
-
-
-def write_cycle(file: str, found: Sequence[tuple[str, PumpCycle, Motion]]) -> None:
-    """Write a cycle as CSV; DefinitionError for several of them."""
-    ensure(len(found) == 1, f"--csv {file}: there are {len(found)} cycles; choose one, --over NAME.")
-    write_table(cycle_columns(found[0][1]), len(found[0][1].time), file)
 
 
 def draw_cycle(path: Path, cycle: PumpCycle, motion: Motion) -> None:

@@ -308,13 +308,13 @@ def refuse_unpushed(branch: Branch, time: Array, pump: ForceElement) -> None:
         raise DefinitionError(f"{what}; put that on the pump, OilLine({ram}.{other}_side, {pump_name}), or demand nothing there.")
 
 
-def cylinder_named(consumers: Consumers, name: str, what: str) -> int:
-    """Return the number of a cylinder on the pump's lines; DefinitionError for another name."""
+def cylinder_named(consumers: Consumers, name: str) -> int:
+    """Return the number of a cylinder that is demanded, on the pump's lines; DefinitionError for another name."""
     names = [ram.name for ram in consumers.rams]
     if name not in names:
         known = of_kind(consumers.members, Ram)
         if name in known:
             remedy = f"put it on one, LiftCircuit({name}, {consumers.pump.name}), or ask the pump that feeds it"
-            raise DefinitionError(f"{consumers.plan.title}: {what}: {name} is on no line of {consumers.pump.name}; {remedy}.")
-        raise unknown("Cylinder", name, names, where=f"{consumers.plan.title}: {what}")
+            raise DefinitionError(f"{consumers.plan.title}: demands: {name} is on no line of {consumers.pump.name}; {remedy}.")
+        raise unknown("Cylinder", name, names, where=f"{consumers.plan.title}: demands")
     return names.index(name)

@@ -79,6 +79,7 @@ from linkage.statics import (
     held_in_case,
     is_among,
     member_thrust,
+    motion_of_whole,
     own_rates,
     request_text,
     same,
@@ -1106,7 +1107,7 @@ def thrust_along(cylinder: Ram, thrust: Array) -> Array:
 def pressure_of(cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array:
     """Return a cylinder's pressure by the circuit that has it; without one, of a pump without losses."""
     require_poses(motion)
-    held = motion._of_the_whole(cylinder) if isinstance(motion, Motion) else None
+    held = motion_of_whole(motion, cylinder)
     if held is not None:
         return pressure_of(held[1], held[0], acting)
     motion = held_in_case(motion, acting)

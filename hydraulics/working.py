@@ -118,7 +118,7 @@ class PumpedMachine:
         self.limits = limits_of(pump, self.consumers, there)
         self.has_relief = any(line.relieves(plan) for line in self.consumers.lines)
         self.at_relief = self.has_relief and self.limits.cut_off < one_design(pump.number(there, "pressure"))
-        self.asked = [cylinder_named(self.consumers, name, "demands") for name in demands]
+        self.asked = [cylinder_named(self.consumers, name) for name in demands]
         self.spans = np.array([sorted((plan.strokes[name].start, plan.strokes[name].end)) for name in self.consumers.strokes], float)
         self.own, self.moved = self._independent(np.array([[start[name]] for name in self.consumers.strokes]))
         names = [name_of(each) for each in pump.given("first")]

@@ -858,8 +858,8 @@ def check_no_member(title: str, name: str, value: object) -> None:
         raise DefinitionError(f"{what}; bind each to a name of its own, and look for a comma too many at the end of the line.")
 
 
-def require_mechanism(given: object) -> None:
-    """Raise DefinitionError for anything but a design of a mechanism."""
+def require_mechanism(given: object) -> Mechanism:
+    """Return a design of a mechanism; DefinitionError for anything else."""
     if is_class_of(given, Mechanism):
         raise DefinitionError(f"{given.__name__} is a class, the structure; give a design of it, {given.__name__}().")
-    require_type("", given, Mechanism, "is no mechanism; give a design such as FourBar()")
+    return require_type("", given, Mechanism, "is no mechanism; give a design such as FourBar()")

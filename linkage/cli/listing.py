@@ -90,16 +90,11 @@ def wrapped(text: str, start: str, hanging: str = "") -> list[str]:
 
 def first_line(entry: EntryPoint) -> str:
     """Return the first line of a machine's docstring, out of its source; a machine without source is loaded."""
-    text = docstring(entry.module, entry.attr)
+    node = class_node(entry.module, entry.attr)
+    text = None if node is None else cleandoc(ast.get_docstring(node) or "")
     if text is None:
         text = guarded(entry.load, f"The machine {entry.name} ({entry.value})").__doc__ or ""
     return text.strip().partition("\n")[0]
-
-
-def docstring(module: str, name: str) -> str | None:
-    """Return the docstring of a class, "" where it has none; None where no source says it, as of a class that is made by a call."""
-    node = class_node(module, name)
-    return None if node is None else cleandoc(ast.get_docstring(node) or "")
 
 
 def command_help(entry: EntryPoint) -> str:

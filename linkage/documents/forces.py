@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ..errors import LinkageError, unwarned
 from ..language import noted, said, translated
-from ..loads import PLAIN, PLAIN_CASE, Acting, Force, TwoPoint
+from ..loads import PLAIN_CASE, Acting, Force, TwoPoint
 from ..motion import Column, Motion, Request, least, most, places_text, stroke_display_unit
 from ..program import FloatArray
 from ..statics import PinForces, PinLoad, drive_force, judged_table, pin_forces, thrust_from_forces
@@ -112,7 +112,7 @@ def drives_asked(subject: ReportSubject) -> list[tuple[str, Request, str]]:
     """Return the forces of the drives, then the thrusts that no member shows of itself, each with its name and unit."""
     one, plan, members = subject.forces[0], subject.machine.plan, thrusts_shown(subject)
     drives = [(name, drive_force(name), "kNm" if stroke_display_unit(plan, name) == "deg" else "kN") for name in one.drives]
-    others = [(said("thrust of {name}", name=name), thrust_from_forces(name, PLAIN), "kN") for name in one.thrusts if name not in members]
+    others = [(said("thrust of {name}", name=name), thrust_from_forces(name), "kN") for name in one.thrusts if name not in members]
     return [*drives, *others]
 
 

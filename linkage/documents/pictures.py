@@ -31,12 +31,12 @@ HIGHEST = 4.0
 """The height of a drawing's axes at the most [inch]."""
 
 
-def height_of(scene: Scene, air: float = 0.0, most: float = HIGHEST) -> float:
+def height_of(scene: Scene, air: float = 0.0) -> float:
     """Return the height of a drawing across the page [inch]."""
     left, right, bottom, top = scene.box()
     pad = air * max(right - left, top - bottom)
     wide = WIDE - ROOM[0] - ROOM[1]
-    return float(np.clip(wide * (top - bottom + pad) / (right - left + pad), 2.2, most)) + ROOM[2] + ROOM[3]
+    return float(np.clip(wide * (top - bottom + pad) / (right - left + pad), 2.2, HIGHEST)) + ROOM[2] + ROOM[3]
 
 
 def in_one_unit(ax: Axes) -> None:

@@ -76,8 +76,7 @@ def equations(
     Equations
         The equations, printable.
     """
-    design = machine() if is_class_of(machine, Mechanism) else machine
-    require_mechanism(design)
+    design = require_mechanism(machine() if is_class_of(machine, Mechanism) else machine)
     require_whole("start", start, "the first equation's number is expected, a whole number from 1 on", least=1)
     check_pose(design, at)
     targets = [ratio] if isinstance(ratio, str) else ratio

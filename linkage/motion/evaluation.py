@@ -147,7 +147,12 @@ class Evaluation:
         look = None if program.is_clear(result) else self._settle(result.values, among)
         found = grid.full(result.values)
         if program.angles and (grid.stroke_shape or not grid.joins_itself):
-            self._unwrap(found)
+            # angles go on along the stroke
+            for rows, angles in self.program.angles:
+                reached = np.isfinite(found[rows])
+                continued = angles.continued(self.grid, np.asarray(reached.any(axis=0)), self.way)
+                if continued is not None:
+                    found[rows] = np.where(reached, continued, np.nan)
         return program.split(found), look
 
     def _starts(self) -> Iterator[tuple[int, slice]]:
@@ -207,15 +212,6 @@ class Evaluation:
                 values = to_rounding(values, at_end, self.program.kernel.plan.outputs[rows], at)
             look.missing[number, bad] = without = without | ~np.isfinite(values).all(axis=0)
             block[rows, bad] = np.where(without, np.nan, values)
-
-    def _unwrap(self, found: FloatArray) -> None:
-        """Make the angles in requests continuous along the stroke, in place."""
-        for rows, angles in self.program.angles:
-            reached = np.isfinite(found[rows])
-            continued = angles.continued(self.grid, np.asarray(reached.any(axis=0)), self.way)
-            if continued is not None:
-                found[rows] = np.where(reached, continued, np.nan)
-
 
 def watch_of(plan: Plan, requests: Sequence[Request]) -> tuple[int, list[int], Kernel]:
     """Return how many of its outputs are assumptions, and gaps of each request; and the kernel.

@@ -127,7 +127,7 @@ class ManyPlaces:
         order = [*range(k, len(axes)), *range(k)]
         grid = np.stack([each.ravel() for each in np.meshgrid(*(axes[at] for at in order), indexing="ij")], axis=1)
         unit = grid[:, [order.index(at) for at in range(len(axes))]]
-        return PlaceGrid(self, outs, axes[:k], axes[k:], unit, places.kernel_values(places.program.values, unit))
+        return PlaceGrid(self, axes[:k], axes[k:], unit, places.kernel_values(places.program.values, unit))
 
     # -- steps -------------------------------------------------------------------------------------------
 
@@ -220,7 +220,6 @@ class PlaceGrid:
     """
 
     many: ManyPlaces
-    outs: FloatArray
     axes: Sequence[FloatArray]
     spare: Sequence[FloatArray]
     unit: FloatArray

@@ -37,7 +37,7 @@ def quadrature(values: Callable[[FloatArray], FloatArray], edges: FloatArray | N
     shares = by_panel(values(gauss(edges)[0]), edges)
     error = np.zeros(shares.shape[:-1])
     for _ in range(BISECTIONS):
-        finer = halved(edges)
+        finer = np.sort(np.concatenate([edges, 0.5 * (edges[:-1] + edges[1:])]))
         seen = values(np.concatenate([gauss(finer)[0], finer]))
         inside, ends = seen[..., : -len(finer)], seen[..., -len(finer) :]
         pairs = by_panel(inside, finer).reshape(*shares.shape, 2)
@@ -74,8 +74,3 @@ def bent_at_ends(values: FloatArray, ends: FloatArray) -> Any:
     shown = values.reshape(*values.shape[:-1], -1, NODES) @ np.linalg.solve(np.vander(places).T, np.vander([-1.0, 1.0], NODES).T)
     apart = np.abs(shown - np.stack([ends[..., :-1], ends[..., 1:]], axis=-1)).max(axis=-1)
     return apart > WORK**0.5 * np.abs(values).max(axis=-1, initial=0.0)[..., None]
-
-
-def halved(edges: FloatArray) -> FloatArray:
-    """Return edges with one more in the middle of each panel."""
-    return np.sort(np.concatenate([edges, 0.5 * (edges[:-1] + edges[1:])]))

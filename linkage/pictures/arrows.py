@@ -33,6 +33,8 @@ NOTHING_THERE = 1e-9
 
 SHAFT, BARB, HEAD = 0.16, 0.62, 1.7
 """Half a shaft's width, half a head's width, and a head's length, in sizes."""
+LEVEL = 16.0
+"""Where arrows lie over all that is drawn of a mechanism."""
 TURN_ANGLES = np.radians(np.linspace(-150.0, 70.0, 49))
 """The angles that a curved arrow goes through."""
 
@@ -122,21 +124,21 @@ def significant(value: float, digits: int = 3) -> str:
     return f"{rounded:.{places}f}"
 
 
-def draw_arrows(ax: Axes, layer: ArrowLayer, scale: float, size: float, level: float = 16.0) -> FloatArray:
+def draw_arrows(ax: Axes, layer: ArrowLayer, scale: float, size: float) -> FloatArray:
     """Draw the arrows of a layer and return points that cover them, shape (n, 2) [m]; `size` is that of the mechanism's pins [m]."""
     for each in layer.arrows:
         if each.length > TINY * layer.largest:
-            draw_arrow(ax, each, each.at, each.at + scale * each.vector, size, level, each.name)
+            draw_arrow(ax, each, each.at, each.at + scale * each.vector, size, LEVEL, each.name)
         else:
             x, y, edge = *each.at, style.mixed(each.colour, style.INK, 0.35)
-            ax.add_patch(Circle((x, y), 0.3 * size, facecolor=each.colour, edgecolor=edge, zorder=level, gid=each.name))
+            ax.add_patch(Circle((x, y), 0.3 * size, facecolor=each.colour, edgecolor=edge, zorder=LEVEL, gid=each.name))
     for turn in layer.turning:  # a moment is a curved arrow about its point
         curve = turning_line(turn, size)
-        ax.add_line(Line2D(*curve.T, color=turn.colour, linewidth=2.2, solid_capstyle="butt", zorder=level, gid=turn.name))
+        ax.add_line(Line2D(*curve.T, color=turn.colour, linewidth=2.2, solid_capstyle="butt", zorder=LEVEL, gid=turn.name))
         end, out = curve[-1], (curve[-1] - turn.at) / (turn.radius * size)
         along = left_of(out) * np.sign(turn.moment)
         corners = np.array([end + HEAD * size * along, end + BARB * size * out, end - BARB * size * out])
-        ax.add_patch(Polygon(corners, facecolor=turn.colour, edgecolor=turn.colour, joinstyle="round", zorder=level))
+        ax.add_patch(Polygon(corners, facecolor=turn.colour, edgecolor=turn.colour, joinstyle="round", zorder=LEVEL))
     return arrow_points(layer, scale, size)
 
 

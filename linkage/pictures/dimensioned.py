@@ -38,8 +38,8 @@ MOST = 14.0
 """A dimension that would cover so much is left to the table."""
 
 
-def dimensioned(ax: Axes, motion: Motion, pose: int = 0) -> None:
-    """Draw a mechanism on empty axes at a pose of a motion, with the lengths and angles that its links are given.
+def dimensioned(ax: Axes, motion: Motion) -> None:
+    """Draw a mechanism on empty axes at the first pose of a motion, with the lengths and angles that its links are given.
 
     Lengths are in millimetres, or in the length of the chosen system of units; what follows a stroke stands as its formula, and what
     finds no room is left out.
@@ -50,7 +50,7 @@ def dimensioned(ax: Axes, motion: Motion, pose: int = 0) -> None:
     air = 0.09 * max(right - left, top - bottom)
     sheet(ax, (left - air, right + air, bottom - air, top + air))
     (left, right), (bottom, top) = ax.get_xlim(), ax.get_ylim()
-    index = scene.index(pose)
+    index = scene.index(0)
     at = scene.at(index)
     placed = list(placed_dimensions(scene, at, index, points_a_metre(ax), (left, right, bottom, top)))
     draw_scene(ax, scene, index, [each.covered for each in placed])

@@ -113,7 +113,7 @@ def edge(ax: Axes) -> FloatArray:
 # What counted, before and after.
 
 
-def plot_optimum(optimum: Optimum, count: int = POSES) -> Figure:
+def plot_optimum(optimum: Optimum) -> Figure:
     """Return the objective's quantity and each condition's over the stroke, before and after, the failing side of each limit shaded.
 
     Of several strokes it is the first that a quantity depends on; of the others that value counts which is the worst.
@@ -124,7 +124,7 @@ def plot_optimum(optimum: Optimum, count: int = POSES) -> Figure:
         groups.setdefault(words_of(leaf.quantity), []).append(leaf)
     courses = []
     for leaves in groups.values():
-        before, after = (problem.over_stroke(leaves[0], machine.dimensions, count) for machine in (optimum.start, optimum.machine))
+        before, after = (problem.over_stroke(leaves[0], machine.dimensions, POSES) for machine in (optimum.start, optimum.machine))
         if before is not None and after is not None:
             courses.append((leaves, before, after))
     if not courses:

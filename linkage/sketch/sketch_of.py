@@ -47,9 +47,7 @@ def sketch_of(machine: Mechanism | type[Mechanism], at: Mapping[str, float] | No
     AssemblyError
         It cannot be assembled there.
     """
-    design = machine() if is_class_of(machine, Mechanism) else machine
-    require_mechanism(design)
-    assert isinstance(design, Mechanism)
+    design = require_mechanism(machine() if is_class_of(machine, Mechanism) else machine)
     plan, title = design.plan, design.plan.title
     ensure(not any(np.ndim(each) for each in design.dimensions.values()), f"{title}: a sketch is of one design, not of a batch of them.")
     ensure(not plan.of_kind(Part), f"{title}: it has parts; take the sketch of each machine by itself.")

@@ -7,7 +7,7 @@ from .force_requests import drive_force, drive_remarks, held_verdict, pin_force,
 from .holding import each_once, is_among, same, stroke_followed, tied_forces
 from .joint_forces import GlandForce, JointForce, PinForces, pin_forces
 from .law_requests import LawRequest, TracedMotion, request_text
-from .poses import AnyMotion, plan_of
+from .poses import AnyMotion, motion_of_whole, plan_of
 from .rope import Rope, tension
 from .solution import held_fault, held_in_case, loose_movements, looseness
 from .table import PinLoad, judged_table, max_table, table_text

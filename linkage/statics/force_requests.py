@@ -12,7 +12,7 @@ import numpy as np
 
 from ..errors import DefinitionError, UntracedError, cited, known_name
 from ..language import said
-from ..loads import AS_IT_RUNS, FRICTIONLESS, Acting, Case, Loads, TwoPoint, situation_of
+from ..loads import AS_IT_RUNS, FRICTIONLESS, PLAIN, Acting, Case, Loads, TwoPoint, situation_of
 from ..motion import Judge, Motion, most, require_motion, stroke_unit
 from ..motion.requests import stroke_of
 from ..plan import Plan
@@ -243,7 +243,7 @@ def pin_forces_under(motion: Motion, acting: Acting) -> PinForces:
 # What a member carries.
 
 
-def thrust_from_forces(member: str, acting: Acting) -> LawRequest:
+def thrust_from_forces(member: str) -> LawRequest:
     """Return the request for the thrust of a driven length or a two-point element, `pin_forces(motion).thrusts`, by its name."""
 
     def formula(motion: AnyMotion, acting: Acting) -> FloatArray:
@@ -252,7 +252,7 @@ def thrust_from_forces(member: str, acting: Acting) -> LawRequest:
     def look_up(request: LawRequest, motion: TracedMotion) -> LawInPlan:
         raise UntracedError(f"{motion.plan.title}: {request}: it has values, and no program that gives derivatives.")
 
-    return force_request("thrust", [member], member, acting, formula, look_up)
+    return force_request("thrust", [member], member, PLAIN, formula, look_up)
 
 
 # What is said of any machine's forces: that it is not held, and what the drives of strokes give that no cylinder holds.

@@ -96,7 +96,7 @@ class TracedMotion(OnePose):
             return self.number(cast(Scalar, made))
         if isinstance(made, np.ndarray):
             return self._array(made) if made.dtype == object else made
-        if is_listed(made):
+        if isinstance(made, (tuple, list)):
             return type(made)(map(self._own, made))
         if isinstance(made, Levers | AppliedLoads | Load | Push):
             own: dict[str, Any] = {each.name: self._own(getattr(made, each.name)) for each in fields(made)}

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from ..errors import DefinitionError, cited, unwarned
 from ..loads import Poses, require_poses
-from ..motion import Request
+from ..motion import Motion, Request
 from ..motion.requests import point_ratios
 from ..plan import Mask, Plan, Reading
 from ..program import FloatArray
@@ -19,6 +19,7 @@ from ..quantities import Reference
 from ..vectors import Scalar
 
 Made = TypeVar("Made")
+Own = TypeVar("Own", bound=Member)
 
 
 @final
@@ -154,6 +155,11 @@ def plan_of(motion: Poses) -> Plan:
     if not isinstance(motion.plan, Plan):
         raise DefinitionError(f"{cited(motion)} is no motion of a mechanism; give machine.sweep(...) or machine.at(...).")
     return motion.plan
+
+
+def motion_of_whole(motion: AnyMotion, member: Own) -> tuple[Motion, Own] | None:
+    """Return the motion of the whole and the member there, of a motion that is read as that of a part; None for any other."""
+    return motion._of_the_whole(member) if isinstance(motion, Motion) else None
 
 
 def over_zero(length: FloatArray) -> FloatArray:

@@ -24,7 +24,7 @@ from ..steps import Point
 from ..units import show
 from ..verdict import Verdict
 from .law_requests import LawRequest, request_text
-from .poses import AnyMotion, plan_of
+from .poses import AnyMotion, motion_of_whole, plan_of
 from .work import closed_force
 
 
@@ -336,7 +336,7 @@ class Rope(ForceElement, Tabled, HasVerdicts):
         ndarray
             The tension [N], shape (...).
         """
-        held = motion._of_the_whole(self) if isinstance(motion, Motion) else None
+        held = motion_of_whole(motion, self)
         if held is not None:
             whole, own = held
             return own.tension_in(whole, acting)

@@ -34,7 +34,7 @@ from .applied import applied_loads, elements_of, rates_in
 from .holding import refused_where, where_negative
 from .joints import Wrench, frame_points
 from .law_requests import LawRequest, TracedMotion, once_in, request_text
-from .poses import AnyMotion, FlatPoses, cross
+from .poses import AnyMotion, FlatPoses, cross, motion_of_whole
 from .solution import Equilibrium, check_joints, held_in_case, locked_words, system_with_friction
 from .work import by_work
 
@@ -433,7 +433,7 @@ def rough_in(plan: Plan) -> None:
 
 def load_over(name: str, motion: AnyMotion, acting: Acting) -> FloatArray:
     """Return the load of an axle over a motion's poses [N], shape (...); of one read in a part, its load in the whole."""
-    held = motion._of_the_whole(motion.plan.members[name]) if isinstance(motion, Motion) else None
+    held = motion_of_whole(motion, motion.plan.members[name])
     if held is not None:
         whole, support = held
         support_in(support.name, whole.plan)

@@ -23,7 +23,7 @@ from .applied import AppliedLoads, applied_elements, applied_loads, member_title
 from .force_program import forces_at
 from .holding import Holders, Levers, PressureLine, holders_of, is_among, same, stroke_followed, where_negative, with_levers
 from .law_requests import TracedMotion, is_unchanging, once_in
-from .poses import AnyMotion, FlatPoses, plan_of
+from .poses import AnyMotion, FlatPoses, motion_of_whole, plan_of
 from .solution import AGREES, LEAST, PoseForces, disagreeing, held_in_case, locked_words
 
 Made = TypeVar("Made")
@@ -170,7 +170,7 @@ def member_thrust(motion: AnyMotion, member: TwoPoint, acting: Acting) -> FloatA
     The direction is the member's own: "extending" while it grows, whatever that makes of the strokes. Raises DefinitionError for one
     that neither holds nor has a law here, SingularError where its length stands still against its drive.
     """
-    held = motion._of_the_whole(member) if isinstance(motion, Motion) else None
+    held = motion_of_whole(motion, member)
     if held is not None:
         return member_thrust(*held, acting)
     made = partial(member_thrust_on, motion, member, acting)

@@ -235,7 +235,11 @@ class Optimum(Shown):
 
     def table(self, rounded: Rounded | None = None) -> str:
         """Return the rows as aligned text."""
-        return result_text(self.rows(rounded))
+        # columns that hold nothing are left out
+        cells = result_cells(self.rows(rounded), ".6g", ".2g")
+        kept = [place for place in range(len(RESULT_HEADINGS)) if any(line[place] for line in cells[1:])]
+        words = {number for number, place in enumerate(kept) if RESULT_HEADINGS[place] in ("what", "name", "unit", "for")}
+        return text_columns([[line[place] for place in kept] for line in cells], words)
 
     def csv(self, path: Place, rounded: Rounded | None = None) -> None:
         """Write the rows into a CSV file, in full precision; FileError where it cannot be written."""
@@ -737,11 +741,3 @@ def result_cells(rows: Sequence[ResultRow], digits: str = "", of_gain: str = "")
         gain = [f"{100.0 * float(row.gain):{of_gain}}", row.by] if row.gain else ["", ""]
         cells.append([row.what, row.name, shown_in(row.unit), *numbers, *gain])
     return cells
-
-
-def result_text(rows: Sequence[ResultRow]) -> str:
-    """Return rows as aligned text; columns that hold nothing are left out."""
-    cells = result_cells(rows, ".6g", ".2g")
-    kept = [place for place in range(len(RESULT_HEADINGS)) if any(line[place] for line in cells[1:])]
-    words = {number for number, place in enumerate(kept) if RESULT_HEADINGS[place] in ("what", "name", "unit", "for")}
-    return text_columns([[line[place] for place in kept] for line in cells], words)

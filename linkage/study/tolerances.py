@@ -11,7 +11,7 @@ from typing import Any, TypeAlias, final
 
 import numpy as np
 
-from ..checks import is_listed, require, require_type, require_whole
+from ..checks import require, require_type, require_whole
 from ..errors import DefinitionError, cited, ensure, one_word, unknown, unwarned
 from ..frozen import FrozenDict, immutable, refuses_changes
 from ..mechanism import Mechanism
@@ -57,12 +57,12 @@ class Tolerance:
     @property
     def low(self) -> float:
         """The least deviation [SI]; of a normal law three sigmas below the middle."""
-        return float(self.limits[0]) if is_listed(self.limits) else -float(self.limits)
+        return float(self.limits[0]) if isinstance(self.limits, (tuple, list)) else -float(self.limits)
 
     @property
     def high(self) -> float:
         """The greatest deviation [SI]; of a normal law three sigmas above the middle."""
-        return float(self.limits[1] if is_listed(self.limits) else self.limits)
+        return float(self.limits[1] if isinstance(self.limits, (tuple, list)) else self.limits)
 
     @property
     def sigma(self) -> float:

@@ -10,7 +10,7 @@ from typing import Any, final
 
 import numpy as np
 
-from ..checks import is_listed, require_type
+from ..checks import require_type
 from ..errors import DefinitionError, LinkageError, cited, unwarned
 from ..frozen import frozen, immutable
 from ..language import said
@@ -169,7 +169,7 @@ def synthesise(
         A wrong argument, or a folder of another task.
     """
     wanted = [("path", path, PathTask), ("function", function, FunctionTask), ("motion", motion, PoseTask)]
-    if machine is None or is_listed(machine):
+    if machine is None or isinstance(machine, (list, tuple)):
         by_class = {"vary": vary, "subject_to": subject_to, "regions": regions, "rank": rank, "over": over}
         options = dict(timed=timed, case=case, starts=starts, seed=seed, limit=limit, executor=executor, folder=folder)
         return synthesised_classes(synthesise, machine, wanted, by_class, progress, options)

@@ -168,7 +168,8 @@ def strength(crane: Crane) -> dict[str, PinForces]:
     Lifting: the load Q on the straight crane, all positions of the boom; on the slope the same, as the load case `side_slope` tilts it.
     Dragging: the tip drawn in along the ground by the greatest pull that the cylinders hold, nothing hanging from it.
     """
-    straight = stretched(crane)
+    limits = crane.limits_of()
+    straight = crane.at(phi=np.linspace(*limits["phi"], COUNT), psi=limits["psi"][1], t=limits["t"][1])
     path, pull = dragging(crane)
     own = [name for name in crane.plan.of_kind(ForceElement) if name != "load"]
     return {
@@ -176,12 +177,6 @@ def strength(crane: Crane) -> dict[str, PinForces]:
         "dragging by the arm": pin_forces(path, [*own, Force("T", (pull, 0.0))], case=LIFTING),
         "on a side slope": pin_forces(straight, case=SLOPE),
     }
-
-
-def stretched(crane: Crane) -> Motion:
-    """Return the crane straight and at its longest, over all positions of the boom."""
-    limits = crane.limits_of()
-    return crane.at(phi=np.linspace(*limits["phi"], COUNT), psi=limits["psi"][1], t=limits["t"][1])
 
 
 def dragging(crane: Crane) -> tuple[Motion, FloatArray]:

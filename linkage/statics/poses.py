@@ -15,7 +15,7 @@ from ..motion import Motion, Request
 from ..motion.requests import point_ratios
 from ..plan import Mask, Plan, Reading
 from ..program import FloatArray
-from ..quantities import Reference
+from ..quantities import Member, Reference
 from ..vectors import Scalar
 
 Made = TypeVar("Made")

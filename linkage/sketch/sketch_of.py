@@ -69,7 +69,7 @@ def sketch_of(machine: Mechanism | type[Mechanism], at: Mapping[str, float] | No
     held = {*frame, *(point for points in links.values() for point in points), *(slide.point for slide in slides.values())}
     loose = [name for name in plan.points if name not in held]
     ensure(not loose, f"{title}: the sketch has no word for what holds {', '.join(loose)}; it is on no link and no slide.")
-    weights, rams = dict(weights_of(design)), dict(rams_of(design, drives))
+    weights, rams = dict(hung_weights(design)), dict(rams_of(design, drives))
     drives |= {name: replace(drives[name], bore=bore, rod=rod) for name, bore, rod in rams.values()}
     told = {*weights, *rams}
     others = [name for name, each in plan.members.items() if each.kind not in NOT_TOLD and not is_found_anew(each) and name not in told]
@@ -77,7 +77,7 @@ def sketch_of(machine: Mechanism | type[Mechanism], at: Mapping[str, float] | No
     return MachineSketch(title, places, frame, links, slides, drives, weights=weights, notes=notes)
 
 
-def weights_of(design: Mechanism) -> Iterator[tuple[str, SketchWeight]]:
+def hung_weights(design: Mechanism) -> Iterator[tuple[str, SketchWeight]]:
     """Yield the weights of a number of kilograms that hang straight down, by their names."""
     for name, each in design.plan.of_kind(Weight).items():
         if f"{name}.mass" in design.dimensions and each.gravity == Weight.gravity:

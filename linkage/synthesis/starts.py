@@ -129,7 +129,7 @@ class Likeness:
 
         The factors stay between `sizes` (2, m).
         """
-        by, factor = np.zeros(len(path), complex), np.ones(len(path), complex)
+        factor: ComplexArray = np.ones(len(path), complex)
         middle = path.mean(axis=1, keepdims=True) if self.shift else np.zeros((len(path), 1))
         aim = onto.mean() if self.shift else 0.0
         own, other = path - middle, onto - aim
@@ -144,7 +144,7 @@ class Likeness:
             if self.scale:
                 factor = factor * (np.clip(np.abs(factor), *sizes) / np.abs(factor))
         factor = np.where(np.isfinite(factor) & (np.abs(factor) > 0.0), factor, 1.0)  # a single point has no size
-        by = aim - factor * middle[:, 0]
+        by = np.asarray(aim - factor * middle[:, 0])
         error = np.sum(np.abs(factor[:, None] * own - other) ** 2, axis=1)
         return factor, by, np.where(np.isfinite(error), error, np.inf)
 

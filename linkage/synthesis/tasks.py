@@ -489,7 +489,7 @@ EXACT = 1e-9
 """A miss that is smaller [SI] has no direction."""
 
 
-def is_across(machine: Mechanism, off: Sequence[Quantity], speeds: Sequence[Quantity], where: Mapping[str, float]) -> bool:
+def is_across(machine: Mechanism, off: Sequence[Quantity], speeds: Sequence[Quantity], where: Mapping[str, Any]) -> bool:
     """Return whether a miss stands across the path at a pose, and the point moves there."""
     values = np.array([np.ravel(each)[0] for each in machine.evaluate([*off, *speeds], **where)])
     missed, speed = values[: len(off)], values[len(off) :]

@@ -167,14 +167,19 @@ const model = (() => {
     drawing.lengths = without(drawing.lengths, (_, label) => others.some((each) => label === point + each || label === each + point));
   }
   const addPoint = (drawing, name, x, y) => changed(drawing, (next) => { next.points[name] = [x, y]; });
-  /* Put a point elsewhere. A cylinder with a bore keeps its closed length and comes out more or less; another one keeps its stroke. */
+  /* Put a point elsewhere, and points that slide along it back onto their lines. A cylinder with a bore keeps its closed length and comes out
+     more or less; another one keeps its stroke. */
   function movePoint(drawing, name, x, y) {
-    const kept = Object.keys(drawing.drives).filter((each) => drawing.drives[each].bore && drawing.drives[each].ends.includes(name));
-    return changed(drawing, (next) => {
-      next.points[name] = [x, y];
-      measure(next, name);
-      for (const each of kept) next.drives[each].drawn = far(next, ...next.drives[each].ends) - closedLength(drawing, each);
-    });
+    const next = copy(drawing), moved = [name];
+    next.points[name] = [x, y];
+    for (const { point, along } of Object.values(next.slides)) if (Array.isArray(along) && [point, ...along].some((each) => moved.includes(each)) && far(next, ...along)) {
+      const off = offLine(next, point, along), [P, Q] = along.map((each) => next.points[each]), [u, v] = next.points[point];
+      next.points[point] = [u + (off * (Q[1] - P[1])) / far(next, ...along), v - (off * (Q[0] - P[0])) / far(next, ...along)];
+      moved.push(point);
+    }
+    for (const each of moved) measure(next, each);
+    for (const [each, drive] of Object.entries(next.drives)) if (drive.bore && drive.ends.some((end) => moved.includes(end))) drive.drawn = far(next, ...drive.ends) - closedLength(drawing, each);
+    return next;
   }
   /* Put the whole machine into another pose: places of points, and the strokes at which it then stands; lengths stay. */
   const posed = (drawing, places, strokes = {}) => changed(drawing, (next) => {
@@ -221,10 +226,8 @@ const model = (() => {
   });
   /* Let a point slide, along two others of a body, onto whose line it is put, or on a line of the frame at an angle [rad]. */
   function slide(drawing, point, along, name = freeName(drawing, `slide_${point}`)) {
-    const [x, y] = drawing.points[point], next = changed(drawing, (each) => { each.slides[name] = { point, along: Array.isArray(along) ? [...along] : along }; });
-    if (!Array.isArray(along) || far(drawing, ...along) === 0) return next;
-    const off = offLine(drawing, point, along), [P, Q] = along.map((each) => drawing.points[each]), wide = far(drawing, ...along);
-    return off === 0 ? next : movePoint(next, point, x + (off * (Q[1] - P[1])) / wide, y - (off * (Q[0] - P[0])) / wide);
+    const next = changed(drawing, (each) => { each.slides[name] = { point, along: Array.isArray(along) ? [...along] : along }; });
+    return movePoint(next, point, ...drawing.points[point]);
   }
   /* Let a crank turn a point about a fixed one, one turn unless its ends are given [rad]; with a link between them where there is none. */
   function crank(drawing, pivot, point, { start = 0, end = 2 * Math.PI, drawn = 0 } = {}, name = freeName(drawing, "phi")) {

@@ -56,9 +56,15 @@ const solver = (() => {
     }
     for (const name of driven) rows.push(driveRow(drawing, index, name));
     const held = new Set(rows.flatMap((row) => row.put(start, 0)[1].filter((_, k) => k % 3 === 0)));
-    const free = names.map((_, k) => k).filter((k) => held.has(k) && !fixed.includes(names[k])), columns = new Map(free.map((k, column) => [k, 2 * column]));
+    const free = neighbourly(rows.map((row) => row.put(start, 0)[1].filter((_, k) => k % 3 === 0)), names.map((_, k) => k)).filter((k) => held.has(k) && !fixed.includes(names[k])), columns = new Map(free.map((k, column) => [k, 2 * column]));
     const isMoving = (row) => row.put(start, 0)[1].some((each, k) => k % 3 === 0 && columns.has(each));
     return { drawing, names, index, start, size, columns, free, n: 2 * free.length, rows: rows.filter(isMoving) };
+  }
+  /* Return points in an order in which those of a row stand near each other. */
+  function neighbourly(groups, all) {
+    const order = new Set();
+    for (const begin of all) for (const point of order.add(begin)) for (const group of groups) if (group.includes(point)) group.forEach((each) => order.add(each));
+    return [...order];
   }
   function driveRow({ drives, points }, index, name) {
     const { kind, ends, drawn } = drives[name], [P, Q] = ends.map((each) => index[each]), [x, y] = [0, 1].map((k) => points[ends[1]][k] - points[ends[0]][k]);
@@ -75,58 +81,95 @@ const solver = (() => {
 
   /* ---- equations ---- */
 
-  /* Bring a matrix to steps by full pivoting: its rank, the clearance (last pivot against the first), the sign of its determinant, and a basis of what it leaves free. */
-  function eliminated(matrix, n) {
+  /* Return the row and the column of the next pivot: the largest of its row and column; the largest of all where that is small or asked for. */
+  function pivotAt(rows, order, rank, first, isFull) {
+    const n = order.length;
+    let i = rank, j = rank, most = 0, before = isFull ? 0 : -1;
+    while (most > before) {
+      before = most;
+      for (let r = rank; r < rows.length; r++) if (abs(rows[r][order[j]]) > most) { most = abs(rows[r][order[j]]); i = r; }
+      for (let c = rank; c < n; c++) if (abs(rows[i][order[c]]) > most) { most = abs(rows[i][order[c]]); j = c; }
+    }
+    if (most > 0.01 * first && most > 0) return [i, j, most];
+    for (let r = rank; r < rows.length; r++) for (let c = rank; c < n; c++) if (abs(rows[r][order[c]]) > most) { most = abs(rows[r][order[c]]); i = r; j = c; }
+    return [i, j, most];
+  }
+  /* Bring a matrix to steps: its rank, the clearance (last pivot against the first), the sign of its determinant, and a basis of what it leaves free. */
+  function eliminated(matrix, n, isFull = true) {
     const rows = matrix.map((row) => row.slice()), order = [...Array(n).keys()];
     let rank = 0, first = 0, last = 1, sign = 1;
     for (; rank < min(rows.length, n); rank++) {
-      let most = 0, i = rank, j = rank;
-      for (let r = rank; r < rows.length; r++) for (let c = rank; c < n; c++) { const each = abs(rows[r][order[c]]); if (each > most) { most = each; i = r; j = c; } }
+      const [i, j, most] = pivotAt(rows, order, rank, first, isFull);
       first ||= most;
       if (most <= RANK * first || !most) break;
-      if (i !== rank) sign = -sign;
-      if (j !== rank) sign = -sign;
+      if ((i === rank) !== (j === rank)) sign = -sign;
       [rows[rank], rows[i]] = [rows[i], rows[rank]];
       [order[rank], order[j]] = [order[j], order[rank]];
       const pivot = rows[rank], column = order[rank];
       last = most / first;
       if (pivot[column] < 0) sign = -sign;
-      for (let r = 0; r < rows.length; r++) if (r !== rank) {
-        const factor = rows[r][column] / pivot[column];
-        if (factor) for (let c = 0; c < n; c++) rows[r][c] -= factor * pivot[c];
+      for (let r = rank + 1; r < rows.length; r++) {
+        const row = rows[r], factor = row[column] / pivot[column];
+        if (factor) for (let c = 0; c < n; c++) row[c] -= factor * pivot[c];
       }
     }
     const basis = order.slice(rank).map((column) => {
       const vector = new Float64Array(n);
       vector[column] = 1;
-      for (let r = 0; r < rank; r++) vector[order[r]] = -rows[r][column] / rows[r][order[r]];
+      for (let r = rank - 1; r >= 0; r--) {
+        let sum = rows[r][column];
+        for (let k = r + 1; k < rank; k++) sum += rows[r][order[k]] * vector[order[k]];
+        vector[order[r]] = -sum / rows[r][order[r]];
+      }
       return vector;
     });
     return { rank, clear: last, sign, basis };
   }
-  /* Return the change of the unknowns that makes rows, each times its weight, least, with damping. */
-  function leastChange({ columns, n }, found, weights, damping) {
-    const normal = Array.from({ length: n }, () => new Float64Array(n)), right = new Float64Array(n);
+  /* Return the normal equations of rows, each times its weight, with damping: Cholesky's factor within its envelope, and the right side. */
+  function factored({ columns, n }, found, weights, damping) {
+    const factor = new Float64Array(n * n), right = new Float64Array(n), begins = Int32Array.from({ length: n }, (_, i) => i), place = [], slope = [];
     found.forEach(([miss, slopes], row) => {
-      const w = weights ? weights[row] ** 2 : 1, cells = [];
-      for (let k = 0; k < slopes.length; k += 3) { const column = columns.get(slopes[k]); if (column !== undefined) cells.push([column, slopes[k + 1]], [column + 1, slopes[k + 2]]); }
-      for (const [i, a] of cells) { right[i] -= w * a * miss; for (const [j, b] of cells) normal[i][j] += w * a * b; }
-    });
-    for (let i = 0; i < n; i++) normal[i][i] += damping;
-    for (let i = 0; i < n; i++) {  // Cholesky
-      for (let j = 0; j <= i; j++) {
-        let sum = normal[i][j];
-        for (let k = 0; k < j; k++) sum -= normal[i][k] * normal[j][k];
-        normal[i][j] = i === j ? sqrt(max(sum, damping * 1e-3)) : sum / normal[j][j];
+      const w = weights ? weights[row] ** 2 : 1;
+      let count = 0;
+      for (let k = 0; k < slopes.length; k += 3) {
+        const column = columns.get(slopes[k]);
+        if (column !== undefined) for (const axis of [0, 1]) { place[count] = column + axis; slope[count++] = slopes[k + 1 + axis]; }
       }
-      for (let k = 0; k < i; k++) right[i] -= normal[i][k] * right[k];
-      right[i] /= normal[i][i];
+      for (let a = 0; a < count; a++) {
+        const i = place[a];
+        right[i] -= w * slope[a] * miss;
+        for (let b = 0; b < count; b++) { const j = place[b]; factor[i * n + j] += w * slope[a] * slope[b]; if (j < begins[i]) begins[i] = j; }
+      }
+    });
+    for (let i = 0; i < n; i++) {
+      factor[i * n + i] += damping;
+      for (let j = begins[i]; j <= i; j++) {
+        let sum = factor[i * n + j];
+        for (let k = max(begins[i], begins[j]); k < j; k++) sum -= factor[i * n + k] * factor[j * n + k];
+        factor[i * n + j] = i === j ? sqrt(max(sum, damping * 1e-3)) : sum / factor[j * n + j];
+      }
+    }
+    return { factor, right, begins, n };
+  }
+  function solved({ factor, begins, n }, right) {
+    for (let i = 0; i < n; i++) {
+      for (let k = begins[i]; k < i; k++) right[i] -= factor[i * n + k] * right[k];
+      right[i] /= factor[i * n + i];
     }
     for (let i = n - 1; i >= 0; i--) {
-      for (let k = i + 1; k < n; k++) right[i] -= normal[k][i] * right[k];
-      right[i] /= normal[i][i];
+      right[i] /= factor[i * n + i];
+      for (let k = begins[i]; k < i; k++) right[k] -= factor[i * n + k] * right[i];
     }
     return right;
+  }
+  /* Return the change of the unknowns that makes rows, each times its weight, least, with damping. */
+  function leastChange(system, found, weights, damping) { const made = factored(system, found, weights, damping); return solved(made, made.right); }
+  /* Return the least singular value of the slopes, by inverse iteration: how far from singular a pose is that nothing leaves loose. */
+  function clearance(system, found) {
+    const made = factored(system, found, null, 1e-15), length = (vector) => sqrt(vector.reduce((sum, each) => sum + each * each, 0));
+    let vector = Float64Array.from({ length: made.n }, (_, k) => 1 + ((k * 7) % 11) / 11), long = length(vector);
+    for (let turn = 0; turn < 6; turn++) { vector = solved(made, vector.map((each) => each / long)); long = length(vector); }
+    return 1 / sqrt(long);
   }
   function moved({ free }, at, change, share = 1) {
     const next = at.slice();
@@ -166,9 +209,13 @@ const solver = (() => {
      the clearance from singular poses does not fall below half. So steps grow small where branches cross or end, and no step leaps to another. */
   function follow(system, from, values, wanted) {
     const { n, size } = system, between = (t) => Object.fromEntries(Object.keys(values).map((name) => [name, values[name] + t * ((wanted[name] ?? values[name]) - values[name])]));
-    const state = (at, t) => { const found = missed(system, at, between(t)); return { at, t, ...eliminated(dense(system, found), n), isSquare: found.length === n }; };
     let here = closed(system, from, values);
     if (!here) return { at: from, values, done: false, goesOn: false };
+    const isWhole = eliminated(dense(system, missed(system, here, values)), n).rank === n;
+    const state = (at, t) => {
+      const found = isWhole ? missed(system, at, between(t)) : [];
+      return { at, t, clear: isWhole ? clearance(system, found) : 1, sign: isWhole && found.length === n ? eliminated(dense(system, found), n, false).sign : 1 };
+    };
     here = state(here, 0);
     const far = Object.keys(values).map((name) => abs((wanted[name] ?? values[name]) - values[name]) / (system.drawing.drives[name].kind === "crank" ? 0.2 : 0.1 * size));
     const largest = 1 / max(1, ...far), passed = [here];
@@ -176,7 +223,7 @@ const solver = (() => {
       const t = min(here.t + h, 1), ahead = missed(system, here.at, between(t)), change = leastChange(system, ahead, null, 1e-14);
       const at = most(change) < 0.1 * size ? closed(system, moved(system, here.at, change), between(t)) : null, next = at && state(at, t);
       const isNear = next && hypotOf(next.at, here.at) < 2 * hypotOf(moved(system, here.at, change), here.at) + 1e-9 * size;
-      const isOn = isNear && next.rank === here.rank && next.clear >= 0.5 * here.clear && !(next.isSquare && next.rank === n && next.sign !== here.sign);
+      const isOn = isNear && next.clear >= 0.5 * here.clear && next.sign === here.sign;
       if (isOn && next.clear > TOUCH) { passed.push(here = next); h = min(1.6 * h, largest); } else if (h < 1e-13 || (isOn && next.clear <= TOUCH)) break; else h *= 0.5;
     }
     const done = here.t === 1, back = done ? undefined : passed.findLast((each) => hypotOf(each.at, here.at) > 1e-3 * size);

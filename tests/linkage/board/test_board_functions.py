@@ -445,6 +445,37 @@ def test_a_cylinder_with_a_bore_keeps_its_closed_length(board):
     assert plain[0] == pytest.approx(1.1) and plain[1] > 1.15 and sized == pytest.approx([1.1, 1.1], abs=1e-14)
 
 
+def test_what_slides_stays_on_its_line_when_points_are_moved(board):
+    found = board("""
+      let d = started("Shaper", { O: [0, 0], A: [0.03, 0.01], P: [0, -0.1], Q: [0.06, 0.12] }, "OP", ["OA", "PQ"]);
+      d = model.slide(d, "A", ["P", "Q"]);
+      return [d, model.movePoint(d, "Q", 0.1, 0.1), model.movePoint(d, "A", 0.06, 0.05)];
+    """)
+    for drawing in found:
+        (px, py), (qx, qy), (x, y) = (drawing["points"][name] for name in "PQA")
+        assert abs((qx - px) * (y - py) - (qy - py) * (x - px)) < 1e-16
+    assert found[1]["points"]["Q"] == [0.1, 0.1] and dist(found[2]["points"]["A"], (0.06, 0.05)) < 0.05
+
+
+def test_thirty_points_are_judged_and_moved_live(board):
+    found = board("""
+      const places = { K: [0.2, -0.3] }, links = [], count = 10;
+      for (let i = 0; i <= count; i++) { places[`L${i}`] = [0, 0.5 * i]; places[`R${i}`] = [1, 0.5 * i]; }
+      for (let i = 0; i < count; i++) {
+        places[`M${i}`] = [0.5, 0.5 * i + 0.25];
+        links.push([`L${i}`, `M${i}`, `R${i + 1}`], [`R${i}`, `M${i}`, `L${i + 1}`]);
+      }
+      let d = started("Lift", places, ["L0", "K"], links);
+      d = model.cylinder(model.slide(d, "R0", 0), "K", "M0", { stroke: 0.2 });
+      const begin = performance.now(), mobility = solver.mobility(d), judged = performance.now() - begin, sweep = solver.sweep(d, "S", 11);
+      return { points: Object.keys(d.points).length, mobility, judged, poses: sweep.poses, dragged: solver.drag(d, "L10", [0, 5.2]) };
+    """)
+    assert found["points"] > 30 and found["mobility"]["freedom"] == 1 and found["judged"] < 1000
+    for pose in (*found["poses"], found["dragged"]["points"]):
+        assert pose["L10"][0] == pytest.approx(0, abs=1e-9) and pose["L10"][1] == pytest.approx(10 * pose["L1"][1], rel=1e-9)
+    assert found["dragged"]["points"]["L10"][1] == pytest.approx(5.2, abs=1e-6)
+
+
 RAM = {"kind": "cylinder", "ends": ["A", "B"], "start": 0, "end": 1, "drawn": 0}
 DAMAGED = [
     {"board": 2}, {"name": "import os"}, {"name": None}, {"points": []}, {"points": {"__proto__": [0, 0]}},

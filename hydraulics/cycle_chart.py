@@ -105,6 +105,11 @@ def waiting_panel(ax: Axes, cycle: PumpCycle) -> None:
     ax.set_yticks([len(late) - 0.6 - place for place in range(len(late))], list(late), fontsize=style.SMALL)
     time_axes(ax, cycle, said("waits: the part of its speed that it does not get"), is_numbered=False)
     ax.set_ylim(-0.05, max(len(late), 1))
+    whole = [base + part for base in range(len(late)) for part in (0.0, 0.85)]
+    scale = ax.secondary_yaxis("right")
+    scale.set_yticks(whole, ["", "100\N{THIN SPACE}%"] * len(late), fontsize=style.SMALL - 1.0)
+    scale.tick_params(colors=style.MUTED, length=2.0)
+    scale.spines["right"].set_visible(False)
 
 
 def curves(ax: Axes, cycle: PumpCycle, values: Mapping[str, Array], word: str, unit: str, limit: float) -> None:

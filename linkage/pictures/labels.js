@@ -31,6 +31,10 @@ function covered(at) {
     const long = apart(at[P], at[Q]) / unit0 || 1, [u, v] = [(at[P][1] - at[Q][1]) / long, (at[Q][0] - at[P][0]) / long];
     for (const side of [-1, 0, 1]) line([at[P][0] + side * u, at[P][1] + side * v], [at[Q][0] + side * u, at[Q][1] + side * v], 2);
   }
+  for (const { on: [P, Q], lines } of scene.loads) {
+    const [x, y] = P === undefined ? px(0, 0) : at[P], turn = Q === undefined ? 0 : atan2(at[Q][1] - y, at[Q][0] - x), [c, s] = [zoom * cos(turn), zoom * Math.sin(turn)];
+    for (const { rows } of lines) rows.forEach(([a, b], k) => { if (k) line(...[rows[k - 1], [a, b]].map(([along, across]) => [x + c * along + s * across, y + s * along - c * across]), 2); });
+  }
   for (const { point, way } of scene.grounds) for (const far of [2, 3.6]) dot([at[point][0] + far * unit0 * cos(way), at[point][1] - far * unit0 * Math.sin(way)], ON_ARROW);
   for (const i of [...scene.pins, ...scene.dots]) for (const [x, y] of [[0, 0], [1, 0], [-1, 0], [0, 1], [0, -1]]) dot([at[i][0] + 0.5 * x * unit0, at[i][1] + 0.5 * y * unit0], ON_PIN);
   for (const [a, b] of arrows) line(a, b, ON_ARROW);

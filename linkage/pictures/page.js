@@ -263,6 +263,21 @@ function range(lists, limit) {
   if (limit) { const more = 0.13 * (high - low); low = min(low, limit[0] - more); high = max(high, limit[0] + more); }
   return [low, high];
 }
+/* A curve of a design as places and values in their units, with both sides of each jump between two poses, which is looked for by halving. */
+function curved(values, along, each, design) {
+  const { factor } = strokes[runs], size = (i) => abs(values[i + 1] - values[i]) || 0, most = 0.1 * (max(...finite(values)) - min(...finite(values)));
+  return values.flatMap((value, i) => {
+    const here = [[along[i], value]];
+    if (each.row === undefined || !(size(i) > most && size(i) > 6 * max(size(i - 1), size(i + 1)))) return here;
+    let low = here[0], high = [along[i + 1], values[i + 1]];
+    for (let k = 0; k < 16; k++) {
+      const at = 0.5 * (low[0] + high[0]), found = single(design, stands.map((stood, j) => (j === runs ? at * factor : stood)));
+      const middle = [at, found.reason[0] === 0 ? found.values[each.row][0] / each.factor : NaN];
+      if (abs(middle[1] - low[1]) > abs(high[1] - middle[1])) high = middle; else low = middle;
+    }
+    return abs(high[1] - low[1]) > 0.5 * size(i) ? [...here, low, high] : here;
+  });
+}
 function plotted() {
   const box = plot.getBoundingClientRect(), W = box.width || 400, H = box.height || 200, one = columns[column], two = columns[second];
   plot.replaceChildren();
@@ -277,7 +292,7 @@ function plotted() {
   const x = (s) => L + ((s - least) / (most - least || 1)) * (W - L - R), y = (v) => H - B - ((v - low) / (high - low || 1)) * (H - T - B), y2 = (v) => H - B - ((v - low2) / (high2 - low2 || 1)) * (H - T - B);
   const write = (a, b, text, more) => { draw(plot, "text", { x: a, y: b, ...more }).textContent = text; };
   const line = (list, up, colour, width, more) => {
-    const path = draw(plot, "path", { class: "line", w: width, d: broken(list.map((v, i) => (isNumber(v) ? [x(along[i]), up(v)] : null))), ...more, stroke: css(colour) });
+    const path = draw(plot, "path", { class: "line", w: width, d: broken(list.map(([s, v]) => (isNumber(v) ? [x(s), up(v)] : null))), ...more, stroke: css(colour) });
     return path;
   };
   const rule = (x1, y1, x2, y2, colour, more) => draw(plot, "line", { x1, y1, x2, y2, stroke: css(colour), ...more });
@@ -294,14 +309,15 @@ function plotted() {
   const compares = was && !isMoved();
   const along0 = stroke.unit ? signed(stroke.unit) : stroke.over === undefined ? "" : say("place"), acting = data.cases[caseNow()];
   write(compares ? L : 0.5 * (L + W - R), H - 6, [titled(stroke), along0, acting && say("in the case {case}", { case: acting })].filter(Boolean).join(", "), { anchor: compares ? "start" : "middle" });
-  if (compares) line(was, y, "muted", 2, { dash: "3 4" });
-  if (others) line(others, same ? y : y2, "other", 2.2, {});
+  if (compares) line(curved(was, along, one, original), y, "muted", 2, { dash: "3 4" });
+  if (others) line(curved(others, along, two, present), same ? y : y2, "other", 2.2, {});
   chart = { one, two, values, others, along, x, y, y2: same ? y : y2 };
   if (values) {
-    line(values, y, "curve", 2.6, {});
+    const points = curved(values, along, one, present);
+    line(points, y, "curve", 2.6, {});
     if (limit) {
       const fails = (v) => (limit[2] === "below" ? v < limit[0] : v > limit[0]);
-      line(values.map((v) => (fails(v) ? v : NaN)), y, "accent", 3.2, {});
+      line(points.map(([s, v]) => [s, fails(v) ? v : NaN]), y, "accent", 3.2, {});
       for (let i = 1; i < values.length; i++) {
         const a = values[i - 1] - limit[0], b = values[i] - limit[0];
         if (a * b < 0) { const dot = draw(plot, "circle", { r: 4, cx: x(along[i - 1] - (a * (along[i] - along[i - 1])) / (b - a)), cy: y(limit[0]) }); set(dot, { fill: css("accent") }); }

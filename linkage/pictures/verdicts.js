@@ -183,7 +183,7 @@ let toldBefore = "";
 function rested() { judge(down.size ? DRAGGING : STILL); }
 function judge(n = STILL) {
   const found = verdicts(n), key = JSON.stringify([language, system, isChanged(), found]);
-  byId("looked").textContent = `${judgedOver()}: ${say("looked at {n} values a stroke, {count} poses", { n: known.n, count: known.count })}`;
+  byId("looked").textContent = `${say("looked at {n} values a stroke, {count} poses", { n: known.n, count: known.count })}; ${judgedOver()}`;
   if (key === toldBefore) return;
   toldBefore = key;
   list(found);
@@ -329,7 +329,8 @@ function here() {
 }
 /* Where the verdicts look: at what is declared, or in which box of strokes. */
 function judgedOver() {
-  const overs = asking.spans(vector(present)).map(({ name, ends }) => name || own.map((each, k) => `${each.name} = ${say("{from} to {to}", { from: shown(ends[k][0], each, 4), to: shown(ends[k][1], each, 4) })}`).join(", "));
+  const reach = (each, list) => { const [low, high] = [min(...list), max(...list)].map((value) => shown(value, each, 4)); return low === high ? low : say("{from} to {to}", { from: low, to: high }); };
+  const overs = asking.spans(vector(present)).map(({ name, ends, places }) => name || own.map((each, k) => `${each.name} = ${reach(each, (ends || places)[k])}`).join(", "));
   return say("judged over {overs}", { overs: overs.join("; ") });
 }
 /* Unfold a rule and go to it. */

@@ -62,6 +62,7 @@ from linkage.quantities import name_of
 from linkage.reports import results
 from linkage.units import MPa, bar, mm, unit_system
 from mechanisms.at_work.forwarder import LoadingForwarder
+from mechanisms.at_work.one_pump import RegenerativePress
 from mechanisms.at_work.telehandler import Telehandler
 from mechanisms.classics.stephenson_three import StephensonThree, StephensonThreeFar
 from mechanisms.grapple import Grapple
@@ -769,6 +770,36 @@ def test_every_path_that_a_machine_declares_runs_and_what_is_out_of_bounds_is_to
         assert "F_R free \N{MINUS SIGN}196.6" in shown.text("#here") and "all kept" not in shown.text("#here")
         assert "2 no hang-up" in shown.text("#groups summary >> nth=0")
         assert shown("(({ scrollWidth, clientWidth }) => scrollWidth <= clientWidth)(document.getElementById('here'))")
+
+
+MARKS = (
+    "[...document.querySelectorAll('#mechanism g > polyline, #mechanism g > polygon')].map((each) => each.getBoundingClientRect())"
+    ".filter(({ width, height }) => Math.max(width, height) < 40).map(({ x, y, width, height }) => [x + width / 2, y + height / 2])"
+)
+
+
+def test_a_jump_of_a_curve_is_upright_and_a_name_stands_beside_a_support(chromium, tmp_path):
+    """The header balancer's shoe takes up the load at once where the line has run empty."""
+    with Shown(chromium, page(HeaderBalancer(), tmp_path / "balancer.html")) as shown:
+        line = shown("document.querySelector('#curve path[stroke-width=\"2.6\"]').getAttribute('d')")
+        points = np.array([each.split(" ") for each in re.split("[ML]", line)[1:]], float)
+        steps = np.abs(np.diff(points, axis=0))
+        jump = int(np.argmax(steps[:, 1]))
+        assert steps[jump, 1] > 50.0 and steps[jump, 0] < 0.2
+        assert len(points) == 103
+        (left, top, right, bottom), marks = next(box for text, *box in shown(TEXTS) if text == "R"), shown(MARKS)
+        x, y = shown("(({ x, y }) => [x, y])(document.getElementById('mechanism').getBoundingClientRect())")
+        assert marks and not [mark for mark in marks if left < mark[0] - x < right and top < mark[1] - y < bottom]
+
+
+def test_what_happened_on_the_way_is_as_delivered_once_a_dimension_changes(chromium, tmp_path):
+    design = RegenerativePress()
+    run = design.plan.members["supply"].run(design, demands={"ram": 0.2}, start={"S": 0.0}, until=1.0)
+    with Shown(chromium, page(run, tmp_path / "press.html")) as shown:
+        told = shown.text(".event")
+        assert told and "judged over" in shown.text("#looked")
+        shown.slide("#dimensions input[type=range]", 480)
+        assert shown.text(".event") == f"as delivered: {told}" and shown.said == []
 
 
 @first_daily(1, "playing", [False, True])

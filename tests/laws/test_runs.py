@@ -21,7 +21,7 @@ from linkage.pictures.strokes import playback
 from linkage.reports import results, run_of, runs_of
 from linkage.units import UNITS, bar, deg, mm
 from mechanisms.at_work.front_loader import LoadedFrontLoader
-from tests.for_all import for_all
+from tests.for_all import first_daily, for_all
 from tests.shipped import AT_WORK, MACHINES
 
 
@@ -142,7 +142,7 @@ def test_no_printed_value_of_a_report_lies_outside_what_is_judged(machine):
     assert seen
 
 
-@pytest.mark.parametrize("machine", OWN)
+@first_daily(2, "machine", [OfPaths, OfATurningBox, OfABox, OfPoses])
 def test_a_table_of_the_command_and_a_plot_show_the_same_runs(machine, capsys, monkeypatch):
     monkeypatch.setattr("linkage.cli.settings.find", lambda name: machine)
     design, ends = machine(), judged_ends(machine())

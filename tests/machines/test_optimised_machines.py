@@ -231,7 +231,7 @@ PROBLEMS = {
         subject_to=[most(angle("H", "V")) - least(angle("H", "V")) >= 120 * deg], starts=2,
     )),
 }  # fmt: skip
-QUICK = ("gear shift", "pulled", "pushed", "mower", "plough", "fold")
+QUICK = ("gear shift", "mower", "plough", "fold")
 
 
 @pytest.mark.filterwarnings("ignore::linkage.SingularWarning")
@@ -278,7 +278,7 @@ def random_problem(seed):
 
 
 @pytest.mark.filterwarnings("ignore::linkage.SingularWarning")
-@first_daily(3, "seed", sorted(range(40), key=lambda seed: seed not in (1, 5, 18)))
+@first_daily(2, "seed", sorted(range(40), key=lambda seed: seed not in (1, 5)))
 def test_random_problems_on_random_machines(seed):
     found = random_problem(seed)
     if found is None:

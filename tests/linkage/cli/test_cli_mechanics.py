@@ -195,11 +195,15 @@ def test_capacity_of_any_machine(said):
     further = [float(row[head.index("further load, kN")]) for row in rows]
     along = loader().at(S=[0.0, 0.05, 0.1, 0.1, 0.15, 0.2])
     np.testing.assert_allclose(further, pump.capacity(along, "G") / kN, rtol=1e-12)
+    code, _, err = said("capacity", "loader.py", "--machine", "loader.py")
+    assert code == 2 and "--machine loader.py: loader.py is no file of a design" in err
+
+
+@pytest.mark.slow
+def test_capacity_of_a_design_in_a_file_is_that_of_its_dimensions(said):
     Path("design.toml").write_text('machine = "loader.py"\n[set]\nOB = 0.25\n', encoding="utf-8")
     designed = said("capacity", "design.toml", "--machine", "loader.py", "--count", "3")
     assert designed == said("capacity", "loader.py", "--set", "OB=0.25", "--count", "3") and designed[0] == 0
-    code, _, err = said("capacity", "loader.py", "--machine", "loader.py")
-    assert code == 2 and "--machine loader.py: loader.py is no file of a design" in err
 
 
 @pytest.mark.parametrize(

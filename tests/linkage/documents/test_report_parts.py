@@ -501,6 +501,10 @@ def test_a_report_says_how_a_machine_runs(tmp_path):
     equations_said = text.partition(" Calculation\n")[2].partition("\n## ")[0]
     assert "over rise, in the case full" in equations_said and "They are those of slow motion" in equations_said
     assert f"{{{middle:.6g}}}" in equations_said
+
+
+@pytest.mark.slow
+def test_a_rate_that_jumps_counts_no_inertia_and_a_box_is_in_no_time(tmp_path):
     report(Sudden(), tmp_path / "sudden.md", count=3)
     assert "No inertia is counted, over rise, in the case full: the rate of S jumps" in (tmp_path / "sudden.md").read_text(encoding="utf-8")
     assert " As it runs" not in (report(Pumped(), tmp_path / "box.md", over=Pumped.plan.members["box"])).read_text(encoding="utf-8")

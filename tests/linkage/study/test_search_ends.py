@@ -120,9 +120,9 @@ def boom_at_length():
 @pytest.mark.parametrize(
     ("name", "limit"),
     [
-        ("boom", 1), ("boom", 30), ("loader", 30),
+        ("boom", 1), ("loader", 30),
         *[pytest.param(name, limit, marks=pytest.mark.slow)
-          for name in ("boom", "tipper", "loader", "excavator") for limit in (1, 40, 150)],
+          for name in ("boom", "tipper", "loader", "excavator") for limit in (1, 30, 40, 150)],
     ],
 )  # fmt: skip
 def test_a_limit_is_kept_told_and_gives_the_best_so_far_the_same_each_time(name, limit):
@@ -172,7 +172,7 @@ def test_an_infinite_derivative_is_no_error():
 
 def test_a_bore_that_stands_on_its_rod_is_named():
     holds = most(buckling("lift")) <= 1.0
-    best = optimise(Boom(), minimise=at("lift.bore"), vary={"lift.bore": (50 * mm, 0.12)}, subject_to=[holds], starts=2)
+    best = optimise(Boom(), minimise=at("lift.bore"), vary={"lift.bore": (50 * mm, 0.12)}, subject_to=[holds], starts=1)
     assert best.value == pytest.approx(63 * mm, abs=1e-6)
     (edge,) = best.edges
     assert "lift.bore = 63 mm stands at an edge" in edge
@@ -308,7 +308,7 @@ def test_alternatives_are_each_in_its_own_unit_and_those_of_brute_force():
 def test_forces_and_lengths_give_way_in_their_units():
     limits = [RISE >= 0.9, most(pressure("lift")) <= 60 * bar, most(pin_force("O")) <= 10 * kN]
     with pytest.raises(InfeasibleError) as caught:
-        optimise(Boom(), minimise=most(pressure("lift")), vary={"A": around(60 * mm), "OB": (0.25, 0.35)}, subject_to=limits)
+        optimise(Boom(), minimise=most(pressure("lift")), vary={"A": around(60 * mm), "OB": (0.25, 0.35)}, subject_to=limits, starts=2)
     said = str(caught.value)
     assert " mm short" in said
     assert "kN too much" in said

@@ -148,7 +148,7 @@ def test_threads_that_trace_a_machine_at_the_same_time(designs, measure):
     wanted, interval = held(machine.replaced(**over), threading.Barrier(1)), sys.getswitchinterval()
     sys.setswitchinterval(1e-6)
     try:
-        for _ in range(4):
+        for _ in range(2):
             fresh, start = type("Fresh", (type(machine),), {})().replaced(**over), threading.Barrier(4)
             with ThreadPoolExecutor(4) as pool:
                 for found in pool.map(held, [fresh] * 4, [start] * 4):

@@ -5,7 +5,6 @@ import io
 import re
 
 import numpy as np
-import pytest
 from numpy.testing import assert_allclose
 
 from hydraulics import Cylinder, LiftCircuit, reserve, thrust
@@ -76,9 +75,6 @@ class OfATurningBox(Lift):
     raising = Over(S=(0.04, 0.2), T=0.08)
 
 
-OWN = (OfPaths, OfABox, OfCases, OfPoses, OfATurningBox)
-
-
 def declaring():
     """Return the shipped machines that declare where they run, by name; drives by their cylinders have no table along it."""
     found = {name: machine for name, machine in {**MACHINES, **AT_WORK}.items() if not name.endswith("_by_cylinder")}
@@ -108,7 +104,7 @@ def check_within(name, values, ends, digits=0.0):
     assert not finite.size or np.isnan(high) or finite.max() <= high + near, (name, finite.max(), high)
 
 
-@for_all("machine", [OfPaths, OfPoses], slow=lambda: [OfABox, OfATurningBox, LoadedFrontLoader, *declaring().values()])
+@for_all("machine", [OfPaths, OfCases, OfPoses], slow=lambda: [OfABox, OfATurningBox, LoadedFrontLoader, *declaring().values()])
 def test_every_column_of_every_run_lies_within_what_is_judged(machine):
     design = machine()
     ends, seen = judged_ends(design), 0
@@ -142,7 +138,7 @@ def test_no_printed_value_of_a_report_lies_outside_what_is_judged(machine):
     assert seen
 
 
-@first_daily(2, "machine", [OfPaths, OfATurningBox, OfABox, OfPoses])
+@first_daily(3, "machine", [OfPaths, OfCases, OfATurningBox, OfABox, OfPoses])
 def test_a_table_of_the_command_and_a_plot_show_the_same_runs(machine, capsys, monkeypatch):
     monkeypatch.setattr("linkage.cli.settings.find", lambda name: machine)
     design, ends = machine(), judged_ends(machine())

@@ -145,7 +145,7 @@ class Shown:
         self.tab = idle[0] if idle else browser.new_context(**{"viewport": viewport, "reduced_motion": "reduce"} | options).new_page()
         self.tab.set_viewport_size(viewport)
         self.said, self.asked, self.is_plain = [], [], not options
-        self.tab.set_default_timeout(60_000)  # of a machine with more to do than this
+        self.tab.set_default_timeout(30_000)
         self.heard = {
             "console": lambda message: self.said.append(message.text),
             "pageerror": lambda error: self.said.append(str(error)),
@@ -154,7 +154,7 @@ class Shown:
         for event, hear in self.heard.items():
             self.tab.on(event, hear)
         self.tab.goto(f"{Path(file).as_uri()}{mark}")
-        for _ in range(6000):  # the policy lets no text be evaluated while the page waits
+        for _ in range(3000):  # the policy lets no text be evaluated while the page waits
             if self.tab.evaluate("window.hydrolinkage !== undefined"):
                 break
             self.tab.wait_for_timeout(10)

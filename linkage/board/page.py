@@ -18,8 +18,8 @@ from ..sketch import MachineSketch, sketch_of
 from .drawing import drawing_data
 
 PARTS = (
-    "board/board.html", "page.css", "board/board.css", "mechanism.js", "labels.js", "board/model.js", "board/solver.js",
-    "board/writers.js", "board/sheet.js", "board/tools.js",
+    "board/board.html", "page.css", "board/board.css", "mechanism.js", "labels.js", "copy.js", "board/model.js", "board/solver.js",
+    "board/writers.js", "board/sheet.js", "board/work.js", "board/panel.js", "board/tools.js", "board/exchange.js",
 )  # fmt: skip
 UNITS = ("mm", "m", "in")
 """The lengths that the board shows and reads."""

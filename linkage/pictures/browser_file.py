@@ -21,7 +21,7 @@ PageData: TypeAlias = dict[str, Any]
 """What a page's script reads: numbers, texts, lists and further data by name."""
 COLOURS = ("INK", "MUTED", "RULE", "GRID", "PAPER", "CURVE", "ACCENT", "BARREL", "ROD", "PISTON")
 LANGUAGES = ("en", "ru")
-MACHINE = ("machine.html", "page.css", "mechanism.js", "labels.js", "page.js", "verdicts.js", "hands.js", "leave.js")
+MACHINE = ("machine.html", "page.css", "mechanism.js", "labels.js", "page.js", "verdicts.js", "hands.js", "copy.js", "leave.js")
 """The parts of a page with a machine that moves and changes; what a kind of page adds comes after them, and START last."""
 START = "start.js"
 EVENTS = ("events.css", "events.js")

@@ -1,9 +1,11 @@
 """The drawing board in headless Chromium: machines drawn from nothing by pointer and by keyboard, moved, undone, kept and opened."""
 
 import json
+import re
 import tomllib
 from itertools import combinations
 from math import dist
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,7 +14,7 @@ from numpy.testing import assert_allclose
 from linkage import deg, drawing_board
 from linkage.cli import main
 from linkage.files import load
-from tests.linkage.pictures.test_page import PHONE, Shown, chromium  # noqa: F401
+from tests.linkage.pictures.test_page import PHONE, Shown, chromium, data_of, unpacked  # noqa: F401
 
 SWEPT = """() => {
     const drawing = hydrolinkage.current();
@@ -162,6 +164,32 @@ FOUR_BAR = (
     {frozenset(ends) for ends in (((0, 0), (100, 60)), ((100, 60), (400, 300)), ((400, 300), (520, 0)))},
     {("crank", (0, 0), (100, 60))},
 )
+
+
+def test_the_page_is_one_small_file_without_addresses(empty):
+    text = empty.read_text(encoding="utf-8")
+    assert len(text.encode()) <= 120_000
+    assert set(re.findall(r"https?://[^\"'`\s]+", text + unpacked(text, "program"))) == {"http://www.w3.org/2000/svg"}
+    assert "default-src 'none'" in text and len(re.findall(r"'sha256-[^']+'", text)) == 3
+    assert data_of(text)["sizes"]["strokes"][:2] == [0.025, 0.04]
+
+
+TABLE = "kind,name,x [mm],y [mm],what\npoint,O,0,0,fixed\npoint,A,100,50,pin\npoint,B,300,0,pin\nlink,arm,,,O A\nlink,rod,,,A B\n"
+
+
+def test_the_command_opens_what_other_commands_read(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "table.csv").write_text(TABLE, encoding="utf-8")  # nothing drives it yet: that is drawn on the board
+    assert main(["import", "table.csv", "-o", "table.json", "--drive", "O", "A"]) == 2  # B is loose
+    written = {"four_bar": "OACBP", "table.csv": "OAB"}
+    for given, points in written.items():
+        assert main(["board", given]) == 0
+        assert {*data_of(Path("board.html").read_text(encoding="utf-8"))["drawing"]["points"]} == {*points}
+    assert main(["board"]) == 0
+    assert data_of(Path("board.html").read_text(encoding="utf-8"))["drawing"] is None
+    assert main(["board", "excavator"]) == 2 and "it has parts" in capsys.readouterr().err
+    assert main(["board", "-o", "board.txt"]) == 2 and "ends in .html" in capsys.readouterr().err
+    assert main(["board", "four_ba"]) == 2 and "four_bar" in capsys.readouterr().err
 
 
 def test_a_four_bar_by_pointer_and_by_keys_is_the_same(chromium, empty):  # noqa: F811

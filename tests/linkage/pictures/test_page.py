@@ -45,6 +45,7 @@ from linkage import (
     working_field,
     y,
 )
+from linkage.board.page import PARTS as BOARD_PARTS
 from linkage.cli import main
 from linkage.cli.listing import registered
 from linkage.cli.machines import design_of_file, find
@@ -74,6 +75,7 @@ from tests.laws.test_working_field import Digger as LiftingDigger
 from tests.laws.test_working_field import Robot
 from tests.linkage.statics.test_vehicle import Digger, Truck
 
+BOARD = [each for each in BOARD_PARTS if each.startswith("board/") and each.endswith(".js")]
 DATA = Path(__file__).parents[1] / "data"
 CHROMIUM = Path("/usr/bin/chromium")
 ARGUMENTS = (
@@ -281,7 +283,7 @@ def test_the_largest_page_of_a_shipped_machine_is_small(tmp_path):
 def test_a_program_loses_spaces_alone_and_none_that_is_read():
     read = 'const a = (b) => `${b ? `one ${b + 1} of` : ""} them` + " = { a }" - 2 / b, c = text.replace(/ = [/"] /g, " , ") / 2;'
     assert tight(read) == 'const a=(b)=>`${b ? `one ${b + 1} of` : ""} them` + " = { a }" - 2/b,c=text.replace(/ = [/"] /g," , ")/2;'
-    for name in ("mechanism.js", "page.js", "verdicts.js", "hands.js", "leave.js", "labels.js", "judge.js", "chart.js"):
+    for name in ("mechanism.js", "page.js", "verdicts.js", "hands.js", "copy.js", "leave.js", "labels.js", "judge.js", "chart.js", *BOARD):
         assert re.sub(r"\s", "", tight(page_part(name))) == re.sub(r"\s", "", bare(page_part(name))), name
 
 
@@ -320,7 +322,8 @@ def test_a_second_page_of_a_machine_traces_nothing_again(tmp_path, monkeypatch):
 
 def test_what_a_page_says_is_what_is_translated():
     """A sentence that is no literal where it is said would never be translated: labels alone are, and stand in the text."""
-    script = "".join(map(page_part, ("mechanism.js", "page.js", "verdicts.js", "hands.js", "leave.js", "task.js", "chart.js", "judge.js")))
+    names = ("mechanism", "page", "verdicts", "hands", "copy", "leave", "task", "chart", "judge")
+    script = "".join(page_part(f"{name}.js") for name in names)
     assert set(re.findall(r'\bsay\(([^"][^,)]*)', script)) == {"text", *(f"each.dataset.{kind}" for kind in ("say", "tip", "name"))}
     assert len(said_in(script)) > 50
 

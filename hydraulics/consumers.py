@@ -17,8 +17,7 @@ from typing import Any, final
 import numpy as np
 
 from linkage.errors import DefinitionError, unknown
-from linkage.loads import AS_IT_RUNS, Acting
-from linkage.loads.element import ForceElement
+from linkage.loads import AS_IT_RUNS, Acting, ForceElement
 from linkage.motion import Motion, PoseFunction, Request, ratio
 from linkage.motion.requests import as_they_run
 from linkage.plan import Plan, rate_name

@@ -19,11 +19,9 @@ from linkage.disk import replacing_text
 from linkage.errors import DefinitionError
 from linkage.frozen import FrozenDict, immutable, read_only, refuses_changes
 from linkage.language import said
-from linkage.loads import PLAIN_CASE, Acting
-from linkage.loads.element import ForceElement
-from linkage.motion import Instants, Judge, Motion, require_motion
+from linkage.loads import PLAIN_CASE, Acting, ForceElement
+from linkage.motion import Instants, Judge, Motion, from_above, require_motion
 from linkage.motion.grid import recalled
-from linkage.motion.table import from_above
 from linkage.numeric import last_holding
 from linkage.quantities import name_of
 from linkage.units import show

@@ -18,22 +18,8 @@ from linkage.errors import DefinitionError, ensure, known_name, unknown
 from linkage.frozen import immutable
 from linkage.language import noted, said, said_of, with_and
 from linkage.loads import FRICTIONLESS, Acting, Case, ForceElement, Loads, Parameter, situation_of
-from linkage.motion import (
-    Answer,
-    Condition,
-    Judge,
-    Motion,
-    PageWords,
-    Question,
-    Span,
-    at,
-    below_zero,
-    least,
-    most,
-    over_time,
-    reached_spans,
-    require_motion,
-)
+from linkage.motion import Answer, Judge, Motion, PageWords, Question, Span, below_zero, over_time, reached_spans, require_motion
+from linkage.motion.measures import Condition, at, least, most
 from linkage.quantities import NamedMembers, Reference, distance, label, of_kind
 from linkage.statics import LawRequest, elements_of, is_among
 from linkage.units import UNITS, show

@@ -25,65 +25,17 @@ from linkage.checks import is_listed
 from linkage.errors import DefinitionError, cited, ensure, known_name, unknown, unwarned
 from linkage.frozen import immutable, refuses_changes
 from linkage.language import noted, said, translated, with_and
-from linkage.loads import (
-    AS_IT_RUNS,
-    AT_REST,
-    FRICTIONLESS,
-    Acting,
-    ActingKeywords,
-    Case,
-    ForceElement,
-    Load,
-    Loads,
-    situation_of,
-    takes_situation,
-)
+from linkage.loads import AS_IT_RUNS, AT_REST, FRICTIONLESS, DrawnAs, ForceElement, Load, TwoPoint
+from linkage.loads.acting import Acting, ActingKeywords, Case, Loads, situation_of, takes_situation
 from linkage.loads.element import DIRECTIONS, UNBOUNDED, Declared, Formulas, Parameter, Poses, Push, Rates, Share, Tie, require_poses
-from linkage.loads.two_point import DrawnAs, TwoPoint
-from linkage.motion import (
-    Answer,
-    Column,
-    HasVerdicts,
-    Judge,
-    Motion,
-    PageWords,
-    Question,
-    Request,
-    SmoothPiece,
-    Tabled,
-    greatest,
-    lowest,
-    over_time,
-    require_motion,
-)
+from linkage.motion import Answer, Column, Judge, Motion, Question, Request, SmoothPiece, Tabled, greatest, lowest, require_motion
+from linkage.motion.judging import HasVerdicts, PageWords, over_time
 from linkage.motion.measures import Condition, Constraint, MeasuredQuantity, at, least, most
 from linkage.plan import Mask, Plan
-from linkage.quantities import (
-    InnerQuantity,
-    Member,
-    NamedMembers,
-    Quantity,
-    Reference,
-    body_name,
-    distance,
-    label,
-    name_of,
-    of_kind,
-    quantity,
-)
-from linkage.statics import (
-    AnyMotion,
-    LawRequest,
-    applied_elements,
-    elements_of,
-    held_in_case,
-    is_among,
-    member_thrust,
-    motion_of_whole,
-    own_rates,
-    request_text,
-    same,
-)
+from linkage.quantities import InnerQuantity, Quantity, distance, label, quantity
+from linkage.quantities.member import Member, NamedMembers, Reference, body_name, name_of, of_kind
+from linkage.statics import LawRequest, applied_elements, elements_of, held_in_case, is_among, member_thrust, own_rates, request_text, same
+from linkage.statics.poses import AnyMotion, motion_of_whole
 from linkage.units import show, shown_number, unit_sign
 from linkage.verdict import Remark, Verdict
 

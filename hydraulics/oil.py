@@ -30,22 +30,8 @@ from linkage.loads import Acting, ActingKeywords, Declared, ForceElement, Loads,
 from linkage.loads.element import UNBOUNDED, Formulas
 from linkage.motion import Condition, Judge, Motion, PageWords, Question, at, least, most
 from linkage.plan import require_kinds
-from linkage.quantities import (
-    AtPose,
-    Distance,
-    Member,
-    NamedMembers,
-    Number,
-    Quantity,
-    Reference,
-    Stroke,
-    Variable,
-    Where,
-    label,
-    name_of,
-    quantity,
-)
-from linkage.quantities.member import of_kind
+from linkage.quantities import AtPose, Distance, Number, Quantity, Stroke, Variable, label, quantity
+from linkage.quantities.member import Member, NamedMembers, Reference, Where, name_of, of_kind
 from linkage.quantities.quantity import plain
 from linkage.statics import AnyMotion, LawRequest, each_once, held_in_case, plan_of, same
 from linkage.units import require_measure, show

@@ -20,8 +20,7 @@ from linkage.checks import require, require_number, require_type
 from linkage.errors import AssemblyError, DefinitionError, ensure, known_name, unwarned
 from linkage.frozen import FrozenDict
 from linkage.language import said, with_and
-from linkage.loads import Acting
-from linkage.loads.element import ForceElement
+from linkage.loads import Acting, ForceElement
 from linkage.mechanism import Mechanism
 from linkage.motion import Instants, Motion, Over
 from linkage.numeric import last_holding

@@ -12,8 +12,7 @@ from linkage import Acting, Ground, LoadCase, OnLink, around, at, deg, drive_for
 from linkage.loads import FRICTIONLESS
 from linkage.motion.measures import Condition, Measure
 
-from .header_balancer import HEADERS, HeaderBalancer, with_header
-from .header_balancer.side_by_side import ThreeHeaders
+from .header_balancer import HEADERS, HeaderBalancer, ThreeHeaders, with_header
 from .mower_lift import BELOW, DELFI, MowerLift
 from .three_point_hitch import ThreePointHitch
 

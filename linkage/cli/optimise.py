@@ -14,8 +14,7 @@ import numpy as np
 
 from ..disk import check_place, in_words
 from ..errors import DefinitionError, StudyError, ensure, unknown
-from ..files import save
-from ..files.read import load
+from ..files import load, save
 from ..files.study_file import FindMachine, Settings
 from ..files.study_tasks import TaskResult, read_study
 from ..files.synthesis_file import SearchFile, read_search, read_synthesis

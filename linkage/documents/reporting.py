@@ -20,23 +20,9 @@ from ..language import current_language, heading_of, said, said_of, translated, 
 from ..language import language as spoken
 from ..loads import PLAIN_CASE, Acting, situation_of
 from ..mechanism import Mechanism, played_along, verdicts_of
-from ..motion import (
-    Answer,
-    Column,
-    Constraint,
-    HasVerdicts,
-    Leaf,
-    Motion,
-    MotionFunction,
-    Request,
-    least,
-    most,
-    places_text,
-    speakers,
-    stroke_display_unit,
-)
+from ..motion import Answer, Column, HasVerdicts, Motion, MotionFunction, Request, places_text, speakers, stroke_display_unit
 from ..motion.judging import verdict_questions
-from ..motion.measures import measure_of
+from ..motion.measures import Constraint, Leaf, least, measure_of, most
 from ..pictures.curves import limit_of
 from ..pictures.poses import named_points
 from ..quantities import Dimension

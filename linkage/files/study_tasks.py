@@ -33,9 +33,8 @@ from ..motion.measures import At, Condition, Constraint, Given, Integral, Leaf, 
 from ..plan import Mask, Plan
 from ..program import FloatArray
 from ..quantities import is_number
-from ..study import Target, monte_carlo, settings_for, survey, tornado, zone
+from ..study import Box, Target, monte_carlo, settings_for, survey, tornado, zone
 from ..study.box import METHODS as SAMPLE_METHODS
-from ..study.box import Box
 from ..study.checks import unit_of
 from ..study.measured import measured_title
 from ..study.monte_carlo import limits_listed

@@ -25,9 +25,8 @@ import numpy as np
 
 from ..errors import DefinitionError, ensure, known_name, unknown
 from ..frozen import immutable
-from ..motion import stroke_measure
+from ..motion import outside, stroke_measure
 from ..motion.measures import Condition, Measure, measure_of, words_of
-from ..motion.regions import outside
 from ..program import FloatArray
 from ..quantities import is_number
 from ..study.optimise import METHODS as SEARCH_METHODS
@@ -37,8 +36,7 @@ from ..study.problem import is_still, ranges_of
 from ..study.space import point_regions, size_of_machine
 from ..study.survey import Progress
 from ..surroundings import Outline
-from ..synthesis import FunctionTask, PathTask, PoseTask
-from ..synthesis.task_search import synthesise
+from ..synthesis import FunctionTask, PathTask, PoseTask, synthesise
 from ..units import UNITS, factor, units_of
 from . import study_file
 from .criterion import condition_said, measure_said, quantity_said

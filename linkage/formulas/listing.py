@@ -11,21 +11,8 @@ import sympy
 from ..frozen import immutable
 from ..motion import Motion
 from ..plan import Plan
-from ..quantities import (
-    FRAME_AXES,
-    AtPose,
-    Axes,
-    Member,
-    Quantity,
-    Reference,
-    Tabulated,
-    Turning,
-    Variable,
-    Where,
-    joined_names,
-    name_of,
-    spelled,
-)
+from ..quantities import FRAME_AXES, AtPose, Axes, Quantity, Variable, spelled
+from ..quantities.member import Member, Reference, Tabulated, Turning, Where, joined_names, name_of
 from ..steps import Arrow, Assignment, Axis, CosineAngle, Group, Guide, Offset, Point, Turn, Vector
 from ..vectors import FloatArray, Line, Numbers, Scalar, Vec
 from .names import Direction, Norm, SymbolNames, Tcos, TurnV, TurnVL, explicit, vector_symbol

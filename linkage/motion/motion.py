@@ -17,21 +17,8 @@ from ..frozen import read_only
 from ..numeric import differences
 from ..plan import ArrayReading, Mask, Part, Plan, failures, negative, rate_name, require_kinds
 from ..program import FloatArray, Kernel
-from ..quantities import (
-    FRAME_AXES,
-    Angle,
-    Axes,
-    Coordinate,
-    Distance,
-    Member,
-    Number,
-    Quantity,
-    Reference,
-    as_mapping,
-    name_of,
-    needs,
-    quantity,
-)
+from ..quantities import FRAME_AXES, Angle, Axes, Coordinate, Distance, Number, Quantity, quantity
+from ..quantities.member import Member, Reference, as_mapping, name_of, needs
 from ..shown import Shown
 from ..steps import Arrow, Point
 from ..vectors import Numbers, Vec

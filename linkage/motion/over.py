@@ -17,23 +17,8 @@ from ..language import said
 from ..loads import PLAIN_CASE, Case, LoadCase
 from ..plan import Mask, Plan, require_kind
 from ..program import FloatArray
-from ..quantities import (
-    Course,
-    Curve,
-    Member,
-    PoseCondition,
-    Quantity,
-    Stroke,
-    course_of,
-    is_number,
-    keywords,
-    name_of,
-    needs,
-    numbers_in,
-    quantity,
-    real,
-)
-from ..quantities.course import check_rising
+from ..quantities import Curve, Member, PoseCondition, Quantity, Stroke, is_number, keywords, name_of, needs, numbers_in, quantity, real
+from ..quantities.course import Course, check_rising, course_of
 from ..units import Amount, amount_or_float, require_measure, show
 from .grid import MotionLike
 from .instants import Instants

@@ -22,8 +22,7 @@ from ..numeric.box import widened
 from ..numeric.descent import all_known, along, corners_all, descended, extremes_of_cells, grid_axes, is_one_solution, without_repeats
 from ..numeric.line import Index, last_holding
 from ..plan import Mask, Plan, require_kind
-from ..program import QUICKEST, FloatArray, Kernel, RunOptions
-from ..program.elimination import is_zero
+from ..program import QUICKEST, FloatArray, Kernel, RunOptions, is_zero
 from ..quantities import Quantity, is_number, numbers_in
 from ..units import amount_or_float, deg, display_unit, mm, require_measure, show, unit_or_none
 from .conditions import WARN

@@ -23,8 +23,7 @@ from ..loads import AS_IT_RUNS, DIRECTIONS, Acting
 from ..pickling import object_of, picklable
 from ..plan import NEAR, REGULAR, ArrayReading, Mask, Plan
 from ..program import FloatArray, Kernel, Node, Notes, ancestors, gradient
-from ..quantities import TAKEN, Arithmetic, Member, Number, Quantity, Reference, label, name_of, quantity, spelled
-from ..quantities.quantity import PoseCondition
+from ..quantities import TAKEN, Arithmetic, Member, Number, PoseCondition, Quantity, Reference, label, name_of, quantity, spelled
 from ..steps import Arrow, Point
 from .conditions import LEAST, PLACES, PrecisionLeft
 from .grid import MotionLike

@@ -17,38 +17,14 @@ from ..errors import DefinitionError, LinkageError, cited, known_name, unknown, 
 from ..language import heading_of, language, translated
 from ..loads import PLAIN_CASE, Case, TwoPoint
 from ..mechanism import Mechanism, verdicts_of
-from ..motion import (
-    Answer,
-    Column,
-    HasVerdicts,
-    Judge,
-    LiveText,
-    Motion,
-    RequestLike,
-    Tabled,
-    case_named,
-    speakers,
-    stroke_display_unit,
-    transmission,
-)
-from ..motion.requests import NodeRequest
+from ..motion import Answer, Column, HasVerdicts, Judge, LiveText, Motion, Tabled, case_named, speakers, stroke_display_unit
+from ..motion.requests import NodeRequest, RequestLike, transmission
 from ..plan import Plan, name_or_pins, opening, plan_measure, require_kind
 from ..plugins import MACHINES, entry_points
 from ..program import FloatArray, Node
 from ..quantities import is_number, joined_names
-from ..reports import (
-    NOTHING,
-    At,
-    LiveColumn,
-    column_requests,
-    is_changing,
-    motion_over,
-    reached_motion,
-    request_in_case,
-    results,
-    run_along,
-    run_of,
-)
+from ..reports import LiveColumn, column_requests, is_changing, request_in_case, results
+from ..reports.runs import NOTHING, At, motion_over, reached_motion, run_along, run_of
 from ..units import SYSTEMS, UNITS, deg, display_unit, factor, shown_in, unit_system
 from .browser_file import EVENTS, MACHINE, START, PageData, page_part, page_text, tight
 from .browser_forces import force_arrows, page_situations, situated_requests, situated_rows

@@ -14,8 +14,7 @@ from ..errors import DefinitionError, LawError, LinkageError, UntracedError, unw
 from ..language import heading_of, language, translated
 from ..loads import FRICTIONLESS, PLAIN_CASE, Acting
 from ..mechanism import Mechanism
-from ..motion import Column, Condition, HasVerdicts, LiveText, PageWords, Request, RequestLike, least, most, speakers
-from ..motion.instants import Instants
+from ..motion import Column, Condition, HasVerdicts, Instants, LiveText, PageWords, Request, RequestLike, least, most, speakers
 from ..motion.judge import Domain, Judge, Sought, leaf_key, measures_of
 from ..motion.judging import NEAR, verdict_questions
 from ..motion.measures import At, CombinedMeasure, Constraint, Given, Integral, Leaf, Measure, conditions_of, dimension_value

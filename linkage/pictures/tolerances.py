@@ -15,8 +15,7 @@ from matplotlib.ticker import MaxNLocator
 from ..checks import require_type
 from ..errors import DefinitionError, cited, known_name
 from ..mechanism import Mechanism
-from ..motion import Column
-from ..motion.measures import Leaf
+from ..motion import Column, Leaf
 from ..program import FloatArray
 from ..study import Zone
 from ..study.measured import number_bound

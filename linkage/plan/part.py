@@ -13,9 +13,22 @@ import numpy as np
 from ..checks import is_listed, two_of
 from ..errors import DefinitionError, about, cited, ensure, is_yes, unknown
 from ..frozen import FrozenDict
-from ..quantities import FRAME_AXES, Axes, Coordinate, Dimension, Operand, Quantity, Ref, Stroke, Variable, is_number, label, quantity
+from ..quantities import (
+    FRAME_AXES,
+    Axes,
+    Coordinate,
+    Dimension,
+    Operand,
+    Quantity,
+    Ref,
+    Stroke,
+    Variable,
+    is_nothing,
+    is_number,
+    label,
+    quantity,
+)
 from ..quantities import spelled as written
-from ..quantities.axes import is_nothing
 from ..quantities.member import Member, Reference, name_of, needs, of_kind, word_arguments
 from ..steps import Arrow, Drawn, Group, Link, Point, Step
 from ..steps.labels import Spoken

@@ -17,13 +17,11 @@ import numpy as np
 from ..errors import DefinitionError, SingularError, cited, unwarned
 from ..language import noted
 from ..loads import Acting, Case, Force, ForceElement, Support, TwoPoint
-from ..motion import HasVerdicts, Judge, Motion, Over
+from ..motion import HasVerdicts, Judge, Motion, Over, RequestLike, speakers
 from ..motion.grid import not_joined
 from ..motion.judge import Domain
 from ..motion.measures import Least, Measure, Most, words_of
 from ..motion.places import way_of
-from ..motion.requests import RequestLike
-from ..motion.table import speakers
 from ..plan import Mask, Plan
 from ..program import FloatArray, Kernel
 from ..quantities import Quantity, name_of, quantity, real

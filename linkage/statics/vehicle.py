@@ -18,8 +18,7 @@ from numpy.typing import ArrayLike
 from ..checks import require
 from ..errors import DefinitionError, known_name
 from ..language import noted, said, translated
-from ..loads import FRICTIONLESS, PLAIN, Acting, ActingKeywords, Case, LoadCase, Loads, situation_of, takes_situation
-from ..loads.element import ForceElement, Load
+from ..loads import FRICTIONLESS, PLAIN, Acting, ActingKeywords, Case, ForceElement, Load, LoadCase, Loads, situation_of, takes_situation
 from ..loads.point import LinkMass, Support, Weight
 from ..motion import Answer, Column, Condition, HasVerdicts, Judge, Motion, PageWords, Tabled, at, least, most, require_motion
 from ..motion.conditions import condition_of_sine

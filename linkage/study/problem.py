@@ -20,24 +20,9 @@ from ..checks import is_listed, require_type
 from ..errors import DefinitionError, StudyError, cited, ensure
 from ..frozen import FrozenDict, immutable
 from ..mechanism import Mechanism
-from ..motion import Grid, Motion, Request, greatest
+from ..motion import Constraint, Grid, Leaf, Measure, Motion, Request, greatest
 from ..motion.grid import JoinedTo, joined_in_order, varies
-from ..motion.measures import (
-    At,
-    CombinedMeasure,
-    Constraint,
-    Given,
-    Integral,
-    Leaf,
-    Least,
-    Measure,
-    Most,
-    Worst,
-    check_kinds,
-    strokes_behind,
-    traced,
-    words_of,
-)
+from ..motion.measures import At, CombinedMeasure, Given, Integral, Least, Most, Worst, check_kinds, strokes_behind, traced, words_of
 from ..motion.strokes import check_magnitude
 from ..numeric.quadrature import PANELS, Quadrature, gauss, quadrature
 from ..plan import Mask, Plan, require_kind

@@ -18,8 +18,7 @@ from typing import Any, ClassVar, TypeAlias, final
 
 import numpy as np
 
-from hydraulics import reserve
-from hydraulics.cylinder import CylinderSize
+from hydraulics import CylinderSize, reserve
 from hydraulics.inputs import efficient, in_pascals, one_number, positive
 from linkage import DefinitionError, Stroke, StudyError, at, least, most, optimise, ratio, ref, x, y
 from linkage.checks import require, require_type

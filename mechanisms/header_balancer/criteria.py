@@ -12,8 +12,7 @@ from typing import final
 
 import numpy as np
 
-from hydraulics import CylinderSize, adiabatic, isothermal, standard_bores
-from hydraulics.gas import Gas
+from hydraulics import CylinderSize, Gas, adiabatic, isothermal, standard_bores
 from linkage import DefinitionError, Motion, least
 from linkage.checks import require_number
 from linkage.errors import ensure

@@ -15,7 +15,7 @@
    The page defines `say(text, values)`, and gives `model.reserved` the words that no member may be called. */
 const model = (() => {
   const { abs, hypot, max, min } = Math, PARTS = ["points", "links", "slides", "drives", "weights"];
-  const MOST = { entries: 300, letters: 40, metres: 1e6, bytes: 1e6 }, reserved = new Set();
+  const MOST = { entries: 200, corners: 26, joints: 600, letters: 40, metres: 1e6, bytes: 1e6 }, reserved = new Set();
   const isTable = (each) => each !== null && typeof each === "object" && !Array.isArray(each);
   const isLength = (each) => Number.isFinite(each) && abs(each) <= MOST.metres, isText = (each) => typeof each === "string";
   const has = (table, name) => isText(name) && Object.hasOwn(table, name);
@@ -36,15 +36,12 @@ const model = (() => {
   }
   /* Return the labels of the lengths and angles of some links, in both spellings. */
   function labels(links) {
-    const found = [], seen = new Set();
-    for (const points of links) for (const P of points) for (const Q of points) if (P !== Q) {
-      for (const key of [[P, Q].sort().join(" "), ...points.filter((R) => R !== P && R !== Q).map((R) => `${R} ${[P, Q].sort().join(" ")}`)]) {
-        if (seen.has(key)) continue;
-        seen.add(key);
-        const [first, ...others] = key.split(" ");
-        found.push(...(others.length === 1 ? new Set([P + Q, Q + P]) : new Set([others[0] + first + others[1], others[1] + first + others[0]])));
-      }
-    }
+    const found = [], seen = new Set(), add = (key, first, second) => { if (!seen.has(key)) { seen.add(key); found.push(first); if (first !== second) found.push(second); } };
+    for (const points of links) points.forEach((A, i) => points.slice(i + 1).forEach((B) => {
+      const [P, Q] = A < B ? [A, B] : [B, A];
+      add(`${P} ${Q}`, P + Q, Q + P);
+      for (const R of points) if (R !== P && R !== Q) add(`${R} ${P} ${Q}`, P + R + Q, Q + R + P);
+    }));
     return found;
   }
   /* Return in words why a member may not have a name; "" where it may. */
@@ -80,10 +77,11 @@ const model = (() => {
     for (const name of drawing.fixed) named(name, say("what is fixed"));
     lacks(new Set(drawing.fixed).size === drawing.fixed.length, say("{name} names a point twice", { name: say("what is fixed") }));
     for (const [name, points] of Object.entries(drawing.links)) {
-      if (!lacks(listed(points, MOST.entries) && points.length > 1, say("the link {name} has no two points", { name }))) continue;
+      if (!lacks(listed(points, MOST.corners) && points.length > 1, say("the link {name} has not 2 to {most} points", { name, most: MOST.corners }))) continue;
       points.forEach((each) => named(each, name));
       lacks(new Set(points).size === points.length, say("{name} names a point twice", { name }));
     }
+    lacks(Object.values(drawing.links).flat().length <= MOST.joints, say("the links have more than {most} points in all", { most: MOST.joints }));
     for (const [name, each] of Object.entries(drawing.slides)) {
       const ends = isTable(each) && (Array.isArray(each.along) ? each.along : isLength(each.along) ? [] : null);
       if (!lacks(ends && [0, 2].includes(ends.length), say("{name} slides neither along two points nor at an angle", { name }))) continue;
@@ -138,8 +136,8 @@ const model = (() => {
       if (far(drawing, ...along) === 0) found.push(say("{P} and {Q} of {name} stand at one place", { P: along[0], Q: along[1], name }));
       else if (abs(offLine(drawing, point, along)) > 1e-9 * size(drawing)) found.push(say("{name} is beside the line of its slide", { name: point }));
     }
-    const bodies = labels(all);
-    for (const label of bodies) { if (one.has(label) || names(drawing).includes(label)) found.push(say("{name} would be the name of two things: rename a point", { name: label })); one.add(label); }
+    const taken = new Set(names(drawing));
+    for (const label of labels(all)) { if (one.has(label) || taken.has(label)) found.push(say("{name} would be the name of two things: rename a point", { name: label })); one.add(label); }
     return [...new Set(found)];
   }
 

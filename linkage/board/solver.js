@@ -81,10 +81,10 @@ const solver = (() => {
 
   /* ---- equations ---- */
 
-  /* Return the row and the column of the next pivot: the largest of its row and column; the largest of all where that is small or asked for. */
-  function pivotAt(rows, order, rank, first, isFull) {
+  /* Return the row and the column of the next pivot: the largest of its row and column; the largest of all where that is small. */
+  function pivotAt(rows, order, rank, first) {
     const n = order.length;
-    let i = rank, j = rank, most = 0, before = isFull ? 0 : -1;
+    let i = rank, j = rank, most = 0, before = -1;
     while (most > before) {
       before = most;
       for (let r = rank; r < rows.length; r++) if (abs(rows[r][order[j]]) > most) { most = abs(rows[r][order[j]]); i = r; }
@@ -94,19 +94,18 @@ const solver = (() => {
     for (let r = rank; r < rows.length; r++) for (let c = rank; c < n; c++) if (abs(rows[r][order[c]]) > most) { most = abs(rows[r][order[c]]); i = r; j = c; }
     return [i, j, most];
   }
-  /* Bring a matrix to steps: its rank, the clearance (last pivot against the first), the sign of its determinant, and a basis of what it leaves free. */
-  function eliminated(matrix, n, isFull = true) {
+  /* Bring a matrix to steps: its rank, the sign of its determinant, and a basis of what it leaves free. */
+  function eliminated(matrix, n) {
     const rows = matrix.map((row) => row.slice()), order = [...Array(n).keys()];
-    let rank = 0, first = 0, last = 1, sign = 1;
+    let rank = 0, first = 0, sign = 1;
     for (; rank < min(rows.length, n); rank++) {
-      const [i, j, most] = pivotAt(rows, order, rank, first, isFull);
+      const [i, j, most] = pivotAt(rows, order, rank, first);
       first ||= most;
       if (most <= RANK * first || !most) break;
       if ((i === rank) !== (j === rank)) sign = -sign;
       [rows[rank], rows[i]] = [rows[i], rows[rank]];
       [order[rank], order[j]] = [order[j], order[rank]];
       const pivot = rows[rank], column = order[rank];
-      last = most / first;
       if (pivot[column] < 0) sign = -sign;
       for (let r = rank + 1; r < rows.length; r++) {
         const row = rows[r], factor = row[column] / pivot[column];
@@ -123,7 +122,7 @@ const solver = (() => {
       }
       return vector;
     });
-    return { rank, clear: last, sign, basis };
+    return { rank, sign, basis };
   }
   /* Return the normal equations of rows, each times its weight, with damping: Cholesky's factor within its envelope, and the right side. */
   function factored({ columns, n }, found, weights, damping) {
@@ -214,7 +213,7 @@ const solver = (() => {
     const isWhole = eliminated(dense(system, missed(system, here, values)), n).rank === n;
     const state = (at, t) => {
       const found = isWhole ? missed(system, at, between(t)) : [];
-      return { at, t, clear: isWhole ? clearance(system, found) : 1, sign: isWhole && found.length === n ? eliminated(dense(system, found), n, false).sign : 1 };
+      return { at, t, clear: isWhole ? clearance(system, found) : 1, sign: isWhole && found.length === n ? eliminated(dense(system, found), n).sign : 1 };
     };
     here = state(here, 0);
     const far = Object.keys(values).map((name) => abs((wanted[name] ?? values[name]) - values[name]) / (system.drawing.drives[name].kind === "crank" ? 0.2 : 0.1 * size));

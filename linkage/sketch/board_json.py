@@ -13,7 +13,7 @@ from ..errors import DefinitionError, FileError
 from ..files.names import shortened
 from ..quantities import is_name
 from .found import WORDS, FoundMachine, ensure_file, json_list, json_table, printable
-from .machine_sketch import MachineSketch, SketchDrive, SketchSlide, SketchWeight
+from .machine_sketch import MachineSketch, Place, SketchDrive, SketchSlide, SketchWeight
 
 BOARD = 1
 """What "board" says in a file that is written so."""
@@ -64,12 +64,9 @@ class BoardReader:
     def sketch(self) -> MachineSketch:
         """Return the sketch."""
         tables = {part: self.tables(part) for part in ("slides", "drives", "weights")}
-        points = {name: self.numbers(each, name) for name, each in self.entries("points").items()}
-        for name, place in points.items():
-            ensure_file(len(place) == 2, f"{self.found.file}: the point {name} has no two coordinates [x, y].")
         return MachineSketch(
             name=self.name(self.data.get("name")),
-            points={name: (x, y) for name, (x, y) in points.items()},
+            points={name: self.place(name, each) for name, each in self.entries("points").items()},
             fixed=self.texts(self.data.get("fixed", []), "what is fixed"),
             links={name: self.texts(each, f"the link {name}", 2) for name, each in self.entries("links").items()},
             slides={name: self.slide(name, each) for name, each in tables["slides"].items()},
@@ -102,9 +99,11 @@ class BoardReader:
         ensure_file(is_text, f"{self.found.file}: {what} is no list of {f'{least} names or more' if least else 'texts'}.")
         return tuple(items)
 
-    def numbers(self, given: object, what: str) -> tuple[float, ...]:
-        """Return a list of finite numbers."""
-        return tuple(self.found.number(each, what) for each in json_list(given, self.found.file, what))
+    def place(self, name: str, given: object) -> Place:
+        """Return the two coordinates of a point."""
+        numbers = [self.found.number(each, name) for each in json_list(given, self.found.file, name)]
+        ensure_file(len(numbers) == 2, f"{self.found.file}: the point {name} has no two coordinates [x, y].")
+        return numbers[0], numbers[1]
 
     def number(self, name: str, table: Mapping[str, Any], key: str) -> float:
         """Return a finite number of a member."""

@@ -479,10 +479,9 @@ def test_thirty_points_are_judged_and_moved_live(board):
 RAM = {"kind": "cylinder", "ends": ["A", "B"], "start": 0, "end": 1, "drawn": 0}
 DAMAGED = [
     {"board": 2}, {"name": "import os"}, {"name": None}, {"points": []}, {"points": {"__proto__": [0, 0]}},
-    {"points": {"Crank": [0, 0]}},
+    {"points": {"Crank": [0, 0]}}, {"slides": {"s": None}}, {"links": {"a": ["A"] * 30}},
     {"points": {"A": [0, "x"]}}, {"points": {"A": [0]}}, {"points": {"A": None}}, {"fixed": ["toString"]}, {"fixed": [{}]}, {"fixed": "A"},
     {"links": {"a": ["A"]}}, {"links": {"a b": ["A", "B"]}}, {"links": {"a": ["A", "valueOf"]}}, {"links": {"a": 3}},
-    {"slides": {"s": None}},
     *({"slides": {"s": {"point": "A", "along": along}}} for along in (["A"], "up", ["A", "B"], None)),
     *({"drives": {"S": RAM | each}} for each in ({"kind": "rope"}, {"ends": ["A", "A"]}, {"end": None}, {"bore": 0.1, "rod": 0.2})),
     {"weights": {"w": {"point": "constructor", "mass": 1}}}, {"weights": {"w": {"point": "A", "mass": -1}}}, {"notes": [1]},
@@ -499,6 +498,9 @@ def test_what_is_damaged_is_refused_in_words_here_and_in_python(board, tmp_path)
             read_text(text, tmp_path).to_class()
     assert all(each["drawing"] is None for each in board('return ["board:1.", "board:1.%%%", "x#board:1.eyJi"].map(writers.opened);'))
     pick, good = random.Random(1), text_of(drawn_at_random(3))
+    names = [f"P{number}" for number in range(60)]
+    large = GOOD | {"points": {name: [n, n * n] for n, name in enumerate(names)}, "links": {f"k{n}": names[n : n + 26] for n in range(30)}}
+    assert "more than 600 points" in board("return writers.opened(given).wrong.join();", json.dumps(large))
     torn = [
         "".join(pick.choice([each, each, each, pick.choice('"{}[]:,0-eé\\')]) if pick.random() < 0.05 else each for each in good)
         for _ in range(150)

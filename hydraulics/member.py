@@ -33,7 +33,7 @@ from linkage.motion.judging import HasVerdicts, PageWords, over_time
 from linkage.motion.measures import Condition, Constraint, MeasuredQuantity, at, least, most
 from linkage.plan import Mask, Plan
 from linkage.quantities import InnerQuantity, Quantity, distance, label, quantity
-from linkage.quantities.member import Member, NamedMembers, Reference, body_name, name_of, of_kind
+from linkage.quantities.member import Member, NamedMembers, Reference, body_name, is_member_or_name, name_of, of_kind
 from linkage.statics import LawRequest, applied_elements, elements_of, held_in_case, is_among, member_thrust, own_rates, request_text, same
 from linkage.statics.poses import AnyMotion, motion_of_whole
 from linkage.units import show, shown_number, unit_sign
@@ -1437,7 +1437,7 @@ def judge_of(motion: Motion, what: str, acting: Acting | None = None, *, unreach
 
 def is_named(reference: Reference) -> bool:
     """Return whether a reference to a cylinder goes by its name in a class; DefinitionError for anything but a reference."""
-    if not isinstance(reference, (str, Member)):
+    if not is_member_or_name(reference):
         raise DefinitionError(f"{cited(reference)} stands where a cylinder or its name is expected.")
     return isinstance(reference, str) or bool(reference.name)
 

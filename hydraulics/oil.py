@@ -31,7 +31,7 @@ from linkage.loads.element import UNBOUNDED, Formulas
 from linkage.motion import Condition, Judge, Motion, PageWords, Question, at, least, most
 from linkage.plan import require_kinds
 from linkage.quantities import AtPose, Distance, Number, Quantity, Stroke, Variable, label, quantity
-from linkage.quantities.member import Member, NamedMembers, Reference, Where, name_of, of_kind
+from linkage.quantities.member import Member, NamedMembers, Reference, Where, is_member_or_name, name_of, of_kind
 from linkage.quantities.quantity import plain
 from linkage.statics import AnyMotion, LawRequest, each_once, held_in_case, plan_of, same
 from linkage.units import require_measure, show
@@ -194,7 +194,7 @@ class OilLine(PumpLine, GasLine):
 
     @property
     def bare(self) -> tuple[Reference, ...]:
-        return tuple(each for each in self.on if isinstance(each, (str, Member)))
+        return tuple(each for each in self.on if is_member_or_name(each))
 
     def chambers_of(self, cylinder: Ram, members: NamedMembers) -> tuple[Chamber, ...]:
         """Return the chambers of a cylinder on it; where it names the cylinder alone, the side that no other line names.
@@ -283,7 +283,7 @@ class OilLine(PumpLine, GasLine):
             if isinstance(each, Chamber):
                 ram = members[name_of(each.cylinder)] if is_named(each.cylinder) else each.cylinder
                 found.append((cast(Ram, ram), each))
-            elif isinstance(each, (str, Member)):
+            elif is_member_or_name(each):
                 ram = in_class(members, each)
                 if isinstance(ram, Ram):
                     found.append((ram, Chamber(each, cast(Side, side_left(ram, members)))))
@@ -850,7 +850,7 @@ def on_line_text(each: object) -> str:
     """Return a part of a line as it is written."""
     if isinstance(each, (Chamber, AccumulatorBlock)):
         return str(each)
-    return label(each) if isinstance(each, (str, Member)) else getattr(each, "__name__", "block")
+    return label(each) if is_member_or_name(each) else getattr(each, "__name__", "block")
 
 
 def own_side(line: OilLine, ram: Ram, members: NamedMembers) -> Side:

@@ -19,7 +19,7 @@ from linkage.language import noted
 from linkage.loads import Acting, Parameter
 from linkage.mechanism import Mechanism
 from linkage.motion import HasVerdicts, Judge, Motion
-from linkage.quantities import Member, NamedMembers, Reference, name_of
+from linkage.quantities import NamedMembers, Reference, is_member_or_name, name_of
 from linkage.verdict import Verdict
 
 from .consumers import lines_on
@@ -73,7 +73,7 @@ class Pump(Supply, HasVerdicts):
     headed: ClassVar[str] = noted("Pump {name}")
 
     def __post_init__(self) -> None:
-        if isinstance(self.first, (str, Member)):
+        if is_member_or_name(self.first):
             object.__setattr__(self, "first", (self.first,))
         require_type("Pump: first", self.first, (list, tuple), 'names of lines or cylinders are expected, first=["lift"]')
         super().__post_init__()

@@ -16,7 +16,7 @@ from ..checks import is_class_of
 from ..errors import DefinitionError, unknown
 from ..mechanism import Mechanism
 from ..plan import Part
-from ..quantities import Member, is_nothing, label, name_of, quantity
+from ..quantities import Member, is_member_or_name, is_nothing, label, name_of, quantity
 from ..steps import Point
 from .design import Design, degrees_text
 from .names import Keywords, Names, by_whole_names, entry_as, require_entry, shortened
@@ -70,7 +70,7 @@ def part_written(member: Part, design: Design) -> Keywords:
         if value is None:
             found[name] = False
         elif isinstance(member.plan.members.get(name), Point):
-            found[name] = label(value) if isinstance(value, (str, Member)) else [design.scalar(quantity(each)) for each in value]
+            found[name] = label(value) if is_member_or_name(value) else [design.scalar(quantity(each)) for each in value]
         elif owner and member.plan.table.entries[owner].kind == "angle":
             found[name] = degrees_text(design.scalar(quantity(value)))
         else:

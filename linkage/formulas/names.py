@@ -27,11 +27,6 @@ class PointSymbol(sympy.MatrixSymbol):  # type: ignore[misc]
     """The symbol of a position: it comes first in a sum."""
 
 
-def point_symbol(name: str) -> PointSymbol:
-    """Return the symbol of a position."""
-    return PointSymbol(name, 2, 1)
-
-
 def components_of(vector: MatrixExpr) -> tuple[sympy.Expr, sympy.Expr]:
     """Return both components of a vector, written out."""
     return vector[0, 0].doit(), vector[1, 0].doit()
@@ -185,7 +180,7 @@ class SymbolNames:
     def vector(self, name: str) -> sympy.MatrixSymbol:
         """Return the symbol of a point or a vector member, or of a vector named by its two points."""
         text = self._vector_text(name if name in self._placed else ("vector", name), name)
-        return point_symbol(text) if name in self.points or name in self._guides else vector_symbol(text)
+        return PointSymbol(text, 2, 1) if name in self.points or name in self._guides else vector_symbol(text)
 
     def quantity(self, name: str) -> sympy.Symbol:
         """Return the symbol of a named quantity or a stroke, or of a design variable: the label OB is the length L_OB."""

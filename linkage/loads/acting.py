@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from ..checks import require_number, require_type
 from ..errors import DefinitionError, cited, known_name, unknown
 from ..frozen import immutable, keep_own, refuses_changes
-from ..quantities import Member, Reference, in_degrees, name_of
+from ..quantities import Member, Reference, in_degrees, is_member_or_name, name_of
 from ..quantities.quantity import plain
 from ..units import deg, require_measure
 from .element import AS_IT_RUNS, DIRECTIONS, FRICTIONLESS, ForceElement, Load, Poses
@@ -180,7 +180,7 @@ def check_words(title: object, scale: object, only: object, shut: object) -> Non
     loads = require_type(f"{opening}: only", () if only is None else only, (list, tuple), f"is not a list of loads; write {remedy}")
     lines = require_type(f"{opening}: shut", shut, (list, tuple), 'is not a list of lines; write their names, shut=["line"]')
     for each in (*scale, *loads, *lines):
-        if not isinstance(each, (str, Member)):
+        if not is_member_or_name(each):
             raise DefinitionError(f"{opening}: {cited(each)} is neither a load nor the name of one.")
 
 

@@ -13,23 +13,10 @@ import numpy as np
 from ..checks import is_listed, two_of
 from ..errors import DefinitionError, about, cited, ensure, is_yes, unknown
 from ..frozen import FrozenDict
-from ..quantities import (
-    FRAME_AXES,
-    Axes,
-    Coordinate,
-    Dimension,
-    Operand,
-    Quantity,
-    Ref,
-    Stroke,
-    Variable,
-    is_nothing,
-    is_number,
-    label,
-    quantity,
-)
+from ..quantities import FRAME_AXES, Axes, Coordinate, Dimension, Operand, Quantity, Ref, Stroke, Variable, is_number, label, quantity
 from ..quantities import spelled as written
-from ..quantities.member import Member, Reference, name_of, needs, of_kind, word_arguments
+from ..quantities.axes import is_nothing
+from ..quantities.member import Member, Reference, is_member_or_name, name_of, needs, of_kind, word_arguments
 from ..steps import Arrow, Drawn, Group, Link, Point, Step
 from ..steps.labels import Spoken
 from ..units import require_measure
@@ -74,7 +61,7 @@ class Part(Member):
         self.given: dict[str, Any] = {**set_in, **given}
         carriers: object = () if on is None else on.split() if isinstance(on, str) else [on] if isinstance(on, Member) else on
         self.on: tuple[Reference, ...] = tuple(carriers) if is_listed(carriers) else ()
-        if on is not None and (not 0 < len(self.on) < 3 or not all(isinstance(each, (str, Member)) for each in self.on)):
+        if on is not None and (not 0 < len(self.on) < 3 or not all(is_member_or_name(each) for each in self.on)):
             raise DefinitionError(f"Part(on={cited(on)}): name two points of the body that carries it, a link, or nothing for the frame.")
         x, y = (0.0, 0.0) if at is None else pair_of(at, "Part(at=...)")
         require_measure(angle, "angle", "Part: angle")
@@ -122,7 +109,7 @@ class Part(Member):
                 fault = f"{name} moves in the part and takes no place; {remedy}"
             elif isinstance(member, Point) and value is None:
                 fault = f"the fixed point {name} cannot be left out; fuse it with a point or give (x, y)"
-            elif isinstance(member, Point) and not isinstance(value, (str, Member)):
+            elif isinstance(member, Point) and not is_member_or_name(value):
                 pair_of(value, f"{title}: {name}=")
             elif isinstance(member, Point) or (value is None and member is not None):
                 continue
@@ -143,7 +130,7 @@ class Part(Member):
         found: list[Reference] = [self.angle, *self.at]
         for name, value in self.given.items():
             if isinstance(self.plan.members.get(name), Point):
-                found += [value] if isinstance(value, (str, Member)) else map(quantity, value)
+                found += [value] if is_member_or_name(value) else map(quantity, value)
             elif value is not None:
                 found.append(quantity(value))
         return (*self.on, *(each for each in found if not (isinstance(each, Quantity) and each.is_constant)))
@@ -156,7 +143,7 @@ class Part(Member):
         found: dict[str, str] = {}
         for name, value in self.given.items():
             member = self.plan.members.get(name)
-            if isinstance(member, Point) and isinstance(value, (str, Member)):
+            if isinstance(member, Point) and is_member_or_name(value):
                 found[f"{self.name}.{name}"] = name_of(value)
             elif isinstance(member, (Stroke, Dimension)) and not is_number(value):
                 target = quantity(value).known_as

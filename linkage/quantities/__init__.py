@@ -15,6 +15,7 @@ from .member import (
     Where,
     as_mapping,
     body_name,
+    is_member_or_name,
     is_name,
     joined_names,
     keywords,

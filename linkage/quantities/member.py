@@ -233,6 +233,11 @@ def is_name(name: object) -> bool:
     return isinstance(name, str) and name.isidentifier() and not iskeyword(name) and normalize("NFKC", name) == name
 
 
+def is_member_or_name(given: object) -> TypeGuard[Reference]:
+    """Return whether a value is a member, or a text that may name one."""
+    return isinstance(given, (str, Member))
+
+
 def is_reference(text: object) -> TypeGuard[str]:
     """Return whether a text may be the name of a member, or of one of a part: `B`, `lower.B`."""
     return isinstance(text, str) and all(map(str.isidentifier, text.split(".")))

@@ -12,7 +12,7 @@ from ..frozen import FrozenDict
 from ..loads import TwoPoint
 from ..mechanism import Mechanism, declared
 from ..plan import Part, Plan, Reading
-from ..quantities import Dimension, Member, Stroke, Variable, is_number, name_of, quantity, signed_terms
+from ..quantities import Dimension, Member, Stroke, Variable, is_member_or_name, is_number, name_of, quantity, signed_terms
 from ..steps import Drawn, Point, Step
 from ..vectors import Numbers, Side
 
@@ -143,7 +143,7 @@ def rows_fitted(machine: Mechanism, cylinder: str, rows: Sequence[Any]) -> tuple
     names = []
     for field in fields:
         given, own = element.given(field), f"{element.name}.{field}"
-        name = own if own in plan.table.spellings else name_of(given) if isinstance(given, (str, Member)) else ""
+        name = own if own in plan.table.spellings else name_of(given) if is_member_or_name(given) else ""
         if name not in plan.table.spellings:
             raise DefinitionError(f"{plan.title}: {own} follows {given}; a row of a catalogue sets a number or a dimension.")
         names.append(name)

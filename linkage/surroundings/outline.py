@@ -20,6 +20,7 @@ from ..checks import is_listed, require_number, require_type, two_of
 from ..errors import DefinitionError, FileError, cited, is_yes
 from ..quantities import Axes, Member, Operand, Reference, Stroke, is_number, label, name_of, needed_behind, needs, of_kind, spelled
 from ..quantities.axes import NOTHING, is_nothing, plus
+from ..quantities.member import is_member_or_name
 from ..quantities.quantity import Quantity, plain, quantity
 from ..steps import Link
 from ..units import require_measure
@@ -210,7 +211,7 @@ class CircleOutline(Outline):
     argument_kinds = MappingProxyType({"at": "centre", "radius": "quantity"})
 
     def __init__(self, at: Corner | Reference, radius: Operand, *, on: Carrier = None, filled: bool = True) -> None:
-        centre = at if isinstance(at, (str, Member)) else None
+        centre = at if is_member_or_name(at) else None
         if centre is not None and on is not None:
             raise DefinitionError(f"Outline.circle: it stands about {label(centre)} and on={cited(on)} as well; leave on= out.")
         self.at: tuple[Quantity, ...] | Reference = centre if centre is not None else corner_of(at, "Outline.circle(at=...)")
@@ -408,7 +409,7 @@ def carrying_points(given: object, what: str) -> tuple[Reference, ...]:
     if isinstance(given, Link):
         given = given.points[:2]
     found = tuple(given.replace(",", " ").split()) if isinstance(given, str) else (given,) if isinstance(given, Member) else given
-    if not is_listed(found) or not 1 <= len(found) <= 2 or not all(isinstance(each, (str, Member)) for each in found):
+    if not is_listed(found) or not 1 <= len(found) <= 2 or not all(is_member_or_name(each) for each in found):
         raise DefinitionError(f'{what}: on={cited(given)} is no carrier; name two points of a body, on=("B", "C"), or one point.')
     return tuple(found)
 

@@ -87,9 +87,9 @@ def write_capacity(written: Formulas) -> None:
     written.line("G_g", spare / lever, "kN")
 
 
-def at_hitch_points(motion: Motion) -> FloatArray:
+def at_hitch_points(motion: Motion, share: float = SHARE) -> FloatArray:
     """Return the capacity with the load at the hitch points F [N], shape (...)."""
-    return capacity(motion, "F", SHARE)
+    return capacity(motion, "F", share)
 
 
 def behind(motion: Motion, distance: float = BEHIND, share: float = SHARE) -> FloatArray:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from html import escape
 
 from ..language import with_decimals
-from .typeset import Arrowed, Box, BoxRow, Fenced, Fraction, Rooted, Script, Sign
+from .typeset import Arrowed, Box, BoxRow, Fenced, Fraction, Rooted, Script, Sign, listed_apart
 
-NOT_SPACED = "(),|[]{}′"
+NOT_SPACED = "(),;|[]{}′"
 
 
 def mathml(box: Box) -> str:
@@ -26,7 +26,7 @@ def mathml(box: Box) -> str:
             form = ' class="w"' if kind == "word" else ' mathvariant="normal"' if kind == "name" and len(text) == 1 else ""
             return f"<mi{form}>{escape(text)}</mi>"
         case BoxRow(parts):
-            return f"<mrow>{''.join(map(mathml, parts))}</mrow>"
+            return f"<mrow>{''.join(map(mathml, listed_apart(parts)))}</mrow>"
         case Fraction(over, under):
             return f"<mfrac>{mathml(over)}{mathml(under)}</mfrac>"
         case Script(base, low, high):

@@ -7,9 +7,12 @@ Only what the printers here and SymPy's own emit is known: scripts, \frac, \sqrt
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import groupby, zip_longest
 from typing import TypeAlias, final
+
+from ..language import with_decimals
 
 SMALL_LETTERS = "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi pi rho sigma tau upsilon varphi chi psi omega"
 GREEK = dict(zip(SMALL_LETTERS.split(), "αβγδεζηθικλμνξπρστυφχψω", strict=True)) | {
@@ -130,6 +133,14 @@ def breakable(box: Box) -> list[Box]:
                     cut.append([])
         cut[-1].append(part)
     return [BoxRow(tuple(parts)) for parts in cut if parts]
+
+
+def listed_apart(parts: Sequence[Box]) -> Sequence[Box]:
+    """Return boxes beside each other, with semicolons between them where a language's decimal commas stand among them."""
+    firsts = [each.parts[0] if isinstance(each, BoxRow) and each.parts else each for each in parts]
+    if any(isinstance(each, Sign) and each.kind == "number" and with_decimals(each.text) != each.text for each in firsts):
+        return [Sign("operator", ";") if each == Sign("operator", ",") else each for each in parts]
+    return parts
 
 
 def rough_width(box: Box) -> float:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from itertools import pairwise
 
 from ..language import with_decimals
-from .typeset import Arrowed, Box, BoxRow, Fenced, Fraction, Rooted, Script, Sign
+from .typeset import Arrowed, Box, BoxRow, Fenced, Fraction, Rooted, Script, Sign, listed_apart
 
 SPECIAL = re.compile(r"[!-/:-@\[-`{-~]")
 """Signs that have a meaning in Typst's math, or may get one."""
@@ -27,7 +27,7 @@ def typst_math(box: Box) -> str:
         case Sign("name", text) if text != "°":
             return f"op({typst_string(text)})"
         case Sign("number", text) if with_decimals(text) != text:
-            return typst_string(with_decimals(text))
+            return with_decimals(text).replace(",", 'class("normal", \\,)')
         case Sign(_, text):
             return text if text in LITERAL or text[:1].isdigit() else escaped(text)
         case BoxRow(parts):
@@ -50,6 +50,7 @@ def typst_math(box: Box) -> str:
 
 def row_math(parts: Sequence[Box]) -> str:
     """Return boxes beside each other: a little space stands behind a number and before a name of several letters."""
+    parts = listed_apart(parts)
     found = "".join(map(typst_math, parts[:1]))
     for before, part in pairwise(parts):
         match before, part:

@@ -45,6 +45,7 @@ from linkage.documents.pdf import pdf
 from linkage.documents.run import ReportSubject
 from linkage.formulas.mathml import mathml
 from linkage.formulas.typeset import BoxRow, Fraction, Script, boxes, breakable
+from linkage.formulas.typst import typst_math
 from linkage.language import language
 from linkage.motion import Column, places_text
 from linkage.reports import results, run_of
@@ -501,6 +502,14 @@ def test_dimension_lines_have_the_lengths_of_the_links():
 )
 def test_latex_becomes_mathml(latex, expected):
     assert mathml(boxes(latex)) == expected
+
+
+def test_what_has_decimal_commas_is_listed_by_semicolons():
+    pair, index = boxes(r"\left(-0.05, 65.7^{\circ}\right)"), boxes("C_{lift,1}")
+    with language("ru"):
+        assert re.sub("<[^>]*>", "", mathml(pair)) == "(−0,05;65,7°)" and re.sub("<[^>]*>", "", mathml(index)) == "Clift,1"
+        assert typst_math(pair).count("\\;") == 1 and '"' not in typst_math(pair).replace('"normal"', "")
+    assert re.sub("<[^>]*>", "", mathml(pair)) == "(−0.05,65.7°)"
 
 
 def test_latex_is_read_into_boxes_that_break_before_signs():

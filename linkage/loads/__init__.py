@@ -44,7 +44,7 @@ from .element import (
     require_poses,
 )  # fmt: skip
 from .point import Force, GuideFriction, LinkMass, Moment, PinFriction, Support, Weight
-from .rope import Pulley, RopePath
+from .rope_path import Pulley, RopePath
 from .two_point import Actuator, Between, Damper, DrawnAs, Halves, Spring, TwoPoint
 
 declare_public(globals())

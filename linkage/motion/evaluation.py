@@ -17,7 +17,7 @@ import numpy as np
 from ..errors import DefinitionError
 from ..plan import NEAR, ArrayReading, Mask, Plan, failures, negative
 from ..program import LAST, QUICKEST, FloatArray, Kernel, Node, Result, RunOptions, disturbed
-from .conditions import DOUBTFUL, ROUGH, Conditioning, PrecisionLeft, Rounding, conditioning, iterated
+from .dead_points import DOUBTFUL, ROUGH, Conditioning, PrecisionLeft, Rounding, conditioning, iterated
 from .grid import Angles, Grid, Made, angles_behind, angles_of, to_rounding
 from .over import Over
 from .requests import Request, Trait

@@ -15,7 +15,7 @@ from ..plan import Plan, rate_name, require_kinds
 from ..program import LANGUAGES, NO_VALUE, QUICKEST, FloatArray, Kernel, RunOptions
 from ..quantities import numbers_in, real
 from ..units import Amount
-from . import conditions
+from . import dead_points
 from .evaluation import BulkProgram, Evaluation, keeps_digits, members_behind, other_law_error, require_rates
 from .grid import Grid, varies
 from .live import live_source, true_nodes
@@ -83,7 +83,7 @@ def evaluate_bound(asked: Evaluation, out: FloatArray | None, unreachable: str) 
         if look.broken.any() or (unreachable == "raise" and look.missing.any()):
             refuse(asked, unreachable)
         for number, worst in look.worst.items():
-            conditions.warn_near(worst, f"{grid.plan.title}: {asked.requests[number].sentence}", "comes")
+            dead_points.warn_near(worst, f"{grid.plan.title}: {asked.requests[number].sentence}", "comes")
     return values
 
 

@@ -23,7 +23,7 @@ from ..frozen import FrozenDict
 from ..plan import ArrayReading, Plan, rate_name
 from ..program import Inputs, Level, Node, ancestors, arrow_function, replaced
 from ..steps import Point
-from .conditions import REFUSE
+from .dead_points import REFUSE
 from .requests import Request, RequestLike, bound
 
 REGULAR = (1.0 + math.sqrt(1.0 - 0.3**2)) / 0.3

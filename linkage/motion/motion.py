@@ -22,9 +22,9 @@ from ..quantities.member import Member, Reference, as_mapping, name_of, needs
 from ..shown import Shown
 from ..steps import Arrow, Point
 from ..vectors import Numbers, Vec
-from . import conditions, stroke_search
+from . import dead_points, stroke_search
 from .by_time import point_by_time
-from .conditions import Conditioning
+from .dead_points import Conditioning
 from .evaluation import BulkProgram, Evaluation, examined, near_singular, other_law_error
 from .grid import Grid, JoinedTo, Joining, MotionLike, joined_in_order, not_joined, to_rounding
 from .instants import Instants
@@ -616,7 +616,7 @@ class Motion(Shown):
         sizes, known = np.moveaxis(sizes, 0, -1), np.asarray(np.isfinite(matrix).all(axis=(-2, -1)))
         scaled = np.where(known[..., None, None], matrix, np.eye(len(wanted))) * spans / np.where(sizes > 0.0, sizes, 1.0)[..., None]
         found = np.linalg.svd(scaled, compute_uv=False)
-        dead: Mask = np.asarray(known & ~(found[..., -1] * conditions.REFUSE > np.maximum(found[..., 0], 1.0)))
+        dead: Mask = np.asarray(known & ~(found[..., -1] * dead_points.REFUSE > np.maximum(found[..., 0], 1.0)))
         if dead.any() and self.unreachable == "raise":
             where = where_words(self.plan, dead, self.strokes)
             text = f"{title}: no stroke rates give {', '.join(dict.fromkeys(names))} {where}, at a dead point of the drive"
@@ -980,9 +980,9 @@ class Motion(Shown):
         """Raise or warn, as asked, where a result is refused or doubtful; `near` tells how near such poses are to singular ones."""
         if refused.any() and self.unreachable == "raise":
             there = near(refused), refused, self.strokes
-            raise conditions.lost_places(*there) if are_places else conditions.singular_error(*there, words, self)
+            raise dead_points.lost_places(*there) if are_places else dead_points.singular_error(*there, words, self)
         if doubtful.any():
-            conditions.warn_near(near(doubtful), f"{words} {where_words(self.plan, doubtful, self.strokes)}")
+            dead_points.warn_near(near(doubtful), f"{words} {where_words(self.plan, doubtful, self.strokes)}")
 
     def _once(self, key: Hashable, make: Callable[[], Made]) -> Made:
         """Return a result that several callers share, such as all joint forces in one situation, made once and cached."""
@@ -1013,7 +1013,7 @@ class Motion(Shown):
     @cached_property
     def _loop_sines(self) -> dict[str, Any]:
         """The sine of the angle between the two links of every moving loop; zero at a dead point."""
-        return conditions.loops(self.plan, self._reading)
+        return dead_points.loops(self.plan, self._reading)
 
     @cached_property
     def _joints(self) -> tuple[str, ...]:

@@ -25,7 +25,7 @@ from ..plan import Mask, Plan, require_kind
 from ..program import QUICKEST, FloatArray, Kernel, RunOptions, is_zero
 from ..quantities import Quantity, is_number, numbers_in
 from ..units import amount_or_float, deg, display_unit, mm, require_measure, show, unit_or_none
-from .conditions import WARN
+from .dead_points import WARN
 from .grid import Grid
 from .limits import stroke_display_unit
 from .measures import measure_of, traced, words_of

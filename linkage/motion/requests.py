@@ -25,7 +25,7 @@ from ..plan import NEAR, REGULAR, ArrayReading, Mask, Plan
 from ..program import FloatArray, Kernel, Node, Notes, ancestors, gradient
 from ..quantities import TAKEN, Arithmetic, Member, Number, PoseCondition, Quantity, Reference, label, name_of, quantity, spelled
 from ..steps import Arrow, Point
-from .conditions import LEAST, PLACES, PrecisionLeft
+from .dead_points import LEAST, PLACES, PrecisionLeft
 from .grid import MotionLike
 from .limits import no_joint
 from .strokes import checked_name, order_of

@@ -21,7 +21,7 @@ import numpy as np
 from ..errors import DefinitionError, SingularError, SingularWarning, unwarned, warn
 from ..loads import ForceElement, Poses, Reeving, Tie, TwoPinned, TwoPoint
 from ..motion import Motion
-from ..motion.conditions import REFUSE, WARN, condition_of_sine, is_or_are
+from ..motion.dead_points import REFUSE, WARN, condition_of_sine, is_or_are
 from ..motion.limits import where_words
 from ..plan import Plan
 from ..program import FloatArray, Traced, elementwise, eliminated, is_traced, node_of

@@ -15,7 +15,7 @@ from ..errors import DefinitionError, cited, known_name
 from ..language import noted, said
 from ..loads import Acting, ActingKeywords, Case, Loads, situation_of, takes_situation
 from ..loads.element import Declared, ForceElement, Formulas, Glyph, Load, Parameter, Poses, Reeving, Tie, value_text
-from ..loads.rope import Pulley, RopePath, Station, pulls, stations_of, wraps
+from ..loads.rope_path import Pulley, RopePath, Station, pulls, stations_of, wraps
 from ..motion import Column, Condition, HasVerdicts, Judge, Motion, Tabled, least, require_motion
 from ..plan import Plan, strokes_alone
 from ..program import FloatArray

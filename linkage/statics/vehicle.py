@@ -21,7 +21,7 @@ from ..language import noted, said, translated
 from ..loads import FRICTIONLESS, PLAIN, Acting, ActingKeywords, Case, ForceElement, Load, LoadCase, Loads, situation_of, takes_situation
 from ..loads.point import LinkMass, Support, Weight
 from ..motion import Answer, Column, Condition, HasVerdicts, Judge, Motion, PageWords, Tabled, at, least, most, require_motion
-from ..motion.conditions import condition_of_sine
+from ..motion.dead_points import condition_of_sine
 from ..motion.limits import where_said
 from ..motion.requests import stroke_of
 from ..plan import Plan

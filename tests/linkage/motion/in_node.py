@@ -12,7 +12,7 @@ import pytest
 from linkage import DefinitionError, Dimension, Mechanism, Stroke, drive_force, ratio
 from linkage.errors import unwarned
 from linkage.loads import ForceElement
-from linkage.motion import LiveText, Request, Value, conditions, live_text
+from linkage.motion import LiveText, Request, Value, live_text
 from linkage.motion.live import REGULAR
 from linkage.quantities import Quantity
 from tests import shipped
@@ -173,7 +173,7 @@ def compared(job, found, motion):
 def steepness(motion):
     """Return how near poses are to dead points: the conditions of their loops multiplied, those of open ones left out; (designs, poses)."""
     found = np.full(motion.shape, REGULAR)
-    for each in conditions.loop_conditions(motion.plan, motion._reading, set(motion.plan.members)).values():
+    for each in dead_points.loop_conditions(motion.plan, motion._reading, set(motion.plan.members)).values():
         found = found * np.maximum(1.0, np.nan_to_num(np.broadcast_to(each, motion.shape) / REGULAR, nan=np.inf))
     return found.reshape(-1, motion.shape[-1])
 

@@ -29,7 +29,7 @@ from linkage import (
     x,
     y,
 )
-from linkage.motion import conditions
+from linkage.motion import dead_points
 from linkage.numeric import differences as numeric
 from tests.for_all import first_daily
 
@@ -65,16 +65,16 @@ def test_exact_ratio_keeps_to_its_estimate_next_to_a_dead_point(x, y, OB, away, 
     motion = Lever(O=(x, y), OB=OB).at(S=AB, unreachable="nan")
     wanted = exact((x, y), AB, OB)
     assume(wanted is not None and motion.reached)
-    found = conditions.loop_conditions(motion.plan, motion._reading, {"B"})["B"]
+    found = dead_points.loop_conditions(motion.plan, motion._reading, {"B"})["B"]
     for order in (1, 2):
         with warnings.catch_warnings(record=True) as told:
             warnings.simplefilter("always")
             ratio = motion.ratio("B", order=order)
-        assert (len(told) == 1) == (conditions.WARN < found <= conditions.REFUSE)
-        assert np.isnan(ratio).all() == (found > conditions.REFUSE)
-        if found <= conditions.REFUSE:
+        assert (len(told) == 1) == (dead_points.WARN < found <= dead_points.REFUSE)
+        assert np.isnan(ratio).all() == (found > dead_points.REFUSE)
+        if found <= dead_points.REFUSE:
             error = np.linalg.norm(ratio - wanted[order - 1]) / np.linalg.norm(wanted[order - 1])
-            assert error < (3.0 * told[0].message.estimate if told else conditions.DOUBTFUL)
+            assert error < (3.0 * told[0].message.estimate if told else dead_points.DOUBTFUL)
 
 
 @pytest.mark.parametrize("order", [1, 2])

@@ -12,7 +12,7 @@ import pytest
 from linkage import DefinitionError, Dimension, Mechanism, Stroke, drive_force, ratio
 from linkage.errors import unwarned
 from linkage.loads import ForceElement
-from linkage.motion import LiveText, Request, Value, live_text
+from linkage.motion import LiveText, Request, Value, dead_points, live_text
 from linkage.motion.live import REGULAR
 from linkage.quantities import Quantity
 from tests import shipped

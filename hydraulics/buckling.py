@@ -29,8 +29,8 @@ from linkage.program import is_traced
 from linkage.units import MPa, show
 from linkage.verdict import Verdict
 
-from .cylinder import chosen_series
 from .inputs import LONGEST, Array, in_metres, one_number, pose_values, positive
+from .standard_sizes import chosen_series
 
 MOUNTINGS = MappingProxyType({noted("pin-pin"): 1.0, noted("fixed-pin"): 0.699156, noted("fixed-fixed"): 0.5, noted("fixed-free"): 2.0})
 """Buckling length over length, by how the two ends are held (Euler's four cases; 0.699156 is pi over the root of tan x = x)."""

@@ -25,9 +25,9 @@ from linkage.verdict import Verdict
 
 from .cycle import PumpCycle, judged_cycles
 from .cycle_chart import cycle_columns, energy_rows, line_heads, line_rows, plot_cycle
+from .cylinders import Ram, found_in
 from .inputs import one_design, proper_share
 from .lift import LiftCircuit, line_verdicts
-from .member import Ram, found_in
 from .programme import programme_read, pump_of
 from .requests import capacity_request
 

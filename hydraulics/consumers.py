@@ -25,9 +25,9 @@ from linkage.quantities import NamedMembers, distance, of_kind
 from linkage.statics import AnyMotion, LawRequest, each_once, same
 from linkage.units import show
 
+from .cylinders import PISTON, ROD, OnLines, Ram, cylinder_request, in_class, line_thrust, lines_of
 from .inputs import Array, one_design
 from .line import LiftLine
-from .member import PISTON, ROD, OnLines, Ram, cylinder_request, in_class, line_thrust, lines_of
 
 AT_BORDER = 1e-9
 """Of its size: what is on the other side of a border by no more is on it."""

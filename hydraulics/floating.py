@@ -32,10 +32,10 @@ from linkage.statics import AnyMotion, held_in_case, plan_of, same, stroke_follo
 from linkage.verdict import Verdict
 
 from .accumulator import AccumulatorBlock, keeps_rule
+from .cylinders import Circuit, Feeds, Ram, as_in, chamber_area, least_and_most
 from .gas import Polytropic
 from .inputs import Array, all_finite, follows, in_pascals, number_set, one_design
 from .line import pressure_range
-from .member import Circuit, Feeds, Ram, as_in, chamber_area, least_and_most
 from .shut import shut_verdicts
 from .standing import standing_pressure
 

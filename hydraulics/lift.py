@@ -25,10 +25,7 @@ from linkage.statics import LawRequest, elements_of, is_among
 from linkage.units import UNITS, show
 from linkage.verdict import Verdict
 
-from .files import pressure_kind
-from .inputs import Array, check_pressures, follows, not_negative, one_design, one_number
-from .line import LiftLine
-from .member import (
+from .cylinders import (
     PISTON,
     SIDES,
     TO_ROUNDING,
@@ -43,6 +40,9 @@ from .member import (
     least_and_most,
     thrust_request,
 )
+from .files import pressure_kind
+from .inputs import Array, check_pressures, follows, not_negative, one_design, one_number
+from .line import LiftLine
 from .moving import flow
 from .pump import Pump
 from .remedy import Sizes, can_be_set, show_enough, size_words, smallest

@@ -32,9 +32,9 @@ from linkage.statics import PROBE, AnyMotion, elements_of, held_in_case, member_
 from linkage.statics.carried import IDLE, direction_at, is_steady, pull_direction, pulling
 from linkage.units import show
 
-from .cylinder import RamSize
+from .cylinders import PISTON, Circuit, OnLines, Ram, Reading, by_other_lines, line_thrust, lines_of, thrust_along
 from .inputs import Array, efficient, follows, in_cubic_metres, in_pascals, not_negative, number_set, only_where, positive, proper_share
-from .member import PISTON, Circuit, OnLines, Ram, Reading, by_other_lines, line_thrust, lines_of, thrust_along
+from .standard_sizes import RamSize
 from .standing import is_blocked, standing_pressure
 
 

@@ -12,8 +12,8 @@ from linkage.plan import Plan
 from linkage.quantities import Reference, name_of
 from linkage.statics import AnyMotion, LawRequest, member_thrust, own_rates
 
+from .cylinders import PISTON, Circuit, Ram, chamber_area, cylinder_request, rate_request
 from .inputs import Array
-from .member import PISTON, Circuit, Ram, chamber_area, cylinder_request, rate_request
 
 
 def rate(cylinder: Reference) -> LawRequest:

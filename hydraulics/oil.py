@@ -39,12 +39,7 @@ from linkage.vectors import Scalar
 from linkage.verdict import Verdict
 
 from .accumulator import AccumulatorBlock
-from .files import filled_kind, on_line_kind
-from .floating import Block, GasLine
-from .inputs import Array, follows, in_pascals, names_behind, number_set, one_design, one_number
-from .lift import PumpLine
-from .line import pressure_range
-from .member import (
+from .cylinders import (
     PISTON,
     ROD,
     SIDES,
@@ -65,6 +60,11 @@ from .member import (
     side_left,
     the_cylinder,
 )
+from .files import filled_kind, on_line_kind
+from .floating import Block, GasLine
+from .inputs import Array, follows, in_pascals, names_behind, number_set, one_design, one_number
+from .lift import PumpLine
+from .line import pressure_range
 from .pump import Pump, Relief, Supply, Tank
 from .shut import EMPTY, intensified, shut_verdicts
 from .standing import standing_pressure

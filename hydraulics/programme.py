@@ -20,7 +20,7 @@ from linkage.quantities import Course, Reference, is_number
 from linkage.units import parse
 
 from .consumers import lines_on
-from .member import Ram
+from .cylinders import Ram
 from .pump import Pump
 from .working import Demand
 

@@ -24,8 +24,8 @@ from linkage.verdict import Verdict
 
 from .consumers import lines_on
 from .cycle import PumpCycle, checked, pump_sections, pump_verdicts
+from .cylinders import OnLines
 from .inputs import check_pressures, follows
-from .member import OnLines
 from .sharing import SHARINGS
 from .working import Demand, PumpMotion, worked
 

@@ -23,9 +23,7 @@ from linkage.quantities import Reference, distance, name_of
 from linkage.statics import AnyMotion, LawRequest, is_among, member_limits, member_thrust, plan_in_case
 from linkage.statics.carried import Direction, direction_words, pull_direction
 
-from .inputs import Array, only_where, proper_share
-from .line import LiftLine, Work, way_back
-from .member import (
+from .cylinders import (
     PISTON,
     ROD,
     SIDES,
@@ -43,6 +41,8 @@ from .member import (
     line_thrust,
     thrust_request,
 )
+from .inputs import Array, only_where, proper_share
+from .line import LiftLine, Work, way_back
 from .standing import moves_in
 
 Circuits: TypeAlias = str | LiftLine

@@ -17,9 +17,9 @@ from linkage.statics import AnyMotion, LawRequest, held_in_case, is_among, membe
 from linkage.units import show
 from linkage.verdict import Verdict
 
+from .cylinders import Circuit, least_and_most
 from .inputs import Array, one_design
 from .line import LiftLine, pressure_range
-from .member import Circuit, least_and_most
 from .standing import CommonStroke, members_in, standing_pressure
 
 EMPTY = 1e-9

@@ -19,8 +19,8 @@ from linkage.plan import Plan
 from linkage.quantities import NamedMembers
 from linkage.statics import AnyMotion, held_in_case, is_among, member_thrust, plan_in_case, same, stroke_followed, tied_forces
 
+from .cylinders import Chamber, Circuit, Ram, by_other_lines, chamber_area, changes_in_motion, circuits_among, in_class, line_thrust
 from .inputs import Array
-from .member import Chamber, Circuit, Ram, by_other_lines, chamber_area, changes_in_motion, circuits_among, in_class, line_thrust
 
 
 def is_blocked(ram: Ram, members: NamedMembers) -> bool:

@@ -36,10 +36,10 @@ from linkage.units import mm, require_measure, show, shown_number
 from linkage.verdict import Verdict
 
 from .buckling import Buckling
-from .cylinder import MOST, RamSize, Works, chosen_series
+from .cylinders import LENGTHS, PISTON, TOLERANCE, Ram, Side
 from .inputs import Array, follows, in_metres, number_set, one_design, one_number, positive, stroke_in_metres
-from .member import LENGTHS, PISTON, TOLERANCE, Ram, Side
 from .remedy import show_enough
+from .standard_sizes import MOST, RamSize, Works, chosen_series
 
 STAGES = 12
 """More moving stages than any telescope has."""

@@ -26,9 +26,9 @@ from linkage.statics import AnyMotion, LawRequest, held_in_case, member_thrust, 
 from linkage.units import show
 from linkage.verdict import Verdict
 
+from .cylinders import PISTON, Circuit, OnLines, Ram, carries_loads, circuits_among, in_class
 from .inputs import Array, follows, in_pascals, number_set, one_design, positive
 from .line import LiftLine
-from .member import PISTON, Circuit, OnLines, Ram, carries_loads, circuits_among, in_class
 from .standing import CommonStroke, moves_in
 
 USUAL_SETTING = 1.3

@@ -42,8 +42,8 @@ from .cycle import (
     limits_of,
     stretch_times,
 )
+from .cylinders import LENGTHS, Ram
 from .inputs import Array, one_design
-from .member import LENGTHS, Ram
 from .sharing import BY_DEMAND, SAME_NEED, Choices, Fed, Wanted, flow_shares, level_shares
 
 Demand: TypeAlias = "float | Course"

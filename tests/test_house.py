@@ -251,7 +251,7 @@ def test_breach_is_found(path, source, fault):
         ("linkage/cli.py", "def f():\n    from .pictures import show\n    from . import reports\n    print(1)"),
         ("linkage/__init__.py", "from .cli import main\ndef __getattr__(name):\n    from importlib import import_module"),
         ("linkage/__main__.py", "from .cli import main"),
-        ("hydraulics/cylinder.py", "from linkage import Stroke\nfrom .gas import isothermal"),
+        ("hydraulics/cylinders.py", "from linkage import Stroke\nfrom .gas import isothermal"),
         ("mechanisms/demo.py", "from hydraulics import Cylinder\ndef f():\n    from linkage.pictures import show\n    print(1)"),
     ],
 )

@@ -203,7 +203,7 @@ class Domain:
             return self.motion
         ends = {name: np.ravel(value) for name, value in self.motion.strokes.items()}
         with unwarned():
-            if self.is_path:
+            if self.moves_along:
                 marks = np.linspace(0.0, 1.0, len(next(iter(ends.values()))))
                 along = np.linspace(0.0, 1.0, 101)
                 return self.motion.moved({name: np.interp(along, marks, value) for name, value in ends.items()})
@@ -228,7 +228,7 @@ class Domain:
         if self.instants is not None:
             return self.timed(self.instants.shares(np.linspace(0.0, 1.0, number)), unreachable)
         if shape != "poses":
-            if len(self.running) != 1 and not self.is_path:
+            if len(self.running) != 1 and not self.moves_along:
                 ways = keywords(dict.fromkeys(self.running or self.plan.strokes, 11))
                 what = f"{title}: {len(self.running)} strokes run in this box"
                 raise DefinitionError(f"{what}; write sweep({ways}), or sweep over an Over.path.")
@@ -258,7 +258,7 @@ class Domain:
         return None
 
     @property
-    def is_path(self) -> bool:
+    def moves_along(self) -> bool:
         """Whether it is a path, along which several strokes go on together; one that stays where it is moves nothing."""
         if self.instants is not None:
             return True
@@ -269,7 +269,7 @@ class Domain:
         """How broad a place is at the least that is surely found, of each stroke that runs; none where only poses are looked at."""
         if self.over.shape == "poses":
             return {}
-        count = 1 if self.is_path else len(self.running)
+        count = 1 if self.moves_along else len(self.running)
         steps = SAMPLES if count < 2 else values_a_stroke(count, self.motion._grid.size[0]) - 1
         return dict.fromkeys(self.running, 1.0 / steps)
 
@@ -284,7 +284,7 @@ class Domain:
         if self.instants is not None and acting.direction is None:  # as it runs
             directions = [""]
         drives: list[str] = [""]
-        if Trait.OF_STROKES in request.traits and not self.is_path:
+        if Trait.OF_STROKES in request.traits and not self.moves_along:
             drives = [acting.drive] if acting.drive else [*(self.running or self.plan.strokes)]
         cases = self.cases(acting)
         return [

@@ -656,7 +656,7 @@ class Target:
         return f"Target({', '.join([quantity_cited(self.quantity), value, *(f'{k}={v!r}' for k, v in self.strokes.items())])})"
 
     @property
-    def is_array(self) -> bool:
+    def is_path(self) -> bool:
         """Whether its value is an array, one value a place along a path."""
         return isinstance(self.value, np.ndarray)
 
@@ -817,7 +817,7 @@ def positions_for(plan: Plan, designs: Mapping[str, object], targets: object, ho
     """Return the strokes that give some targets; see `strokes_for`."""
     places = Places.for_targets(plan, designs, targets, hold, where="strokes_for")
     for each in places.targets:
-        if each.is_array:
+        if each.is_path:
             raise DefinitionError(f"{plan.title}: strokes_for: {each!r}: one number is expected; a path is followed, machine.follow(...).")
     wanted = np.array([float(each.value) for each in places.targets])
     search = BranchSearch(places, wanted)

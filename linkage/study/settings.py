@@ -277,7 +277,7 @@ class Search:
         plan, box = machine.plan, Box.of(machine, vary)
         for each in targets_given(targets, plan.title, 'such as [Target("tilt", 0.0, S=0.1)]'):
             expected = "one number is expected for the value, in SI. An array is a path, of follow(...)"
-            ensure(not each.is_array, f"{plan.title}: {each!r}: {expected}.")
+            ensure(not each.is_path, f"{plan.title}: {each!r}: {expected}.")
             if set(each.strokes) != set(machine.strokes):
                 raise DefinitionError(f"{plan.title}: {each!r}: say the pose, {', '.join(f'{name}=...' for name in machine.strokes)}.")
             each.check(plan)

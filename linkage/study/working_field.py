@@ -508,7 +508,7 @@ class FieldSearch:
         across, up = axes[0].size, axes[1].size
         if across * up > MOST_CELLS:
             raise DefinitionError(f"{title}: {across} by {up} are {across * up} cells, up to {MOST_CELLS} are looked at; give fewer.")
-        fits = is_listed(keep) and all(isinstance(each, Target) and not each.is_array for each in keep)
+        fits = is_listed(keep) and all(isinstance(each, Target) and not each.is_path for each in keep)
         require(fits, f"{title}: keep", keep, 'a list of targets is expected, such as keep=[Target("tilt", 0.0)]')
         targets = [Target(x_of(name), float(axes[0][0])), Target(y_of(name), float(axes[1][0])), *keep]
         ranges = ranges_over(machine, over, title)

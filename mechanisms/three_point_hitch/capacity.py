@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from hydraulics import LiftCircuit
-from hydraulics.member import found_in
+from hydraulics.cylinders import found_in
 from linkage import Column, Force, ForceElement, Mechanism, Motion, angle, least, most
 from linkage.checks import require_number
 from linkage.errors import ensure, unwarned

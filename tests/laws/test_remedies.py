@@ -26,7 +26,7 @@ from hydraulics import (
     reserve,
     standard_rods,
 )  # fmt: skip
-from hydraulics.cylinder import chosen_series
+from hydraulics.standard_sizes import chosen_series
 from linkage import LEFT, Dimension, Dyad, Force, Ground, Guide, LoadCase, Mechanism, OnGuide, OnLink, PinFriction, Stroke
 from linkage.motion import least, most
 from linkage.units import bar, inch, kN, litre, mm, psi, unit_system

@@ -1,4 +1,4 @@
-"""The size of a hydraulic cylinder: areas, thrust, pressure, oil. Every pressure in this file is gauge [Pa].
+"""Standard sizes of cylinders by ISO 3320 and NFPA T3.6.7, their areas, thrust, pressure, oil. Every pressure in this file is gauge [Pa].
 
     thrust                    works = "piston": +    works = "rod": -
     <--[====|-----]======-->  pressure left of |     pressure right of |, on the annulus around the rod
@@ -25,7 +25,7 @@ A catalogue of single-stage cylinders, row by row, is for a search to choose fro
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 from math import pi
@@ -36,7 +36,9 @@ from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError, cited, known_name
 from linkage.frozen import keep_own, refuses_changes
-from linkage.units import inch, mm, show, shown_in, shown_number
+from linkage.language import said, with_and
+from linkage.units import inch, mm, show, shown_in, shown_number, unit_sign
+from linkage.verdict import Remark, Verdict
 
 from .inputs import Array, all_finite, in_metres, not_negative, one_design, one_number, pose_values, positive, stroke_in_metres
 
@@ -105,6 +107,27 @@ def series_of(bore: float, rod: float) -> Series:
     other = METRIC if chosen is INCH else INCH
     had = {each.name: sum(not each.beside(size, name) for size, name in ((bore, "bores"), (rod, "rods"))) for each in (chosen, other)}
     return other if had[other.name] > had[chosen.name] else chosen
+
+
+def standard_verdict(name: str, bore: float, rod: float) -> Verdict:
+    """Return whether a bore and a rod [m] are a pair of ISO 3320 or NFPA T3.6.7; if not, the sizes next to them."""
+    series = series_of(bore, rod)
+    beside, rods = [series.beside(bore, "bores"), series.beside(rod, "rods")], series.rods_for(bore)
+    says = said("bore {bore} and rod {rod}", bore=show(bore, "mm", 4), rod=show(rod, "mm", 4))
+    if not any(beside) and any(abs(each - rod) < SAME_SIZE for each in rods):
+        return Verdict("standard size", True, said("{says} are a pair of {series}.", says=says, series=series.name))
+    faults = []
+    if beside[0]:
+        faults.append(said("the bore is not of {series}, next to it: {near}", series=series.name, near=_listed(beside[0])))
+    if beside[1]:
+        faults.append(said("the rod is not of {series}, next to it: {near}", series=series.name, near=_listed(beside[1])))
+    if not faults:
+        faults = [said("this rod does not suit this bore; it may have {rods}", rods=_listed(rods))]
+    return Remark(f"{name}: {'; '.join([says, *faults])}.")
+
+
+def _listed(values: Iterable[float]) -> str:
+    return f"{with_and(shown_number(value, 'mm', 4) for value in values)} {unit_sign('mm')}"
 
 
 def standard_bores() -> tuple[float, ...]:

@@ -11,7 +11,7 @@ cylinder: bore 110 mm and rod 60 mm; the rod is not of ISO 3320, next to it: 56 
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial, reduce
 from operator import add
@@ -24,7 +24,7 @@ from numpy.typing import ArrayLike
 from linkage.checks import is_listed
 from linkage.errors import DefinitionError, cited, ensure, known_name, unknown, unwarned
 from linkage.frozen import immutable, refuses_changes
-from linkage.language import noted, said, translated, with_and
+from linkage.language import noted, said, translated
 from linkage.loads import AS_IT_RUNS, AT_REST, FRICTIONLESS, DrawnAs, ForceElement, Load, TwoPoint
 from linkage.loads.acting import Acting, ActingKeywords, Case, Loads, situation_of, takes_situation
 from linkage.loads.element import DIRECTIONS, UNBOUNDED, Declared, Formulas, Parameter, Poses, Push, Rates, Share, Tie, require_poses
@@ -36,14 +36,14 @@ from linkage.quantities import InnerQuantity, Quantity, distance, label, quantit
 from linkage.quantities.member import Member, NamedMembers, Reference, body_name, is_member_or_name, name_of, of_kind
 from linkage.statics import LawRequest, applied_elements, elements_of, held_in_case, is_among, member_thrust, own_rates, request_text, same
 from linkage.statics.poses import AnyMotion, motion_of_whole
-from linkage.units import show, shown_number, unit_sign
+from linkage.units import show, shown_number
 from linkage.verdict import Remark, Verdict
 
 from .barrel import HELD, MASSES, BarrelAndRod
 from .buckling import Buckling, never_pushed
-from .cylinder import SAME_SIZE, CylinderSize, RamSize, Works, chosen_series, series_of, standard_rods
 from .inputs import Array, follows, names_behind, number_set, one_design, one_number, only_where, stroke_in_metres
 from .remedy import Sizes, can_be_set, show_enough, smallest
+from .standard_sizes import CylinderSize, RamSize, Works, chosen_series, standard_rods, standard_verdict
 
 LENGTHS: Mapping[str, str] = MappingProxyType({"stroke": "Stroke of the cylinder", "closed": "Closed length of the cylinder"})
 """What its lengths are called in words."""
@@ -821,19 +821,7 @@ class Cylinder(BarrelAndRod, Ram):
             The verdict.
         """
         bore, rod = (self.size if motion is None else self.sized(motion)).single
-        series = series_of(bore, rod)
-        beside, rods = [series.beside(bore, "bores"), series.beside(rod, "rods")], series.rods_for(bore)
-        says = said("bore {bore} and rod {rod}", bore=show(bore, "mm", 4), rod=show(rod, "mm", 4))
-        if not any(beside) and any(abs(each - rod) < SAME_SIZE for each in rods):
-            return Verdict("standard size", True, said("{says} are a pair of {series}.", says=says, series=series.name))
-        faults = []
-        if beside[0]:
-            faults.append(said("the bore is not of {series}, next to it: {near}", series=series.name, near=_listed(beside[0])))
-        if beside[1]:
-            faults.append(said("the rod is not of {series}, next to it: {near}", series=series.name, near=_listed(beside[1])))
-        if not faults:
-            faults = [said("this rod does not suit this bore; it may have {rods}", rods=_listed(rods))]
-        return Remark(f"{self.name or said('cylinder')}: {'; '.join([says, *faults])}.")
+        return standard_verdict(self.name or said("cylinder"), bore, rod)
 
     def size_verdicts(self, judge: Judge) -> list[Verdict]:
         """Return whether it is of a standard size, and a note where the load is against the side that works, which no line says.
@@ -1463,7 +1451,3 @@ TOLERANCE = 1e-9  # m: a length that is met to rounding is met
 MISSING = noted("; {missing} are missing: take a longer stroke")
 TO_ROUNDING = 1e-9
 """Of the greatest thrust, of what buckles a rod, of a pump's pressure: what is no larger is nothing, to rounding."""
-
-
-def _listed(values: Iterable[float]) -> str:
-    return f"{with_and(shown_number(value, 'mm', 4) for value in values)} {unit_sign('mm')}"

@@ -615,7 +615,7 @@ class Combined(Request):
     def regular(self) -> float:
         return max(each.regular for each in self.requests)
 
-    def rounded(self, plan: Plan) -> tuple[Node, ...]:
+    def rounding_nodes(self, plan: Plan) -> tuple[Node, ...]:
         return *self.nodes(plan), *(node for each in self.requests for node in each.rounding_nodes(plan))
 
     def error(self, plan: Plan, left: PrecisionLeft) -> FloatArray:

@@ -44,12 +44,16 @@ from tests.machines.vector_pairs import PAIRS, PAPERS
 
 ALL = PAPERS | PAIRS
 FEW = (
-    *PAPERS, "a crank as long as the vector that is turned", "a Watt six-bar: a second dyad on the coupled rocker",
-    "a boom and an arm, each on its cylinder", "a boom on a cylinder with a telescope in it",
+    *PAPERS,
+    "a crank as long as the vector that is turned",
+    "a Watt six-bar: a second dyad on the coupled rocker",
+    "a boom and an arm, each on its cylinder",
+    "a boom on a cylinder with a telescope in it",
     "a crosshead that a stroke pushes along a line of the frame, and a rocker on it",
-    "a plate whose points are turned from turned vectors, and from the far end back", "a lever with a spring on it",
+    "a plate whose points are turned from turned vectors, and from the far end back",
+    "a lever with a spring on it",
     "a cylinder that shortens as its stroke grows, over a bell crank",
-)  # fmt: skip
+)
 """The papers' machines, and pairs with every kind of member that any of them has."""
 both = for_all("which", FEW, slow=[which for which in ALL if which not in FEW])
 

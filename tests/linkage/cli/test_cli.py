@@ -650,9 +650,9 @@ def test_every_command_can_be_asked_for_its_options(said):
 def test_a_page_is_written_in_the_language_asked_for(said, tmp_path):
     for place, options in enumerate((("--language", "ru", "page"), ("page", "--language", "ru"))):
         file = tmp_path / f"{place}.html"
-        code, out, _ = said(*options, "mower_lift", "--count", "5", "--vary", "OB", "-o", str(file))
+        code, out, _ = said(*options, "four_bar", "--count", "5", "--vary", "OA", "-o", str(file))
         assert code == 0 and out == f"{file}\n"
         assert '<html lang="ru"' in file.read_text(encoding="utf-8")
-    code, _, error = said("page", "mower_lift", "--vary", "OX", "-o", str(file))
+    code, _, error = said("page", "four_bar", "--vary", "OX", "-o", str(file))
     assert code != 0 and "Dimension 'OX' is unknown" in error
     assert '<html lang="ru"' in file.read_text(encoding="utf-8")

@@ -91,7 +91,7 @@ def test_dask_gives_what_one_process_gives(small, wanted, client, given, measure
 def test_several_batches_are_under_way_at_a_time(small, spawned):
     """Few for each worker: neither one by one nor all at once."""
     counted = Counted(spawned)
-    survey(*hitch_designs(64 * 40), travel, executor=counted)
+    survey(*hitch_designs(64 * 16), travel, executor=counted)
     assert counted.most in range(2, 12)
 
 

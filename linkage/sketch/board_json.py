@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-from base64 import urlsafe_b64decode
-from binascii import Error
 from collections.abc import Mapping
 from dataclasses import asdict
 from typing import Any
@@ -30,15 +28,6 @@ def board_tables(sketch: MachineSketch) -> dict[str, Any]:
 def board_json(sketch: MachineSketch) -> str:
     """Return a sketch as the text of the board's file."""
     return json.dumps(board_tables(sketch), ensure_ascii=False, indent=1) + "\n"
-
-
-def board_in_address(file: str, text: str) -> bytes:
-    """Return the JSON in an address of the board; FileError where it is damaged."""
-    letters = text.rpartition(ADDRESS)[2].strip()
-    try:
-        return urlsafe_b64decode(letters + "=" * (-len(letters) % 4))
-    except (Error, ValueError):
-        raise FileError(f"{file}: the address is damaged; copy it whole.") from None
 
 
 def read_board(found: FoundMachine, data: Mapping[str, Any]) -> None:

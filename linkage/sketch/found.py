@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+from base64 import urlsafe_b64decode
+from binascii import Error
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from difflib import get_close_matches
@@ -275,6 +277,14 @@ def few(items: Sequence[str], between: str) -> str:
 def printable(text: str) -> str:
     """Return a text in one line of printable characters, not too long."""
     return "".join(each if each.isprintable() else " " for each in text)[:1000]
+
+
+def unpacked(file: str, letters: str) -> bytes:
+    """Return what the letters of an address hold, base 64; FileError where they are damaged."""
+    try:
+        return urlsafe_b64decode(letters + "=" * (-len(letters) % 4))
+    except (Error, ValueError):
+        raise FileError(f"{file}: the address is damaged; copy it whole.") from None
 
 
 def ensure_file(holds: object, message: str) -> None:

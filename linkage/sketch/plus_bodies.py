@@ -2,29 +2,23 @@
 
 from __future__ import annotations
 
-from base64 import urlsafe_b64decode
-from binascii import Error
 from collections.abc import Mapping
 from math import cos, sin
 from zlib import crc32
 
-from ..errors import FileError
 from ..units import parse
-from .found import FoundDrive, FoundMachine, JsonTable, ensure_file, json_list, json_table
+from .found import FoundDrive, FoundMachine, JsonTable, ensure_file, json_list, json_table, unpacked
 
 ENVELOPE = "pmks2:"
 SLIDES = "prismatic", "pin-in-slot"
 
 
-def json_in_address(file: str, text: str) -> str:
+def json_in_address(file: str, text: str) -> bytes:
     """Return the JSON in an address `pmks2:<crc>.<letters>`; FileError where it is damaged."""
     check, _, letters = text.strip().removeprefix(ENVELOPE).partition(".")
-    try:
-        raw = urlsafe_b64decode(letters + "=" * (-len(letters) % 4))
-        ensure_file(f"{crc32(raw):08x}" == check, f"{file}: the address is damaged, its check does not fit; copy it whole.")
-        return raw.decode("utf-8")
-    except (Error, ValueError):
-        raise FileError(f"{file}: the address is damaged; copy it whole.") from None
+    raw = unpacked(file, letters)
+    ensure_file(f"{crc32(raw):08x}" == check, f"{file}: the address is damaged, its check does not fit; copy it whole.")
+    return raw
 
 
 def read_plus_bodies(found: FoundMachine, data: JsonTable) -> None:

@@ -12,9 +12,9 @@ from ..disk import Place, read
 from ..errors import DefinitionError, FileError, ensure, unknown
 from ..files.names import shortened
 from ..files.source import FILE_BYTES, decoded
-from .board_json import ADDRESS, board_in_address, read_board
+from .board_json import ADDRESS, read_board
 from .dxf_layers import read_dxf
-from .found import FoundDrive, FoundMachine, JsonTable, ensure_file
+from .found import FoundDrive, FoundMachine, JsonTable, ensure_file, unpacked
 from .linkage_xml import read_linkage_xml
 from .machine_sketch import MachineSketch
 from .plus_bodies import ENVELOPE, json_in_address, read_plus_bodies
@@ -143,9 +143,9 @@ def read_address(found: FoundMachine, text: str) -> None:
     ensure_file(len(text) <= FILE_BYTES, f"{found.file}: it is longer than {FILE_BYTES} characters.")
     query = address_text(text.strip())
     if ADDRESS in text:
-        read_json(found, decoded(found.file, board_in_address(found.file, text), True).data)
+        read_json(found, decoded(found.file, unpacked(found.file, text.rpartition(ADDRESS)[2].strip()), True).data)
     elif text.startswith(ENVELOPE):
-        read_json(found, decoded(found.file, json_in_address(found.file, text).encode(), True).data)
+        read_json(found, decoded(found.file, json_in_address(found.file, text), True).data)
     elif re.match(r"j=", query):
         read_old_address(found, query)
     else:

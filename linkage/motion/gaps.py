@@ -154,9 +154,13 @@ class BodyShape:
 
 def gap_of(plan: Plan, a: str, b: str) -> Scalar:
     """Return the gap of two bodies or outlines in a plan's trace [m]."""
-    shapes, pick = two_shapes(plan, a, b), plan.trace.graph.pick
-    gaps = list[Scalar]()
-    for one, other in product(*(each.pieces(plan, plan.trace, pick) for each in shapes)):
+    return gap_in(plan, plan.trace, plan.trace.graph.pick, a, b)
+
+
+def gap_in(plan: Plan, where: Reading, pick: Pick, a: str, b: str) -> Scalar:
+    """Return the gap of two bodies or outlines in a reading [m], such as on arrays, where nothing is compiled."""
+    shapes, gaps = two_shapes(plan, a, b), list[Scalar]()
+    for one, other in product(*(each.pieces(plan, where, pick) for each in shapes)):
         found, counts = signed_gap(one, other, pick), [each.counts for each in (one, other) if each.counts is not None]
         gaps.append(pick(0.0, least_number(counts), found, FAR) if counts else found)  # more than any gap where one is none in a design
     least = least_number(gaps)

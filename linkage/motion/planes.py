@@ -13,16 +13,17 @@ from typing import Any, ClassVar, final
 
 import numpy as np
 
-from ..errors import DefinitionError, cited
+from ..errors import DefinitionError, cited, unwarned
 from ..language import said
 from ..loads import TwoPoint
 from ..plan import Plan
-from ..program import Node
+from ..program import FloatArray, Node
 from ..quantities import Operand, Quantity, Reference, Variable, joined_names, quantity, spelled
 from ..surroundings import Outline
 from ..units import show
+from ..vectors import pick
 from ..verdict import Verdict
-from .gaps import body_points_of, check_forms, corner_pieces, follows_dimensions, gap, gap_of, least_number, shape_named
+from .gaps import body_points_of, check_forms, corner_pieces, follows_dimensions, gap_in, gap_of, least_number, shape_named
 from .judge import Judge, Question
 from .judging import HasVerdicts
 from .measures import Condition, least
@@ -276,7 +277,7 @@ def pair_at(motion: Motion, chosen: tuple[Pair, ...] | None = None) -> tuple[Pai
     if chosen is None:
         width = float(np.ravel(motion.value(width_of(motion.plan)))[0])
         widths = {pair: width if thick else 0.0 for pair, thick in pairs_of(motion.plan).items()}
-    gaps = {pair: float(np.ravel(motion[gap(*pair)])[0]) - taken for pair, taken in widths.items()}
+    gaps = {pair: float(gaps_at(motion, pair)[0]) - taken for pair, taken in widths.items()}
     nearest = min(gaps, key=lambda pair: gaps[pair])
     return nearest, widths[nearest]
 
@@ -290,5 +291,13 @@ def pairs_without_planes(motion: Motion) -> tuple[tuple[Pair, ...], tuple[Pair, 
     for a, b in combinations(bodies_of(plan), 2):
         if not set(shape_named(plan, a).points) & set(shape_named(plan, b).points):
             for pair, _ in pairs_of_bodies(plan, a, b):
-                (apart if np.any(np.asarray(motion[gap(*pair)]) >= 0.0) else crossing).append(pair)
+                (apart if np.any(gaps_at(motion, pair) >= 0.0) else crossing).append(pair)
     return tuple(apart), tuple(crossing)
+
+
+def gaps_at(motion: Motion, pair: Pair) -> FloatArray:
+    """Return the gap of two bodies at all poses of a motion in a row [m], NaN out of reach; for many pairs, each asked for once."""
+    check_forms(motion, pair)
+    with unwarned():
+        found = gap_in(motion.plan, motion._placed, pick, *pair)
+    return np.where(motion.reached, found, np.nan).ravel()

@@ -47,7 +47,7 @@ function save() { saved("file"); tell(say("Saved as {name}", { name: `${fileName
 /* Open what a text holds: a file of the board or a link; what is wrong with it is said, and the sheet stays. */
 function opened(text) {
   const { drawing, wrong } = writers.opened(text);
-  if (!drawing) { tell(wrong[0] || say("This is no drawing of the board."), true); return false; }
+  if (!drawing) { tell(`${wrong[0]} ${say("Python, TOML and files of other programs are opened by: hydrolinkage board FILE")}`, true); return false; }
   shownNow.picked = null; shownNow.pending = [];
   commit(drawing, say("{name} is open", { name: drawing.name }));
   whole(); redraw();

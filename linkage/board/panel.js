@@ -94,7 +94,7 @@ const FIELDS = {
     if (each.bore) bores.push(offered(sized(say("Rod"), each.rod, data.length, (rod) => (rod < each.bore ? change({ rod }) : say("the rod is thinner than its bore")), 1e-4), rods.map(([, rod]) => rod)));
     return [
       ...bores,
-      sized(say("Closed length"), model.closedLength(current(), name), data.length, (value) => change({ drawn: model.far(current(), ...each.ends) - value }), 1e-4),
+      sized(say("Closed length"), model.closedLength(current(), name), data.length, (value) => { commit(measured(model.set(current(), "drives", name, { drawn: model.far(current(), ...each.ends) - value }), ...each.ends)); }, 1e-4),
       offered(sized(say("Stroke"), each.end - each.start, data.length, (value) => change({ end: each.start + value }), 1e-4), data.sizes.strokes),
       note(say("drawn {length} out", { length: lengthText(shownNow.values[name]) })),
     ];
@@ -129,6 +129,8 @@ function moved(name, [x, y]) {
   commit(model.movePoint(current(), name, x, y), say("{name} stands at {x}, {y}", { name, x: lengthText(x), y: lengthText(y) }));
   return "";
 }
+/* Return a drawing in which the places of two points say how far apart they are, no given length. */
+const measured = (drawing, P, Q) => ({ ...drawing, lengths: Object.fromEntries(Object.entries(drawing.lengths).filter(([label]) => label !== P + Q && label !== Q + P)) });
 /* Give two points of a link another distance, as if a cylinder stood there; all other lengths and the drives stay. */
 function stretched(P, Q, value) {
   const from = current(), [moving, still] = from.fixed.includes(Q) ? [P, Q] : [Q, P];
@@ -146,7 +148,7 @@ function stretched(P, Q, value) {
   }
   const name = model.freeName(trial, "length"), { points, stopped } = solver.run(model.cylinder(trial, P, Q, {}, name), { [name]: value - model.far(from, P, Q) });
   if (stopped) return stopped;
-  commit(model.posed(from, points), say("{label} is {length}", { label: P + Q, length: lengthText(value) }));
+  commit(measured(model.posed(from, points), P, Q), say("{label} is {length}", { label: P + Q, length: lengthText(value) }));
   return "";
 }
 function remove() {

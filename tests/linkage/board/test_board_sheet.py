@@ -376,6 +376,34 @@ def test_numbers_are_typed_with_units(chromium, empty):  # noqa: F811
         assert [*board.drawing["drives"]] == ["phi"] and board.said == []
 
 
+def test_what_cannot_be_is_said_and_nothing_is_bent(chromium, empty):  # noqa: F811
+    with Board(chromium, empty) as board:
+        board.use("bar", (0, 0), (300, 0))
+        board.use("bar", (300, 0), (100, 200))
+        board.use("bar", (100, 200), (0, 0))
+        board.use("fix", (0, 0), (300, 0))
+        assert board.text("#live").startswith("Mobility 0, drives: 0")
+        before = board.drawing["points"]
+        board.tab.locator("button[data-tool=move]").click()
+        board.drag("C", (250, 400))
+        assert "link_C_A is" in board.text("#message") and "mm too short" in board.text("#message")
+        board.choose("link_A_B")
+        for text, said in (("250 mm", "are fixed"), ("-5", "is no AB"), ("", "is no AB")):
+            board.field("AB", text)
+            assert said in board.text("#message"), text
+        board.choose("link_B_C")
+        board.field("BC", "1 m")
+        assert "too short" in board.text("#message")
+        for name, place in board.drawing["points"].items():
+            assert_allclose(place, before[name], atol=1e-12)
+        board.tab.locator("#fresh").click()
+        board.use("crank", (0, 0), (100, 0))
+        board.use("bar", (100, 0), (300, 0))
+        board.use("bar", (300, 0), (500, 0))
+        board.use("fix", (500, 0))
+        assert "singular" in board.text("#live") and board.said == []
+
+
 def test_hostile_texts_are_inert(chromium, empty):  # noqa: F811
     hostile = "<img src=x onerror=window.struck=1>"
     good = {"board": 1, "name": "M", "points": {"A": [0, 0]}, "notes": [hostile]}

@@ -16,7 +16,7 @@ from typing import Any, final
 
 import numpy as np
 
-from linkage.errors import DefinitionError, unknown
+from linkage.errors import DefinitionError, ensure, unknown
 from linkage.loads import AS_IT_RUNS, Acting, ForceElement
 from linkage.motion import Motion, PoseFunction, Request, ratio
 from linkage.motion.requests import as_they_run
@@ -150,8 +150,7 @@ class Consumers:
         if not self.lines:
             what = f"{plan.title}: no line is on {pump.name or pump}"
             raise DefinitionError(f"{what}; put it on one, OilLine(lift.piston_side, supply) or LiftCircuit(lift, supply).")
-        if any(map(np.ndim, designs.values())):
-            raise DefinitionError(f"{plan.title}: one pump is shared in one design at a time; take one of the batch.")
+        ensure(not any(map(np.ndim, designs.values())), f"{plan.title}: one pump is shared in one design at a time; take one of the batch.")
         self.rams: tuple[Ram, ...] = each_once(ram for line in self.lines for ram in line.members(plan.members))
         self.strokes = tuple(plan.strokes)
         acting = replace(acting, direction=AS_IT_RUNS, inertia=False, rates=None, accelerations=None)

@@ -16,7 +16,7 @@ from typing import final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from linkage.errors import DefinitionError
+from linkage.errors import DefinitionError, ensure
 from linkage.frozen import immutable
 from linkage.program import is_traced
 from linkage.quantities.quantity import plain
@@ -390,8 +390,7 @@ def _stiffness(x: Array, T: float) -> Array:
 
 def _density(pressure: Array, T: float) -> Array:
     """Return the density x at a pressure, by Newton's method kept inside a bracket, to the last digits."""
-    if is_traced(pressure):
-        raise DefinitionError("real_nitrogen finds its density by iteration; isothermal and polytropic gases have exact derivatives.")
+    ensure(not is_traced(pressure), "real_nitrogen finds its density by iteration; isothermal and polytropic gases have exact derivatives.")
     target = pressure / (DENSITY * R * T)
     low = 0.0 * target  # NaN where the target is: an unreached pose stays one
     high = low + DENSEST

@@ -202,8 +202,7 @@ class PumpedMachine:
         name, need = self.rams[number].name, taken.needs[number]
         what = f"{self.plan.title}: demands: {name} is asked to move without a bound"
         remedy = f"give a speed, such as {name}=0.1"
-        if self.limits.least_first:
-            raise DefinitionError(f"{what}, as valves of open centre would let it, and not least pressure first; {remedy}.")
+        ensure(not self.limits.least_first, f"{what}, as valves of open centre would let it, and not least pressure first; {remedy}.")
         if np.any(need < -SAME_NEED * self.limits.cut_off):
             at = show(float(time[np.argmin(need)]), "s", 4)
             raise DefinitionError(f"{what}, and at {at} its load drives it, which nothing would hold; {remedy}.")

@@ -17,7 +17,7 @@ import numpy.typing as npt
 
 from .assembly import Assembly, assembled, assemblies, width_words
 from .checks import is_class_of, is_listed, require, require_one_design, require_type
-from .errors import DefinitionError, cited, is_yes, known_name, told, unknown
+from .errors import DefinitionError, cited, ensure, is_yes, known_name, told, unknown
 from .frozen import FrozenDict
 from .loads import PLAIN_CASE, Acting, ForceElement, LoadCase, check_together
 from .loads.element import Formulas
@@ -229,8 +229,7 @@ class Mechanism(Shown, metaclass=MechanismType):
     def __getattr__(self, name: str) -> Any:
         """Raise AttributeError with a suggestion: a dimension is read by `machine["OB"]`."""
         title = type(self).__name__
-        if name == "_values":
-            raise DefinitionError(f"{title}: its own __init__ does not call super().__init__(**dimensions); let it do that first.")
+        ensure(name != "_values", f"{title}: its own __init__ does not call super().__init__(**dimensions); let it do that first.")
         remedy = f'; the dimension is machine["{name}"]' if not name.startswith("_") and name in self else ""
         raise AttributeError(f"{title} has no attribute {name!r}{remedy}.", name=name, obj=self)
 
@@ -710,8 +709,7 @@ class Mechanism(Shown, metaclass=MechanismType):
             More than 16 dyads.
         """
         pose = self.at(unreachable="nan", **{name: stroke.start for name, stroke in self.strokes.items()} | strokes)
-        if pose.shape:
-            raise DefinitionError(f"{self.plan.title}: assembly modes are listed for one design at one pose.")
+        ensure(not pose.shape, f"{self.plan.title}: assembly modes are listed for one design at one pose.")
         return ShownList(assemblies(self.plan, pose.inputs, with_parts(declared(type(self)), self.plan.title)))
 
     @property
@@ -831,8 +829,7 @@ def idle_stroke(plan: Plan, stroke: str) -> DefinitionError:
 def time_orders(rates: object, accelerations: object) -> int:
     """Return how many orders of derivatives by time are arguments of a function: 1 with rates, 2 with accelerations too."""
     wanted = is_yes("rates", rates), is_yes("accelerations", accelerations)
-    if wanted == (False, True):
-        raise DefinitionError("accelerations=True: they say how rates change; ask for rates=True as well.")
+    ensure(wanted != (False, True), "accelerations=True: they say how rates change; ask for rates=True as well.")
     return sum(wanted)
 
 

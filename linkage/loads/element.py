@@ -11,7 +11,7 @@ from typing import Any, ClassVar, Literal, Protocol, Self, TypeAlias, TypeVar, f
 import numpy as np
 import numpy.typing as npt
 
-from ..errors import DefinitionError, cited
+from ..errors import DefinitionError, cited, ensure
 from ..frozen import keep_own
 from ..quantities import Jointed, Member, Number, Quantity, Reference, Variable, label, name_of, quantity, real, spelled
 from ..quantities.quantity import plain
@@ -767,8 +767,7 @@ def check_together(elements: Mapping[str, object] | Sequence[tuple[str, object]]
                 raise DefinitionError(f"{title}: two of these loads are called {name}, {earlier} and {element}; give one another name.")
         for key, words in element.claims(members).items() if isinstance(element, ForceElement) else ():
             first = owners.setdefault(key, name)
-            if first != name:
-                raise DefinitionError(f"{title}: {first} and {name} both {words}")
+            ensure(first == name, f"{title}: {first} and {name} both {words}")
 
 
 def value_text(value: object) -> str:

@@ -10,7 +10,7 @@ from typing import Any, NoReturn, TypeAlias, final
 import numpy as np
 
 from ..checks import require
-from ..errors import DefinitionError, SingularError, UntracedError, one_word
+from ..errors import DefinitionError, SingularError, UntracedError, ensure, one_word
 from ..plan import Plan, rate_name, require_kinds
 from ..program import LANGUAGES, NO_VALUE, QUICKEST, FloatArray, Kernel, RunOptions
 from ..quantities import numbers_in, real
@@ -194,8 +194,7 @@ def checked_out(grid: Grid, rows: int, out: FloatArray) -> FloatArray:
             f"{grid.plan.title}: out= is {given}; expected is a contiguous float64 array of the shape {shape}: "
             "one row a component of what is asked for."
         )
-    if not out.flags.writeable:
-        raise DefinitionError(f"{grid.plan.title}: out= cannot be written into; give an array of your own, np.empty({shape}).")
+    ensure(out.flags.writeable, f"{grid.plan.title}: out= cannot be written into; give an array of your own, np.empty({shape}).")
     return out
 
 

@@ -15,7 +15,7 @@ from typing import Any, NoReturn, TypeAlias, final
 import numpy as np
 
 from ..checks import is_listed, require, require_number, require_one_design, require_type
-from ..errors import DefinitionError, SingularWarning, cited, unwarned, warn
+from ..errors import DefinitionError, SingularWarning, cited, ensure, unwarned, warn
 from ..frozen import FrozenDict, read_only, refuses_changes
 from ..language import said
 from ..numeric.box import widened
@@ -626,8 +626,7 @@ class Target:
         what = f"Target({quantity_cited(quantity)}, {cited(value)})"
         if within is not None:
             require_number(f"{what}: within", within, "how far off it may be [SI], a number above zero, is expected", above=0.0)
-        if not all(map(is_one, strokes.values())):
-            raise DefinitionError(f"{what}: one number is expected for each stroke, in SI.")
+        ensure(all(map(is_one, strokes.values())), f"{what}: one number is expected for each stroke, in SI.")
         known: float | FloatArray
         if is_one(value):
             known = float(value)

@@ -13,7 +13,7 @@ from typing import Any, ClassVar, final
 
 import numpy as np
 
-from ..errors import DefinitionError, cited, unwarned
+from ..errors import DefinitionError, cited, ensure, unwarned
 from ..language import said
 from ..loads import TwoPoint
 from ..plan import Plan
@@ -163,8 +163,7 @@ def least_gap(chosen: tuple[Pair, ...] | None) -> NodeRequest:
 
     def nodes(plan: Plan) -> tuple[Node, ...]:
         found = pairs(plan)
-        if not found:
-            raise DefinitionError(f"{plan.title}: clearance(): no two bodies lie in one plane that share no pin; ask gap(a, b) of two.")
+        ensure(found, f"{plan.title}: clearance(): no two bodies lie in one plane that share no pin; ask gap(a, b) of two.")
         width = plan.trace.value(width_of(plan)) if chosen is None else 0.0
         return (plan.trace.graph.node(least_number([gap_of(plan, a, b) - (width if thick else 0.0) for (a, b), thick in found.items()])),)
 

@@ -17,7 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..checks import can_be_called
-from ..errors import AssemblyError, DefinitionError, cited, told, unwarned
+from ..errors import AssemblyError, DefinitionError, cited, ensure, told, unwarned
 from ..language import said
 from ..numeric.box import highest_in, values_a_stroke, weights_of
 from ..numeric.line import CLOSE, SAMPLES, Index, bisected, highest, missing_lowest, peaks, samples, stretches, zoomed
@@ -61,8 +61,7 @@ def lowest(motion: Motion, f: Function) -> Answer:
 def extremum(motion: Motion, f: Function, sense: float) -> Answer:
     """Return the greatest (sense 1.0) or the lowest (-1.0) value of f over all that a motion covers."""
     require_function(motion, f)
-    if not motion.strokes:
-        raise DefinitionError(f"{motion.plan.title} has no stroke, so there is nothing between its poses.")
+    ensure(motion.strokes, f"{motion.plan.title} has no stroke, so there is nothing between its poses.")
     return extremum_reached(motion, f, sense)
 
 

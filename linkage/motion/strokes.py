@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..checks import require_whole
-from ..errors import DefinitionError, cited, known_name, one_word
+from ..errors import DefinitionError, cited, ensure, known_name, one_word
 from ..frozen import read_only
 from ..plan import Plan, rate_name, require_kind, require_kinds
 from ..program import FloatArray
@@ -54,8 +54,7 @@ def at_values(given: Mapping[str, object], plan: Plan, take: Callable[[Any], Flo
     for name, array in arrays.items():
         if array.size:
             ends = (array.item(),) * 2 if array.size == 1 else (float(array.min()), float(array.max()))
-            if not (isfinite(ends[0]) and isfinite(ends[1])):
-                raise DefinitionError(f"{title}: the stroke {name} holds a value that is not finite.")
+            ensure(isfinite(ends[0]) and isfinite(ends[1]), f"{title}: the stroke {name} holds a value that is not finite.")
             check_magnitude(name, ends, plan)
     if len(arrays) == 1:
         return arrays
@@ -106,8 +105,7 @@ def sweep_values(count: int | None, given: Mapping[str, object], plan: Plan) -> 
     strokes, title = plan.strokes, plan.title
     refuse_time(given, strokes, title)
     if count is not None:
-        if not strokes:
-            raise DefinitionError(f"{title} has no stroke, so there is nothing to sweep; declare one, S = Stroke(0, 0.25), or ask at().")
+        ensure(strokes, f"{title} has no stroke, so there is nothing to sweep; declare one, S = Stroke(0, 0.25), or ask at().")
         if len(strokes) != 1 or given:
             each = keywords(dict.fromkeys(strokes, "..."))
             some = f"{len(strokes)} stroke{'' if len(strokes) == 1 else 's'}"

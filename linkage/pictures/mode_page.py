@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from ..assembly import Assembly
-from ..errors import DefinitionError
+from ..errors import DefinitionError, ensure
 from ..language import said, said_of
 from ..motion import Motion
 from . import style
@@ -35,8 +35,7 @@ def draw_modes(modes: Sequence[Assembly]) -> Figure:
     motions = [mode_motion(mode) for mode in shown]
     scenes = [Scene(motion) for motion in motions]
     boxes = np.array([scene.box(7.0) for scene in scenes if scene.reached])
-    if not boxes.size:
-        raise DefinitionError("All modes stand at a change point here; list them at another stroke, assemblies(S=...).")
+    ensure(boxes.size, "All modes stand at a change point here; list them at another stroke, assemblies(S=...).")
     extent = float(np.max(boxes[:, 1] - boxes[:, 0])), float(np.max(boxes[:, 3] - boxes[:, 2]))  # what any of them takes [m]
     across = min(ACROSS, len(shown))
     rows = -(-len(shown) // across)

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from ..checks import require_whole
-from ..errors import DefinitionError
+from ..errors import ensure
 from ..motion import Column, Motion, stroke_display_unit
 from ..motion.measures import At, Leaf, Measure, words_of
 from ..program import FloatArray
@@ -127,8 +127,7 @@ def plot_optimum(optimum: Optimum) -> Figure:
         before, after = (problem.over_stroke(leaves[0], machine.dimensions, POSES) for machine in (optimum.start, optimum.machine))
         if before is not None and after is not None:
             courses.append((leaves, before, after))
-    if not courses:
-        raise DefinitionError(f"{problem.plan.title}: neither the objective nor a condition is of something that changes over a stroke.")
+    ensure(courses, f"{problem.plan.title}: neither the objective nor a condition is of something that changes over a stroke.")
     figure, cells = panel_grid(len(courses), problem.plan.heading)
     for ax, course in zip(cells, courses, strict=True):
         course_panel(ax, problem, *course)

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..checks import is_listed, require, require_type, require_whole
-from ..errors import DefinitionError, cited, known_name
+from ..errors import DefinitionError, cited, ensure, known_name
 from ..language import said, said_of
 from ..mechanism import Mechanism, require_mechanism
 from ..motion import Motion, least
@@ -59,8 +59,7 @@ def draw_machine(
     if time is not None:
         what = f"{machine.plan.title}: time={cited(time)} is an instant of a motion"
         raise DefinitionError(f'{what}; write draw(machine.sweep(101, over="..."), time={cited(time)}).')
-    if ax is not None:
-        raise DefinitionError(f"{machine.plan.title}: ax= takes a motion, which has poses; write draw(machine.at(...), ax=ax).")
+    ensure(ax is None, f"{machine.plan.title}: ax= takes a motion, which has poses; write draw(machine.at(...), ax=ax).")
     return draw_strokes(machine, at, path, count, overlays)
 
 

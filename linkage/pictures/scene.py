@@ -14,7 +14,7 @@ from typing import TypeAlias, final
 import numpy as np
 
 from ..checks import require
-from ..errors import DefinitionError
+from ..errors import DefinitionError, ensure
 from ..loads import ForceElement, Glyph, Halves, TwoPoint
 from ..motion import Motion, Over, require_motion
 from ..plan import member_sides
@@ -654,8 +654,7 @@ class Scene:
             places += [self.places[contour.on[0]] + reach * np.array([[x], [y]]) for x, y in product((-1.0, 1.0), repeat=2)]
         every = np.concatenate([np.empty((2, 0)), *places], axis=1)
         every = every[:, np.isfinite(every).all(axis=0)]
-        if not every.size:
-            raise DefinitionError(f"{self.motion.plan.title}: there is nothing to draw, no point stands anywhere.")
+        ensure(every.size, f"{self.motion.plan.title}: there is nothing to draw, no point stands anywhere.")
         low, high = every.min(axis=1), every.max(axis=1)
         if float(np.max(high - low)) > LARGE:
             said = f"{self.motion.plan.title} is {float(np.max(high - low)):.4g} m across; lengths are in m"

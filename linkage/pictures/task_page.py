@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import DefinitionError, StudyError
+from ..errors import StudyError, ensure
 from ..motion import live_text
 from ..motion.measures import measure_of, words_of
 from ..plan import Plan
@@ -29,8 +29,7 @@ def task_page(found: Synthesis, *, count: int, language: str, at: At, **given: A
     """
     if not found.solutions:
         raise StudyError(str(found))
-    if at:
-        raise DefinitionError(f"{found.start.plan.title}: the page of a synthesis runs over the stroke of its task; leave out at=.")
+    ensure(not at, f"{found.start.plan.title}: the page of a synthesis runs over the stroke of its task; leave out at=.")
     found = found.own(found.best)
     best, task = found.best, found.task
     fit = found.fit_of(best)

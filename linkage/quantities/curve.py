@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..checks import require, require_number
-from ..errors import DefinitionError
+from ..errors import DefinitionError, ensure
 from ..frozen import immutable, read_only, refuses_changes
 from ..units import amounts_in
 from ..vectors import FloatArray, Scalar, pick
@@ -59,8 +59,7 @@ class Curve:
             if abs(self.xs[-1] - self.xs[0] - period) > 1e-9 * period or abs(self.ys[-1] - self.ys[0]) > 1e-9 * np.ptp(self.ys):
                 ends = f"from ({self.xs[0]:.6g}, {self.ys[0]:.6g}) to ({self.xs[-1]:.6g}, {self.ys[-1]:.6g})"
                 fault = f"the last row must lie one period after the first, with the same value; the table goes {ends}"
-        if fault:
-            raise DefinitionError(f"Curve: {fault}.")
+        ensure(not fault, f"Curve: {fault}.")
 
     def __call__(self, x: Any, order: int = 0) -> Any:
         """Return the curve of a quantity as a quantity, of numbers as numbers; or its derivative of that order.

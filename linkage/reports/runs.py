@@ -10,7 +10,7 @@ from typing import Any, TypeAlias, cast
 import numpy as np
 
 from ..checks import require_type
-from ..errors import DefinitionError, LinkageError, known_name, unwarned
+from ..errors import DefinitionError, LinkageError, ensure, known_name, unwarned
 from ..language import said
 from ..loads import PLAIN, PLAIN_CASE, Acting, Case, LoadCase
 from ..mechanism import Mechanism
@@ -212,8 +212,7 @@ def first_stroke(machine: Mechanism) -> str:
     """Return the first stroke; DefinitionError for a structure without one, and for anything but a mechanism."""
     if not isinstance(machine, Mechanism):
         raise DefinitionError(f"{machine!r:.60} is no mechanism; give a design such as Boom(), and its strokes by at=.")
-    if not machine.strokes:
-        raise DefinitionError(f"{machine.plan.title} has no stroke, so there is nothing to move; declare one, S = Stroke(0, 0.25).")
+    ensure(machine.strokes, f"{machine.plan.title} has no stroke, so there is nothing to move; declare one, S = Stroke(0, 0.25).")
     return next(iter(machine.strokes))
 
 

@@ -14,7 +14,7 @@ from typing import TypeAlias, final
 
 import numpy as np
 
-from ..errors import DefinitionError, known_name, unknown
+from ..errors import DefinitionError, ensure, known_name, unknown
 from ..loads import ForceElement, Halves, Load, PinFriction, Push, TwoPoint
 from ..plan import Plan, arm_joint, arm_points, carrying_pairs, holds_an_arm, member_sides
 from ..program import FloatArray
@@ -152,8 +152,7 @@ def two_point_members(
             found.append(Strut(joined_names(bar.P, bar.Q), bar.P, bar.Q, bar.length))
     struts = [*found, *cylinders, *known_struts(given)]
     twice = next((name for name, count in Counter(strut.name for strut in struts).items() if count > 1), None)
-    if twice:
-        raise DefinitionError(f"{plan.title}: two elements are called {twice}; give each a name of its own in the class.")
+    ensure(not twice, f"{plan.title}: two elements are called {twice}; give each a name of its own in the class.")
     # The declared bodies that are members with the points measured along them. One member a body: of several between the same points
     # the cylinder, then the driven length, then the first of the others. A body that a stroke drives keeps its own name.
     inside = [(strut, link) for strut in struts for link in links if {strut.P, strut.Q} <= set(link.points)]
@@ -387,8 +386,7 @@ class Structure:
             wrong = f"holds {joint.holds!r}, across (n) or along (t) a line, but says none; give line="
         elif drives - letters:
             wrong = f"drives {', '.join(sorted(drives - letters))}, which it does not hold ({joint.holds!r})"
-        if wrong:
-            raise DefinitionError(f"{opening} {wrong}.")
+        ensure(not wrong, f"{opening} {wrong}.")
         known_name("Point", joint.point, self.plan.points, where=opening)
 
     def left(self, owner: str, joint: Joint) -> str:
@@ -436,8 +434,7 @@ class Structure:
     def carrier(self, P: str, Q: str, what: str) -> int:
         """Return the body that holds two points."""
         common = [index for index in self.owners(P) if index in self.owners(Q)] or self.halves_with(P, Q)
-        if not common:
-            raise DefinitionError(f"{self.plan.title}: {what}: {P} and {Q} do not belong to one body; for forces declare Link({P}, {Q}).")
+        ensure(common, f"{self.plan.title}: {what}: {P} and {Q} do not belong to one body; for forces declare Link({P}, {Q}).")
         return common[0]
 
     def bearer(self, load: Load) -> int:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..checks import is_listed
-from ..errors import DefinitionError, LawError, UntracedError, unwarned
+from ..errors import DefinitionError, LawError, UntracedError, ensure, unwarned
 from ..loads import DIRECTIONS, PLAIN, Acting, ForceElement, Load, LoadCase, Push, Rate, Rates, StrokeRates
 from ..motion import Motion, OnePose, Request, SmoothPiece, require_motion
 from ..motion.grid import MotionLike
@@ -306,8 +306,7 @@ def sampled_poses(plan: Plan) -> Motion:
     ranges = {name: each.start + along * (each.end - each.start) for name, each in plan.strokes.items()}
     with unwarned():
         found = Motion(plan, plan.defaults, {name: np.append(plan.sketch_strokes[name], values) for name, values in ranges.items()}, "nan")
-    if not found.reached.any():
-        raise DefinitionError(f"{plan.title}: the declared design cannot be assembled at any of {POSES} poses; declare one that can.")
+    ensure(found.reached.any(), f"{plan.title}: the declared design cannot be assembled at any of {POSES} poses; declare one that can.")
     return found
 
 

@@ -11,7 +11,7 @@ from typing import ClassVar, Unpack, cast, final
 
 import numpy as np
 
-from ..errors import DefinitionError, cited, known_name
+from ..errors import DefinitionError, cited, ensure, known_name
 from ..language import noted, said
 from ..loads import Acting, ActingKeywords, Case, Loads, situation_of, takes_situation
 from ..loads.element import Declared, ForceElement, Formulas, Glyph, Load, Parameter, Poses, Reeving, Tie, value_text
@@ -58,8 +58,7 @@ class Rope(ForceElement, Tabled, HasVerdicts):
             raise DefinitionError(f"Rope(weights={cited(weights)}): numbers are expected, one a part, such as weights=[1, 2].")
         self.weights = None if weights is None else tuple(weights)
         wrong = next(self._misgiven(), "")
-        if wrong:
-            raise DefinitionError(f"{wrong}.")
+        ensure(not wrong, f"{wrong}.")
         self.weights = None if self.weights is None else tuple(map(float, self.weights))
         self._check_numbers()
 

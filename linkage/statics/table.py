@@ -9,7 +9,7 @@ from typing import Any, Protocol, TypeAlias, cast, final, overload, runtime_chec
 
 import numpy as np
 
-from ..errors import DefinitionError, cited, unwarned
+from ..errors import DefinitionError, cited, ensure, unwarned
 from ..language import noted, said, translated
 from ..loads import FRICTIONLESS, Acting
 from ..motion import Answer, Judge, Motion, Over, greatest, most, stroke_unit
@@ -143,8 +143,7 @@ def max_table(results: Results, over: OverLike = None, acting: Acting | None = N
             key = joint_key(row)
             if key not in best or row.force > best[key].force:
                 best[key] = row
-    if not best:
-        raise DefinitionError("There are no joint forces to tabulate: no pose is reached.")
+    ensure(best, "There are no joint forces to tabulate: no pose is reached.")
     return tuple(best.values())
 
 

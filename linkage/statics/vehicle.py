@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..checks import require
-from ..errors import DefinitionError, known_name
+from ..errors import DefinitionError, ensure, known_name
 from ..language import noted, said, translated
 from ..loads import FRICTIONLESS, PLAIN, Acting, ActingKeywords, Case, ForceElement, Load, LoadCase, Loads, situation_of, takes_situation
 from ..loads.point import LinkMass, Support, Weight
@@ -175,8 +175,7 @@ def vehicle_of(plan: Plan, acting: Acting = PLAIN, given: Support | None = None)
     if given is not None and given not in found.values():
         point = name_of(given.point)
         found = {name: each for name, each in found.items() if name_of(each.point) != point} | {given.name or str(given): given}
-    if not found:
-        raise DefinitionError(f"{plan.title} has no support under a point of its frame; declare two, such as front = Support(A, (0, 1)).")
+    ensure(found, f"{plan.title} has no support under a point of its frame; declare two, such as front = Support(A, (0, 1)).")
     first = next(iter(found))
     if not any(is_on_frame(plan, each) for each in plan.of_kind(ForceElement).values()):
         what = f"{plan.title} stands on {', '.join(found)}, but its frame weighs nothing"

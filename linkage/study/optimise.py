@@ -216,8 +216,7 @@ def optimise(
     """
     check_one_design(machine)
     title = machine.plan.title
-    if method == "evolution":
-        raise DefinitionError(f"{title}: method='evolution' is no more: leave it out, and give more starts= where they are too few.")
+    ensure(method != "evolution", f"{title}: method='evolution' is no more: leave it out, and give more starts= where they are too few.")
     one_word("method", method, METHODS)
     if solver is not None and one_word("solver", solver, SOLVERS) != "slsqp":
         text = f'{title}: solver="{solver}" is gone and will be refused: SLSQP searches in its place. Leave solver= out.'

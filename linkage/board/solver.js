@@ -367,8 +367,8 @@ const solver = (() => {
     if (loose.length) return say("loose: {names}. A link, a fixed point, a slide or a drive holds them", { names: loose.join(", ") });
     if (freedom === 0) return say("it does not move: it has a link or a fixed point too many");
     if (driven < drives) return say("its drives are in each other's way: {drives} for a freedom of {freedom}", { drives, freedom });
-    if (redundant) return say("it moves as its drives say: a freedom of {freedom}. Conditions more than needed: {redundant}; Python may refuse them", { freedom, redundant });
-    return say("it moves as its drives say: a freedom of {freedom}", { freedom });
+    if (redundant) return say("it moves as its drives say. Conditions more than needed: {redundant}; Python may refuse them", { redundant });
+    return say("it moves as its drives say");
   }
   return Object.assign(own, { mobility, run, drag, sweep });
 })();

@@ -73,7 +73,7 @@ class TurningArrow:
 @final
 @dataclass(frozen=True, eq=False)
 class ArrowLayer:
-    """Arrows to one scale, in a unit; `keys` says what each colour means, `sense` which way they count."""
+    """Arrows to one scale, in a unit; `keys` are the meanings of the colours, `sense` the positive direction."""
 
     arrows: tuple[VectorArrow, ...]
     unit: str
@@ -107,7 +107,7 @@ class ArrowLayer:
         return significant(size / self.factor) if size > NOTHING_THERE * self.largest else "0"
 
     def words(self, arrow: VectorArrow) -> str:
-        """Return what stands at an arrow."""
+        """Return the text at an arrow."""
         return f"{self.value(arrow.length)} {self.sign} {arrow.text}".rstrip()
 
     def tips(self, scale: float) -> FloatArray:
@@ -221,7 +221,7 @@ class Wording:
 
 
 def wordings(layer: ArrowLayer, scale: float, size: float) -> list[Wording]:
-    """Return what stands at the arrows of a layer: at their tips, those of moments beside their curves."""
+    """Return the texts at the arrows of a layer: at their tips, those of moments beside their curves."""
     found = []
     for each in layer.arrows:
         tip, colour = each.at + scale * each.vector, style.mixed(each.colour, style.INK, 0.4)
@@ -244,7 +244,7 @@ class PlacedWording:
     """A text that is written, the spots it may stand at, shape (n, 2) [pixels], and which of them it has chosen."""
 
     def __init__(self, text: Text, mark: FloatArray, size: FloatArray, way: FloatArray) -> None:
-        """Take the text, points along what it stands for, shape (m, 2), the last one its tip, its size [pixels], and the preferred way."""
+        """Take the text, points along its object, shape (m, 2), the last one its tip, its size [pixels], and the preferred direction."""
         self.text, self.mark, self.half, self.place = text, mark, 0.5 * size + CLEAR, -1
         self.anchor = mark[-1]
         start = float(np.arctan2(way[1], way[0]))
@@ -259,7 +259,7 @@ class PlacedWording:
         return np.asarray(distance_to_box(points - self.spots[:, None], self.half).min(axis=1))
 
     def keep_from(self, others: Sequence[PlacedWording]) -> None:
-        """Note at which of its spots it would stand nearer to what other texts stand for than to its own."""
+        """Note the spots at which it would be nearer to other texts' objects than to its own."""
         same = [len(each.mark) == len(self.mark) and np.allclose(each.mark, self.mark, atol=NEARER) for each in others]
         marks = [each.mark for each, is_same in zip(others, same, strict=True) if not is_same]
         near = self.distances(np.concatenate(marks)) if marks else np.full(len(self.spots), np.inf)
@@ -268,13 +268,13 @@ class PlacedWording:
 
     @property
     def box(self) -> FloatArray:
-        """What it covers [pixels]: left, bottom, right, top."""
+        """The area it covers [pixels]: left, bottom, right, top."""
         spot = self.spots[self.place]
         return np.concatenate([spot - self.half, spot + self.half])
 
     @property
     def leader(self) -> FloatArray:
-        """Points along the line that leads to what it stands for, shape (n, 2) [pixels]: none where it stands near."""
+        """Points along the line that leads to its object, shape (n, 2) [pixels]: none where it is near."""
         return self.leaders[self.place - FIRST_LED] if self.place >= FIRST_LED else np.empty((0, 2))
 
     @cached_property
@@ -298,7 +298,7 @@ class PlacedWording:
         self.place = int(np.argmin(costs))
 
     def write(self, ax: Axes) -> None:
-        """Put the text where it has chosen, with a line that leads to what it stands for where that is far."""
+        """Put the text at its chosen place, with a line that leads to its object where that is far."""
         back = ax.transData.inverted()
         x, y = back.transform(self.spots[self.place]).tolist()
         self.text.set_position((x, y))
@@ -310,7 +310,7 @@ class PlacedWording:
 
 
 def place_wordings(ax: Axes, texts: Sequence[Wording], covered: FloatArray) -> None:
-    """Write texts near their places so that they cover neither each other, nor what is written already, nor `covered` points [m]."""
+    """Write texts near their places so that they cover neither each other, nor written texts, nor `covered` points [m]."""
     renderer = renderer_of(figure_of(ax))
     ax.apply_aspect()
     inside = ax.get_window_extent(renderer).padded(-EDGE)
@@ -347,7 +347,7 @@ def place_wordings(ax: Axes, texts: Sequence[Wording], covered: FloatArray) -> N
 
 
 def text_boxes(ax: Axes) -> list[Bbox]:
-    """Return what the texts that are written on a sheet cover [pixels], without the lines that lead to them."""
+    """Return the areas of the texts on a sheet [pixels], without the lines that lead to them."""
     renderer = renderer_of(figure_of(ax))
     written = [text for text in ax.texts if text.get_visible() and text.get_text()]
     for text in written:
@@ -407,6 +407,6 @@ def scale_bar(ax: Axes, layer: ArrowLayer, scale: float, covered: FloatArray) ->
 
 
 def add_keys(ax: Axes, layer: ArrowLayer) -> None:
-    """Add a key for each colour of a layer to what a legend says."""
+    """Add a key for each colour of a layer to a legend."""
     for colour, text in layer.keys:
         ax.add_line(Line2D([], [], color=colour, linewidth=2.4, label=text))

@@ -1,4 +1,4 @@
-"""What a live page is fed with: what its script asks the program for, and a mechanism as plain data [SI]."""
+"""Data of a live page: its script's requests to the program, and a mechanism as plain data [SI]."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ ROUND = 1e-9
 
 
 def track_number(track: SlideTrack, part: str, axis: str) -> NodeRequest:
-    """Return what asks for a number of a track's line: the x or y of its origin [m] or of its direction."""
+    """Return the request for a number of a track's line: the x or y of its origin [m] or of its direction."""
 
     def nodes(plan: Plan) -> tuple[Node, ...]:
         reading = plan.trace.view()
@@ -67,7 +67,7 @@ def track_number(track: SlideTrack, part: str, axis: str) -> NodeRequest:
 
 @final
 class PageRequests:
-    """What a page of a machine shows, and what it asks the program for, by names of its own."""
+    """The contents of a machine's page, and its requests to the program, by names of its own."""
 
     def __init__(
         self,
@@ -285,7 +285,7 @@ def page_data(requests: PageRequests, live: LiveText) -> PageData:
 
 
 def pins_called(plan: Plan) -> dict[str, list[str]]:
-    """Return what points are called where a motion ends, in English and Russian, those that are not called by their names."""
+    """Return the words for points where a motion ends, in English and Russian, if they differ from their names."""
     found = dict[str, list[str]]()
     for spoken in ("en", "ru"):
         with language(spoken):
@@ -295,7 +295,7 @@ def pins_called(plan: Plan) -> dict[str, list[str]]:
 
 
 def named_in_code(kind: type[Mechanism]) -> PageData:
-    """Return what a class is called in Python, "" for the module of one that no module has, and by commands."""
+    """Return the name of a class in Python, "" for the module of one that no module has, and in commands."""
     module, name = kind.__module__, kind.__name__
     file = str(getattr(sys.modules.get(module), "__file__", None) or "")
     if getattr(sys.modules.get(module), name, None) is not kind:
@@ -318,7 +318,7 @@ def machine_text(requests: PageRequests, live: LiveText, data: PageData, parts: 
 
 
 def unit_tables(used: set[str], beside: set[str]) -> PageData:
-    """Return what the page's script knows of units: the factors of those that are used, all that measure the same, and their signs.
+    """Return the units of the page's script: the factors of the used ones and of all of their kinds, and their signs.
 
     Units `beside` these are shown, and have no factor here.
     """
@@ -423,7 +423,7 @@ def stroke_data(requests: PageRequests) -> list[PageData]:
 
 
 def event_data(events: Sequence[Any]) -> list[list[Any]]:
-    """Return what happens at each instant: the instant [s], and all that is said of it."""
+    """Return the events at each instant: the instant [s], and their sentences."""
     found = [[*group] for _, group in groupby(events, key=lambda event: event.time)]
     return [[group[0].time, "; ".join([str(group[0]), *(each.sentence for each in group[1:])])] for group in found]
 
@@ -511,7 +511,7 @@ def meeting_data(plan: Plan, names: Sequence[str], index: Mapping[str, int]) -> 
 
 
 def cylinder_data(scene: Scene, live: LiveText | None = None, count: int = 0) -> list[PageData]:
-    """Return the cylinders: where they hang, and the rows of what a program gives of them in so many situations."""
+    """Return the cylinders: their ends, and the rows of a program's values in so many situations."""
     plan = scene.motion.plan
     points = list(plan.points)
     driven = {frozenset((bar.P, bar.Q)) for bar in plan.cylinders}
@@ -541,7 +541,7 @@ GAUGES, SIZES = ("pressure", "most"), {"closed", "stroke"}
 
 
 def scene_data(scene: Scene, lines: Mapping[str, Sequence[int]]) -> PageData:
-    """Return what is drawn, by the points' places in `names`; `lines` are the rows of each track's origin and direction."""
+    """Return the drawing as data, by the points' places in `names`; `lines` are the rows of each track's origin and direction."""
     names = list(scene.motion.plan.points)
     index = {name: place for place, name in enumerate(names)}
     forms = list(zip(scene.plates, scene.bodies, scene.colours, strict=True))
@@ -567,7 +567,7 @@ def scene_data(scene: Scene, lines: Mapping[str, Sequence[int]]) -> PageData:
 
 
 def names_shown(scene: Scene) -> dict[str, str]:
-    """Return what points of parts are called on the sheet. Of many it is as in pictures."""
+    """Return the labels of parts' points on the sheet. Of many points they are as in pictures."""
     ends = Counter(name.rpartition(".")[2] for name in scene.places)
     short = {name: name.rpartition(".")[2] for name in scene.places if "." in name}
     return {name: end for name, end in short.items() if ends[end] == 1} | scene.letters
@@ -650,7 +650,7 @@ def verdict_data(machine: Mechanism, judge: Judge, along: Motion | None) -> list
 
 
 def verdicts_shown(requests: PageRequests) -> PageData:
-    """Return the verdicts of the page, and what they say in each system of units, in English and Russian; 0 where it is as delivered."""
+    """Return the verdicts of the page, and their words in each system of units, in English and Russian; 0 where they are as delivered."""
     machine, judge, along = requests.machine, requests.judge, requests.along
     plain, found = verdict_data(machine, judge, along), {}
     for name in SYSTEMS:

@@ -68,7 +68,7 @@ def page_text(title: str, data: PageData, parts: Sequence[str], *, language: str
 
 
 def said_in(text: str) -> list[str]:
-    """Return what the program or the text of a page says, in English, each sentence once. `{gap}` and the like are filled in there."""
+    """Return the English sentences in the program or the text of a page, each once. `{gap}` and the like are filled in there."""
     return list(dict.fromkeys(SAID.findall(text)))
 
 
@@ -92,12 +92,12 @@ def page_part(name: str) -> str:
 
 
 def source_hash(text: str) -> str:
-    """Return what a content security policy names an inline script or style by."""
+    """Return the hash by which a content security policy names an inline script or style."""
     return f"'sha256-{b64encode(sha256(text.encode()).digest()).decode()}'"
 
 
 def bare(text: str) -> str:
-    """Return a program or a style sheet without the comments that fill lines of their own, and without what its lines are moved in by."""
+    """Return a program or a style sheet without the comments that fill lines of their own, and without its indents."""
     return "\n".join(line.lstrip() for line in re.sub(r"(?m)^[ ]*/\*(?:[^*]|\*(?!/))*\*/[ ]*\n", "", text).splitlines() if line.strip())
 
 
@@ -108,14 +108,14 @@ def tight(program: str) -> str:
 
 
 def packed(text: str) -> str:
-    """Return a text compressed by zlib and written in 85 letters: half of what it is or less, and nothing in it begins an element."""
+    """Return a text compressed by zlib and written in 85 letters: at most half as long, and without the begin of an element."""
     tried = [compressobj(9, memLevel=level) for level in range(4, 10)]  # which one packs best hangs on the text
     found = min((each.compress(text.encode()) + each.flush() for each in tried), key=len)
     return b85encode(found).decode().replace("<", ",")
 
 
 def fill_template(template: str, parts: dict[str, str]) -> str:
-    """Return a template with each `{{NAME}}` replaced once; what is put in is not looked at again."""
+    """Return a template with each `{{NAME}}` replaced once; inserted text is not searched again."""
     pieces = template.split("{{")
     done = [pieces[0]]
     for piece in pieces[1:]:

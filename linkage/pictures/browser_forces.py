@@ -45,13 +45,13 @@ def page_situations(machine: Mechanism, judge: Judge, run: Run) -> tuple[list[Pa
 
 
 def situated_requests(name: str, request: Asked, situations: Sequence[PageSituation]) -> dict[str, Asked]:
-    """Return what is asked in each situation, by its name and number; once where it is the same as in the first."""
+    """Return a request in each situation, by its name and number; once where it is the same as in the first."""
     asked = [each.asked(request) for each in situations]
     return {f"{name} {k}": each for k, each in enumerate(asked) if not k or each is not asked[0]}
 
 
 def situated_rows(name: str, live: LiveText, count: int) -> int | list[int] | None:
-    """Return the row of what is asked in situations, one for all or one for each, -1 where its program does not give it; None for none."""
+    """Return the row of a request in situations, one for all or one for each, -1 where its program does not give it; None without one."""
     keys = [f"{name} {k}" for k in range(count)]
     keys = [key if key in live.rows or key in live.left_out else keys[0] for key in keys]
     found = [live.rows[key][0] if key in live.rows else -1 for key in keys]
@@ -59,7 +59,7 @@ def situated_rows(name: str, live: LiveText, count: int) -> int | list[int] | No
 
 
 def load_part(kind: str, name: Any, axis: int, motion: AnyMotion, acting: Acting) -> FloatArray:
-    """Return a part of what the ground does, by its place, or of an element's loads at a point, over a motion in a situation [N]."""
+    """Return a part of the ground's force, by its place, or of an element's loads at a point, over a motion in a situation [N]."""
     if kind == "ground":
         return cast(FloatArray, ground_loads(motion, acting)[name].force[axis])
     loads = [each for each in applied_loads(motion, acting, rates_in(motion, acting)).loads if (each.element, each.point) == name]
@@ -104,7 +104,7 @@ def alone_on(joint: JointForce, joints: Sequence[JointForce]) -> str:
 
 
 def joint_part(joint: JointForce, joints: Sequence[JointForce], axis: str) -> Request:
-    """Return what asks for a part of a joint's force on its own body; where several joints of it meet there, by the other body's."""
+    """Return the request for a part of a joint's force on its own body; where several joints of it meet there, by the other body's."""
     body = alone_on(joint, joints)
     asked = pin_force(joint.point, body, axis)
     found: Request = asked if body == joint.on else -1.0 * asked

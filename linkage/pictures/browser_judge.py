@@ -1,4 +1,4 @@
-"""What a live page asks of a design that is changed: the judge's questions, split into their pieces, as plain data for `judge.js`."""
+"""Questions of a live page for a changed design: the judge's, split into their pieces, as plain data for `judge.js`."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ TRUTHS = {"gaps": "where it has a bound", "assumed": "where it is true"}
 
 
 def where_true(request: Request, which: str) -> NodeRequest:
-    """Return the least of what is above zero where a bound request has a bound ("gaps"), or its program is true ("assumed"); else one."""
+    """Return the least of the nodes above zero where a bound request has a bound ("gaps"), or its program is true ("assumed"); else one."""
 
     def nodes(plan: Plan) -> tuple[Node, ...]:
         request.nodes(plan)
@@ -173,7 +173,7 @@ class LiveQuestions:
     # -- as data -----------------------------------------------------------------------------------------
 
     def data(self, live: LiveText) -> PageData:
-        """Return what `judge.js` reads: the overs, the questions that the program can answer, and the greatest number of poses."""
+        """Return the data for `judge.js`: the overs, the questions that the program can answer, and the greatest number of poses."""
         can_look = all(name in live.rows for names in (*self.only, *(ends.values() for ends in self.ends)) for name in names)
         asked = [self.question(live, *each) for each in self.asked] if can_look else []
         overs = [
@@ -238,7 +238,7 @@ class LiveQuestions:
 
 
 def delivered_over(place: Domain, request: Request) -> list[DeliveredRow]:
-    """Return what no program gives over a path in time, at even instants, and what is above zero where it has a bound."""
+    """Return values without a program over a path in time, at even instants, and values above zero where they have a bound."""
     assert place.instants is not None
     motion = place.timed(place.instants.shares(np.linspace(0.0, 1.0, INSTANTS)), "nan")
     with unwarned():
@@ -265,7 +265,7 @@ def course_data(instants: Instants) -> PageData:
 
 
 def rule_key(rule: str, member: str) -> str:
-    """Return what a rule of a member is known by, whether or not it bears the member's name, as it does where several have it."""
+    """Return the key of a member's rule, with or without the member's name, which it bears where several have it."""
     return f"{member} {rule.removesuffix(f' {member}')}"
 
 

@@ -40,7 +40,7 @@ def chart_page(field: WorkingField, begins: str) -> str:
 
 
 def as_printed(field: WorkingField, values: NDArray[Kind]) -> NDArray[Kind]:
-    """Return what stands in the cells as the chart is printed, from above and ascending, shape (cells,)."""
+    """Return the cells' values as the chart is printed, from above and ascending, shape (cells,)."""
     return values[np.ix_(np.argsort(-field.y, kind="stable"), np.argsort(field.x, kind="stable"))].ravel()
 
 
@@ -87,7 +87,7 @@ def number_or_none(load: float) -> float | str | None:
 
 
 def words_of_chart(field: WorkingField, names: list[str], name: str) -> PageData:
-    """Return what a chart says in a language: of itself, of its limiters, of each cell that is out of reach."""
+    """Return a chart's words in a language: of the chart, of its limiters, of each cell that is out of reach."""
     with language(name):
         spoken = replace(field, remarks=field.search.remarks(field.failing))
         text = ChartText(spoken)

@@ -101,7 +101,7 @@ def plot_curves(first: Motion, curves: Sequence[Curve], limits: Mapping[str, Seq
 
 
 def columns_named(motion: Motion, columns: Sequence[Column | RequestLike]) -> list[Column]:
-    """Return columns, those that go by their names from the motion's own table, and what is asked; DefinitionError for an unknown name."""
+    """Return columns, those given by name from the motion's own table, and requests; DefinitionError for an unknown name."""
     if not is_listed(columns) or not all(isinstance(each, (str, Column, Quantity, Request)) for each in columns):
         raise DefinitionError(f'{motion.plan.title}: {cited(columns)}: a list of columns or their names is expected, such as ["tilt"].')
     names = [each for each in columns if isinstance(each, str)]
@@ -124,7 +124,7 @@ def check_poses(column: Column, motion: Motion) -> None:
 
 
 def panel_grid(count: int, title: str, held: str = "") -> tuple[Figure, list[Axes]]:
-    """Return a figure and the axes of so many panels, as near to a square as they go, under a title that says what strokes are held."""
+    """Return a figure and the axes of so many panels, as near to a square as they go, under a title with the held strokes."""
     across = min(ceil(sqrt(count)), 4)
     down = ceil(count / across)
     figure, cells = panels((max(PANEL[0] * across, 6.0), PANEL[1] * down + 0.6), across, down, count, w_pad=0.12, h_pad=0.12)
@@ -236,7 +236,7 @@ def panel(ax: Axes, motion: Motion, column: Column, bound: Sequence[object] | No
 
 
 def locator(is_turning: bool = False) -> MaxNLocator:
-    """Return what chooses the ticks of an axis: round values, or thirds of a right angle in degrees."""
+    """Return the locator of an axis's ticks: round values, or thirds of a right angle in degrees."""
     return MaxNLocator(6, steps=[1, 3, 4.5, 6, 9, 10] if is_turning else [1, 2, 2.5, 5, 10])
 
 

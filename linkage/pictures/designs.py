@@ -1,4 +1,4 @@
-"""Several designs of a mechanism over one another, with what they differ in."""
+"""Several designs of a mechanism over one another, with their differences."""
 
 from __future__ import annotations
 
@@ -130,7 +130,7 @@ def looks_of(count: int) -> list[Look]:
 
 
 def what_differs(designs: Sequence[Mechanism]) -> list[str]:
-    """Return for each design what makes it another than the others: its class where these differ, and the dimensions that do."""
+    """Return each design's differences from the others: its class where these differ, and the dimensions that do."""
     titles = {machine.plan.title for machine in designs}
     common = [name for name in designs[0].dimensions if all(name in machine.dimensions for machine in designs)]
     names = [name for name in common if any(a.dimensions[name] != b.dimensions[name] for a, b in pairwise(designs))]

@@ -155,7 +155,7 @@ def placed_dimensions(scene: Scene, at: Places, pose: int, scale: float, box: Bo
 
 
 def given_dimensions(motion: Motion, at: Places, pose: int) -> Iterator[tuple[tuple[FloatArray, FloatArray], FloatArray | None, str]]:
-    """Yield what is given: the two points of a length, or the two sides of an angle with its corner, and the text; short ones first."""
+    """Yield the given dimensions: a length's two points, or an angle's sides with its corner, and the text; short ones first."""
     plan = motion.plan
     lengths = []
     for pair, quantity in plan.table.lengths.items():

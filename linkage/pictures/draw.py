@@ -1,4 +1,4 @@
-"""What `linkage.draw` and `linkage.plot` show of what: which picture is made of a machine, a motion, designs, modes, a search, a chain."""
+"""The pictures of `linkage.draw` and `linkage.plot`: by the kind of object, a machine, a motion, designs, modes, a search, a chain."""
 
 from __future__ import annotations
 

@@ -80,7 +80,7 @@ class Drawing:
         ]
 
     def ground(self) -> None:
-        """Draw what never moves: the frame under its pins."""
+        """Draw the parts that never move: the frame under its pins."""
         rails(self.ax, self.scene, self.look)
         at = self.scene.at(0)
         for mark in self.scene.marks:

@@ -193,7 +193,7 @@ class Stage:
         return drawing
 
     def _curve(self, bound: Sequence[object] | None) -> tuple[Artist, ...]:
-        """Return what is drawn anew on the curve, from the lowest layer up: the piece run through, the limit, a marker."""
+        """Return the moving artists of the curve, from the lowest layer up: the piece run through, the limit, a marker."""
         ax = self.figure.add_axes(CURVE)
         panel(ax, self.playback.motion, self.playback.column, bound, colour=style.RULE)
         ax.set_title("", loc="left")

@@ -60,7 +60,7 @@ class ForceQuestion:
 def force_question(
     forces: object, loads: Loads, case: Case, direction: str | None, drive: str | None, rates: Rates
 ) -> ForceQuestion | None:
-    """Return what `draw(forces=...)` asks for, None where it asks for nothing; DefinitionError for what is neither."""
+    """Return the question of `draw(forces=...)`, None without one; DefinitionError for anything else."""
     if forces is False or forces is None:
         given = {"loads": loads, "case": case, "drive": drive, "direction": direction}
         named = next((name for name, value in given.items() if value is not None), "")
@@ -130,7 +130,7 @@ def one_pose(motion: Motion, pose: int, unreachable: str = "raise") -> Motion:
 
 
 def force_layer(forces: ForcesAt, body: str = "") -> ArrowLayer:
-    """Return the pin forces and the loads of a machine as arrows, or all forces on one body, with what each comes from.
+    """Return the pin forces and the loads of a machine as arrows, or all forces on one body, each with its origin.
 
     A force between the frame and a moving body is shown as it acts on that body; between a body and a cylinder or a spring as it acts on
     the body; else on the body that the text names.

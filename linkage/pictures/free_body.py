@@ -61,7 +61,7 @@ def draw_free_body(motion: Motion, pose: int, question: ForceQuestion) -> Figure
 
 
 def closing_words(layer: ArrowLayer, body: str) -> str:
-    """Return how well the forces on a body balance, in words; of a frame that stands on no supports what the ground holds."""
+    """Return how well the forces on a body balance, in words; of a frame without supports the ground's force."""
     if not layer.largest > 0.0:
         return ""
     total = sum((each.vector for each in layer.arrows), np.zeros(2))

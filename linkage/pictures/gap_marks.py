@@ -1,4 +1,4 @@
-"""What comes nearest: a short dimension between the two nearest places of two bodies, with its length in words."""
+"""Nearest bodies: a short dimension between the two nearest places of two bodies, with its length in words."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ Pairs: TypeAlias = tuple[tuple[str, str], ...] | None
 @final
 @dataclass(frozen=True, eq=False)
 class GapMark:
-    """The gap of two bodies at a pose: its name, its two places, shape (2, 2) [m], and what is written at it; another pose's is faint."""
+    """The gap of two bodies at a pose: its name, its two places, shape (2, 2) [m], and its text; another pose's is faint."""
 
     name: str
     ends: FloatArray
@@ -76,7 +76,7 @@ def own_bodies(plan: Plan) -> tuple[str, str]:
 
 
 def asked_pair(given: object, plan: Plan) -> tuple[str, str] | None:
-    """Return the two bodies that `draw(clearance=...)` names, None for those that come nearest; DefinitionError for what is neither."""
+    """Return the two bodies that `draw(clearance=...)` names, None for the nearest ones; DefinitionError for anything else."""
     if given is True:
         return None
     one, other = own_bodies(plan)
@@ -139,7 +139,7 @@ def gap_mark(at: Motion, given: object, pairs: Pairs, place: str = "") -> GapMar
 
 
 def draw_gap(ax: Axes, mark: GapMark, size: float) -> list[Wording]:
-    """Draw a gap as a dimension, a short one with its arrows outside, and return what is written at it."""
+    """Draw a gap as a dimension, a short one with its arrows outside, and return its text."""
     colour = style.mixed(style.ACCENT, style.PAPER, 0.4) if mark.faint else style.ACCENT
     level, (start, end), way = 14.0 if mark.faint else 18.0, mark.ends, mark.along
     across = BARB * size * left_of(way)

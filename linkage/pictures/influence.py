@@ -1,4 +1,4 @@
-"""Which dimensions move a result most: the greatest of its exact slopes over the judged poses, times what each slider moves."""
+"""Influence of dimensions on a result: the greatest of its exact slopes over the judged poses, times each slider's step."""
 
 from __future__ import annotations
 

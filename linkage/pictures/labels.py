@@ -127,7 +127,7 @@ def own_costs(
     gap: float,
     edges: FloatArray,
 ) -> FloatArray:
-    """Return what each place of a label costs by itself, shape (c,).
+    """Return the own costs of a label's places, shape (c,).
 
     That is what it covers, a pose, the other pins that it is nearer to, and that it hangs over the edges of the sheet.
     """

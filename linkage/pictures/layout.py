@@ -1,4 +1,4 @@
-"""Where there is room: what a mechanism covers, and the side on which a ground symbol stands freely."""
+"""Free room on a sheet: the area that a mechanism covers, and the side on which a ground symbol stands freely."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ SYMBOL = [(u, v) for u in (1.2, 1.8, 2.4, 3.0, 3.6, 4.2) for v in ACROSS if u > 
 
 
 def cloud(scene: Scene, at: Places) -> FloatArray:
-    """Return points that cover what is drawn at a pose, shape (m, 2) [m]: where no label should stand."""
+    """Return points that cover the drawing at a pose, shape (m, 2) [m]: no label should be there."""
     pairs = [*((each.P, each.Q, each.half) for each in scene.two_force), *((P, X, 0.0) for P, X in scene.stays)]
     pairs += [(*track.ends, 1.2) for track in scene.tracks]
     corners = [plate.at(at) for plate in scene.plates]

@@ -46,7 +46,7 @@ class LeverArm:
     words: str = ""
 
     def draw(self, ax: Axes) -> list[Wording]:
-        """Draw it on axes, with the line of action as a broken line, and return what is written beside it."""
+        """Draw it on axes, with the line of action as a broken line, and return the texts beside it."""
         action, ends = np.array([self.start, self.line.ends[1]]), self.line.ends
         ax.add_line(Line2D(*action.T, color=style.MUTED, linewidth=0.7, linestyle=(0, (5, 3)), zorder=15.0))
         self.line.draw(ax)

@@ -1,4 +1,4 @@
-"""A working field as dealers print it: heights down, radii across, in each cell the load and a letter for what limits it."""
+"""A working field as dealers print it: heights down, radii across, in each cell the load and a letter for its limit."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ LEFT, TOP = 0.85, 0.95
 
 @final
 class ChartText:
-    """What a field says in the units and the language that are spoken: loads, radii, heights, letters, lines of the legend.
+    """A field's words in the chosen units and language: loads, radii, heights, letters, lines of the legend.
 
     A load that hangs is shown as a mass, as `is_weight` says. `load_size` is the load that is printed as 1 [N]. Each limiter that occurs
     has one of `letters`; `counts` says in how many cells it limits. `axes` stand across and down the chart, whose columns are `across` in
@@ -74,7 +74,7 @@ class ChartText:
         return [*([said("limited by: {letters}", letters="    ".join(words))] if words else []), *self.terms()]
 
     def terms(self) -> list[str]:
-        """Return the lines that say under what the chart holds: the rule, pressures, the case, what acts beside the load."""
+        """Return the lines with the conditions of the chart: the rule, pressures, the case, other loads."""
         lines: list[str] = []
         field, rule = self.field, self.field.rule
         if rule is not PLAIN_RULE:
@@ -89,7 +89,7 @@ class ChartText:
 
 
 def plot_field(field: WorkingField) -> Figure:
-    """Return a working field as a chart: rows are heights, columns radii, the letter beside a load says what limits it."""
+    """Return a working field as a chart: rows are heights, columns radii, the letter beside a load names its limit."""
     text = ChartText(field)
     across, down = text.across.tolist(), text.down.tolist()
     wide, tall = len(across) * CELL[0], len(down) * CELL[1]
@@ -122,7 +122,7 @@ def plot_field(field: WorkingField) -> Figure:
 
 
 def draw_cell(ax: Axes, text: ChartText, colours: Mapping[str, str], corner: tuple[float, float], load: float, limiter: str) -> None:
-    """Draw one cell: the load, and the letter of what limits it."""
+    """Draw one cell: the load, and the letter of its limit."""
     colour = style.GRID if np.isnan(load) else colours.get(limiter, style.PAPER)
     ax.add_patch(Rectangle(corner, *CELL, facecolor=colour, edgecolor=style.PAPER, linewidth=1.2, zorder=2.0))
     x, y = corner[0], corner[1] + 0.5 * CELL[1]

@@ -1,4 +1,4 @@
-"""What a search changed: the machine before and after at the stroke's ends, and what counted over the stroke, before and after."""
+"""Changes of a search: the machine before and after at the stroke's ends, and its measures over the stroke, before and after."""
 
 from __future__ import annotations
 

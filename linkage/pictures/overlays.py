@@ -1,4 +1,4 @@
-"""What is laid over a mechanism at one pose: its forces, the velocities of its points, the poles of its bodies."""
+"""Overlays on a mechanism at one pose: its forces, the velocities of its points, the poles of its bodies."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ BEYOND = 0.6
 @final
 @dataclass(frozen=True, eq=False)
 class Overlays:
-    """What to lay over a mechanism: forces, velocities at stroke rates, poles of bodies, what comes nearest, what can move while locked."""
+    """The overlays to draw: forces, velocities at stroke rates, poles of bodies, the nearest bodies, bodies loose while locked."""
 
     forces: ForceQuestion | None = None
     rates: Rates = None
@@ -63,7 +63,7 @@ class Overlays:
 
     @property
     def has_gap(self) -> bool:
-        """Whether what comes nearest is asked for."""
+        """Whether the nearest bodies are asked for."""
         return self.clearance not in (None, False)
 
     def pairs(self, motion: Motion) -> tuple[Pairs, str]:
@@ -76,7 +76,7 @@ class Overlays:
         return None if found == pose else found
 
     def laid_over(self, motion: Motion, pose: int, box: Bounds) -> Overlay:
-        """Return what is laid over a motion's pose, a flat index, on a sheet that shows a box [m]."""
+        """Return the overlay of a motion's pose, a flat index, on a sheet that shows a box [m]."""
         layers, notes, arms = list[ArrowLayer](), list[str](), list[LeverArm]()
         if self.rates is not None:
             rates_of("velocities", self.rates, motion)
@@ -146,7 +146,7 @@ class PoleMark:
 @final
 @dataclass(frozen=True, eq=False)
 class Overlay:
-    """What is laid over one pose on a sheet: arrows to their scales, poles, notes, gaps, lever arms.
+    """The overlay of one pose on a sheet: arrows to their scales, poles, notes, gaps, lever arms.
 
     `worst` is another pose of the motion, a flat index, that is drawn behind it.
     """
@@ -172,7 +172,7 @@ class Overlay:
 
     @property
     def sentences(self) -> list[str]:
-        """What the picture says in words: what is not known here, and of poles that it does not show where they are."""
+        """The picture's remarks in words: unknown values, and the places of poles outside the sheet."""
         return [*self.notes, *(words for mark in self.marks for words in ([mark.words] if mark.words else far_words(mark, self.sheet)))]
 
     @property
@@ -361,7 +361,7 @@ def mark_of(bodies: Sequence[str], other: str, place: FloatArray, ends: tuple[Fl
 
 
 def draw_pole(ax: Axes, mark: PoleMark, sheet: Bounds, key: str = "") -> list[Wording]:
-    """Draw a pole, with thin lines to its body's points, and return the name to write beside it; `key` is what the legend says of it."""
+    """Draw a pole, with thin lines to its body's points, and return the name to write beside it; `key` is its text in the legend."""
     if mark.words:
         return []
     ray: Keywords = {"color": POLE, "linewidth": style.THIN, "dashes": (7, 3, 1.5, 3), "zorder": 15.0, "gid": f"{mark.name} ray"}

@@ -1,4 +1,4 @@
-"""The paper of a picture: a sheet with room around it, its title, what lines mean, and what is not shown."""
+"""The paper of a picture: a sheet with room around it, its title, a legend of lines, and a remark on omissions."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def make_room(figure: Figure, ax: Axes) -> None:
 
 
 def write_title(figure: Figure, text: str, beside: str = "") -> None:
-    """Write the title, and at its right end what stands beside it."""
+    """Write the title, and a text at its right end."""
     top = 1.0 - 0.24 / float(figure.get_figheight())
     figure.text(LEFT / float(figure.get_figwidth()), top, text, fontsize=style.TITLE, fontweight="bold", color=style.INK, va="center")
     if beside:
@@ -68,7 +68,7 @@ def at_right(figure: Figure, level: float, text: str, size: float, colour: str) 
 
 
 def remark(figure: Figure, ax: Axes, text: str) -> None:
-    """Write in a warning colour, above the sheet's right end, what the picture does not show."""
+    """Write in a warning colour, above the sheet's right end, the omissions of the picture."""
     if text:
         at_right(figure, ax.get_position(original=True).y1 + 0.13 / float(figure.get_figheight()), text, style.TEXT, style.ACCENT)
 
@@ -84,7 +84,7 @@ def look_keys(looks: Sequence[Look]) -> list[Line2D]:
 
 
 def legend_row(ax: Axes, keys: Sequence[Any], texts: Sequence[str], columns: int = 6) -> None:
-    """Write what lines mean in a row above the sheet, in letters so small that it fits; further rows are for more than so many columns."""
+    """Write the legend of lines in a row above the sheet, in letters so small that it fits; further rows beyond so many columns."""
     figure = figure_of(ax)
     for size in LETTERS:
         legend = ax.legend(

@@ -1,4 +1,4 @@
-"""The angles at which a machine that turns round is drawn: where its picture is open, and where what it is about has its ends."""
+"""The angles at which a machine that turns round is drawn: where its picture is open, and at the ends of its featured column."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def telling_angles(machine: Mechanism, stroke: str, values: At) -> FloatArray:
 
 
 def faint_poses(machine: Mechanism, tried: Motion, bold: int) -> list[int]:
-    """Return up to two poses beside the bold one: the ends of what the machine is about, the farther one last, else the opposite one."""
+    """Return up to two poses beside the bold one: the ends of the featured column, the farther one last, else the opposite one."""
     steps, reached = tried.reached.size, tried.reached.ravel()
     found: list[int] = []
     try:
@@ -69,7 +69,7 @@ def way_round(one: FloatArray | float, other: FloatArray | float, steps: float) 
 
 
 def turning_back(finely: Motion) -> FloatArray:
-    """Return where pins stand still because they turn back, as shares of the round: the dead points of what rocks and slides."""
+    """Return where pins turn back, as shares of the round: the dead points of links that rock or slide."""
     poses = finely.reached.size - 1
     found: list[float] = []
     for name in finely.plan.points:

@@ -81,7 +81,7 @@ def with_instant(motion: Motion, time: float, pose: Pose) -> tuple[Motion, int]:
 
 
 def draw_pose(motion: Motion, pose: Pose, overlays: Overlays, faint: bool) -> Figure:
-    """Return a figure of a motion at a pose, with what is laid over it."""
+    """Return a figure of a motion at a pose, with its overlays."""
     scene = Scene(motion)
     index = scene.index(pose)
     if overlays.forces is not None and overlays.is_free_body(scene):
@@ -100,7 +100,7 @@ def draw_pose(motion: Motion, pose: Pose, overlays: Overlays, faint: bool) -> Fi
 
 
 def draw_over(ax: Axes, motion: Motion, pose: Pose, overlays: Overlays) -> str:
-    """Draw a motion at a pose, with what is laid over it, on empty axes; return how to read that."""
+    """Draw a motion at a pose, with its overlays, on empty axes; return how to read them."""
     scene = Scene(motion)
     laid = overlays.laid_over(motion, scene.index(pose), scene.box())
     sheet(ax, laid.box(scene.size))
@@ -109,7 +109,7 @@ def draw_over(ax: Axes, motion: Motion, pose: Pose, overlays: Overlays) -> str:
 
 
 def draw_laid(ax: Axes, scene: Scene, index: int, overlays: Overlays, laid: Overlay) -> None:
-    """Draw a pose, a flat index, on a sheet with what is laid over it."""
+    """Draw a pose, a flat index, on a sheet with its overlays."""
     if laid.worst is not None:
         Drawing(ax, scene, FAINT).update(laid.worst)
     draw_scene(ax, scene, index, [laid.points_covered(scene.size)])
@@ -119,7 +119,7 @@ def draw_laid(ax: Axes, scene: Scene, index: int, overlays: Overlays, laid: Over
 
 
 def draw_strokes(machine: Mechanism, at: object, path: Sequence[str], count: int, overlays: Overlays) -> Figure:
-    """Return a figure of a mechanism at chosen strokes: the last one bold, the others faint, what is laid over it at that one."""
+    """Return a figure of a mechanism at chosen strokes: the last one bold with its overlays, the others faint."""
     path = named_points(machine, path, "path")
     if overlays.has_gap and at is None:
         pairs, _ = overlays.pairs(machine.at(unreachable="nan", **stroke_middles(machine)))

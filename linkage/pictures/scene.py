@@ -1,4 +1,4 @@
-"""What is drawn of a motion, without a drawing library: bodies, cylinders, pins, and where they are."""
+"""Scenes: the drawing of a motion, without a drawing library: bodies, cylinders, pins, and their places."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ Bounds: TypeAlias = tuple[float, float, float, float]
 @final
 @dataclass(frozen=True)
 class TwoForceMember:
-    """A two-force member from P to Q: what it is drawn as, and how far to the left of P -> Q, in sizes, where others share its points.
+    """A two-force member from P to Q: its form, and how far to the left of P -> Q, in sizes, where others share its points.
 
     `ends` of a telescope are its closed length and the lengths at which its stages are out [m].
     """
@@ -99,7 +99,7 @@ class TwoForceMember:
 
     @property
     def half(self) -> float:
-        """Half the width of what it covers about P -> Q, in sizes."""
+        """Half the width of the area it covers about P -> Q, in sizes."""
         return HALF[self.drawn_as] + abs(self.aside)
 
 
@@ -302,7 +302,7 @@ class Scene:
 
     @property
     def letter_legend(self) -> list[str]:
-        """What the letters mean, a part each, `lower: B'`, by the first of its points."""
+        """The meaning of the letters, a part each, `lower: B'`, by the first of its points."""
         owners = {name.rpartition(".")[0]: letter for name, letter in reversed(self.letters.items())}
         return [f"{owner}: {letter}" for owner, letter in reversed(owners.items())]
 
@@ -330,7 +330,7 @@ class Scene:
 
     @cached_property
     def glyphs(self) -> tuple[tuple[ForceElement, Glyph], ...]:
-        """What the force elements say that is to be drawn of them."""
+        """The glyphs of the force elements."""
         plan = self.motion.plan
         return tuple((element, glyph) for element in plan.of_kind(ForceElement).values() for glyph in element.glyphs(plan.members))
 
@@ -369,7 +369,7 @@ class Scene:
 
     @cached_property
     def _whole(self) -> Scene:
-        """The scene of the motion that goes furthest: what holds at its poses holds whatever poses are shown."""
+        """The scene of the motion that goes furthest, whose bounds hold for any poses shown."""
         return self if self.over is None else Scene(self.over)
 
     def _lies_along(self, member: TwoForceMember, points: tuple[str, ...]) -> bool:
@@ -463,7 +463,7 @@ class Scene:
         return radii
 
     def _radii(self, glyph: Glyph) -> list[float]:
-        """Return the signed radii of what a glyph runs over [m], at the first pose."""
+        """Return the signed radii of a glyph's pulleys [m], at the first pose."""
         return [float(np.ravel(np.asarray(each, float))[0]) for each in glyph.radii(self.motion)]
 
     @cached_property
@@ -511,7 +511,7 @@ class Scene:
 
     @cached_property
     def surroundings(self) -> tuple[DrawnMark, ...]:
-        """The outlines that the machine declares of what stands around it, with the design's dimensions."""
+        """The outlines of the surroundings that the machine declares, with the design's dimensions."""
 
         def value(quantity: Quantity) -> float:
             return float(np.ravel(np.asarray(self.motion._reading.value(quantity), float))[0])
@@ -527,7 +527,7 @@ class Scene:
 
     @cached_property
     def sections(self) -> tuple[DrawnMark, ...]:
-        """The sections of telescopes: what comes out of a body towards a point that a stroke moves along it."""
+        """The sections of telescopes: each comes out of a body towards a point that a stroke moves along it."""
         found = []
         for point in self.motion.plan.telescopes:
             member = self.motion.plan.points[point]
@@ -551,7 +551,7 @@ class Scene:
 
     @cached_property
     def contours(self) -> tuple[DrawnMark, ...]:
-        """What steps draw of themselves, behind the bodies."""
+        """The outlines that steps draw themselves, behind the bodies."""
         found = [each for step in self.motion.plan.points.values() for each in step.outline(self.motion._reading)]
         forms = [(each.P, each.Q, shapes.keeping(each.corners.T, fill="ROD", closed=True)) for each in found]
         return tuple(DrawnMark(joined_names(P, Q), (P, Q), (form,), -0.1) for P, Q, form in forms)
@@ -587,7 +587,7 @@ class Scene:
 
     @cached_property
     def marks(self) -> tuple[DrawnMark, ...]:
-        """All that is drawn as lines on points: what stands around, contours, blocks, cylinders, elements, the signs of loads."""
+        """All lines on points: surroundings, contours, blocks, cylinders, elements, the signs of loads."""
         cylinders = [cylinder.mark(self.size) for cylinder in self.cylinders]
         return (*self.surroundings, *self.contours, *self.sections, *self.blocks, *cylinders, *self.straights, *self.load_marks)
 

@@ -151,7 +151,7 @@ YOKE = 0.38
 @final
 @dataclass(frozen=True, eq=False)
 class DrawnLine:
-    """One line of a mark: rows of a share of its length, a way along it [m], one across, to the left [m], and what moves with a piston a 1.
+    """One line of a mark: rows of a share of its length, a way along it [m], one across, to the left [m], and 1 where a piston moves it.
 
     `fill` is a colour of the style by its name, or none.
     A place stands share * length + way from the first point, so that it moves as the element grows.

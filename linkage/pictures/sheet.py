@@ -84,7 +84,7 @@ class RoundValues(MaxNLocator):
 
 
 def ticks_of_length(unit: float) -> FuncFormatter:
-    """Return what writes a length [m] in a unit that is so much of SI."""
+    """Return the formatter of a length [m] in a unit of so much SI."""
     return FuncFormatter(lambda value, _: f"{value / unit:.6g}".replace("-", "\N{MINUS SIGN}"))
 
 
@@ -155,7 +155,7 @@ def figure_of(ax: Axes) -> Figure:
 
 
 def renderer_of(figure: Figure) -> Any:
-    """Return what knows how large a text is in a figure."""
+    """Return the renderer that measures texts in a figure."""
     canvas: Any = FigureCanvasAgg(figure)  # matplotlib declares no types for its methods
     return canvas.get_renderer()
 

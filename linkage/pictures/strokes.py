@@ -158,7 +158,7 @@ class Playback:
 
 
 def playback(machine: Mechanism, count: int, column: str | None = None, *, at: At | Motion = NOTHING, eased: bool = True) -> Playback:
-    """Return what is played over one stroke or several together, the others held: `count` poses, there and back.
+    """Return the playback over one stroke or several together, the others held: `count` poses, there and back.
 
     `at` holds strokes at a value, or says which values those that move pass [m or rad]; without it that is `run_of`. A full
     turn that ends where it began goes round, and so does a path that ends where it began. Over a path in time `count` does not count: it

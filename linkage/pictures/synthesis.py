@@ -1,4 +1,4 @@
-"""What a synthesis found: the best machines side by side, each beside its task, with what it misses."""
+"""Results of a synthesis: the best machines side by side, each beside its task, with its misses."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ class ShownAnswer:
 
 
 def draw_synthesis(found: Synthesis, answers: int = 3, count: int = 101) -> Figure:
-    """Return the best answers of a synthesis side by side, each with its task and what it misses; see `draw`.
+    """Return the best answers of a synthesis side by side, each with its task and its misses; see `draw`.
 
     Raises StudyError where there is none, with the nearest miss.
     """
@@ -136,7 +136,7 @@ def task_words(found: Synthesis) -> str:
 
 
 def legend_of(found: Synthesis, stretch: float) -> tuple[list[Line2D], list[str]]:
-    """Return what lines mean."""
+    """Return the legend of the lines."""
     wanted = Line2D([], [], color=style.CURVE, marker="o", markersize=5, markerfacecolor=style.PAPER, linestyle="none", markeredgewidth=1.6)
     missed = Line2D([], [], color=style.INK, linewidth=1.4)
     if isinstance(found.task, FunctionTask):
@@ -154,7 +154,7 @@ def legend_of(found: Synthesis, stretch: float) -> tuple[list[Line2D], list[str]
 
 
 def write_answer(ax: Axes, shown: ShownAnswer, *, alone: bool) -> None:
-    """Write above an answer its place, what it misses, and its least transmission angle; its class unless all are of one."""
+    """Write above an answer its place, its misses, and its least transmission angle; its class unless all are of one."""
     answer, unit = shown.answer, miss_unit(shown.fit)
     figure = figure_of(ax)
     place, height = ax.get_position(original=True), float(figure.get_figheight())
@@ -184,7 +184,7 @@ def draw_path_task(ax: Axes, shown: ShownAnswer, stretch: float) -> None:
 
 
 def draw_wanted(ax: Axes, shown: ShownAnswer, stretch: float) -> FloatArray:
-    """Mark the wanted places with their numbers, and what is missed at each, so many times as long as it is.
+    """Mark the wanted places with their numbers, and each miss, so many times as long as it is.
 
     Returns points (m, 2) [m] that these cover.
     """
@@ -238,7 +238,7 @@ def draw_pose_task(ax: Axes, shown: ShownAnswer, task: PoseTask, stretch: float)
 
 
 def draw_function_task(sheet: Axes, ax: Axes, shown: ShownAnswer, task: FunctionTask) -> None:
-    """Draw the machine at the first of the task's strokes, what it gives over its stroke, the wanted values and the misses."""
+    """Draw the machine at the first of the task's strokes, its quantity over the stroke, the wanted values and the misses."""
     plan = shown.answer.machine.plan
     draw_scene(sheet, shown.scene, 0, [], all_points=False)
     words = stroke_words(plan, shown.stroke, float(shown.answer.strokes[0]))

@@ -1,4 +1,4 @@
-"""The live page of what a synthesis found: its machine, the task on the sheet and on the curve, and the answers to choose from."""
+"""The live page of a synthesis: its machine, the task on the sheet and on the curve, and the answers to choose from."""
 
 from __future__ import annotations
 
@@ -76,7 +76,7 @@ def task_data(found: Synthesis, data: PageData) -> PageData:
 
 
 def wanted_data(task: Task, plan: Plan, weight: float, data: PageData) -> PageData:
-    """Return what is wanted [SI]: points and of which, angles with the length that weighs them, or values and in which column."""
+    """Return the wanted values [SI]: a point's places, angles with the length that weighs them, or a column's values."""
     points = list(plan.points)
     match task:
         case PathTask():

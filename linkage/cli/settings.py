@@ -58,7 +58,7 @@ def machine_of(options: Namespace, like: Callable[[str], type[Mechanism]] | None
     held = design_of_file(options.machine, own, found)
     if held is None:
         ensure(not own, f"--machine {own}: {options.machine} is no file of a design, with `machine` and `[set]`.")
-        return design(found(options.machine), options.settings)
+        return design_from(found(options.machine), options.settings)
     changed = held.replaced(**dict(parsed_setting(held.plan, text) for text in options.settings))
     return design_with(type(held), changed.dimensions) if options.settings else held  # made anew, as a class may have checks of its own
 
@@ -137,7 +137,7 @@ def print_verdicts(verdicts: Sequence[Verdict], options: Namespace) -> int:
     return judged_code(verdicts, options)
 
 
-def design(machine: type[Kind], texts: Sequence[str]) -> Kind:
+def design_from(machine: type[Kind], texts: Sequence[str]) -> Kind:
     """Return a design of a machine under settings such as `OB=180mm`; DefinitionError for unknown or unfit ones."""
     return design_with(machine, dict(parsed_setting(machine.plan, text) for text in texts))
 

@@ -60,7 +60,7 @@ def show_command(options: Namespace) -> int:
     if options.latex:
         print(printed_equations(machine, options, at).latex())
         return 0
-    for title, lines in sections(machine):
+    for title, lines in show_sections(machine):
         print_section(title, lines)
     if options.equations:
         print_section("Equations", str(printed_equations(machine, options, at)).splitlines(), fits=False)
@@ -115,7 +115,7 @@ def printed_equations(machine: Mechanism, options: Namespace, at: Mapping[str, f
     )  # fmt: skip
 
 
-def sections(machine: Mechanism) -> Iterator[tuple[str, Iterable[str]]]:
+def show_sections(machine: Mechanism) -> Iterator[tuple[str, Iterable[str]]]:
     """Yield the title and the lines of each section that describes a design."""
     yield f"{type(machine).__name__}: strokes", lined_up(list(stroke_rows(machine)))
     yield "Design variables", lined_up(list(design_rows(machine)))

@@ -47,7 +47,7 @@ def timed_blocks(subject: ReportSubject, run: Run, motion: Motion) -> Iterator[B
     paces = pace_columns(subject, motion, run)
     if paces:
         yield from column_grids(subject, said("Rates, power and flow") + beside, [strokes[0], *paces], outside)
-        yield from (curve(run, along, column, beside) for column in pace_columns(subject, along, run))
+        yield from (curve_picture(run, along, column, beside) for column in pace_columns(subject, along, run))
 
 
 def pace_columns(subject: ReportSubject, motion: Motion, run: Run) -> list[Column]:
@@ -103,10 +103,10 @@ def inertia_blocks(subject: ReportSubject, run: Run, along: Motion, beside: str)
             column = Column(name, along[request], unit)
             other = Column(name, along[slow[name]], unit)
             if not np.allclose(column.drawn, other.drawn, rtol=SEEN, atol=0.0, equal_nan=True):
-                yield curve(run, along, column, beside, other)
+                yield curve_picture(run, along, column, beside, other)
 
 
-def curve(run: Run, along: Motion, column: Column, beside: str, slow: Column | None = None) -> Illustration:
+def curve_picture(run: Run, along: Motion, column: Column, beside: str, slow: Column | None = None) -> Illustration:
     """Return a column over time as a picture; dashed without inertia."""
     caption = said("{column} over time{beside}.", column=column.heading, beside=beside)
     caption += said(" Dashed: without inertia.") if slow is not None else ""

@@ -288,7 +288,7 @@ class Listing:
         member = self.plan.members[name]
         assert isinstance(member, Guide)
         if ("line", name) not in self._vectors:
-            self.define(("line", name), self.names.direction(name), symbolic_value(member, self), NUMBER)
+            self.define(("line", name), self.names.direction_symbol(name), symbolic_value(member, self), NUMBER)
         along = Place(lambda: self._vectors["line", name], self, unit=NUMBER)
         if member.P is None and not member.axes.is_frame and ("origin", name) not in self._vectors:
             place = member.axes.place(cast(Where, self), Vec(self.input(f"{name}.x"), self.input(f"{name}.y")))

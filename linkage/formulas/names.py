@@ -199,7 +199,7 @@ class SymbolNames:
         self.latex.setdefault(text, shown)
         return sympy.Symbol(text, real=True)
 
-    def direction(self, guide: str) -> sympy.MatrixSymbol:
+    def direction_symbol(self, guide: str) -> sympy.MatrixSymbol:
         """Return the symbol of a guide's direction: u_rail."""
         shown = rf"\vec{{u}}_{{{self._scalar_latex(guide)}}}"
         return vector_symbol(self._text(("direction", guide), f"u_{guide}", shown))

@@ -29,7 +29,7 @@ NO_LIMIT = "\N{INFINITY}"
 
 def chart_page(field: WorkingField, begins: str) -> str:
     """Return the HTML of a working field's page, in the language that it begins with."""
-    reached, pose_of = as_printed(field, field.reached), field.search.loads.motion
+    reached, pose_of = as_printed(field, field.reached), field.search.loads.motion_over
     strokes = {name: as_printed(field, values)[reached] for name, values in field.strokes.items()}
     if not reached.any():  # the pose of the sketch
         strokes = {name: np.array([value]) for name, value in field.machine.plan.sketch_strokes.items()}

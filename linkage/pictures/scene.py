@@ -449,7 +449,7 @@ class Scene:
             for (P, p), (Q, q) in pairwise(zip(glyph.points, radii, strict=False)):
                 short, long = self._lengths(P, Q)
                 if long:
-                    found.append(DrawnMark(joined_names(P, Q), (P, Q), (shapes.tangent(p, q, 0.5 * (short + long)),), 0.45, 1.1))
+                    found.append(DrawnMark(joined_names(P, Q), (P, Q), (shapes.tangent_line(p, q, 0.5 * (short + long)),), 0.45, 1.1))
         return tuple(found)
 
     def _rope_radii(self, glyph: Glyph) -> list[float]:

@@ -218,7 +218,7 @@ def strut(short: float, long: float, size: float) -> tuple[DrawnLine, ...]:
     return (outline((0.0, 0.0, half), (1.0, 0.0, half), (1.0, 0.0, -half), (0.0, 0.0, -half), fill="ROD", closed=True),)
 
 
-def tangent(start: float, end: float, length: float) -> DrawnLine:
+def tangent_line(start: float, end: float, length: float) -> DrawnLine:
     """Return the common tangent of circles of signed radii [m], above zero to the left of it, whose centres are about a length apart [m].
 
     Where it touches follows the length to the first order.

@@ -188,7 +188,7 @@ class Part(Member):
         dict of str to Member
             The members.
         """
-        return Renamed(self, self.axes(members)).members()
+        return Renamed(self, self.axes(members)).renamed_members()
 
     def having(self, values: Mapping[str, float]) -> Part:
         own = {name.removeprefix(f"{self.name}."): value for name, value in values.items() if name.startswith(f"{self.name}.")}
@@ -335,7 +335,7 @@ class Renamed(Renaming):
         self.names |= {name: self.aliases[dotted] for name, dotted in self.names.items() if dotted in self.aliases}
         self.names |= {name.partition(f"{part.name}.")[2]: target for name, target in self.aliases.items()}
 
-    def members(self) -> dict[str, Member]:
+    def renamed_members(self) -> dict[str, Member]:
         """Return all members that the part brings."""
         part, source = self.part, self.plan.unbound
         left_out = {name for name, value in part.given.items() if value is None}

@@ -71,7 +71,7 @@ class DrawingReader:
         ensure_file(self.pins, f"{self.found.file}: there is no circle on the layers of pins; a circle is a pin, see --layer pins=NAME.")
         lines = ("LINE", "LWPOLYLINE", "POLYLINE")
         for each in [*self.of(lines, "links")] or [*self.of(lines, "")]:
-            self.link(each)
+            self.read_link(each)
         for each in self.of(("LINE",), "slides"):
             self.slide(each)
         for role in ("crank", "cylinder"):
@@ -102,7 +102,7 @@ class DrawingReader:
         places = [f"({x:.6g}, {y:.6g})" for x, y in ends if not self.met([(x, y), (x, y)])]
         return f": no pin at {' and '.join(places)}" if places else ""
 
-    def link(self, entity: Any) -> None:
+    def read_link(self, entity: Any) -> None:
         """Enter a line or an outline with the pins on it; one with fewer than two is left out."""
         keys = self.met(corners_of(entity))
         if len(keys) > 1:

@@ -83,7 +83,7 @@ class LoadAt:
         """Those that are not affine in the load."""
         motion = Domain(self.plan, self.designs, Over()).motion
         ends, rows = {name: (np.min(each), np.max(each)) for name, each in motion.strokes.items()}, np.random.default_rng(1)
-        some = self.motion({name: rows.uniform(low, high, TRIED) for name, (low, high) in ends.items()})
+        some = self.motion_over({name: rows.uniform(low, high, TRIED) for name, (low, high) in ends.items()})
         return [each for each in self.limits if each.is_bent(some, partial(self.with_load, motion=some))]
 
     def failing(self, motion: Motion, load: FloatArray) -> dict[str, Mask]:
@@ -103,7 +103,7 @@ class LoadAt:
     @cached_property
     def some(self) -> Motion:
         """Three poses, which show the values that are the same at all of them."""
-        return self.motion({name: np.repeat(value, 3) for name, value in self.plan.sketch_strokes.items()})
+        return self.motion_over({name: np.repeat(value, 3) for name, value in self.plan.sketch_strokes.items()})
 
     @cached_property
     def bounded(self) -> Mapping[str, TwoPoint]:
@@ -170,7 +170,7 @@ class LoadAt:
         """Return whether an element lifts."""
         return self.lifts is None or name in self.lifts
 
-    def motion(self, strokes: Mapping[str, FloatArray]) -> Motion:
+    def motion_over(self, strokes: Mapping[str, FloatArray]) -> Motion:
         """Return the motion of some poses that have nothing to do with each other."""
         with unwarned():
             return Motion(self.plan, self.designs, strokes, "nan", joining=not_joined)
@@ -221,7 +221,7 @@ class LoadAt:
             values = self._run(self.program, {**self.designs, **strokes}, count)
             if values is not None:
                 return greatest_load(values[0], values[1], *self.fixed)
-        return self.greatest_loads(self.motion(strokes))
+        return self.greatest_loads(self.motion_over(strokes))
 
     def _run(self, kernel: Kernel, inputs: Mapping[str, Numbers], count: int) -> FloatArray | None:
         """Return the forces of the own loads and of one newton (2, elements, n); None where an assumption fails."""

@@ -118,7 +118,7 @@ class WorkingField:
         list of str
             One sentence an element.
         """
-        one = self.search.loads.motion({name: np.array([value]) for name, value in self.machine.plan.sketch_strokes.items()})
+        one = self.search.loads.motion_over({name: np.array([value]) for name, value in self.machine.plan.sketch_strokes.items()})
         words = []
         for name, element in self.machine.plan.of_kind(ForceElement).items():
             if element.parameters.get("pressure") == "bar":
@@ -162,7 +162,7 @@ class WorkingField:
         Motion
             The motion.
         """
-        return self.search.loads.motion({name: each[self.reached] for name, each in self.strokes.items()})
+        return self.search.loads.motion_over({name: each[self.reached] for name, each in self.strokes.items()})
 
     def __str__(self) -> str:
         known = self.load[np.isfinite(self.load)]
@@ -619,7 +619,7 @@ class FieldSearch:
             own = found[[place for place, each in enumerate(kinds) if each == kind]]
             parts.append(np.min(own, axis=0)[None] * factors.get(kind, 1.0))
         if self.limits and count:
-            motion = self.loads.motion(rows)
+            motion = self.loads.motion_over(rows)
             parts.append(np.array([each(motion, self.loads) for each in self.limits.values()]))
         return LoadsFound(poses, np.concatenate(parts) if count and parts else np.empty((len(self.limiter_names), 0)))
 
@@ -716,7 +716,7 @@ class FieldSearch:
         which[poses.place] = np.where(np.isfinite(load), np.argmin(of, axis=0) if len(of) else 0, len(names) - 2)
         rows = self.many.places.strokes_at(poses.unit)
         strokes = {name: full(values) for name, values in rows.items()}
-        failing = self.loads.failing(self.loads.motion(rows), np.where(np.isfinite(load), load, 0.0)) if len(load) else {}
+        failing = self.loads.failing(self.loads.motion_over(rows), np.where(np.isfinite(load), load, 0.0)) if len(load) else {}
         counts = {name: int(np.sum(each)) for name, each in failing.items() if np.any(each)}
         return WorkingField(
             self.machine, self.point, self.loads.along, self.x, self.y, full(load), names[self.ordered(which)], FrozenDict(strokes),

@@ -152,7 +152,7 @@ class Paths:
     system: System
     patch: ComplexArray
 
-    def followed(self, start: ComplexArray) -> tuple[ComplexArray, npt.NDArray[np.bool_]]:
+    def tracked(self, start: ComplexArray) -> tuple[ComplexArray, npt.NDArray[np.bool_]]:
         """Return where solutions (m, 6) come to, and which of them come to the end."""
         z, m = start.copy(), len(start)
         time, step, good = np.zeros(m), np.full(m, BEGIN), np.zeros(m, int)
@@ -244,7 +244,7 @@ def general_task() -> tuple[ComplexArray, ComplexArray, ComplexArray, ComplexArr
             x = np.cross(forms[0][zeros[0], k[0]], forms[0][zeros[1], k[1]])
             y = np.cross(forms[1][others[0], k[2]], forms[1][others[1], k[3]])
             start.append(np.concatenate([x / (patch[0, :3] @ x), y / (patch[1, 3:] @ y)]))
-    z, ended = Paths(system, patch).followed(np.array(start))
+    z, ended = Paths(system, patch).tracked(np.array(start))
     kept = z[ended & (abs(equations_at(z, p[None], q[None])[2]).min(axis=1) > FINITE)]
     found = distinct(kept[is_finite(kept)])
     if len(found) != GENERAL:
@@ -290,7 +290,7 @@ def solutions_of(p: ComplexArray, q: ComplexArray) -> ComplexArray:
             )
             return values, slopes
 
-        z, ended = Paths(system, patch).followed(start)
+        z, ended = Paths(system, patch).tracked(start)
         kept = z[ended & is_finite(z)]
         new = np.stack([kept[:, 1] / kept[:, 0], kept[:, 2] / kept[:, 0], kept[:, 4] / kept[:, 3], kept[:, 5] / kept[:, 3]], axis=1)
         found = distinct(np.concatenate([found, new]))

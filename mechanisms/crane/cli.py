@@ -12,7 +12,7 @@ from linkage import Column, DefinitionError, max_table
 from linkage.cli.command import CSV, Command, option, progress_bar, repeatable
 from linkage.cli.follow import print_chart
 from linkage.cli.machines import find
-from linkage.cli.settings import CHECK, OVER, design, overs_of, print_verdicts, si_value
+from linkage.cli.settings import CHECK, OVER, design_from, overs_of, print_verdicts, si_value
 from linkage.cli.table import write_table
 from linkage.disk import check_place, in_words
 from linkage.errors import ensure
@@ -123,7 +123,7 @@ def crane_or_drive(options: Namespace) -> Crane | BoomDrive | DrivenArm:
         print(*(f"{each}\n" for each in (found.skeleton, found.boom, found.arm)), sep="\n")
         return found.crane
     ensure(not options.scheme, f"--scheme {options.scheme} is of a crane to design; {options.machine} has its arm's drive.")
-    machine = design(find(options.machine), options.settings)
+    machine = design_from(find(options.machine), options.settings)
     if not isinstance(machine, (Crane, BoomDrive, DrivenArm)):
         raise DefinitionError(f"{options.machine} is no crane with its cylinders; take crane, or a subclass of mechanisms.crane.Crane.")
     is_drive, forces = not isinstance(machine, Crane), f"`forces {options.machine}` has what the pins of a drive carry"

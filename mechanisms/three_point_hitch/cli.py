@@ -6,7 +6,7 @@ from argparse import Namespace
 
 from linkage import DefinitionError, max_table, pin_forces
 from linkage.cli.command import Command, figure_path, machine_options, option
-from linkage.cli.settings import design, judged_over, motions_at, print_verdicts
+from linkage.cli.settings import design_from, judged_over, motions_at, print_verdicts
 from linkage.cli.table import Table, heading_words, write_tables
 from linkage.statics import table_text
 
@@ -72,7 +72,7 @@ def hitch_of(options: Namespace) -> ThreePointHitch:
         raise DefinitionError(f"{options.machine}: a file holds no admissible settings, over which the zones go; take them of a class.")
     if not options.category:
         return machine
-    shipped = design(ThreePointHitch, options.settings)
+    shipped = design_from(ThreePointHitch, options.settings)
     if type(machine) is not ThreePointHitch or machine.dimensions != shipped.dimensions:
         raise DefinitionError(f"--category {options.category} goes with three_point_hitch; {options.machine} has dimensions of its own.")
-    return design(CATEGORIES[options.category].machine, options.settings)
+    return design_from(CATEGORIES[options.category].machine, options.settings)

@@ -1,5 +1,6 @@
 """Public names: a design and a motion show what the page of reference explains, and docstrings list what signatures have."""
 
+import ast
 import inspect
 import re
 from pathlib import Path
@@ -11,6 +12,7 @@ import linkage
 import mechanisms
 from linkage import Mechanism
 from mechanisms.classics.four_bar import FourBar
+from tests.tools.sources import nodes, sources
 
 PAGE = Path(__file__).parents[2] / "docs" / "reference.md"
 
@@ -81,3 +83,9 @@ def test_a_docstring_that_lists_something_else_is_found():
     assert fault_of(half) == "says nothing of its result"
     half.__doc__ += "\nReturns\n-------\nfloat\n    The half.\n"
     assert fault_of(half) == ""
+
+
+def test_no_docstring_begins_with_return_what():
+    functions = [(path, each) for path, text in sources().items() for each in nodes(text)[ast.FunctionDef]]
+    begun = [(path, each.name) for path, each in functions if (ast.get_docstring(each) or "").lower().startswith("return what")]
+    assert begun == []

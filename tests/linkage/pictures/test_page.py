@@ -49,7 +49,7 @@ from linkage.board.page import PARTS as BOARD_PARTS
 from linkage.cli import main
 from linkage.cli.listing import registered
 from linkage.cli.machines import design_of_file, find
-from linkage.cli.settings import design as design_of
+from linkage.cli.settings import design_from as design_of
 from linkage.files import load
 from linkage.motion import live_text
 from linkage.pictures import page_html

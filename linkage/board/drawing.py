@@ -1,4 +1,4 @@
-"""What the board's page has of Python: the drawing that it begins with, and the names that no member may have."""
+"""Data of the board's page from Python: its first drawing, and the names that no member may have."""
 
 from __future__ import annotations
 

@@ -280,7 +280,7 @@ def printable(text: str) -> str:
 
 
 def unpacked(file: str, letters: str) -> bytes:
-    """Return what the letters of an address hold, base 64; FileError where they are damaged."""
+    """Return the text in the letters of an address, base 64; FileError where they are damaged."""
     try:
         return urlsafe_b64decode(letters + "=" * (-len(letters) % 4))
     except (Error, ValueError):

@@ -15,7 +15,6 @@ from ..mechanism import Mechanism
 from ..plan import strokes_text, written_out
 from ..quantities import Dimension
 from ..reports import design_rows, stroke_rows
-from ..steps import Link
 from .command import Command, group, lined_up, machine_options, option, picture, picture_option, repeatable, whole_number
 from .listing import wrapped
 from .settings import CHECK, OVER, judged_code, machine_of, overs_of, strokes_given
@@ -130,10 +129,8 @@ def show_sections(machine: Mechanism) -> Iterator[tuple[str, Iterable[str]]]:
 
 def body_rows(machine: Mechanism) -> Iterator[str]:
     """Yield the bodies with their points, by the names of the links and cylinders that they are: `boom.beam: boom.B boom.D`."""
-    links = [(name, {*link.point_names}) for name, link in machine.plan.of_kind(Link).items()]
-    for body in machine.links:
-        name = "" if body.fixed else next((name for name, points in links if points <= {*body.points}), "")
-        yield f"{name}: {body}" if name else str(body)
+    names = machine.plan.link_names
+    yield from (f"{names[body.name]}: {body}" if body.name in names else str(body) for body in machine.links)
     elements = {frozenset(each.ends): name for name, each in machine.plan.of_kind(TwoPoint).items()}
     for bar in machine.plan.cylinders:
         name = elements.get(frozenset((bar.P, bar.Q)), "")

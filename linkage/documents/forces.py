@@ -15,8 +15,9 @@ from ..errors import LinkageError, unwarned
 from ..language import noted, said, translated
 from ..loads import PLAIN_CASE, Acting, Force, TwoPoint
 from ..motion import Column, Motion, Request, least, most, places_text, stroke_display_unit
+from ..plan import Plan
 from ..program import FloatArray
-from ..statics import PinForces, PinLoad, drive_force, judged_table, pin_forces, thrust_from_forces
+from ..statics import JointForce, PinForces, PinLoad, drive_force, judged_table, pin_forces, thrust_from_forces
 from ..units import factor, shown_in, shown_number, unit_sign
 from .calculation import has_loads
 from .content import Block, Section, TableBlock
@@ -30,7 +31,7 @@ DIRECTIONS = (noted("frictionless"), noted("extending"), noted("retracting"), no
 
 def forces_section(subject: ReportSubject) -> Section | None:
     """Return the section of driving forces and of the largest force of every joint, over cases and directions; None without loads."""
-    title = said("Forces in drives and pins")
+    title, plan = said("Forces in drives and pins"), subject.machine.plan
     if not has_loads(subject.machine):
         return None
     try:
@@ -51,7 +52,7 @@ def forces_section(subject: ReportSubject) -> Section | None:
     parts = said("Fx, {unit}", unit=unit), said("Fy, {unit}", unit=unit), said("F, {unit}", unit=unit)
     heads = (*joint_heads(), *parts, said("x axis"), said("situation and place"))
     cells = [
-        (*joint_cells(row), *(force_cell(row.force, way(row.angle)) for way in (cos, sin)), force_cell(row.force), row.axis,
+        (*joint_cells(plan, row), *(force_cell(row.force, way(row.angle)) for way in (cos, sin)), force_cell(row.force), row.axis,
          f"{translated(row.case)}, {row.movement}, {row.place}")
         for row in rows
     ]  # fmt: skip
@@ -68,9 +69,9 @@ def joint_heads() -> tuple[str, ...]:
     return said("pin"), said("joint"), said("on body"), said("from body")
 
 
-def joint_cells(row: PinLoad) -> tuple[str, ...]:
+def joint_cells(plan: Plan, row: PinLoad | JointForce) -> tuple[str, ...]:
     """Return which joint a row is of, as cells."""
-    return row.point, translated(row.kind), frame(row.on), frame(row.by)
+    return row.point, translated(row.kind), body_words(plan, row.on), body_words(plan, row.by)
 
 
 def force_cell(force: float, share: float = 1.0) -> str:
@@ -78,9 +79,9 @@ def force_cell(force: float, share: float = 1.0) -> str:
     return figures(force * share / factor(shown_in("kN"))) if np.isfinite(force) else "∞"
 
 
-def frame(name: str) -> str:
-    """Return a body's name, the frame's in the language that is spoken."""
-    return said("frame") if name.startswith("frame") else name
+def body_words(plan: Plan, name: str) -> str:
+    """Return a body's name, that of the link that it is, the frame's in the language that is spoken."""
+    return said("frame") if name.startswith("frame") else plan.link_names.get(name, name)
 
 
 def drive_rows(subject: ReportSubject) -> Iterator[tuple[str, ...]]:
@@ -160,7 +161,7 @@ def case_tables(subject: ReportSubject, cases: Mapping[str, Sequence[PinLoad] | 
         if isinstance(rows, LinkageError):
             yield said("Load case {case}: {why}", case=subject.case_words(case), why=str(rows))
             continue
-        cells = tuple((*joint_cells(row), force_cell(row.force), row.place, row.movement) for row in rows)
+        cells = tuple((*joint_cells(subject.machine.plan, row), force_cell(row.force), row.place, row.movement) for row in rows)
         heads = (*joint_heads(), said("F, {unit}", unit=unit_sign("kN")), said("strokes"), said("motion"))
         yield TableBlock(said("Largest pin forces, load case {case}", case=subject.case_words(case)), heads, cells, "llllrml")
 
@@ -313,4 +314,4 @@ class Stop:
             if joint.has_force:
                 key = (joint.point, joint.on, joint.by, joint.kind)  # the pins of what presses by itself answer to no stop
                 total = joint.force + force * (way[0] * across.get(key, 0.0) + way[1] * up.get(key, 0.0))
-                yield key, (joint.point, translated(joint.kind), frame(joint.on), frame(joint.by)), np.hypot(*total)
+                yield key, joint_cells(self.motion.plan, joint), np.hypot(*total)

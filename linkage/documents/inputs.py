@@ -165,7 +165,9 @@ def definition_section(machine: Mechanism) -> Section:
     heads = (said("name"), said("declared as"))
     rows = tuple((name, in_digits(OF_PART.sub("", text))) for name, text, _ in member_rows(machine, names, {}))
     cylinders = [(spanning_name(machine.plan, bar.P, bar.Q), f"{bar.P} {bar.Q}") for bar in machine.plan.cylinders]
-    bodies = (*((said("frame") if body.fixed else body.name, " ".join(body.points)) for body in machine.links), *cylinders)
+    links = machine.plan.link_names
+    named = ((said("frame") if body.fixed else links.get(body.name, body.name), " ".join(body.points)) for body in machine.links)
+    bodies = (*named, *cylinders)
     count = said(
         "Mobility {rank} by the rank of the constraints, strokes {strokes}; count of Gruebler {count}, a cylinder being two bodies on a "
         "slide.",

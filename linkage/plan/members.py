@@ -253,6 +253,13 @@ class Members:
         return tuple(found.values())
 
     @cached_property
+    def link_names(self) -> Mapping[str, str]:
+        """The names of the links that bodies are, by the names of these bodies; the frame has none."""
+        links = [(name, {*link.point_names}) for name, link in self.of_kind(Link).items()]
+        known = ((body.name, (name for name, points in links if points <= {*body.points})) for body in self.links if not body.fixed)
+        return {body: name for body, names in known for name in [*names][:1]}
+
+    @cached_property
     def joints(self) -> tuple[tuple[str, Joint], ...]:
         """The joints of steps, guides and slides, each with its member's name; driven joints only where a stroke drives them."""
         return tuple((name, joint) for name, member in self.holding.items() for joint in member.joints() if self.is_there(joint))

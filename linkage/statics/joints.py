@@ -109,11 +109,10 @@ def free_bodies(plan: Plan, holders: Holders, thrusts: Sequence[Push]) -> Bodies
     sliders = [slider(point) for point in dict.fromkeys(side.points[0] for side in sides) if point not in fixed]
     arms = [telescope(plan, name) for name in plan.telescopes]
     inner = {frozenset(arm.points) for arm in arms}
-    links, declared = [], [(name, set(link.point_names)) for name, link in plan.of_kind(Link).items()]
+    links = []
     for body in plan.links[1:]:
         if frozenset(body.points) not in inner and not holds_an_arm(plan, body.points):
-            label = next((name for name, points in declared if points <= set(body.points)), "")
-            links.append(FreeBody(body.name, body.points, (body.points[0], body.points[1]), label=label))
+            links.append(FreeBody(body.name, body.points, (body.points[0], body.points[1]), label=plan.link_names.get(body.name, "")))
     pairs = sliding_pairs(plan, links)
     links = [link for link in links if not any(set(link.points) == pair.points for pair in pairs)]
     struts, hosts = two_point_members(plan, holders, thrusts, links)

@@ -39,7 +39,7 @@ from linkage.cli.machines import find
 from linkage.documents import report_document
 from linkage.documents.breaking import LONGEST, formula_pieces
 from linkage.documents.content import Illustration, TableBlock
-from linkage.documents.forces import Stop, blocked_cylinders, worst_blocked
+from linkage.documents.forces import Stop, blocked_cylinders, body_words, worst_blocked
 from linkage.documents.html import html_text
 from linkage.documents.inputs import in_digits, member_rows, plain_words, with_units
 from linkage.documents.markdown import markdown
@@ -56,6 +56,7 @@ from linkage.formulas.typeset import Box, BoxRow, Fenced, Fraction, Script, Sign
 from linkage.motion import Column
 from linkage.statics import elements_of
 from linkage.units import bar, deg, mm
+from mechanisms.at_work.excavator import Excavator
 from mechanisms.at_work.telehandler import Telehandler
 from mechanisms.crane import Crane
 from mechanisms.mower_lift import MowerLift
@@ -481,6 +482,13 @@ def test_a_long_word_breaks_inside_the_margins():
     word = "Hydraulikzylinderkolbenstangenfuehrungsbuchse" * 4
     page = words_of(replace(shown(), title=word, block=TitleBlock(number=word, client=word, prepared=word)))[0]
     assert "".join(text for text, *_ in page).count("Kolbenstange".lower()) >= 12 and not beyond_the_margins(page)
+
+
+def test_bodies_go_by_the_names_of_their_links():
+    plan = Excavator.plan
+    (stick,) = [body for body in plan.links if "arm.F" in body]
+    assert [body_words(plan, name) for name in (stick.name, "boom.ram", "frame V")] == ["arm.stick", "boom.ram", "frame"]
+    assert Pumped.plan.link_names == {}
 
 
 def test_a_report_says_how_a_machine_runs(tmp_path):

@@ -448,7 +448,7 @@ def column_data(name: str, found: LiveColumn, live: LiveText, requests: PageRequ
     for k in lost:
         given = requests.columns_in_time.get(k, {}).get(name) if k else column
         whole = [] if given is None else np.broadcast_to(np.asarray(given.values, float), (requests.count,)).tolist()
-        values |= {k: [float(f"{value:.7g}") if np.isfinite(value) else None for value in whole]} if whole else {}
+        values |= {k: [float(f"{value:.6g}") if np.isfinite(value) else None for value in whole]} if whole else {}
     return [*start, -1 if places is None else places, russian, values, why or reasons[0]]
 
 

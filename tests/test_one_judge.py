@@ -88,7 +88,7 @@ MIDDLES = {
     "linkage/notebook.py": "where strokes of a picture stand that are not named",
     "linkage/pictures/dimensioned.py": "where strokes of a picture stand that are not named",
     "linkage/reports/runs.py": "where strokes of a picture stand that are not named",
-    "linkage/pictures/browser_data.py": "where sliders begin",
+    "linkage/pictures/page_data.py": "where sliders begin",
     "linkage/synthesis/exact.py": "the middle of the angles of a driven link, no stroke",
     "linkage/synthesis/exact_poses.py": "the middle of the angles of a driven link, no stroke",
 }

@@ -12,8 +12,8 @@ from ..errors import ensure
 from ..language import language as spoken_language
 from ..language import said
 from ..mechanism import Mechanism
-from ..pictures.browser_data import signs
-from ..pictures.browser_file import page_text
+from ..pictures.page_data import signs
+from ..pictures.page_file import page_text
 from ..sketch import MachineSketch, sketch_of
 from .drawing import drawing_data
 

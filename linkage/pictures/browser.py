@@ -15,8 +15,8 @@ from ..motion import Column, Motion, RequestLike, live_text
 from ..reports import NOTHING, At
 from ..study import WorkingField
 from ..synthesis import Synthesis
-from .browser_data import PageRequests, machine_text, page_data
 from .chart_page import chart_page
+from .page_data import PageRequests, machine_text, page_data
 from .strokes import frame_count
 from .task_page import task_page
 

@@ -12,11 +12,11 @@ from ..language import heading_of, language
 from ..motion import stroke_display_unit
 from ..study import WorkingField
 from ..units import factor, shown_in, unit_sign
-from .browser_data import cylinder_data, scene_data, signs
-from .browser_file import LANGUAGES, PageData, page_text
-from .browser_judge import unit_data
 from .curves import typeset
 from .load_chart import ChartText
+from .page_data import cylinder_data, scene_data, signs
+from .page_file import LANGUAGES, PageData, page_text
+from .page_judge import unit_data
 from .scene import Scene
 
 Kind = TypeVar("Kind", bound=np.generic)

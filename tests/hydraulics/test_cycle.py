@@ -12,7 +12,7 @@ from hydraulics.programme import programme_read
 from linkage import Course, DefinitionError, Over, ramp
 from linkage.cli import main
 from linkage.errors import FileError
-from linkage.pictures.browser_data import event_data
+from linkage.pictures.page_data import event_data
 from linkage.units import bar, litre, minute, show
 from tests.hydraulics.test_pump import FLOW, OneBlock, TwoBlocks, pump_of
 

@@ -15,7 +15,7 @@ from linkage.documents.outcome import limits_section
 from linkage.documents.reporting import report_document, rule_share
 from linkage.documents.run import ReportSubject
 from linkage.motion import Request
-from linkage.pictures.browser_forces import page_situations
+from linkage.pictures.page_forces import page_situations
 from linkage.pictures.strokes import playback
 from linkage.reports import results, run_of, runs_of
 from linkage.units import UNITS, bar, deg, mm

@@ -18,7 +18,7 @@ from string import Formatter
 from linkage.cli.listing import registered
 from linkage.cli.machines import find
 from linkage.documents.inputs import own_texts
-from linkage.pictures.browser_file import said_in
+from linkage.pictures.page_file import said_in
 from tests.tools.sources import nodes, sources
 
 ROOT = Path(__file__).parents[2]

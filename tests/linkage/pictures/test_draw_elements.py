@@ -34,8 +34,8 @@ from linkage import (
 )
 from linkage.loads import TwoPoint
 from linkage.pictures import mechanism, style
-from linkage.pictures.browser_data import mark_data
 from linkage.pictures.drawing import BodyPart, MarkPart
+from linkage.pictures.page_data import mark_data
 from linkage.pictures.scene import Scene
 from linkage.pictures.shapes import HALF
 from linkage.units import bar, litre

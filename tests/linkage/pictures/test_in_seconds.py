@@ -35,8 +35,8 @@ from linkage.files import load, save
 from linkage.loads import Acting
 from linkage.motion import live_text
 from linkage.motion.judging import over_pose
-from linkage.pictures.browser_data import PageRequests, page_data
 from linkage.pictures.force_arrows import one_pose
+from linkage.pictures.page_data import PageRequests, page_data
 from linkage.pictures.strokes import playback
 from linkage.reports import results
 from linkage.statics.table import largest_loads

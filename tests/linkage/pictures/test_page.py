@@ -53,11 +53,11 @@ from linkage.cli.settings import design_from as design_of
 from linkage.files import load
 from linkage.motion import live_text
 from linkage.pictures import page_html
-from linkage.pictures.browser_data import PageRequests, limit_data, named_in_code
-from linkage.pictures.browser_file import bare, page_part, said_in, tight
 from linkage.pictures.chart_page import chart_page
 from linkage.pictures.curves import as_curve
 from linkage.pictures.load_chart import ChartText
+from linkage.pictures.page_data import PageRequests, limit_data, named_in_code
+from linkage.pictures.page_file import bare, page_part, said_in, tight
 from linkage.plan.trace import Trace
 from linkage.quantities import name_of
 from linkage.reports import results

@@ -11,10 +11,10 @@ from hydraulics import LiftCircuit, pressure
 from linkage import Course, Over, Weight, ramp
 from linkage.motion import live_text
 from linkage.motion.judging import over_pose
-from linkage.pictures.browser_data import PageRequests, page_data
-from linkage.pictures.browser_file import page_part
-from linkage.pictures.browser_judge import PHASES, course_data
 from linkage.pictures.force_arrows import one_pose
+from linkage.pictures.page_data import PageRequests, page_data
+from linkage.pictures.page_file import page_part
+from linkage.pictures.page_judge import PHASES, course_data
 from linkage.reports import request_in_case
 from linkage.units import bar
 from mechanisms.at_work.excavator import DiggingExcavator

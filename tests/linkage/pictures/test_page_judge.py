@@ -13,8 +13,8 @@ from linkage.cli.listing import registered
 from linkage.cli.machines import find
 from linkage.language import language
 from linkage.motion import HasVerdicts, judged_poses, live_text, pose_sentence
-from linkage.pictures.browser_data import PageRequests, page_data
-from linkage.pictures.browser_file import page_part
+from linkage.pictures.page_data import PageRequests, page_data
+from linkage.pictures.page_file import page_part
 from linkage.reports import is_column
 from linkage.units import SYSTEMS, bar, mm, unit_system
 from mechanisms.crane import Crane

@@ -12,9 +12,9 @@ from hydraulics import Cylinder, FloatCircuit
 from linkage import Crank, Force, ForceElement, Ground, Guide, Mechanism, OnGuide, OnLink, Stroke, Support, Weight
 from linkage.loads import Glyph
 from linkage.pictures import mechanism, style
-from linkage.pictures.browser_data import body_data, mark_data
 from linkage.pictures.drawing import BodyPart, MarkPart
 from linkage.pictures.labels import LabelPart
+from linkage.pictures.page_data import body_data, mark_data
 from linkage.pictures.poses import empty_page
 from linkage.pictures.scene import Scene, rigid_together
 from linkage.pictures.shapes import plate_form, rounded_outline

@@ -17,8 +17,8 @@ from PIL import Image
 from linkage import LEFT, Crank, DefinitionError, Dimension, FileError, Ground, Link, Mechanism, OnLink, Outline, Stroke, Weight, deg, draw
 from linkage.files import from_dict, load, to_dict, to_toml
 from linkage.pictures import mechanism
-from linkage.pictures.browser_data import mark_data
 from linkage.pictures.drawing import MarkPart, read_picture
+from linkage.pictures.page_data import mark_data
 from linkage.pictures.scene import Scene
 from linkage.statics import driving_force
 from linkage.surroundings.outline import dxf_lines

@@ -25,8 +25,8 @@ from ..program import Node
 from ..quantities import is_number, quantity
 from ..reports import at_its_rates, is_column
 from ..units import display_unit, factor, shown_in
-from .browser_file import PageData
 from .curves import Limit, limit_of, typeset
+from .page_file import PageData
 
 Piece: TypeAlias = tuple[int, Sought, str]
 """The place of an `Over` among those of the judge, what is sought over it, and the name of its row."""

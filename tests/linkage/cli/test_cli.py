@@ -568,7 +568,7 @@ def test_first_line_that_no_source_says_is_none(tmp_path, monkeypatch, source):
     if source is not None:
         (tmp_path / "strange.py").write_text(source, encoding="utf-8")
     monkeypatch.syspath_prepend(tmp_path)
-    assert listing.docstring("strange", "Hitch") is None
+    assert listing.class_node("strange", "Hitch") is None
     assert "strange" not in sys.modules
 
 

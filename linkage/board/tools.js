@@ -230,8 +230,9 @@ on(document, "keydown", (event) => {
   if (target === sheet && key in ARROWS) { event.preventDefault(); step(...ARROWS[key], event.shiftKey ? 10 : 1); return; }
   if (target === sheet && key === "Enter") {
     event.preventDefault();
-    if (tool === "plate" && shownNow.pending.length > 2 && pinAt(px(...shownNow.cursor), 8) === shownNow.pending.at(-1)) plated();
-    else if (shownNow.cursor) press(px(...shownNow.cursor), 8);
+    const { cursor, pending } = shownNow;
+    if (tool === "plate" && pending.length > 2 && (!cursor || pinAt(px(...cursor), 8) === pending.at(-1))) plated();
+    else if (cursor) press(px(...cursor), 8);
     return;
   }
   const chosen = document.querySelector(`button[data-tool][aria-keyshortcuts="${CSS.escape(key.toUpperCase())}"]`), act = chosen ? () => { choose(chosen.dataset.tool); sheet.focus(); } : KEYS[key] || KEYS[low];

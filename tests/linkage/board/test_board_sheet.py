@@ -404,6 +404,32 @@ def test_what_cannot_be_is_said_and_nothing_is_bent(chromium, empty):  # noqa: F
         assert "singular" in board.text("#live") and board.said == []
 
 
+def bucket(board):
+    """Draw a bucket on a stick with two cylinders, its plates ended by Enter, by the pointer otherwise."""
+    for _ in range(3):
+        board.tab.locator("#farther").click()
+    board.use("plate", (0, 600), (-200, 700), (200, 700), (700, 500), (800, 300))
+    board.keys("Enter")
+    board.use("fix", (0, 600))
+    board.use("cylinder", (-400, 100), (-200, 700))
+    board.use("fix", (-400, 100))
+    board.use("bar", "D", (900, 500))
+    board.use("cylinder", "C", "G")
+    board.use("plate", "E", (1100, 300), (1000, 0))
+    board.keys("Enter")
+    board.use("bar", "G", "H")
+
+
+def test_a_plate_that_is_pressed_ends_with_enter(chromium, empty):  # noqa: F811
+    with Board(chromium, empty) as board:
+        bucket(board)
+        assert [len(points) for points in board.drawing["links"].values()] == [5, 2, 3, 2] and board.said == []
+        assert board.text("#live").startswith("Mobility 2, drives: 2") and "loose" not in board.text("#live")
+        board.use("plate", (0, 0), (100, 0))
+        board.keys("Enter")  # two corners are no plate yet
+        assert len(board.drawing["links"]) == 4 and board("hydrolinkage.state().pending") == ["J", "K"] and board.said == []
+
+
 def test_hostile_texts_are_inert(chromium, empty):  # noqa: F811
     hostile = "<img src=x onerror=window.struck=1>"
     good = {"board": 1, "name": "M", "points": {"A": [0, 0]}, "notes": [hostile]}

@@ -262,8 +262,8 @@ const solver = (() => {
       among.forEach((k) => { if (same(k, next)) given.add(k); });
       places = relaxed(system, level, values, given);
     }
+    if (chosen < 0 || (!places && system.rows[chosen].part === "drives")) return null;
     places ||= level;
-    if (chosen < 0) return null;
     const { part, name } = system.rows[chosen], ends = part === "links" ? system.drawing.links[name] : [], span = (all, P, Q) => hypot(all[2 * P] - all[2 * Q], all[2 * P + 1] - all[2 * Q + 1]);
     const pairs = ends.flatMap((A, k) => ends.slice(k + 1).map((B) => [system.index[A], system.index[B]])), stretches = pairs.map((pair) => span(places, ...pair) - span(system.start, ...pair));
     const gap = pairs.length ? stretches.reduce((best, each) => (abs(each) > abs(best) ? each : best), 0) : missed(system, places, values)[chosen][0];
@@ -341,7 +341,7 @@ const solver = (() => {
     if (away(at) <= 1e-6 * system.size) return answer(at, strokes);
     const pins = goal.map((each, axis) => ({ part: "goal", name: point, put: (places) => [places[2 * X + axis] - each, [X, 1 - axis, axis]] }));
     const pinned = { ...system, rows: [...system.rows, ...pins] }, ends = rowsOf(pinned, "drives").filter((k) => pinned.rows[k].drive);
-    const short = shortest(pinned, at, strokes, ends.length ? ends : rowsOf(pinned, "links"));
+    const short = (ends.length && shortest(pinned, at, strokes, ends)) || shortest(pinned, at, strokes, rowsOf(pinned, "links"));
     return answer(at, strokes, short ? saidShort(short) : say("{name} ends here", { name: point }), short);
   }
 

@@ -430,6 +430,20 @@ def test_a_plate_that_is_pressed_ends_with_enter(chromium, empty):  # noqa: F811
         assert len(board.drawing["links"]) == 4 and board("hydrolinkage.state().pending") == ["J", "K"] and board.said == []
 
 
+def test_beyond_all_reach_no_drive_is_blamed_for_a_hair(chromium, empty):  # noqa: F811
+    with Board(chromium, empty) as board:
+        bucket(board)
+        before, (x, y) = board.lengths, (5000, 3000)
+        answer = board("(goal) => hydrolinkage.solver.drag(hydrolinkage.current(), 'I', goal)", [x / 1e3, y / 1e3])
+        missing = dist(answer["points"]["I"], (5, 3))
+        assert missing > 3 and answer["short"]["part"] == "links" and abs(answer["short"]["gap"]) > 1, answer["stopped"]
+        for (P, Q), length in before.items():
+            assert_allclose(dist(answer["points"][P], answer["points"][Q]), length, rtol=1e-9)
+        for name, value in answer["strokes"].items():
+            drive = board.drawing["drives"][name]
+            assert drive["start"] - 1e-9 <= value <= drive["end"] + 1e-9, name
+
+
 def test_hostile_texts_are_inert(chromium, empty):  # noqa: F811
     hostile = "<img src=x onerror=window.struck=1>"
     good = {"board": 1, "name": "M", "points": {"A": [0, 0]}, "notes": [hostile]}

@@ -142,8 +142,8 @@ function wholeRun() {
   const { poses, stops, values } = solver.sweep(drawing, driver, max(31, min(91, round(1200 / scene.names.length)))), unit = driveUnit(drawing.drives[driver]);
   shownNow.run = poses.filter(Boolean);
   shownNow.trails = Object.fromEntries([...trails].map((point) => [point, poses.map((at) => at && at[point])]));
-  const ends = values.filter((_, k) => poses[k]), last = byId("live").lastElementChild;
-  if (stops.length && last && ends.length) last.textContent += `; ${say("{name} goes from {from} to {to}: {why}", { name: driver, from: shown(ends[0], unit, 4), to: shown(ends.at(-1), unit, 4), why: stops[0].stopped })}`;
+  const ends = [...values.filter((_, k) => poses[k]), ...stops.map(({ value }) => value)], last = byId("live").lastElementChild;
+  if (stops.length && last) last.textContent += `; ${say("{name} goes from {from} to {to}: {why}", { name: driver, from: shown(min(...ends), unit, 4), to: shown(max(...ends), unit, 4), why: stops[0].stopped })}`;
   redraw();
 }
 

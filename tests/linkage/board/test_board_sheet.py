@@ -444,6 +444,18 @@ def test_beyond_all_reach_no_drive_is_blamed_for_a_hair(chromium, empty):  # noq
             assert drive["start"] - 1e-9 <= value <= drive["end"] + 1e-9, name
 
 
+def test_how_far_a_drive_goes_is_its_dead_point(chromium, empty):  # noqa: F811
+    with Board(chromium, empty) as board:
+        board.use("bar", (0, 0), (300, 0))
+        board.use("cylinder", (0, -200), (300, 0))
+        board.use("fix", (0, 0), (0, -200))
+        board.field("Name", "P")
+        board.choose("S")
+        board.field("Stroke", "900")
+        board.tab.wait_for_timeout(400)
+        assert f"S goes from 0 mm to {500 - np.hypot(300, 200):.1f} mm" in board.text("#live").replace("\u2009", " ")
+
+
 def test_hostile_texts_are_inert(chromium, empty):  # noqa: F811
     hostile = "<img src=x onerror=window.struck=1>"
     good = {"board": 1, "name": "M", "points": {"A": [0, 0]}, "notes": [hostile]}

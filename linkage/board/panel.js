@@ -17,7 +17,7 @@ function field(label, value, take, given = {}) {
   on(input, "change", () => {
     const fault = take(input.type === "checkbox" ? input.checked : input.value);
     input.classList.toggle("bad", Boolean(fault));
-    if (fault) tell(fault, true);
+    if (fault || byId("message").classList.contains("bad")) tell(fault || "", Boolean(fault));
   });
   return row;
 }

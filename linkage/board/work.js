@@ -13,8 +13,10 @@ const has = Object.hasOwn;
 const added = (before, after) => Object.keys(after).find((each) => !has(before, each));
 const isMoved = () => Object.keys(shownNow.values).some((name) => shownNow.values[name] !== shownNow.drawing.drives[name].drawn) || Object.entries(shownNow.places).some(([name, [x, y]]) => x !== shownNow.drawing.points[name][0] || y !== shownNow.drawing.points[name][1]);
 const snapshot = () => ({ drawing: shownNow.drawing, trails: [...trails], targets: structuredClone(targets) });
-/* Take a new drawing, with what changes beside it, as one thing done, and say what happened. */
+/* Take a new drawing, with what changes beside it, as one thing done, and say what happened. One that could not be opened again is refused. */
 function commit(next, text, change) {
+  const [wrong] = model.check(next);
+  if (wrong) { stands(current()); tell(wrong, true); return; }
   done.push(snapshot());
   if (done.length > MOST_UNDO) done.shift();
   undone = [];

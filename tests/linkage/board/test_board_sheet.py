@@ -456,6 +456,25 @@ def test_how_far_a_drive_goes_is_its_dead_point(chromium, empty):  # noqa: F811
         assert f"S goes from 0 mm to {500 - np.hypot(300, 200):.1f} mm" in board.text("#live").replace("\u2009", " ")
 
 
+def test_what_could_not_be_opened_again_is_not_drawn(chromium, empty):  # noqa: F811
+    points = {f"P{i}": [0.05 * (i % 20), 0.05 * (i // 20)] for i in range(200)}
+    with Board(chromium, empty) as board:
+        board.tab.locator("#text-in").fill(json.dumps({"board": 1, "name": "Many", "points": points}))
+        board.tab.locator("#take").click()
+        for tool, place in (("pin", (525, 475)), ("bar", (525, 475)), ("fix", (525, 475))):
+            board.use(tool, place)
+            assert "up to 200 entries" in board.text("#message") and len(board.drawing["points"]) == 200, tool
+        board.use("move", "P7")
+        board.tab.locator("#fields").get_by_role("button", name="Duplicate").click()
+        board.choose("P7")
+        board.field("x", "far")
+        assert "far is no x" in board.text("#message")
+        board.field("x", "340 mm")
+        assert "far is no x" not in board.text("#message")
+        board.again()
+        assert len(board.drawing["points"]) == 200 and board.drawing["points"]["P7"][0] == 0.34 and board.said == []
+
+
 def test_hostile_texts_are_inert(chromium, empty):  # noqa: F811
     hostile = "<img src=x onerror=window.struck=1>"
     good = {"board": 1, "name": "M", "points": {"A": [0, 0]}, "notes": [hostile]}

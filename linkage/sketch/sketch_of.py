@@ -70,8 +70,8 @@ def sketch_of(machine: Mechanism | type[Mechanism], at: Mapping[str, float] | No
     loose = [name for name in plan.points if name not in held]
     ensure(not loose, f"{title}: the sketch has no word for what holds {', '.join(loose)}; it is on no link and no slide.")
     weights, rams = dict(hung_weights(design)), dict(rams_of(design, drives))
-    drives |= {name: replace(drives[name], bore=bore, rod=rod) for name, bore, rod in rams.values()}
-    told = {*weights, *rams}
+    drives |= {name: replace(drives[name], bore=bore, rod=rod) for name, (_, bore, rod) in rams.items()}
+    told = {*weights, *(name for name, _, _ in rams.values())}
     others = [name for name, each in plan.members.items() if each.kind not in NOT_TOLD and not is_found_anew(each) and name not in told]
     notes = (f"Not in the sketch of {title}: {', '.join(others)}.",) if others else ()
     return MachineSketch(title, places, frame, links, slides, drives, weights=weights, notes=notes)
@@ -85,12 +85,12 @@ def hung_weights(design: Mechanism) -> Iterator[tuple[str, SketchWeight]]:
 
 
 def rams_of(design: Mechanism, drives: Mapping[str, SketchDrive]) -> Iterator[tuple[str, tuple[str, float, float]]]:
-    """Yield single cylinders that are driven, by their names: the drive, bore and rod [m]."""
+    """Yield single cylinders by the drives that they follow: name, bore and rod [m]."""
     for name, each in design.plan.of_kind(TwoPoint).items():
         bore, rod = (float(design.dimensions.get(f"{name}.{part}", 0.0)) for part in ("bore", "rod"))
         stroke = next((stroke for stroke, drive in drives.items() if {*drive.ends} == {*each.ends} and drive.kind == "cylinder"), None)
         if bore and rod and stroke is not None and vars(each).get("count") == 1:
-            yield name, (stroke, bore, rod)
+            yield stroke, (name, bore, rod)
 
 
 def is_found_anew(member: object) -> bool:

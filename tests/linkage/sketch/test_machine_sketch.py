@@ -1,12 +1,13 @@
 """A machine to a sketch and back; a sketch as a class, as Python and as TOML; what is refused, by its name."""
 
+from dataclasses import replace
 from math import pi
 
 import numpy as np
 import pytest
 
 from linkage import DefinitionError
-from linkage.files import load
+from linkage.files import from_dict, load
 from linkage.sketch import MachineSketch, SketchDrive, SketchSlide, sketch_of
 from tests import shipped
 from tests.for_all import for_all
@@ -76,6 +77,11 @@ def test_what_a_sketch_does_not_hold_is_told():
     (note,) = sketch.notes
     assert note.startswith("Not in the sketch of ThreePointHitch: ") and " load," not in note and "tilt" in note
     assert sketch.weights["load"].mass == shipped.MACHINES["three_point_hitch"]()["load.mass"]
+    boom = replace(BOOM, drives={"S": replace(BOOM.drives["S"], bore=0.063, rod=0.036)}).tables()
+    ends = boom["hydraulics"]["cylinder_S"]["Cylinder"]
+    boom["hydraulics"]["other"] = {"Cylinder": ends, "bore": 0.08, "rod": 0.05}
+    twin = sketch_of(from_dict(boom))
+    assert (twin.drives["S"].bore, twin.notes) == (0.08, ("Not in the sketch of Boom: cylinder_S.",))
 
 
 def test_other_machines_are_refused_by_name():

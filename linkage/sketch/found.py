@@ -6,7 +6,7 @@ import re
 from base64 import urlsafe_b64decode
 from binascii import Error
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 from itertools import combinations, permutations
 from math import cos, dist, hypot, inf, isfinite, pi, remainder, sin
@@ -18,7 +18,7 @@ from ..files.names import shortened
 from ..mechanism import Mechanism
 from ..quantities import is_name, joined_names
 from ..units import parse, show
-from .machine_sketch import MachineSketch, Place, SketchDrive, SketchSlide, SketchWeight, longer_side, noiseless
+from .machine_sketch import MachineSketch, Place, SketchDrive, SketchSlide, longer_side, noiseless
 
 OFF_LINE = 1e-3
 """A point farther from its slide than so much of the size of the drawing is not on it."""
@@ -75,8 +75,7 @@ class FoundMachine:
     line: int = 0
     """The line that is read, where the file has lines."""
     whole: MachineSketch | None = None
-    """The sketch, where the file holds it as it is: all that is above but drives are its pieces."""
-    weights: dict[str, SketchWeight] = field(default_factory=dict)
+    """The sketch, where the file holds it as it is: points and links above are its own."""
 
     @property
     def here(self) -> str:
@@ -202,9 +201,17 @@ class FoundMachine:
         if self.left_out:
             self.notes.append(f"Left out: {few(self.left_out, '; ')}.")
         fixed = tuple(names[key] for key, point in self.points.items() if point.fixed)
-        weights = {legal_name(name, taken): SketchWeight(names[each.point], each.mass) for name, each in self.weights.items()}
         title, notes = legal_name(title, {"Mechanism"}), tuple(map(printable, self.notes))
-        return MachineSketch(title, places, fixed, links, slides, drives, weights=weights, notes=notes)
+        return MachineSketch(title, places, fixed, links, slides, drives, notes=notes)
+
+    def driven_anew(self, whole: MachineSketch) -> MachineSketch:
+        """Return a sketch with the drives and links that stand here in place of its own; cylinders are as long as they are drawn."""
+        links = {name: tuple(points) for name, points in self.links}
+        taken = {*WORDS, *whole.points, *links, *whole.slides, *whole.weights}
+        drives = dict(self.named_drives({name: name for name in whole.points}, whole.points, taken))
+        closed = {joined_names(*ends) for each in drives.values() if each.kind == "cylinder" for ends in (each.ends, each.ends[::-1])}
+        lengths = {label: length for label, length in whole.lengths.items() if label not in closed}
+        return replace(whole, links=links, drives=drives, lengths=lengths, notes=(*whole.notes, *map(printable, self.notes)))
 
     def named_drives(self, names: Mapping[str, str], places: Mapping[str, Place], taken: set[str]) -> Iterator[tuple[str, SketchDrive]]:
         """Yield the drives [SI] by their names; a note on a cylinder of which the file says no stroke."""

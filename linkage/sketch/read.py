@@ -70,13 +70,13 @@ def read_sketch(
         ensure(found.whole is None, f"{found.file}: a drawing of the board is in metres; leave out the scale.")
         ensure(isfinite(scale) and scale > 0.0, f"{found.file}: the scale is {scale!r}; say what 1 of the file is, such as 1mm.")
         found.unit = scale
-    if found.whole is not None and not (drives or cylinders):
-        return found.whole
     asked = [*(("crank", *ends) for ends in drives), *(("cylinder", *ends) for ends in cylinders)]
     if asked:
         found.drives = []
         for kind, *ends in asked:
             add_drive(found, kind, *(point_key(found, name) for name in ends))
+    if found.whole is not None:
+        return found.driven_anew(found.whole) if asked else found.whole
     return found.sketch(title)
 
 

@@ -2,6 +2,7 @@
 
 import json
 import random
+from dataclasses import replace
 from functools import cache
 from importlib.resources import files
 from math import cos, dist, hypot, pi, sin
@@ -563,6 +564,11 @@ def test_the_board_file_and_its_address_go_through_the_command(board, tmp_path, 
     capsys.readouterr()
     driven = read_sketch(place, cylinders=[("K", "L")])
     assert [*driven.drives] == ["S"] and driven.weights == sketch.weights and driven.points == sketch.points
+    hung = replace(sketch, points={**sketch.points, "Z": (0.0, 3.0)}, weights={"bob": SketchWeight("Z", 1.0)}, notes=("As measured.",))
+    given = read_text(board_json(replace(hung, lengths={"OL": 1.2, "KL": 1.1})), tmp_path)
+    again = read_sketch(tmp_path / "board.json", cylinders=[("K", "L")])
+    assert again.weights == given.weights and again.notes[0] == "As measured." and again.lengths == {"OL": 1.2}
+    assert again.drives["S"].drawn == 0.0 and again.length("K", "L") > 1.1
     assert main(["import", str(place), "-o", str(tmp_path / "loader.csv")]) == 0
     assert "no word for weights, bores and rods" in capsys.readouterr().err
     with pytest.raises(DefinitionError, match="in metres"):

@@ -84,6 +84,11 @@ def check_place(path: Place) -> None:
     target(path)
 
 
+def is_one_file(path: Place, other: Place) -> bool:
+    """Return whether two paths lead to one file that is there."""
+    return os.path.exists(path) and os.path.exists(other) and os.path.samefile(path, other)
+
+
 @contextmanager
 def replacing(path: Place) -> Iterator[BinaryIO]:
     """Yield a stream whose bytes take the place of a file when all of them are written; until then, and if not, the old one stays.

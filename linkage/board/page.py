@@ -8,12 +8,11 @@ from typing import Any
 
 from .. import plugins
 from ..disk import check_place, replacing_text
-from ..errors import ensure
 from ..language import language as spoken_language
 from ..language import said
 from ..mechanism import Mechanism
 from ..pictures.page_data import signs
-from ..pictures.page_file import page_text
+from ..pictures.page_file import page_place, page_text
 from ..sketch import MachineSketch, sketch_of
 from .drawing import drawing_data
 
@@ -59,8 +58,7 @@ def drawing_board(
     >>> drawing_board(None, "board.html").name  # doctest: +SKIP
     'board.html'
     """
-    target = Path(path)
-    ensure(target.suffix.lower() == ".html", f"{path} is no name of a page; give one that ends in .html.")
+    target = page_place(path)
     check_place(target)
     sketch = machine if machine is None or isinstance(machine, MachineSketch) else sketch_of(machine)
     data = drawing_data(sketch) | {

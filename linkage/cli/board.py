@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import os
 from argparse import Namespace
-from pathlib import Path
 
+from ..disk import is_one_file
 from ..errors import ensure
 from .command import Command, option
 from .machines import find
@@ -22,10 +21,8 @@ def board_command(options: Namespace) -> int:
     from ..board import drawing_board
     from ..sketch import is_foreign, read_sketch
 
-    path = Path(options.output)
-    is_source = options.machine is not None and os.path.exists(options.machine) and path.exists()
-    ensure(not (is_source and os.path.samefile(path, options.machine)), f"{path} is the file that is opened; choose another name, -o FILE.")
-    text = options.machine
+    text, path = options.machine, options.output
+    ensure(text is None or not is_one_file(path, text), f"{path} is the file that is opened; choose another name, -o FILE.")
     found = None if text is None else read_sketch(text) if is_foreign(text) else find(text)
     print(drawing_board(found, path, language=options.language))
     return 0

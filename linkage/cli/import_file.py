@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import os
 from argparse import Namespace
 from pathlib import Path
 
-from ..disk import check_place, replacing_text
+from ..disk import check_place, is_one_file, replacing_text
 from ..errors import ensure
 from ..units import parse
 from .command import Command, option, repeatable, say_remark
@@ -41,8 +40,7 @@ def import_command(options: Namespace) -> int:
         say_remark(note)
     path = Path(f"{found.name.lower()}.toml" if options.output is None else options.output)
     check_place(path)
-    is_source = os.path.exists(options.file) and path.exists() and os.path.samefile(path, options.file)
-    ensure(not is_source, f"{path} is the file that is imported and stays as it is; choose another name, -o FILE.")
+    ensure(not is_one_file(path, options.file), f"{path} is the file that is imported and stays as it is; choose another name, -o FILE.")
     is_free = not path.exists() or (options.output is not None and path.suffix.lower() not in SUFFIXES)
     ensure(is_free, f"{path} is there already and stays as it is; choose another name, -o FILE.")
     if path.suffix.lower() not in (".toml", ".py", ".json") and (found.weights or any(drive.bore for drive in found.drives.values())):

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from ..checks import require
 from ..disk import check_place, replacing_text
 from ..errors import DefinitionError
 from ..mechanism import Mechanism, played_along, require_mechanism
@@ -17,6 +15,7 @@ from ..study import WorkingField
 from ..synthesis import Synthesis
 from .chart_page import chart_page
 from .page_data import PageRequests, machine_text, page_data
+from .page_file import page_place
 from .strokes import frame_count
 from .task_page import task_page
 
@@ -102,9 +101,7 @@ def page(
     """
     if not isinstance(machine, (Motion, WorkingField, Synthesis)):
         require_mechanism(machine)
-    is_page = isinstance(path, (str, os.PathLike)) and Path(path).suffix.lower() == ".html"
-    require(is_page, "", path, "is no name of a page; give one that ends in .html")
-    target = Path(path)
+    target = page_place(path)
     given: dict[str, Any] = {"vary": vary, "columns": columns, "column": column, "trace": trace, "limit": limit}
     if isinstance(machine, WorkingField):
         if any(each is not None for each in given.values()) or at or count != COUNT:

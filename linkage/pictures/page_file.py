@@ -9,9 +9,13 @@ from collections.abc import Iterable, Sequence
 from hashlib import sha256
 from html import escape
 from importlib.resources import files
+from os import PathLike
+from pathlib import Path
 from typing import Any, TypeAlias
 from zlib import compressobj
 
+from ..checks import require
+from ..disk import Place
 from ..errors import known_name
 from ..language import language as spoken_language
 from ..language import translated
@@ -65,6 +69,13 @@ def page_text(title: str, data: PageData, parts: Sequence[str], *, language: str
         "DATA": packed(json.dumps(data, ensure_ascii=False, separators=(",", ":"), allow_nan=False)),
     }
     return fill_template(page_part("page.html"), filled_in)
+
+
+def page_place(path: Place) -> Path:
+    """Return the path of a page; DefinitionError for anything but a name that ends in .html."""
+    is_page = isinstance(path, (str, PathLike)) and Path(path).suffix.lower() == ".html"
+    require(is_page, "", path, "is no name of a page; give one that ends in .html")
+    return Path(path)
 
 
 def said_in(text: str) -> list[str]:

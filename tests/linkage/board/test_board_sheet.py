@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from linkage import deg, drawing_board
+from linkage import DefinitionError, deg, drawing_board
 from linkage.cli import main
 from linkage.files import load
 from tests.linkage.pictures.test_page import PHONE, Shown, chromium, data_of, unpacked  # noqa: F401
@@ -189,6 +189,11 @@ def test_the_command_opens_what_other_commands_read(tmp_path, monkeypatch, capsy
     assert data_of(Path("board.html").read_text(encoding="utf-8"))["drawing"] is None
     assert main(["board", "excavator"]) == 2 and "it has parts" in capsys.readouterr().err
     assert main(["board", "-o", "board.txt"]) == 2 and "ends in .html" in capsys.readouterr().err
+    (tmp_path / "page.html").symlink_to("table.csv")
+    assert main(["board", "table.csv", "-o", "page.html"]) == 2 and "is the file that is opened" in capsys.readouterr().err
+    for wrong in (3, None, b"board.html", "board"):
+        with pytest.raises(DefinitionError, match="is no name of a page; give one that ends in"):
+            drawing_board(None, wrong)
     assert main(["board", "four_ba"]) == 2 and "four_bar" in capsys.readouterr().err
 
 

@@ -262,7 +262,7 @@ const solver = (() => {
       among.forEach((k) => { if (same(k, next)) given.add(k); });
       places = relaxed(system, level, values, given);
     }
-    if (chosen < 0 || (!places && system.rows[chosen].part === "drives")) return null;
+    if (chosen < 0) return null;
     places ||= level;
     const { part, name } = system.rows[chosen], ends = part === "links" ? system.drawing.links[name] : [], span = (all, P, Q) => hypot(all[2 * P] - all[2 * Q], all[2 * P + 1] - all[2 * Q + 1]);
     const pairs = ends.flatMap((A, k) => ends.slice(k + 1).map((B) => [system.index[A], system.index[B]])), stretches = pairs.map((pair) => span(places, ...pair) - span(system.start, ...pair));
@@ -312,6 +312,13 @@ const solver = (() => {
     const low = min(start, end), high = max(start, end), slack = 1e-12 * (high - low);
     return value < low - slack ? low : value > high + slack ? high : null;
   }
+  /* Return which drive at its end keeps a point from where the links let it come nearest to its goal, and by how much; null where none does. */
+  function heldBack(pinned, at, values) {
+    const open = { ...pinned, rows: pinned.rows.filter((row) => !row.drive) }, places = relaxed(open, at, values, new Set(rowsOf(open, "goal"))), { drives } = pinned.drawing;
+    const beyond = ({ part, name, drive }, gap) => drive && gap * (2 * values[name] - drives[name].start - drives[name].end) > 0 ? [{ part, name, gap }] : [];
+    const [found] = places ? missed(pinned, places, values).flatMap(([gap], k) => beyond(pinned.rows[k], gap)).sort((a, b) => abs(b.gap) - abs(a.gap)) : [];
+    return found && abs(found.gap) > 1e-6 * pinned.size ? found : null;
+  }
   function drag(drawing, point, goal) {
     const { drives, fixed } = drawing, system = build(drawing, []), X = system.index[point], held = {};
     const answer = (at, strokes, stopped = "", short = null) => ({ points: placesOf(system, at), strokes, stopped, short });
@@ -340,8 +347,7 @@ const solver = (() => {
     }
     if (away(at) <= 1e-6 * system.size) return answer(at, strokes);
     const pins = goal.map((each, axis) => ({ part: "goal", name: point, put: (places) => [places[2 * X + axis] - each, [X, 1 - axis, axis]] }));
-    const pinned = { ...system, rows: [...system.rows, ...pins] }, ends = rowsOf(pinned, "drives").filter((k) => pinned.rows[k].drive);
-    const short = (ends.length && shortest(pinned, at, strokes, ends)) || shortest(pinned, at, strokes, rowsOf(pinned, "links"));
+    const pinned = { ...system, rows: [...system.rows, ...pins] }, short = heldBack(pinned, at, strokes) || shortest(pinned, at, strokes, rowsOf(pinned, "links"));
     return answer(at, strokes, short ? saidShort(short) : say("{name} ends here", { name: point }), short);
   }
 

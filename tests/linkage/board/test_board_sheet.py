@@ -438,15 +438,21 @@ def test_a_plate_that_is_pressed_ends_with_enter(chromium, empty):  # noqa: F811
 def test_beyond_all_reach_no_drive_is_blamed_for_a_hair(chromium, empty):  # noqa: F811
     with Board(chromium, empty) as board:
         bucket(board)
-        before, (x, y) = board.lengths, (5000, 3000)
-        answer = board("(goal) => hydrolinkage.solver.drag(hydrolinkage.current(), 'I', goal)", [x / 1e3, y / 1e3])
-        missing = dist(answer["points"]["I"], (5, 3))
-        assert missing > 3 and answer["short"]["part"] == "links" and abs(answer["short"]["gap"]) > 1, answer["stopped"]
-        for (P, Q), length in before.items():
-            assert_allclose(dist(answer["points"][P], answer["points"][Q]), length, rtol=1e-9)
-        for name, value in answer["strokes"].items():
-            drive = board.drawing["drives"][name]
-            assert drive["start"] - 1e-9 <= value <= drive["end"] + 1e-9, name
+        before, drives, blamed = board.lengths, board.drawing["drives"], set()
+        for goal in ([5, 3], [-5, 0], [0.2, -3], [0.6, 0.05], [1.5, 2]):
+            answer = board("(goal) => hydrolinkage.solver.drag(hydrolinkage.current(), 'I', goal)", goal)
+            assert dist(answer["points"]["I"], goal) > 0.1, goal
+            for (P, Q), length in before.items():
+                assert_allclose(dist(answer["points"][P], answer["points"][Q]), length, rtol=1e-9)
+            for name, value in answer["strokes"].items():
+                assert drives[name]["start"] - 1e-9 <= value <= drives[name]["end"] + 1e-9, name
+            short = answer["short"]
+            blamed.add(short["part"])
+            assert abs(short["gap"]) > 0.01, answer["stopped"]
+            if short["part"] == "drives":  # one that stands at the end which keeps the pin away
+                end = drives[short["name"]]["end" if short["gap"] > 0 else "start"]
+                assert_allclose(answer["strokes"][short["name"]], end, atol=1e-9)
+        assert blamed == {"links", "drives"}
 
 
 def test_how_far_a_drive_goes_is_its_dead_point(chromium, empty):  # noqa: F811

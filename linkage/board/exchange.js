@@ -53,14 +53,14 @@ function opened(text) {
   whole(); redraw();
   return true;
 }
-on(byId("file"), "change", async ({ target }) => {
-  const [file] = target.files;
+/* Open a file that was chosen or dropped. */
+async function openedFile(file) {
   if (file && file.size <= model.MOST.bytes) opened(await file.text()); else if (file) tell(say("This file is too large for a drawing."), true);
-  target.value = "";
-});
+}
+on(byId("file"), "change", async ({ target }) => { await openedFile(target.files[0]); target.value = ""; });
 on(byId("take"), "click", () => { if (opened(byId("text-in").value)) byId("text-in").value = ""; });
 on(sheet, "dragover", (event) => event.preventDefault());
-on(sheet, "drop", async (event) => { event.preventDefault(); const [file] = event.dataTransfer.files; if (file && file.size <= model.MOST.bytes) opened(await file.text()); });
+on(sheet, "drop", (event) => { event.preventDefault(); openedFile(event.dataTransfer.files[0]); });
 
 /* ---- buttons ---- */
 

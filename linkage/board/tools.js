@@ -124,7 +124,7 @@ on(sheet, "pointerdown", (event) => {
   fingers.set(event.pointerId, spot);
   sheet.setPointerCapture(event.pointerId);
   shownNow.cursor = null;
-  if (fingers.size > 1) { held = null; return; }
+  if (fingers.size > 1) { letGo(); return; }
   held = { spot, within, name: tool === "move" && event.button === 0 ? pinAt(spot, within) : "", isPan: event.button === 1, far: false, from: current(), reshapes: event.shiftKey || byId("reshape").getAttribute("aria-pressed") === "true" };
 });
 on(sheet, "pointermove", (event) => {
@@ -151,6 +151,11 @@ on(sheet, "pointermove", (event) => {
   if (all.length > 1) nearer(apart(all[0], all[1]) / (apart(was[0], was[1]) || 1), to);
   redraw();
 });
+/* Leave what is led where it was; of a machine that moved the pose stays. */
+function letGo() {
+  if (held?.next) stands(held.from);
+  held = null;
+}
 /* Lead a pin: a joint takes the machine along as far as it goes, one that is fixed, loose or reshaped takes its lengths along. */
 function lead(held, spot) {
   const to = placeAt(spot), { name } = held;
@@ -180,7 +185,7 @@ on(sheet, "pointerup", (event) => {
   else if (led) { shownNow.picked = { kind: "points", name }; commit(current()); }
   else if (!far || isLine) press(spot, within);
 });
-on(sheet, "pointercancel", (event) => { fingers.delete(event.pointerId); if (held?.next) stands(held.from); held = null; });
+on(sheet, "pointercancel", (event) => { fingers.delete(event.pointerId); letGo(); });
 on(sheet, "wheel", (event) => { event.preventDefault(); nearer(Math.exp(-0.0015 * event.deltaY * (event.deltaMode ? 30 : 1)), spotOf(event)); redraw(); }, { passive: false });
 on(sheet, "dblclick", () => { if (tool === "plate") plated(); });
 

@@ -313,6 +313,13 @@ def test_two_fingers_see_closer_and_one_leads(chromium, empty):  # noqa: F811
         send("touchEnd")
         assert board.drawing["points"]["B"][0] < points["B"][0] - 0.01
         assert_allclose(board.drawing["points"]["C"][1], points["C"][1], atol=1e-9)
+        before, (x, y) = board.drawing, board.spot(*board.place("A"))
+        send("touchStart", (x, y))
+        send("touchMove", (x, y - 40))
+        assert board.drawing["points"]["A"][1] > before["points"]["A"][1] + 0.01
+        send("touchStart", (x, y - 40), (x + 60, y))
+        send("touchEnd")
+        assert board.drawing == before
         assert board.said == []
 
 
@@ -484,6 +491,28 @@ def test_what_could_not_be_opened_again_is_not_drawn(chromium, empty):  # noqa: 
         assert "far is no x" not in board.text("#message")
         board.again()
         assert len(board.drawing["points"]) == 200 and board.drawing["points"]["P7"][0] == 0.34 and board.said == []
+
+
+def test_a_file_that_is_dropped_is_opened_as_one_that_is_chosen(chromium, empty):  # noqa: F811
+    drop = """([text, size]) => {
+        const files = new DataTransfer();
+        files.items.add(new File([text.padEnd(size)], "dropped.json"));
+        document.getElementById("mechanism").dispatchEvent(new DragEvent("drop", { dataTransfer: files, cancelable: true }));
+    }"""
+    text = json.dumps({"board": 1, "name": "Dropped", "points": {"A": [0, 0]}})
+    with Board(chromium, empty) as board:
+        for size, said in ((len(text), "Dropped is open"), (1_100_000, "too large for a drawing")):
+            for door in ("drop", "choose"):
+                board("byId => document.getElementById(byId).textContent = ''", "message")
+                if door == "drop":
+                    board(drop, [text, size])
+                else:
+                    board.tab.locator("#file").set_input_files(
+                        {"name": "chosen.json", "mimeType": "application/json", "buffer": text.ljust(size).encode()}
+                    )
+                board.tab.wait_for_function("document.getElementById('message').textContent !== ''")
+                assert said in board.text("#message"), door
+        assert board.drawing["name"] == "Dropped" and board.said == []
 
 
 def test_hostile_texts_are_inert(chromium, empty):  # noqa: F811

@@ -13,10 +13,9 @@ function out(which = form) {
   form = which;
   for (const each of document.querySelectorAll("[data-form]")) each.setAttribute("aria-pressed", String(each.dataset.form === form));
   const wrong = form === "file" ? [] : model.lacking(shownNow.drawing), name = fileName();
-  const isReady = !wrong.length && Object.keys(shownNow.drawing.points).length > 0;
   let text = "";
-  try { text = isReady || form === "file" || form === "link" ? FORMS[form]()[0] : ""; } catch (error) { text = `# ${error.message}`; }
-  byId("text").value = text || say("Not yet a machine: {wrong}", { wrong: wrong.join("; ") });
+  try { text = !wrong.length || form === "link" ? FORMS[form]()[0] : ""; } catch (error) { text = `# ${error.message}`; }
+  byId("text").value = text || (wrong.length ? say("Not yet a machine: {wrong}", { wrong: wrong.join("; ") }) : say("Press the pin whose path is a task."));
   byId("copy-text").disabled = byId("hand").disabled = !text;
   const file = form === "file" ? `${name}.json` : form === "toml" ? `${name}.toml` : `${name}.py`;
   const lines = form === "task" ? [`hydrolinkage synthesise ${name}_task.toml --page found.html`] : [`hydrolinkage show ${file}`, `hydrolinkage page ${file} -o ${name}.html`, `hydrolinkage report ${file} -o ${name}_report.html`];
@@ -89,12 +88,16 @@ function speak() { labelled(); hint(); stands(shownNow.drawing); }
 
 solver.show = (metres) => lengthText(metres, 3);
 look(night.matches ? "dark" : "light");
-const visit = kept(), linked = location.hash.length > 1 ? writers.opened(location.href) : null;
+const visit = kept(), first = model.read(delivered);
 if (visit) { trails = new Set(visit.trails); ({ targets, showsGrid } = visit); unit(visit.unit); byId("grid").setAttribute("aria-pressed", String(showsGrid)); }
-shownNow.drawing = linked?.drawing || visit?.drawing || model.read(delivered).drawing || model.empty();
+shownNow.drawing = visit?.drawing || first.drawing || model.empty();
 shownNow.places = structuredClone(shownNow.drawing.points);
 whole(); choose("move"); speak();
-if (linked && !linked.drawing) tell(linked.wrong[0], true);
+if (data.drawing && !visit && !first.drawing) tell(first.wrong[0], true);
+/* Open the drawing in the page's address, once: what is done to it later stays when the page is loaded again. */
+function linked() { if (location.hash.length > 1 && opened(location.href)) location.replace("#"); }
+on(window, "hashchange", linked);
+linked();
 new ResizeObserver(() => redraw()).observe(sheet);
 
 /* For tests: what is shown. */

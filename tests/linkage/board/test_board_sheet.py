@@ -14,6 +14,7 @@ from numpy.testing import assert_allclose
 from linkage import DefinitionError, deg, drawing_board
 from linkage.cli import main
 from linkage.files import load
+from linkage.sketch import MachineSketch
 from tests.linkage.pictures.test_page import PHONE, Shown, chromium, data_of, unpacked  # noqa: F401
 
 SWEPT = """() => {
@@ -254,6 +255,8 @@ def test_a_task_is_read_by_the_synthesis_and_undone(chromium, empty, tmp_path, m
         board.use("plate", "B", "C", (200, 400), "B")
         board.choose("link_B_C")
         board.tab.locator("#fields").get_by_role("button", name="Delete").click()
+        board.tab.locator("[data-form=task]").click()
+        assert board.tab.locator("#text").input_value() == "Press the pin whose path is a task."
         board.use("path", "E")
         board.use("target", "E", (200, 460), (140, 460), (80, 380))
         text = board.tab.locator("#text").input_value()
@@ -323,6 +326,12 @@ def test_two_fingers_see_closer_and_one_leads(chromium, empty):  # noqa: F811
         assert board.said == []
 
 
+def test_what_the_board_cannot_hold_is_told_where_it_is_delivered(chromium, tmp_path):  # noqa: F811
+    large = MachineSketch("Large", {f"P{n}": (0.1 * n, 1.0) for n in range(201)}, ("P0",), {})
+    with Board(chromium, drawing_board(large, tmp_path / "large.html")) as board:
+        assert "points is no table of up to 200 entries" in board.text("#message") and board.said == []
+
+
 def test_a_reload_keeps_the_work(chromium, empty):  # noqa: F811
     with Board(chromium, empty) as board:
         slider_crank(board)
@@ -331,6 +340,17 @@ def test_a_reload_keeps_the_work(chromium, empty):  # noqa: F811
         board.again()
         assert board.drawing == before and board.text("#live").startswith("Mobility 1, drives: 1")
         assert board.tab.locator("#units").input_value() == "in"
+        linked = {"board": 1, "name": "Linked", "points": {"A": [0, 0]}}
+        board("(given) => { location.hash = hydrolinkage.writers.address(given); }", linked)
+        board.tab.wait_for_function("hydrolinkage.current().name === 'Linked'")
+        board.use("pin", (10, 5))
+        board.again()
+        assert board.drawing["name"] == "Linked" and len(board.drawing["points"]) == 2
+        board("(given) => { history.replaceState(null, '', `#${hydrolinkage.writers.address(given)}`); }", linked | {"name": "Second"})
+        board.again()
+        assert board.drawing["name"] == "Second"
+        board.keys("Control+z")
+        assert board.drawing["name"] == "Linked" and board.said == []
         for damage in ("{", "[]", '{"drawing":{"board":1,"name":"X","points":{"A":[0,"x"]}},"delivered":"null"}'):
             board("(text) => localStorage.setItem(Object.keys(localStorage)[0], text)", damage)
             board.again()

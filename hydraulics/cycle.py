@@ -23,6 +23,7 @@ from linkage.loads import PLAIN_CASE, Acting, ForceElement
 from linkage.motion import Instants, Judge, Motion, from_above, require_motion
 from linkage.motion.grid import recalled
 from linkage.numeric import last_holding
+from linkage.plan import Plan
 from linkage.quantities import name_of
 from linkage.units import show
 from linkage.verdict import Verdict
@@ -276,17 +277,20 @@ def unchanged(arrays: Mapping[str, Array]) -> Mapping[str, Array]:
 @final
 @dataclass(frozen=True, eq=False)
 class PumpRun:
-    """A pump's run: its cycle, with its design and its situation. It stands with the path that the run made."""
+    """A pump's run: its cycle, with its machine, its design and its situation. It stands with the path that the run made."""
 
     cycle: PumpCycle
+    plan: Plan
     designs: Mapping[str, Any]
     acting: Acting
 
     @staticmethod
     def known(pump: ForceElement, place: Any, case: str) -> PumpCycle | None:
-        """Return the cycle of the run that made a path, of the same design in the same load case; None where there is none."""
+        """Return the cycle of the run that made a path, of the same machine and design in the same load case; None where there is none."""
         run = place.over.found_in_run.get(pump.name)
-        if run is None or any(not np.array_equal(run.designs[name], value) for name, value in place.designs.items()):
+        if run is None or run.plan is not place.plan:
+            return None
+        if any(not np.array_equal(run.designs[name], value) for name, value in place.designs.items()):
             return None
         own = PLAIN_CASE if run.acting.case is None else name_of(run.acting.case)
         return run.cycle if run.acting.loads is None and own == case else None

@@ -444,7 +444,7 @@ def worked(
     instants = instants.shares(np.linspace(0.0, 1.0, INSTANTS))
     names, cylinders = [line.name for line in work.consumers.lines], [ram.name for ram in work.rams]
     cycle = PumpCycle(pump.name or "supply", names, cylinders, stretches, work.limits, "" if cases is None else cases[0], events)
-    vars(over)["found_in_run"] = FrozenDict({work.pump.name: PumpRun(cycle, work.designs, acting or Acting())})
+    vars(over)["found_in_run"] = FrozenDict({work.pump.name: PumpRun(cycle, plan, work.designs, acting or Acting())})
     found = PumpMotion(plan, work.designs, instants.strokes, "raise", over=over, instants=instants)
     vars(found).update(events=tuple(events), cycle=cycle)
     return found

@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose
 
 from hydraulics import Pump
 from hydraulics.programme import programme_read
-from linkage import Course, DefinitionError, Over, ramp
+from linkage import Course, DefinitionError, Dimension, Over, ramp
 from linkage.cli import main
 from linkage.errors import FileError
 from linkage.pictures.page_data import event_data
@@ -28,6 +28,14 @@ two.ram = 0.05
 
 class CycledBlocks(TwoBlocks):
     going = Over.path(S=ramp(0.0, 0.2, speed=0.1, acceleration=0.5), T=ramp(0.0, 0.15, speed=0.05, acceleration=0.5))
+
+
+class OpenCentreBlocks(CycledBlocks):
+    supply = Pump(300 * bar, flow=FLOW, sharing="least pressure first")
+
+
+class MeasuredBlocks(CycledBlocks):
+    height = Dimension(0.4)
 
 
 class BlockWithMargin(OneBlock):
@@ -155,6 +163,9 @@ def test_a_run_keeps_what_its_pump_gave_wherever_it_is_judged():
         assert told in [each.sentence for each in machine.verdicts(over=motion)]
     other = machine.replaced(**{"one.ram.bore": 1.1 * machine["one.ram.bore"]})
     assert supply.check(other.sweep(31, over=run.over)).verdict.sentence != told  # a path is given to another design
+    for kind in (OpenCentreBlocks, MeasuredBlocks):  # and to another machine, which has a pump of that name
+        (said,) = [each.sentence for each in kind().verdicts(over=run.over) if each.heading == "pump"]
+        assert said.startswith("needs ")
 
 
 def test_a_chart_shades_who_waits_and_numbers_the_events():

@@ -330,9 +330,10 @@ def cycles_over(pump: ForceElement, place: Any, acting: Acting) -> list[PumpCycl
         situation = acting if acting.case is not None and len(cases) == 1 else replace(acting, case=case)
         label = case if len(cases) > 1 else ""
         make = partial(cycle_over, pump, place, situation, label)
-        is_own = acting.loads is None and (acting.case is None or isinstance(acting.case, str))  # the machine's loads, in a case of its own
-        run = PumpRun.known(pump, place, case) if is_own else None
-        found.append(run if run is not None else recalled(place.motion, ("pump cycle", pump.name, case, label), make) if is_own else make())
+        if acting.loads is None and (acting.case is None or isinstance(acting.case, str)):  # the machine's loads, in a case of its own
+            found.append(PumpRun.known(pump, place, case) or recalled(place.motion, ("pump cycle", pump.name, case, label), make))
+        else:
+            found.append(make())
     return found
 
 

@@ -10,9 +10,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..errors import DefinitionError, ensure
-from ..loads import TwoPoint
 from ..mechanism import Mechanism
-from ..plan import strokes_text, written_out
+from ..plan import spanning_name, strokes_text, written_out
 from ..quantities import Dimension
 from ..reports import design_rows, stroke_rows
 from .command import Command, group, lined_up, machine_options, option, picture, picture_option, repeatable, whole_number
@@ -131,10 +130,7 @@ def body_rows(machine: Mechanism) -> Iterator[str]:
     """Yield the bodies with their points, by the names of the links and cylinders that they are: `boom.beam: boom.B boom.D`."""
     names = machine.plan.link_names
     yield from (f"{names[body.name]}: {body}" if body.name in names else str(body) for body in machine.links)
-    elements = {frozenset(each.ends): name for name, each in machine.plan.of_kind(TwoPoint).items()}
-    for bar in machine.plan.cylinders:
-        name = elements.get(frozenset((bar.P, bar.Q)), "")
-        yield f"cylinder {name}: {bar.P} {bar.Q}" if name else f"cylinder {bar.P} {bar.Q}"
+    yield from (f"cylinder {spanning_name(machine.plan, bar.P, bar.Q)}: {bar.P} {bar.Q}" for bar in machine.plan.cylinders)
 
 
 def said_of_itself(machine: Mechanism) -> list[str]:

@@ -256,8 +256,9 @@ class Members:
     def link_names(self) -> Mapping[str, str]:
         """The names of the links that bodies are, by the names of these bodies; the frame has none."""
         links = [(name, {*link.point_names}) for name, link in self.of_kind(Link).items()]
-        known = ((body.name, (name for name, points in links if points <= {*body.points})) for body in self.links if not body.fixed)
-        return {body: name for body, names in known for name in [*names][:1]}
+        moving = [body for body in self.links if not body.fixed]
+        found = {body.name: next((name for name, points in links if points <= {*body.points}), "") for body in moving}
+        return {body: name for body, name in found.items() if name}
 
     @cached_property
     def joints(self) -> tuple[tuple[str, Joint], ...]:

@@ -265,7 +265,7 @@ function range(lists, limit) {
 }
 /* A curve of a design as places and values in their units, with both sides of each jump between two poses, which is looked for by halving. */
 function curved(values, along, each, design) {
-  const { factor } = strokes[runs], size = (i) => abs(values[i + 1] - values[i]) || 0, most = 0.1 * (max(...finite(values)) - min(...finite(values)));
+  const { factor } = strokes[runs], known = finite(values), size = (i) => abs(values[i + 1] - values[i]) || 0, most = 0.1 * (max(...known) - min(...known));
   return values.flatMap((value, i) => {
     const here = [[along[i], value]];
     if (each.row === undefined || !(size(i) > most && size(i) > 6 * max(size(i - 1), size(i + 1)))) return here;
@@ -318,9 +318,9 @@ function plotted() {
     if (limit) {
       const fails = (v) => (limit[2] === "below" ? v < limit[0] : v > limit[0]);
       line(points.map(([s, v]) => [s, fails(v) ? v : NaN]), y, "accent", 3.2, {});
-      for (let i = 1; i < values.length; i++) {
-        const a = values[i - 1] - limit[0], b = values[i] - limit[0];
-        if (a * b < 0) { const dot = draw(plot, "circle", { r: 4, cx: x(along[i - 1] - (a * (along[i] - along[i - 1])) / (b - a)), cy: y(limit[0]) }); set(dot, { fill: css("accent") }); }
+      for (let i = 1; i < points.length; i++) {
+        const [[from, v], [to, w]] = points.slice(i - 1, i + 1), a = v - limit[0], b = w - limit[0];
+        if (a * b < 0) { const dot = draw(plot, "circle", { r: 4, cx: x(from - (a * (to - from)) / (b - a)), cy: y(limit[0]) }); set(dot, { fill: css("accent") }); }
       }
     }
   }

@@ -333,7 +333,7 @@ function judgedOver() {
   const overs = asking.spans(vector(present)).map(({ name, ends, places }) => name || own.map((each, k) => `${each.name} = ${reach(each, (ends || places)[k])}`).join(", "));
   return say("judged over {overs}", { overs: overs.join("; ") });
 }
-/* Unfold a rule and go to it. */
+/* Unfold a row of the verdicts, such as a rule, and go to it. */
 function showRow(id) {
   const row = byId(id) || byId("verdicts");
   if (row.closest("details")) row.closest("details").open = true;

@@ -787,12 +787,15 @@ MARKS = (
 
 def test_a_jump_of_a_curve_is_upright_and_a_name_stands_beside_a_support(chromium, tmp_path):
     """The header balancer's shoe takes up the load at once where the line has run empty."""
-    with Shown(chromium, page(HeaderBalancer(), tmp_path / "balancer.html")) as shown:
+    within = {"F_R free": (8000.0, "within the jump", "below")}
+    with Shown(chromium, page(HeaderBalancer(), tmp_path / "balancer.html", column="F_R free", limit=within)) as shown:
         line = shown("document.querySelector('#curve path[stroke-width=\"2.6\"]').getAttribute('d')")
         points = np.array([each.split(" ") for each in re.split("[ML]", line)[1:]], float)
         steps = np.abs(np.diff(points, axis=0))
         jump = int(np.argmax(steps[:, 1]))
         assert steps[jump, 1] > 50.0 and steps[jump, 0] < 0.2
+        met = shown("[...document.querySelectorAll('#curve circle[r=\"4\"]')].map((each) => Number(each.getAttribute('cx')))")
+        assert_allclose(met, [points[jump, 0]], atol=0.2)  # a limit within the jump is met where the curve is upright
         assert len(points) == 103
         (left, top, right, bottom), marks = next(box for text, *box in shown(TEXTS) if text == "R"), shown(MARKS)
         x, y = shown("(({ x, y }) => [x, y])(document.getElementById('mechanism').getBoundingClientRect())")

@@ -201,8 +201,8 @@ class OilLine(PumpLine, GasLine):
 
         Parameters
         ----------
-        cylinder : str or Ram
-            The cylinder, or its name.
+        cylinder : Ram
+            The cylinder.
         members : mapping of str to Member
             The members of the class by name.
 

@@ -16,6 +16,7 @@ from ..language import noted, said, translated
 from ..loads import PLAIN_CASE, Acting, Force, TwoPoint
 from ..motion import Column, Motion, Request, least, most, places_text, stroke_display_unit
 from ..plan import Plan
+from ..plan.members import FRAME
 from ..program import FloatArray
 from ..statics import JointForce, PinForces, PinLoad, drive_force, judged_table, pin_forces, thrust_from_forces
 from ..units import factor, shown_in, shown_number, unit_sign
@@ -81,7 +82,7 @@ def force_cell(force: float, share: float = 1.0) -> str:
 
 def body_words(plan: Plan, name: str) -> str:
     """Return a body's name, that of the link that it is, the frame's in the language that is spoken."""
-    return said("frame") if name.startswith("frame") else plan.link_names.get(name, name)
+    return said("frame") if name.partition(" ")[0] == FRAME else plan.link_names.get(name, name)
 
 
 def drive_rows(subject: ReportSubject) -> Iterator[tuple[str, ...]]:

@@ -489,6 +489,8 @@ def test_bodies_go_by_the_names_of_their_links():
     (stick,) = [body for body in plan.links if "arm.F" in body]
     assert [body_words(plan, name) for name in (stick.name, "boom.ram", "frame V")] == ["arm.stick", "boom.ram", "frame"]
     assert Pumped.plan.link_names == {}
+    names = ["frame", "frame.OBT", "frame.ram"]  # of a part that is called frame
+    assert [body_words(plan, name) for name in names] == names
 
 
 def test_a_report_says_how_a_machine_runs(tmp_path):

@@ -579,3 +579,5 @@ def test_every_tool_has_a_key_and_a_name(chromium, empty):  # noqa: F811
         assert board("document.documentElement.scrollWidth") <= PHONE[0]
         board.tab.locator("#language").click()
         assert board("document.querySelector('h1').textContent") == "Чертёжная доска" and board.said == []
+        wide = "[...document.querySelectorAll('#tools span')].filter((each) => each.scrollWidth > each.parentElement.clientWidth)"
+        assert board(f"{wide}.map((each) => each.textContent)") == []

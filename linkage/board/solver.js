@@ -19,7 +19,7 @@ const solver = (() => {
   /* Each row is { part, name, put(at, value) }; `put` gives what is missed [m] and its slopes as point, by x, by y, point ... */
   const unit = (P, axis, Q) => (at) => [at[2 * P + axis] - at[2 * Q + axis], axis ? [P, 0, 1, Q, 0, -1] : [P, 1, 0, Q, -1, 0]];
   const bar = (P, Q, length) => (at, value) => {
-    const d = max(length + (value || 0), 1e-300), x = at[2 * Q] - at[2 * P], y = at[2 * Q + 1] - at[2 * P + 1], wide = hypot(x, y) || 1e-300;
+    const d = max(length + value, 1e-300), x = at[2 * Q] - at[2 * P], y = at[2 * Q + 1] - at[2 * P + 1], wide = hypot(x, y) || 1e-300;
     return [wide - d, [Q, x / wide, y / wide, P, -x / wide, -y / wide]];
   };
   const rigid = (P, Q, X, a, b, axis) => (at) => {
@@ -55,10 +55,9 @@ const solver = (() => {
       rows.push({ part: "slides", name, put: ends ? onBody(X, ...ends, model.far(drawing, ...along) || 1) : onLine(X, ...points[point], along) });
     }
     for (const name of driven) rows.push(driveRow(drawing, index, name));
-    const held = new Set(rows.flatMap((row) => row.put(start, 0)[1].filter((_, k) => k % 3 === 0)));
-    const free = neighbourly(rows.map((row) => row.put(start, 0)[1].filter((_, k) => k % 3 === 0)), names.map((_, k) => k)).filter((k) => held.has(k) && !fixed.includes(names[k])), columns = new Map(free.map((k, column) => [k, 2 * column]));
-    const isMoving = (row) => row.put(start, 0)[1].some((each, k) => k % 3 === 0 && columns.has(each));
-    return { drawing, names, index, start, size, columns, free, n: 2 * free.length, rows: rows.filter(isMoving) };
+    const groups = rows.map((row) => row.put(start, 0)[1].filter((_, k) => k % 3 === 0)), held = new Set(groups.flat());
+    const free = neighbourly(groups, names.map((_, k) => k)).filter((k) => held.has(k) && !fixed.includes(names[k])), columns = new Map(free.map((k, column) => [k, 2 * column]));
+    return { drawing, names, index, start, size, columns, free, n: 2 * free.length, rows: rows.filter((_, row) => groups[row].some((k) => columns.has(k))) };
   }
   /* Return points in an order in which those of a row stand near each other. */
   function neighbourly(groups, all) {
@@ -71,7 +70,7 @@ const solver = (() => {
     return { part: "drives", name, drive: name, put: kind === "crank" ? turned(P, Q, atan2(y, x) - drawn) : bar(P, Q, hypot(x, y) - drawn) };
   }
   /* Return what the rows miss and their slopes at places and values of drives. */
-  const missed = ({ rows }, at, values) => rows.map((row) => row.put(at, row.drive ? values[row.drive] : row.value));
+  const missed = ({ rows }, at, values) => rows.map((row) => row.put(at, row.drive ? values[row.drive] : 0));
   const worst = (found) => found.reduce((most, [miss]) => max(most, abs(miss)), 0);
   const dense = ({ columns, n }, found) => found.map(([, slopes]) => {
     const row = new Float64Array(n);

@@ -52,9 +52,11 @@ const model = (() => {
   }
   /* Return the next free name: of a point A, B ... Z, A2 ..., of another part its stem, then with a number. */
   function freeName(drawing, stem = "") {
+    const taken = new Set(names(drawing)), lengths = new Set(stem ? [] : labels(Object.values(drawing.links)));
+    const isFree = (name) => isName(name) && !lengths.has(name) && !["", "rod_", "line_", "cylinder_"].some((head) => taken.has(head + name));
     for (let number = 1; ; number++) for (const each of stem ? [stem.slice(0, MOST.letters - 6)] : "ABCDEFGHIJKLMNOPQRSTUVWXYZ") {
-      const name = number === 1 ? each : `${each}${stem ? "_" : ""}${number}`, tried = { ...drawing, links: stem ? {} : drawing.links };
-      if (!nameFault(tried, name) && !["rod_", "line_", "cylinder_"].some((head) => names(drawing).includes(head + name))) return name;
+      const name = number === 1 ? each : `${each}${stem ? "_" : ""}${number}`;
+      if (isFree(name)) return name;
     }
   }
 
@@ -159,11 +161,11 @@ const model = (() => {
 
   /* ---- operations ---- */
 
-  /* Drop the given lengths that end at a point: its place says them from now on. */
-  function measure(drawing, point) {
-    const others = Object.keys(drawing.points);
+  /* Drop the given lengths that end at a point, or at it and another one: places say them from now on. */
+  function measure(drawing, point, others = Object.keys(drawing.points)) {
     drawing.lengths = without(drawing.lengths, (_, label) => others.some((each) => label === point + each || label === each + point));
   }
+  const measured = (drawing, P, Q) => changed(drawing, (next) => measure(next, P, [Q]));
   const addPoint = (drawing, name, x, y) => changed(drawing, (next) => { next.points[name] = [x, y]; });
   /* Put a point elsewhere, and points that slide along it back onto their lines. A cylinder with a bore keeps its closed length and comes out
      more or less; another one keeps its stroke. */
@@ -257,5 +259,5 @@ const model = (() => {
   /* Change the values of an entry of "slides", "drives" or "weights", such as { end: 0.3 }. */
   const set = (drawing, part, name, values) => changed(drawing, (next) => { Object.assign(next[part][name], values); });
 
-  return { reserved, MOST, empty, names, labels, nameFault, freeName, check, read, lacking, far, size, offLine, closedLength, addPoint, movePoint, posed, rename, remove, link, fix, slide, crank, cylinder, weight, duplicate, set };
+  return { reserved, PARTS, MOST, empty, names, labels, nameFault, freeName, check, read, lacking, far, size, offLine, closedLength, measured, addPoint, movePoint, posed, rename, remove, link, fix, slide, crank, cylinder, weight, duplicate, set };
 })();

@@ -36,7 +36,7 @@ function offered(row, sizes) {
   row.append(list);
   return row;
 }
-/* The rod of the catalogue that is next to half of a bore, else that half. */
+/* The rod of the catalogue for a bore that is next to 0.55 of it; without one half of the bore. */
 const rodFor = (bore) => data.sizes.pairs.filter(([each]) => abs(each - bore) < 1e-6).map(([, rod]) => rod).sort((a, b) => abs(a - 0.55 * bore) - abs(b - 0.55 * bore))[0] || 0.5 * bore;
 function nameField() {
   const { kind, name } = shownNow.picked;
@@ -94,7 +94,7 @@ const FIELDS = {
     if (each.bore) bores.push(offered(sized(say("Rod"), each.rod, data.length, (rod) => (rod < each.bore ? change({ rod }) : say("the rod is thinner than its bore")), 1e-4), rods.map(([, rod]) => rod)));
     return [
       ...bores,
-      sized(say("Closed length"), model.closedLength(current(), name), data.length, (value) => { commit(measured(model.set(current(), "drives", name, { drawn: model.far(current(), ...each.ends) - value }), ...each.ends)); }, 1e-4),
+      sized(say("Closed length"), model.closedLength(current(), name), data.length, (value) => { commit(model.measured(model.set(current(), "drives", name, { drawn: model.far(current(), ...each.ends) - value }), ...each.ends)); }, 1e-4),
       offered(sized(say("Stroke"), each.end - each.start, data.length, (value) => change({ end: each.start + value }), 1e-4), data.sizes.strokes),
       note(say("drawn {length} out", { length: lengthText(shownNow.values[name]) })),
     ];
@@ -105,19 +105,19 @@ const FIELDS = {
 };
 const kindsNamed = () => ({ points: say("Pin"), links: say("Link"), slides: say("Slide"), drives: say("Drive"), weights: say("Weight") });
 function panel() {
-  const { drawing, picked } = shownNow, focus = document.activeElement?.closest("#fields") ? [...document.querySelectorAll("#fields input, #fields select, #fields button")].indexOf(document.activeElement) : -1;
+  const { drawing, picked } = shownNow, reached = () => [...document.querySelectorAll("#fields input, #fields button")], focus = reached().indexOf(document.activeElement);
   byId("what").textContent = picked ? `${kindsNamed()[picked.kind]} ${picked.name}` : say("Nothing selected");
   const buttons = picked && line(button(say("Delete"), remove, "Delete"), ...(picked.kind === "points" || picked.kind === "links" || picked.kind === "drives" ? [button(say("Duplicate"), duplicate, "Control+D")] : []));
   const begun = Object.keys(drawing.points).length ? [note(say("Press a pin, a link or a cylinder on the sheet to see and type its numbers."))] : [
     note(say("Begin with Crank: press where its pivot is to stand, then where its pin is. Then Bar, from pin to pin. Fix what stands on the frame.")), line(button(say("Or an example"), example))];
   byId("fields").replaceChildren(...(picked ? [nameField(), ...FIELDS[picked.kind](picked.name), buttons, ...relatives()] : begun));
-  byId("parts").replaceChildren(...["points", "links", "slides", "drives", "weights"].flatMap((kind) => Object.keys(drawing[kind]).map((name) => {
+  byId("parts").replaceChildren(...model.PARTS.flatMap((kind) => Object.keys(drawing[kind]).map((name) => {
     const one = button(name, () => pick(kind, name));
     one.title = kindsNamed()[kind];
     one.setAttribute("aria-pressed", String(picked?.kind === kind && picked.name === name));
     return one;
   })));
-  if (focus >= 0) [...document.querySelectorAll("#fields input, #fields select, #fields button")][focus]?.focus();
+  reached()[focus]?.focus();
 }
 function pick(kind, name) {
   shownNow.picked = kind ? { kind, name } : null;
@@ -129,8 +129,6 @@ function moved(name, [x, y]) {
   commit(model.movePoint(current(), name, x, y), say("{name} stands at {x}, {y}", { name, x: lengthText(x), y: lengthText(y) }));
   return "";
 }
-/* Return a drawing in which the places of two points say how far apart they are, no given length. */
-const measured = (drawing, P, Q) => ({ ...drawing, lengths: Object.fromEntries(Object.entries(drawing.lengths).filter(([label]) => label !== P + Q && label !== Q + P)) });
 /* Give two points of a link another distance, as if a cylinder stood there; all other lengths and the drives stay. */
 function stretched(P, Q, value) {
   const from = current(), [moving, still] = from.fixed.includes(Q) ? [P, Q] : [Q, P];
@@ -148,7 +146,7 @@ function stretched(P, Q, value) {
   }
   const name = model.freeName(trial, "length"), { points, stopped } = solver.run(model.cylinder(trial, P, Q, {}, name), { [name]: value - model.far(from, P, Q) });
   if (stopped) return stopped;
-  commit(measured(model.posed(from, points), P, Q), say("{label} is {length}", { label: P + Q, length: lengthText(value) }));
+  commit(model.measured(model.posed(from, points), P, Q), say("{label} is {length}", { label: P + Q, length: lengthText(value) }));
   return "";
 }
 function remove() {

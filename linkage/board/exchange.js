@@ -70,13 +70,13 @@ on(byId("nearer"), "click", () => { nearer(1.25); redraw(); }); on(byId("farther
 on(byId("whole"), "click", () => { whole(); redraw(); });
 on(byId("grid"), "click", () => { showsGrid = !showsGrid; byId("grid").setAttribute("aria-pressed", String(showsGrid)); keep(); redraw(); });
 on(byId("reshape"), "click", () => { const isOn = byId("reshape").getAttribute("aria-pressed") !== "true"; byId("reshape").setAttribute("aria-pressed", String(isOn)); tell(isOn ? say("Lengths follow the pin that is led") : say("Lengths stay; the machine follows")); });
-on(byId("fresh"), "click", () => { if (Object.keys(shownNow.drawing.points).length) { shownNow.picked = null; commit(model.empty(), say("An empty sheet"), () => { trails = new Set(); targets = null; }); } whole(); redraw(); });
+on(byId("fresh"), "click", () => { if (Object.keys(shownNow.drawing.points).length) { shownNow.picked = null; commit(model.empty(), say("An empty sheet")); } whole(); redraw(); });
 on(byId("open"), "click", () => byId("file").click()); on(byId("save"), "click", save);
 on(byId("copy-text"), "click", () => copied(byId("text").value, byId("copy-text").firstChild));
 on(byId("hand"), "click", () => saved(form));
 on(byId("title"), "change", ({ target }) => {
   const fault = model.nameFault(model.empty(), target.value.trim());
-  if (fault) { tell(fault, true); target.value = shownNow.drawing.name; } else commit({ ...structuredClone(current()), name: target.value.trim() });
+  if (fault) { tell(fault, true); target.value = shownNow.drawing.name; } else commit({ ...current(), name: target.value.trim() });
 });
 on(byId("units"), "change", ({ target }) => { unit(target.value); keep(); stands(shownNow.drawing); });
 function unit(name) { lengthUnit = has(unitsOf, name) ? name : "mm"; data.length = { factor: unitsOf[lengthUnit], unit: lengthUnit }; byId("units").value = lengthUnit; }
@@ -101,4 +101,4 @@ linked();
 new ResizeObserver(() => redraw()).observe(sheet);
 
 /* For tests: what is shown. */
-window.hydrolinkage = { model, solver, writers, state: () => structuredClone({ ...shownNow, parts: null }), current, px, gridStep };
+window.hydrolinkage = { model, solver, writers, state: () => structuredClone(shownNow), current, px, gridStep };

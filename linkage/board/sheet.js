@@ -1,7 +1,7 @@
 /* ---- the sheet: the drawing in the marks of the live page, its view, its grid, and what is chosen on it ---- */
 
-/* What is shown: the drawing, where its points stand [m], its drives' values, poses of the play, and what is picked. */
-const shownNow = { drawing: null, places: {}, values: {}, run: [], loose: [], picked: null, pending: [], aim: null, cursor: null };
+/* What is shown: the drawing, where its points stand [m], its drives' values, poses of the play, paths, the task, and what is picked. */
+const shownNow = { drawing: null, places: {}, values: {}, run: [], trails: {}, targets: null, loose: [], picked: null, pending: [], aim: null, cursor: null, hover: "" };
 const unitsOf = { mm: 1e-3, m: 1, in: 0.0254 };
 let lengthUnit = "mm", showsGrid = true;
 data.length = { factor: unitsOf.mm, unit: "mm" };
@@ -151,7 +151,7 @@ function marked() {
   const ring = (name, radius, kind) => { const i = index.indexOf(name), mark = draw(sheet, "circle", { r: radius, class: kind }); if (i >= 0) found.push((at) => set(mark, { cx: at[i][0], cy: at[i][1] })); };
   const line = (points, kind) => { const mark = draw(sheet, "polyline", { class: kind }), at0 = points.map((each) => index.indexOf(each)); found.push((at) => set(mark, { points: pairs(at0.map((i) => at[i])) })); };
   for (const [name, { kind, ends: [P, Q] }] of Object.entries(drawing.drives)) if (kind === "crank") found.push(turning(index.indexOf(P), index.indexOf(Q), name));
-  for (const { point, mass } of Object.values(drawing.weights || {})) found.push(weighed(index.indexOf(point), mass));
+  for (const { point, mass } of Object.values(drawing.weights)) found.push(weighed(index.indexOf(point), mass));
   for (const name of loose) ring(name, 13, "loose");
   const of = picked && drawing[picked.kind]?.[picked.name];
   if (of) for (const name of pointsOf(picked)) ring(name, 12, "picked");
@@ -162,7 +162,7 @@ function marked() {
     const mark = draw(sheet, "polyline", { class: "picked waiting" });
     found.push((at) => set(mark, { points: pairs([...pending.map((each) => at[index.indexOf(each)]), px(...aim)]) }));
   }
-  for (const [point, trail] of Object.entries(shownNow.trails || {})) {
+  for (const [point, trail] of Object.entries(shownNow.trails)) {
     draw(sheet, "path", { class: "traced", d: broken(trail.map((each) => each && px(...each))) }).dataset.point = point;
   }
   (shownNow.targets?.places || []).forEach((each, i) => {

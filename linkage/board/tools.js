@@ -24,7 +24,7 @@ function pendingIs(names) { shownNow.pending = names; hint(); redraw(); }
 function wait(name, place) {
   const [next, first] = pinOf(current(), name, place);
   shownNow.pending = [...shownNow.pending, first];
-  if (next !== current() && !name) commit(next, say("Pin {name}", { name: first }));
+  if (!name) commit(next, say("Pin {name}", { name: first }));
   pendingIs(shownNow.pending);
 }
 const TOOLS = {
@@ -219,7 +219,7 @@ function escaped() {
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 const KEYS = {
   Delete: remove, Backspace: remove, Escape: escaped, ".": () => hop(1), ",": () => hop(-1),
-  "+": () => { nearer(1.25); redraw(); }, "=": () => { nearer(1.25); redraw(); }, "-": () => { nearer(0.8); redraw(); }, 0: () => { whole(); redraw(); },
+  "+": () => byId("nearer").click(), "=": () => byId("nearer").click(), "-": () => byId("farther").click(), 0: () => byId("whole").click(),
   " ": () => { if (driver) play(driver); }, g: () => byId("grid").click(), r: () => byId("reshape").click(),
 };
 const CONTROL = { z: () => undo(), y: () => redo(), s: () => save(), o: () => byId("file").click(), d: duplicate };

@@ -38,7 +38,7 @@ from linkage.cli.listing import registered
 from linkage.cli.machines import find
 from linkage.documents import report_document
 from linkage.documents.breaking import LONGEST, formula_pieces
-from linkage.documents.content import Illustration, TableBlock
+from linkage.documents.content import Illustration, Section, TableBlock
 from linkage.documents.forces import Stop, blocked_cylinders, body_words, worst_blocked
 from linkage.documents.html import html_text
 from linkage.documents.inputs import in_digits, member_rows, plain_words, with_units
@@ -482,6 +482,18 @@ def test_a_long_word_breaks_inside_the_margins():
     word = "Hydraulikzylinderkolbenstangenfuehrungsbuchse" * 4
     page = words_of(replace(shown(), title=word, block=TitleBlock(number=word, client=word, prepared=word)))[0]
     assert "".join(text for text, *_ in page).count("Kolbenstange".lower()) >= 12 and not beyond_the_margins(page)
+
+
+@needs_poppler
+def test_no_row_of_a_table_is_lost_below_its_page():
+    """A table of few rows stands on one page; one that is higher than a page goes on."""
+    for words, wanted in ((20, 1), (120, 2)):
+        rows = tuple((f"row{number}", " ".join(["text"] * words)) for number in range(14))
+        pages = words_of(replace(shown(), sections=(Section("Notes", (TableBlock("Notes", ("name", "note"), rows, "lm"),)),)))
+        put = [word for page in pages for word, *_ in page]
+        assert put.count("text") == 14 * words and {name for name, _ in rows} <= {*put}
+        assert len([page for page in pages if any(word == "text" for word, *_ in page)]) == wanted
+        assert not any(map(beyond_the_margins, pages))
 
 
 def test_bodies_go_by_the_names_of_their_links():

@@ -487,7 +487,7 @@ def test_a_long_word_breaks_inside_the_margins():
 @needs_poppler
 def test_no_row_of_a_table_is_lost_below_its_page():
     """A table of few rows stands on one page; one that is higher than a page goes on."""
-    for words, wanted in ((20, 1), (120, 2)):
+    for words, wanted in ((20, 1), (180, 2)):
         rows = tuple((f"row{number}", " ".join(["text"] * words)) for number in range(14))
         pages = words_of(replace(shown(), sections=(Section("Notes", (TableBlock("Notes", ("name", "note"), rows, "lm"),)),)))
         put = [word for page in pages for word, *_ in page]

@@ -1,14 +1,3 @@
-/* ---- numbers as they are typed ---- */
-
-/* Return the value [SI] of a text: a plain number is in the unit shown, one with a unit in that; NaN for anything else. */
-function numberOf(text, { factor, unit }) {
-  const FACTORS = unit === "deg" ? { "": factor, "\u00b0": PI / 180, deg: PI / 180, rad: 1 } : unit === "kg" ? { "": 1, kg: 1, t: 1000 } : { "": factor, mm: 1e-3, cm: 0.01, m: 1, in: 0.0254, ft: 0.3048 };
-  const [, number, name] = /^([-+]?(?:\d+[.,]?\d*|[.,]\d+)(?:e[-+]?\d+)?)\s*([^\s\d]*)$/i.exec(text.replace(/\u2212/g, "-").replace(/[\u202f\u2009\u00a0]/g, " ").replace(/(\d) (?=\d{3})/g, "$1").trim()) ?? [];
-  if (number === undefined) return NaN;
-  const known = Object.keys(FACTORS).find((each) => each === name || signed(each) === name);
-  return known === undefined ? NaN : Number((Number(number.replace(",", ".")) * FACTORS[known]).toPrecision(14));
-}
-
 /* ---- the panel: what is selected, by its numbers ---- */
 
 function field(label, value, take, given = {}) {
@@ -23,7 +12,7 @@ function field(label, value, take, given = {}) {
 }
 function sized(label, value, thing, take, least = -Infinity) {
   return field(label, value === undefined ? "" : shown(value, thing, 8), (text) => {
-    const found = value === undefined && !text.trim() ? 0 : numberOf(text, thing);
+    const found = value === undefined && !text.trim() ? 0 : typed(text, thing);
     return isNumber(found) && found >= least && abs(found) < 1e6 ? take(found) : say("{text} is no {label}; give a number such as {example}", { text, label, example: shown(value || 0.1, thing, 4) });
   });
 }

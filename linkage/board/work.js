@@ -164,7 +164,7 @@ function strokeRows() {
     for (const one of [slider, text]) { one.dataset.drive = name; one.setAttribute("aria-label", name); }
     on(button, "click", () => { driver = name; play(name); });
     on(slider, "input", () => { play(""); driven(name, each.start + (slider.value / 1000) * (each.end - each.start)); });
-    on(text, "change", () => { play(""); const value = numberOf(text.value, driveUnit(each)); if (isNumber(value)) driven(name, value); strokesShown(true); });
+    on(text, "change", () => { play(""); const value = typed(text.value, driveUnit(each)); if (isNumber(value)) driven(name, value); strokesShown(true); });
     row.append(button, make("span", { textContent: name }), slider, text);
     return row;
   }));

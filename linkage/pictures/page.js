@@ -384,14 +384,6 @@ function strokeSliders() {
   byId("strokes").replaceChildren(...rows.slice(own.length), ...rows.slice(0, own.length));
 }
 const nice = (each) => { const wide = (each.high - each.low) / each.factor / 400, power = 10 ** floor(log10(wide)); return [1, 2, 5, 10].map((k) => k * power).find((k) => k >= wide) * each.factor; };
-const LENGTHS = { mm: 1e-3, cm: 1e-2, m: 1, in: 0.0254, ft: 0.3048 };
-/* Return the value [SI] that is typed for a dimension, without a unit in its own, a length in others too; not a number for anything else. */
-function typed(text, each) {
-  const plain = text.trim().replace(/\u2212/g, "-").replace(/[\u202f\u2009\s](?=\d)/g, "").replace(",", ".");
-  const [, number, unit] = /^([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*(\D*)$/i.exec(plain) ?? [];
-  if (!unit || unit === each.unit || unit === signed(each.unit)) return number === undefined ? NaN : Number(number) * each.factor;
-  return Number(number) * ((each.unit in LENGTHS && LENGTHS[unit]) || NaN);
-}
 function listSizes() {
   const parent = byId("dimensions");
   sizeRows.clear();

@@ -386,8 +386,13 @@ def test_numbers_are_typed_with_units(chromium, empty):  # noqa: F811
         board.choose("link_A_B")
         board.field("AB", "5 in")
         assert_allclose(dist(*(board.drawing["points"][name] for name in "AB")), 0.127, rtol=1e-9)
-        board.field("AB", "three")
-        assert "three" in board.text("#message")
+        for text in ("three", "5 5", "1 deg", "5 constructor"):
+            board.field("AB", text)
+            assert f"{text} is no AB" in board.text("#message")
+        board.choose("phi")
+        for text, end in (("90", 90), ("1.5 rad", 1.5 / deg), ("\u2212120\u00b0", -120), ("1 080 deg", 1080)):
+            board.field("to", text)
+            assert_allclose(board.drawing["drives"]["phi"]["end"], end * deg, rtol=1e-12)
         board.choose("D")
         board.field("x", "0.5 m")
         assert board.drawing["points"]["D"][0] == 0.5

@@ -63,7 +63,7 @@ def drawing_board(
     sketch = machine if machine is None or isinstance(machine, MachineSketch) else sketch_of(machine)
     data = drawing_data(sketch) | {
         "sizes": cylinder_sizes(),
-        "scene": {name: [] for name in SCENE} | {"size": 0.0, "box": [0.0, 1.0, 0.0, 1.0]},
+        "scene": {name: [] for name in SCENE},
         "rows": {"points": []},
         "cylinders": [],
         "signs": signs({*UNITS, "kg"}),

@@ -23,7 +23,7 @@ function staged() {
   const count = (name) => links.filter((points) => points.includes(name)).length;
   const isDot = (name) => count(name) === 1 && ![...drawing.fixed, ...slides.map(({ point }) => point), ...rams.flatMap(([, { ends }]) => ends)].includes(name);
   Object.assign(scene, {
-    names, labels: names.map(() => [15, -15]), size: 1,
+    names, labels: names.map(() => [15, -15]),
     bodies: links.map((points, k) => ({ points: points.map((each) => index[each]), colour: k % 10 })),
     tracks: slides.map(({ point, along }, k) => ({ riders: [index[point]], fixed: isNumber(along), line: [0, 1, 2, 3].map((row) => 2 * names.length + 4 * k + row) })),
     pins: names.filter((each) => !isDot(each)).map((each) => index[each]), dots: names.filter(isDot).map((each) => index[each]),

@@ -35,6 +35,7 @@ const solver = (() => {
     const c = cos(angle + value), s = sin(angle + value);
     return [c * (at[2 * A + 1] - at[2 * O + 1]) - s * (at[2 * A] - at[2 * O]), [A, -s, c, O, s, -c]];
   };
+  const pairsOf = (all) => all.flatMap((A, k) => all.slice(k + 1).map((B) => [A, B]));
   /* Return a drawing as unknowns and rows, with the rows of some of its drives; points that nothing holds are left where they are. */
   function build(drawing, driven) {
     const { points, fixed, links, slides, drives } = drawing, names = Object.keys(points), index = Object.fromEntries(names.map((name, k) => [name, k]));
@@ -43,7 +44,7 @@ const solver = (() => {
     for (const [name, { kind, ends }] of Object.entries(drives)) if (kind === "crank" && !Object.values(links).some((all) => ends.every((each) => all.includes(each)))) bodies.push(["drives", name, ends]);
     for (const [part, name, all] of bodies) {
       const put = (each) => rows.push({ part, name, put: each });
-      const [P, Q] = all.flatMap((A, k) => all.slice(k + 1).map((B) => [A, B])).reduce((best, pair) => (model.far(drawing, ...pair) > model.far(drawing, ...best) ? pair : best)), wide = model.far(drawing, P, Q);
+      const [P, Q] = pairsOf(all).reduce((best, pair) => (model.far(drawing, ...pair) > model.far(drawing, ...best) ? pair : best)), wide = model.far(drawing, P, Q);
       if (wide > 0) put(bar(index[P], index[Q], wide));
       for (const X of all.filter((each) => each !== P && (wide === 0 || each !== Q))) for (const axis of [0, 1]) {
         const [x, y] = [0, 1].map((k) => (points[Q][k] - points[P][k]) / (wide || 1)), [u, v] = [0, 1].map((k) => (points[X][k] - points[P][k]) / (wide || 1));
@@ -164,9 +165,9 @@ const solver = (() => {
   function leastChange(system, found, weights, damping) { const made = factored(system, found, weights, damping); return solved(made, made.right); }
   /* Return the least singular value of the slopes, by inverse iteration: how far from singular a pose is that nothing leaves loose. */
   function clearance(system, found) {
-    const made = factored(system, found, null, 1e-15), length = (vector) => sqrt(vector.reduce((sum, each) => sum + each * each, 0));
-    let vector = Float64Array.from({ length: made.n }, (_, k) => 1 + ((k * 7) % 11) / 11), long = length(vector);
-    for (let turn = 0; turn < 6; turn++) { vector = solved(made, vector.map((each) => each / long)); long = length(vector); }
+    const made = factored(system, found, null, 1e-15);
+    let vector = Float64Array.from({ length: made.n }, (_, k) => 1 + ((k * 7) % 11) / 11), long = norm(vector);
+    for (let turn = 0; turn < 6; turn++) { vector = solved(made, vector.map((each) => each / long)); long = norm(vector); }
     return 1 / sqrt(long);
   }
   function moved({ free }, at, change, share = 1) {
@@ -174,6 +175,7 @@ const solver = (() => {
     free.forEach((point, k) => { next[2 * point] += share * change[2 * k]; next[2 * point + 1] += share * change[2 * k + 1]; });
     return next;
   }
+  const norm = (vector) => sqrt(vector.reduce((sum, each) => sum + each * each, 0)), hypotOf = (a, b) => norm(a.map((each, k) => each - b[k]));
   const most = (change) => change.reduce((found, each) => max(found, abs(each)), 0);
   /* Return the pose that Newton's method comes to from near it, null where it does not come straight to one. */
   function closed(system, from, values, ratio = 0.25) {
@@ -232,7 +234,6 @@ const solver = (() => {
     const ahead = here.at.map((each, k) => 2 * each - back.at[k]), next = closed(system, ahead, values, 0.9);
     return next !== null && hypotOf(next, ahead) < 0.3 * hypotOf(here.at, back.at);
   }
-  const hypotOf = (a, b) => sqrt(a.reduce((sum, each, k) => sum + (each - b[k]) ** 2, 0));
   const placesOf = ({ names }, at) => Object.fromEntries(names.map((name, k) => [name, [at[2 * k], at[2 * k + 1]]]));
   const drawnStrokes = ({ drives }) => Object.fromEntries(Object.entries(drives).map(([name, each]) => [name, each.drawn]));
   /* Return the pose at which some rows miss least while all others hold; null where these do not hold from there. */
@@ -241,10 +242,10 @@ const solver = (() => {
     const cost = (at) => missed(system, at, values).reduce((sum, [miss], k) => sum + (given.has(k) ? miss * miss : 0), 0);
     let at = closed(hard, from, values, 0.9);
     for (let turn = 0, damping = 1e-3; at && turn < 100 && damping < 1e9; turn++) {
-      const next = closed(hard, moved(system, at, leastChange(system, missed(system, at, values), weights, damping)), values, 0.9), before = cost(at);
-      if (next && cost(next) < before) {
+      const next = closed(hard, moved(system, at, leastChange(system, missed(system, at, values), weights, damping)), values, 0.9), before = cost(at), after = next ? cost(next) : Infinity;
+      if (after < before) {
         at = next; damping = max(damping / 4, 1e-6);
-        if (before - cost(at) < 1e-10 * before) break;
+        if (before - after < 1e-10 * before) break;
       } else damping *= 5;
     }
     return at;
@@ -264,7 +265,7 @@ const solver = (() => {
     if (chosen < 0) return null;
     places ||= level;
     const { part, name } = system.rows[chosen], ends = part === "links" ? system.drawing.links[name] : [], span = (all, P, Q) => hypot(all[2 * P] - all[2 * Q], all[2 * P + 1] - all[2 * Q + 1]);
-    const pairs = ends.flatMap((A, k) => ends.slice(k + 1).map((B) => [system.index[A], system.index[B]])), stretches = pairs.map((pair) => span(places, ...pair) - span(system.start, ...pair));
+    const pairs = pairsOf(ends.map((each) => system.index[each])), stretches = pairs.map((pair) => span(places, ...pair) - span(system.start, ...pair));
     const gap = pairs.length ? stretches.reduce((best, each) => (abs(each) > abs(best) ? each : best), 0) : missed(system, places, values)[chosen][0];
     return abs(gap) > 1e-9 * system.size ? { part, name, gap } : null;
   }
@@ -364,7 +365,7 @@ const solver = (() => {
   /* Return whether what is free at first stays so on the way, and is no matter of this one pose. */
   function staysFree(system, vector, values) {
     const share = (1e-3 * system.size) / most(vector), next = closed(system, moved(system, system.start, vector, share), values, 0.9);
-    return next !== null && hypotOf(next, system.start) > 0.5 * share * sqrt(vector.reduce((sum, each) => sum + each * each, 0));
+    return next !== null && hypotOf(next, system.start) > 0.5 * share * norm(vector);
   }
   function saidMobility({ freedom, drives, redundant, loose, singular }, driven) {
     if (singular) return say("drawn in a singular pose: it may go on in two ways from here. Draw it a little aside");

@@ -355,8 +355,8 @@ def test_no_link_is_stretched_and_no_branch_leaps(board):
 
 
 def test_what_is_out_of_reach_names_the_link_and_how_short_it_is(board):
-    reach = {"A": ("link_O_A", [0.3, 0.0], None), "B": ("link_B_C", [0.16, 0.4], None)}
-    for point, (link, goal, _) in reach.items():
+    reach = {"A": ("link_O_A", [0.3, 0.0]), "B": ("link_B_C", [0.16, 0.4])}
+    for point, (link, goal) in reach.items():
         answer = board(f"{FOUR_BAR} return solver.drag(d, given[0], given[1]);", [point, goal])
         assert answer["short"]["name"] in (link, "link_A_B_T"), answer
         assert answer["stopped"] == f"{answer['short']['name']} is {abs(1e3 * answer['short']['gap']):.3g}\u2009mm too short", answer[

@@ -43,10 +43,10 @@ def import_command(options: Namespace) -> int:
     ensure(not is_one_file(path, options.file), f"{path} is the file that is imported and stays as it is; choose another name, -o FILE.")
     is_free = not path.exists() or (options.output is not None and path.suffix.lower() not in SUFFIXES)
     ensure(is_free, f"{path} is there already and stays as it is; choose another name, -o FILE.")
-    if path.suffix.lower() not in (".toml", ".py", ".json") and (found.weights or any(drive.bore for drive in found.drives.values())):
-        say_remark(f"{path} has no word for weights, bores and rods; they are left out.")
     machine = found.to_class()
     text = sketch_text(found, path.suffix.lower())
+    if path.suffix.lower() not in (".toml", ".py", ".json") and (found.weights or any(drive.bore for drive in found.drives.values())):
+        say_remark(f"{path} has no word for weights, bores and rods; they are left out.")
     with replacing_text(path) as stream:
         stream.write(text)
     print(f"{path}: {machine.__name__}, points: {len(found.points)}, links: {len(found.links)}. Look at it by: hydrolinkage show {path}")

@@ -96,7 +96,7 @@ const model = (() => {
       lacks(each.ends[0] !== each.ends[1], say("{name} names a point twice", { name }));
       lacks([each.start, each.end, each.drawn].every(isLength) && each.start !== each.end, say("the stroke of {name} has no two ends and no drawn place", { name }));
       const sizes = [each.bore, each.rod].filter((size) => size !== undefined && size !== null);
-      lacks(!sizes.length || (sizes.length === 2 && sizes.every(isLength) && 0 < each.rod && each.rod < each.bore), say("the rod of {name} is not thinner than its bore", { name }));
+      lacks(!sizes.length || (each.kind === "cylinder" && sizes.length === 2 && sizes.every(isLength) && 0 < each.rod && each.rod < each.bore), say("the rod of {name} is not thinner than its bore", { name }));
     }
     for (const [name, each] of Object.entries(drawing.weights)) if (lacks(isTable(each) && Number.isFinite(each.mass) && each.mass >= 0 && each.mass <= 1e9, say("{name} has no mass", { name }))) named(each.point, name);
     for (const [label, value] of Object.entries(drawing.lengths)) lacks(isName(label) && isLength(value) && value > 0, say("{name} is no length", { name: label.slice(0, MOST.letters) }));

@@ -513,6 +513,7 @@ DAMAGED = [
     {"points": {"A": [0, "x"]}}, {"points": {"A": [0]}}, {"points": {"A": None}}, {"fixed": ["toString"]}, {"fixed": [{}]}, {"fixed": "A"},
     {"links": {"a": ["A"]}}, {"links": {"a b": ["A", "B"]}}, {"links": {"a": ["A", "valueOf"]}}, {"links": {"a": 3}},
     *({"slides": {"s": {"point": "A", "along": along}}} for along in (["A"], "up", ["A", "B"], None)),
+    {"drives": {"S": RAM | {"kind": "crank", "bore": 0.1, "rod": 0.05}}},
     *({"drives": {"S": RAM | each}} for each in ({"kind": "rope"}, {"ends": ["A", "A"]}, {"end": None}, {"bore": 0.1, "rod": 0.2})),
     {"weights": {"w": {"point": "constructor", "mass": 1}}}, {"weights": {"w": {"point": "A", "mass": -1}}}, {"notes": [1]},
 ]  # fmt: skip

@@ -21,7 +21,7 @@ ADDRESS = f"board:{BOARD}."
 
 def board_tables(sketch: MachineSketch) -> dict[str, Any]:
     """Return a sketch as the tables of the board's file."""
-    found: dict[str, Any] = json.loads(json.dumps(asdict(sketch), allow_nan=False))
+    found: dict[str, Any] = json.loads(json.dumps(asdict(sketch), allow_nan=False, default=float))  # NumPy's numbers
     return {"board": BOARD} | found
 
 

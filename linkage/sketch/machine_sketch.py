@@ -8,7 +8,8 @@ from dataclasses import dataclass, field, replace
 from math import atan2, dist, isfinite
 from typing import Any, final
 
-from ..errors import DefinitionError, FileError, ensure, quoted
+from ..checks import is_listed, is_number
+from ..errors import DefinitionError, FileError, cited, ensure, quoted
 from ..files import from_dict, to_toml
 from ..files.design import in_unit
 from ..mechanism import Mechanism
@@ -125,7 +126,9 @@ class MachineSketch:
     def __post_init__(self) -> None:
         ensure(self.points, f"{self.name}: no point is drawn; a sketch begins with points and links.")
         for name, place in self.points.items():
-            ensure(all(isfinite(each) for each in place), f"{self.name}: {name} stands at {place}; give finite coordinates.")
+            ensure(all(map(is_number, place)), f"{self.name}: {name} stands at {place}; give finite coordinates.")
+        for what, numbers in self.numbers():
+            ensure(all(map(is_number, numbers)), f"{self.name}: {what} has {', '.join(map(cited, numbers))}; give finite numbers.")
         for what, names in self.named():
             missing = [each for each in names if each not in self.points]
             ensure(not missing, f"{self.name}: {what} names {', '.join(missing)}, which is not among the points.")
@@ -139,6 +142,14 @@ class MachineSketch:
             yield f"the slide {name}", (slide.point, *(slide.along if isinstance(slide.along, tuple) else ()))
         yield from ((f"the drive {name}", drive.ends) for name, drive in self.drives.items())
         yield from ((f"the weight {name}", (weight.point,)) for name, weight in self.weights.items())
+
+    def numbers(self) -> Iterator[tuple[str, tuple[object, ...]]]:
+        """Yield in words every item but the points that has numbers, with these [SI]."""
+        yield from ((f"the slide {name}", (slide.along,)) for name, slide in self.slides.items() if not is_listed(slide.along))
+        for name, each in self.drives.items():
+            yield f"the drive {name}", (each.start, each.end, each.drawn, *(size for size in (each.bore, each.rod) if size is not None))
+        yield from ((f"the length {label}", (value,)) for label, value in self.lengths.items())
+        yield from ((f"the weight {name}", (weight.mass,)) for name, weight in self.weights.items())
 
     @property
     def size(self) -> float:
@@ -191,7 +202,7 @@ class MachineSketch:
             found["links"][f"rod_{name}"] = {"points": f"{P} {Q}", label: name if is_measured else f"{closed!r} + {name}"}
         found["guides"] = {
             f"line_{name}": {"from": [*self.points[each.point]], "angle": each.along}
-            if isinstance(each.along, float)
+            if isinstance(each.along, (int, float))
             else {"from": each.along[0], "to": each.along[1]}
             for name, each in self.slides.items()
         }

@@ -121,7 +121,7 @@ def point_rows(sketch: MachineSketch) -> Iterator[list[str]]:
     for name, points in sketch.links.items():
         yield ["link", name, "", "", " ".join(points)]
     for name, slide in sketch.slides.items():
-        along = f"{written(degrees(slide.along))}deg" if isinstance(slide.along, float) else " ".join(slide.along)
+        along = f"{written(degrees(slide.along))}deg" if isinstance(slide.along, (int, float)) else " ".join(slide.along)
         yield ["slide", name, "", "", f"{slide.point} {along}"]
     for name, drive in sketch.drives.items():
         ends = [each - drive.drawn for each in (drive.start, drive.end) if each != drive.drawn]

@@ -8,7 +8,8 @@ import pytest
 
 from linkage import DefinitionError
 from linkage.files import from_dict, load
-from linkage.sketch import MachineSketch, SketchDrive, SketchSlide, sketch_of
+from linkage.sketch import MachineSketch, SketchDrive, SketchSlide, SketchWeight, sketch_of, sketch_text
+from linkage.sketch.board_json import board_tables
 from tests import shipped
 from tests.for_all import for_all
 
@@ -124,6 +125,11 @@ def test_what_is_no_sketch_is_refused():
     wrong = [
         (dict(points={}), "no point is drawn"),
         (dict(points=dict(O=(0.0, float("nan")))), "O stands at"),
+        (dict(points=dict(O=("0", 0.0))), "O stands at"),
+        (dict(points=points, slides={"s": SketchSlide("A", float("inf"))}), "the slide s has inf; give finite numbers"),
+        (dict(points=points, drives={"S": SketchDrive("crank", ("O", "A"), 0.0, float("inf"))}), "the drive S has 0.0, inf, 0.0"),
+        (dict(points=points, lengths={"OA": None}), "the length OA has None"),
+        (dict(points=points, weights={"w": SketchWeight("A", float("nan"))}), "the weight w has nan"),
         (dict(points=points, fixed=("X",)), "what is fixed names X"),
         (dict(points=points, links={"arm": ("O", "Z")}), "the link arm names Z"),
         (dict(points=points, links={"arm": ("O", "O")}), "the link arm names a point twice"),
@@ -133,5 +139,9 @@ def test_what_is_no_sketch_is_refused():
     for given, words in wrong:
         with pytest.raises(DefinitionError, match=words):
             MachineSketch("Wrong", **given)
+    whole = {each: tuple(map(np.int64, np.round(np.multiply(100, place)))) for each, place in PUMP.points.items()}
+    level = replace(PUMP, points=whole, slides={"shoe": SketchSlide("C", 0)})
+    assert board_tables(level)["points"] == {"O": [0.0, 0.0], "A": [5.0, 2.0], "C": [20.0, 3.0]}
+    assert level.to_class()().plan.strokes.keys() == {"phi"} and "0deg" in sketch_text(level, ".csv")
     with pytest.raises(DefinitionError, match="--drive O A"):
         MachineSketch("Still", points, ("O",), {"arm": ("O", "A")}).to_class()

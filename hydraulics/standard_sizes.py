@@ -509,10 +509,10 @@ def catalogue(
     sizes = [series_values(*each) for each in asked]
     if len(sizes[0]) * len(sizes[1]) * len(sizes[2]) > MOST_ROWS:
         raise DefinitionError(f"The catalogue would have more than {MOST_ROWS} rows; give fewer bores, rods or strokes.")
-    for bore, rod, stroke in product(*sizes):
-        if series_of(bore, rod).is_pair(bore, rod):
-            stroke_in_metres(stroke, "Stroke", bore)
-            rows.append(CatalogueRow(bore, rod, stroke, round(stroke + constant + factor * bore, 9)))
+    pairs = [(bore, rod) for bore, rod in product(*sizes[:2]) if series_of(bore, rod).is_pair(bore, rod)]
+    for (bore, rod), stroke in product(pairs, sizes[2]):
+        stroke_in_metres(stroke, "Stroke", bore)
+        rows.append(CatalogueRow(bore, rod, stroke, round(stroke + constant + factor * bore, 9)))
     if not rows:
         what = f"The catalogue has no row: no rod suits a bore by the ratios of {standard.name}"
         raise DefinitionError(f"{what}; give others, or leave rods= out.")

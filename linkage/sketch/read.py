@@ -143,9 +143,9 @@ def read_address(found: FoundMachine, text: str) -> None:
     ensure_file(len(text) <= FILE_BYTES, f"{found.file}: it is longer than {FILE_BYTES} characters.")
     query = address_text(text.strip())
     if ADDRESS in text:
-        read_json(found, decoded(found.file, unpacked(found.file, text.rpartition(ADDRESS)[2].strip()), True).data)
+        read_json(found, json_of(found, unpacked(found.file, text.rpartition(ADDRESS)[2].strip())))
     elif text.startswith(ENVELOPE):
-        read_json(found, decoded(found.file, json_in_address(found.file, text), True).data)
+        read_json(found, json_of(found, json_in_address(found.file, text)))
     elif re.match(r"j=", query):
         read_old_address(found, query)
     else:
@@ -153,6 +153,14 @@ def read_address(found: FoundMachine, text: str) -> None:
         ensure_file(holds, f"{found.file}: there is no machine behind the address; copy it whole, with what stands behind its ?.")
         ensure_file(SHORT.match(query), f"{found.file}: the address is damaged behind its ?, {shortened(query)}; copy it whole.")
         read_short_address(found, query)
+
+
+def json_of(found: FoundMachine, raw: bytes) -> object:
+    """Return the data in the JSON of an address; FileError where it is cut short or otherwise none."""
+    try:
+        return decoded(found.file, raw, True).data
+    except FileError as error:
+        raise FileError(f"{found.file}: the address is damaged; copy it whole.") from error
 
 
 def json_reader(data: JsonTable) -> Callable[[FoundMachine, JsonTable], None] | None:

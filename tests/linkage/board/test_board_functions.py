@@ -574,5 +574,6 @@ def test_the_board_file_and_its_address_go_through_the_command(board, tmp_path, 
     assert "no word for weights, bores and rods" in capsys.readouterr().err
     with pytest.raises(DefinitionError, match="in metres"):
         read_sketch(place, scale=2.0)
-    with pytest.raises(FileError, match="damaged"):
-        read_sketch("board:1.abcde")
+    for damaged in ("board:1.abcde", "board:1.", address[:-40], "board:1._w", "board:1.é"):
+        with pytest.raises(FileError, match="the address is damaged; copy it whole"):
+            read_sketch(damaged)

@@ -259,5 +259,5 @@ const model = (() => {
   /* Change the values of an entry of "slides", "drives" or "weights", such as { end: 0.3 }. */
   const set = (drawing, part, name, values) => changed(drawing, (next) => { Object.assign(next[part][name], values); });
 
-  return { reserved, PARTS, MOST, empty, names, labels, nameFault, freeName, check, read, lacking, far, size, offLine, closedLength, measured, addPoint, movePoint, posed, rename, remove, link, fix, slide, crank, cylinder, weight, duplicate, set };
+  return { reserved, PARTS, MOST, empty, nameFault, freeName, check, read, lacking, far, size, closedLength, measured, addPoint, movePoint, posed, rename, remove, link, fix, slide, crank, cylinder, weight, duplicate, set };
 })();

@@ -33,7 +33,7 @@ function short(value, digits = 6) {
 const signed = (unit) => (unit === "deg" ? "\u00b0" : (language === "ru" && data.signs[unit]) || unit);
 const unitText = (unit) => (unit === "deg" ? "\u00b0" : unit ? `\u2009${signed(unit)}` : "");
 const shown = (value, thing, digits) => short(value / thing.factor, digits) + unitText(thing.unit);
-const MEASURES = [{ mm: 1e-3, cm: 0.01, m: 1, in: 0.0254, ft: 0.3048 }, { deg: PI / 180, rad: 1 }, { kg: 1, t: 1000 }];
+const LENGTHS = { mm: 1e-3, cm: 0.01, m: 1, in: 0.0254, ft: 0.3048 }, MEASURES = [LENGTHS, { deg: PI / 180, rad: 1 }, { kg: 1, t: 1000 }];
 /* Return the value [SI] of a text that is typed for a thing: a plain number is in its unit, one with a unit of its measure in that; NaN for anything else. */
 function typed(text, { factor, unit }) {
   const units = { ...MEASURES.find((each) => unit in each), [unit]: factor, "": factor }, plain = text.trim().replace(/\u2212/g, "-").replace(/(\d)\s(?=\d{3})/g, "$1");

@@ -143,9 +143,9 @@ def read_address(found: FoundMachine, text: str) -> None:
     ensure_file(len(text) <= FILE_BYTES, f"{found.file}: it is longer than {FILE_BYTES} characters.")
     query = address_text(text.strip())
     if ADDRESS in text:
-        read_json(found, json_of(found, unpacked(found.file, text.rpartition(ADDRESS)[2].strip())))
+        read_json(found, address_data(found, unpacked(found.file, text.rpartition(ADDRESS)[2].strip())))
     elif text.startswith(ENVELOPE):
-        read_json(found, json_of(found, json_in_address(found.file, text)))
+        read_json(found, address_data(found, json_in_address(found.file, text)))
     elif re.match(r"j=", query):
         read_old_address(found, query)
     else:
@@ -155,7 +155,7 @@ def read_address(found: FoundMachine, text: str) -> None:
         read_short_address(found, query)
 
 
-def json_of(found: FoundMachine, raw: bytes) -> object:
+def address_data(found: FoundMachine, raw: bytes) -> object:
     """Return the data in the JSON of an address; FileError where it is cut short or otherwise none."""
     try:
         return decoded(found.file, raw, True).data

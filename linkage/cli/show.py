@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import sys
 from argparse import Namespace
 from collections.abc import Iterable, Iterator, Mapping
 from inspect import cleandoc
@@ -63,7 +64,7 @@ def show_command(options: Namespace) -> int:
     if options.equations:
         print_section("Equations", str(printed_equations(machine, options, at)).splitlines(), fits=False)
     verdicts = machine.verdicts(over=over)
-    print_section("Verdict", verdicts)
+    print_section("Verdict", verdicts, fits=sys.stdout.isatty())  # else a rule a line, for programs that read it
     print_section("About it", said_of_itself(machine), fits=False)
     return judged_code(verdicts, options)
 

@@ -14,6 +14,7 @@ from ..files import from_dict, to_toml
 from ..files.design import in_unit
 from ..mechanism import Mechanism
 from ..quantities import joined_names
+from ..quantities.quantity import plain
 from ..units import show
 
 Place = tuple[float, float]
@@ -197,7 +198,7 @@ class MachineSketch:
                 continue
             P, Q = drive.ends
             label = joined_names(P, Q)
-            closed = self.lengths.get(label, noiseless(self.length(P, Q) - drive.drawn))
+            closed = float(self.lengths.get(label, noiseless(self.length(P, Q) - drive.drawn)))
             is_measured = label not in self.lengths and min(drive.start, drive.end) <= 0.0
             found["links"][f"rod_{name}"] = {"points": f"{P} {Q}", label: name if is_measured else f"{closed!r} + {name}"}
         found["guides"] = {
@@ -210,7 +211,7 @@ class MachineSketch:
         rams = {f"cylinder_{name}": drive for name, drive in self.drives.items() if drive.bore is not None}
         found["hydraulics"] = {name: {"Cylinder": [*drive.ends], "bore": drive.bore, "rod": drive.rod} for name, drive in rams.items()}
         found["loads"] = {name: {"Weight": weight.point, "mass": weight.mass} for name, weight in self.weights.items()}
-        return {name: table for name, table in found.items() if table}
+        return {name: plain_entry(table) for name, table in found.items() if table}
 
     def check_driven(self) -> None:
         """Raise DefinitionError where nothing drives the sketch, naming possible drives."""
@@ -338,12 +339,19 @@ def clean(value: float) -> float:
 def written(value: float) -> str:
     """Return a number in 15 digits where these say it within 1e-15 of itself, without the noise of a unit's factor; else in all."""
     text = f"{value:.15g}"
-    return text if abs(float(text) - value) <= 1e-15 * abs(value) else repr(value)
+    return text if abs(float(text) - value) <= 1e-15 * abs(value) else repr(float(value))
 
 
 def noiseless(value: float) -> float:
     """Return a number as it is written; zero without a sign."""
     return float(written(value)) + 0.0
+
+
+def plain_entry(entry: Any) -> Any:
+    """Return an entry of a table with Python's own numbers for NumPy's."""
+    if isinstance(entry, dict):
+        return {name: plain_entry(each) for name, each in entry.items()}
+    return [*map(plain_entry, entry)] if isinstance(entry, list) else plain(entry)
 
 
 def stroke_end(drive: SketchDrive) -> float | str:
@@ -353,7 +361,7 @@ def stroke_end(drive: SketchDrive) -> float | str:
 
 def python_number(value: float | str) -> str:
     """Return a number as Python has it, `360 * deg` for the text `360 deg`."""
-    return value.replace(" ", " * ") if isinstance(value, str) else repr(value)
+    return value.replace(" ", " * ") if isinstance(value, str) else repr(float(value))
 
 
 def python_member(section: str, table: Mapping[str, Any]) -> str:

@@ -82,7 +82,9 @@ def test_show_says_what_an_engineer_asks(said):
     code, out, err = said("show", "mower_lift")
     assert (code, err) == (0, "")
     assert any(map(str.isdigit, "".join(out.splitlines()[:3])))  # numbers first, prose last
-    assert max(map(len, out.partition("About it")[0].splitlines())) <= 100
+    assert max(map(len, out.partition("Verdict\n")[0].splitlines())) <= 100
+    rules = out.partition("Verdict\n")[2].partition("\n\n")[0].splitlines()
+    assert rules and all(re.match(r"  \S", each) for each in rules)  # where no terminal is, a rule a line
     assert out.index("Verdict") < out.index("About it") < out.index("The source contradicts itself")
     for words in (
         "The source contradicts itself", "S 550 to 800 mm", "OB 175 mm", "BOG 110.425 deg", "weight 900 kgf",

@@ -103,6 +103,15 @@ def test_python_and_toml_are_the_class_to_the_last_bit(sketch):
             assert np.array_equal(poses(first(), sketch)[point], poses(other(), sketch)[point], equal_nan=True), point
 
 
+def test_numbers_of_arrays_are_written_as_plain_ones():
+    x = np.array([0.0, 0.4, 0.2])
+    (O, A, B), end = zip(x, x[::-1], strict=True), np.float64(0.2)
+    points, drives = {"O": O, "A": A, "B": B}, {"S": SketchDrive("cylinder", ("A", "B"), x[0], end, bore=end / 2, rod=end / 4)}
+    sketch = MachineSketch("Arm", points, ("O", "A"), {"arm": ("O", "B")}, drives=drives, weights={"m": SketchWeight("B", x[1])})
+    assert "np." not in sketch.to_python() + sketch.to_toml()
+    assert python_class(sketch.to_python(), "Arm").plan.defaults == sketch.to_class().plan.defaults
+
+
 def test_round_lengths_close_and_say_what_moves():
     for sketch in (BOOM, PUMP):
         rounded = sketch.rounded(0.01)

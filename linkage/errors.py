@@ -183,14 +183,19 @@ def is_yes(name: str, given: object) -> bool:
     return given
 
 
-def unknown(kind: str, name: object, known: Iterable[str], where: str = "", *, member: str = "") -> DefinitionError:
-    """Return the error for a name that is not there: it lists the valid names and the nearest one; `member` is whose part it is."""
-    names = list(known)
+def did_you_mean(name: object, names: Sequence[str]) -> str:
+    """Return " Did you mean ...?" with the nearest of some names; "" where none is near."""
     near = get_close_matches(name, names, n=1, cutoff=0.5) if isinstance(name, str) else []
     if isinstance(name, str) and not near:  # a word of longer names
         words = get_close_matches(name, {word for each in names for word in each.split("_")}, n=1, cutoff=0.8)
         near = [each for each in names if {*each.split("_")} & {*words}][:3]
-    hint = f" Did you mean {' or '.join(near)}?" if near else ""
+    return f" Did you mean {' or '.join(near)}?" if near else ""
+
+
+def unknown(kind: str, name: object, known: Iterable[str], where: str = "", *, member: str = "") -> DefinitionError:
+    """Return the error for a name that is not there: it lists the valid names and the nearest one; `member` is whose part it is."""
+    names = list(known)
+    hint = did_you_mean(name, names)
     place = f" in {where}" if where else ""
     listing = ", ".join(names) if names else "none"
     return DefinitionError(f"{kind} {cited(name)} is unknown{place}.{hint} Known: {listing}.", member=member)

@@ -7,13 +7,12 @@ from base64 import urlsafe_b64decode
 from binascii import Error
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from difflib import get_close_matches
 from itertools import combinations, permutations
 from math import cos, dist, hypot, inf, isfinite, pi, remainder, sin
 from typing import Any, TypeAlias, final
 from unicodedata import normalize
 
-from ..errors import FileError
+from ..errors import FileError, did_you_mean
 from ..files.names import shortened
 from ..mechanism import Mechanism
 from ..quantities import is_name, joined_names
@@ -104,8 +103,7 @@ class FoundMachine:
         """Return the key of a point; FileError for any other."""
         is_there = isinstance(key, str) and key in self.points
         if not is_there:
-            near = get_close_matches(str(key), [point.name for point in self.points.values()], 1, 0.5)
-            hint = f" Did you mean {near[0]}?" if near else ""
+            hint = did_you_mean(str(key), [point.name for point in self.points.values()])
             raise FileError(f"{self.here}: {what} names the point {shortened(key)}, which is not there.{shortened(hint, quote=False)}")
         return str(key)
 

@@ -11,7 +11,7 @@ from ..errors import DefinitionError, FileError
 from ..files.names import shortened
 from ..quantities import is_name
 from .found import WORDS, FoundMachine, ensure_file, json_list, json_table, printable
-from .machine_sketch import MachineSketch, Place, SketchDrive, SketchSlide, SketchWeight
+from .machine_sketch import MachineSketch, Place, SketchDrive, SketchSlide, SketchWeight, plain_entry
 
 BOARD = 1
 """What "board" says in a file that is written so."""
@@ -21,13 +21,12 @@ ADDRESS = f"board:{BOARD}."
 
 def board_tables(sketch: MachineSketch) -> dict[str, Any]:
     """Return a sketch as the tables of the board's file."""
-    found: dict[str, Any] = json.loads(json.dumps(asdict(sketch), allow_nan=False, default=float))  # NumPy's numbers
-    return {"board": BOARD} | found
+    return {"board": BOARD, **plain_entry(asdict(sketch))}
 
 
 def board_json(sketch: MachineSketch) -> str:
     """Return a sketch as the text of the board's file."""
-    return json.dumps(board_tables(sketch), ensure_ascii=False, indent=1) + "\n"
+    return json.dumps(board_tables(sketch), ensure_ascii=False, allow_nan=False, indent=1) + "\n"
 
 
 def read_board(found: FoundMachine, data: Mapping[str, Any]) -> None:

@@ -348,10 +348,10 @@ def noiseless(value: float) -> float:
 
 
 def plain_entry(entry: Any) -> Any:
-    """Return an entry of a table with Python's own numbers for NumPy's."""
+    """Return an entry of a table with lists for tuples, and Python's own numbers for NumPy's."""
     if isinstance(entry, dict):
         return {name: plain_entry(each) for name, each in entry.items()}
-    return [*map(plain_entry, entry)] if isinstance(entry, list) else plain(entry)
+    return [*map(plain_entry, entry)] if is_listed(entry) else plain(entry)
 
 
 def stroke_end(drive: SketchDrive) -> float | str:

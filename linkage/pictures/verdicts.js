@@ -191,13 +191,13 @@ function judge(n = STILL) {
 }
 const weight = ({ ok, share, rule, stale }) => (stale ? -1e7 : 0) + (ok === false ? 1e6 : rule ? 0 : -1e3) + (isNumber(share) ? share : -1);
 function list(found) {
-  const groups = new Map(), worst = ([, list]) => max(...list.map(weight));
+  const groups = new Map(), worst = (list) => max(...list.map(weight)), isSplit = (rows) => phone.matches && !rows[0].stale && rows.some(({ ok }) => ok === false);
   for (const each of found) {
     const key = each.stale ? " stale" : each.member;
     groups.set(key, [...(groups.get(key) || []), each]);
   }
-  const parts = [...groups].flatMap(([member, rows]) => (phone.matches && worst([0, rows]) > 9 ? [[member, rows.filter((each) => !each.ok)], [`${member} kept`, rows.filter((each) => each.ok)]] : [[member, rows]]))
-    .filter(([, rows]) => rows[0]).sort((a, b) => worst(b) - worst(a));
+  const parts = [...groups].flatMap(([member, rows]) => (isSplit(rows) ? [[member, rows.filter((each) => !each.ok)], [`${member} kept`, rows.filter((each) => each.ok)]] : [[member, rows]]))
+    .filter(([, rows]) => rows[0]).sort(([, a], [, b]) => worst(b) - worst(a));
   byId("groups").replaceChildren(...parts.map(([member, rows]) => group(member, rows.sort((a, b) => weight(b) - weight(a)))));
 }
 function group(member, rows) {

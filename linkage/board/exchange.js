@@ -79,7 +79,7 @@ on(byId("title"), "change", ({ target }) => {
   if (fault) { tell(fault, true); target.value = shownNow.drawing.name; } else commit({ ...current(), name: target.value.trim() });
 });
 on(byId("units"), "change", ({ target }) => { unit(target.value); keep(); stands(shownNow.drawing); });
-function unit(name) { lengthUnit = has(unitsOf, name) ? name : "mm"; data.length = { factor: unitsOf[lengthUnit], unit: lengthUnit }; byId("units").value = lengthUnit; }
+function unit(name) { lengthUnit = [...byId("units").options].some(({ value }) => value === name) ? name : "mm"; data.length = { factor: LENGTHS[lengthUnit], unit: lengthUnit }; byId("units").value = lengthUnit; }
 on(byId("language"), "click", () => { language = language === "ru" ? "en" : "ru"; speak(); });
 on(byId("look"), "click", () => { look(root.dataset.look === "dark" ? "light" : "dark"); chosenLook = true; });
 function speak() { labelled(); hint(); stands(shownNow.drawing); }

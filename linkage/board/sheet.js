@@ -2,9 +2,8 @@
 
 /* What is shown: the drawing, where its points stand [m], its drives' values, poses of the play, paths, the task, and what is picked. */
 const shownNow = { drawing: null, places: {}, values: {}, run: [], trails: {}, targets: null, loose: [], picked: null, pending: [], aim: null, cursor: null, hover: "" };
-const unitsOf = { mm: 1e-3, m: 1, in: 0.0254 };
 let lengthUnit = "mm", showsGrid = true;
-data.length = { factor: unitsOf.mm, unit: "mm" };
+data.length = { factor: LENGTHS.mm, unit: "mm" };
 const lengthText = (value, digits = 5) => shown(value, data.length, digits);
 const angleText = (value, digits = 4) => shown(value, { factor: PI / 180, unit: "deg" }, digits);
 
@@ -75,32 +74,17 @@ function posed() {
 
 /* ---- grid and view ---- */
 
-/* The distance of the grid's lines [m]: round in the unit that is shown, some 45 px. */
-function meshes() {
-  const rough = 45 / zoom / data.length.factor, power = 10 ** floor(log10(rough));
-  return [1, 2, 5, 10].map((k) => k * power).find((k) => k >= rough) * data.length.factor;
-}
 const gridStep = () => (showsGrid ? meshes() / 5 : 10 ** floor(log10(2 / zoom / data.length.factor)) * data.length.factor);
 const onGrid = ([x, y]) => [x, y].map((value) => Number((round(value / gridStep()) * gridStep()).toFixed(9)));
 function gridded() {
   if (!showsGrid) return [];
-  for (const [step, kind] of [[meshes() / 5, "mesh fine"], [meshes(), "mesh"]]) {
-    const lines = [], [low, high] = [placeAt([0, sheetTall]), placeAt([sheetWide, 0])];
-    for (let i = ceil(low[0] / step); i * step <= high[0]; i++) lines.push([px(i * step, 0)[0], 0], [px(i * step, 0)[0], sheetTall], null);
-    for (let i = ceil(low[1] / step); i * step <= high[1]; i++) lines.push([0, px(0, i * step)[1]], [sheetWide, px(0, i * step)[1]], null);
-    draw(sheet, "path", { class: kind, d: broken(lines) });
-  }
+  meshed(meshes() / 5, "mesh fine");
+  meshed(meshes(), "mesh");
   const text = say("grid {step}", { step: lengthText(meshes(), 3) });
   draw(sheet, "text", { x: 10, y: sheetTall - 10, class: "halo" }).textContent = text;
   const [x, y] = px(0, 0);
   draw(sheet, "path", { class: "cursor", d: `M${x - 9} ${y}h18M${x} ${y - 9}v18` });
   return [];
-}
-/* Return the place on the sheet [m] of a spot [px]. */
-const placeAt = ([x, y]) => [(x - left0) / zoom, (top0 - y) / zoom];
-function spotOf(event) {
-  const box = sheet.getBoundingClientRect();
-  return [event.clientX - box.left, event.clientY - box.top];
 }
 /* See the sheet closer by a factor, about a spot that stays [px]. */
 function nearer(by, [x, y] = [0.5 * sheetWide, 0.5 * sheetTall]) {

@@ -136,9 +136,9 @@ on(sheet, "pointermove", (event) => {
     shownNow.hover = name;
     return;
   }
-  const was = [...fingers.values()], middle = (list) => [0, 1].map((k) => list.reduce((sum, each) => sum + each[k], 0) / list.length);
+  const was = [...fingers.values()];
   fingers.set(event.pointerId, spot);
-  const all = [...fingers.values()], [from, to] = [middle(was), middle(all)];
+  const all = [...fingers.values()], [from, to] = [centroid(was), centroid(all)];
   if (held && !held.far && apart(spot, held.spot) < 6) return;
   if (held) held.far = true;
   if (held?.name) { lead(held, spot); return; }

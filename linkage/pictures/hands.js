@@ -16,24 +16,24 @@ function nearer(by, [x, y] = [0.5 * sheetWide, 0.5 * sheetTall]) {
 on(sheet, "wheel", (event) => {
   if (!event.ctrlKey && !event.metaKey) return;
   event.preventDefault();
-  nearer(Math.exp(-0.002 * event.deltaY * (event.deltaMode ? 30 : 1)), place(event));
+  nearer(Math.exp(-0.002 * event.deltaY * (event.deltaMode ? 30 : 1)), spotOf(event));
 });
 /* One finger or the mouse moves the sheet where nothing is gripped; two fingers move it and see it closer. */
 const pinched = new Map();
 on(sheet, "pointerdown", (event) => {
   if (gripped) return;
-  if (measuring) { measure(place(event)); return; }
+  if (measuring) { measure(spotOf(event)); return; }
   if (event.pointerType === "touch" && !pinched.size && !event.isPrimary) return;
-  pinched.set(event.pointerId, place(event));
+  pinched.set(event.pointerId, spotOf(event));
   if (event.pointerType !== "touch" || pinched.size > 1) sheet.setPointerCapture(event.pointerId);
 });
 on(sheet, "pointermove", (event) => {
   if (!pinched.has(event.pointerId)) return;
-  const was = [...pinched.values()], far = () => { const [a, b] = [...pinched.values()]; return b ? apart(a, b) : 0; }, middle = (list) => [0, 1].map((k) => list.reduce((sum, each) => sum + each[k], 0) / list.length);
-  const wide = far(), from = middle(was);
-  pinched.set(event.pointerId, place(event));
+  const was = [...pinched.values()], far = () => { const [a, b] = [...pinched.values()]; return b ? apart(a, b) : 0; };
+  const wide = far(), from = centroid(was);
+  pinched.set(event.pointerId, spotOf(event));
   if (event.pointerType === "touch" && pinched.size < 2) return;
-  const to = middle([...pinched.values()]);
+  const to = centroid([...pinched.values()]);
   seen.x += to[0] - from[0]; seen.y += to[1] - from[1];
   if (wide > 0) nearer(far() / wide, to);
   soon("fit");
@@ -46,15 +46,12 @@ on(byId("whole"), "click", () => { whole(); soon("fit"); });
 
 /* A grid of round lengths, on which pins then stand when they are dragged; without it on whole millimetres. */
 let showsGrid = false;
-const meshes = () => { const rough = 45 / zoom / data.length.factor, power = 10 ** floor(log10(rough)); return [1, 2, 5, 10].map((k) => k * power).find((k) => k >= rough) * data.length.factor; };
 function snapped(value) { const step = showsGrid ? meshes() / 5 : 1e-3; return tidy(round(value / step) * step, 9); }
 const tidy = (value, digits) => Number(value.toFixed(digits));
 function gridded() {
   if (!showsGrid) return [];
-  const step = meshes(), lines = [], [low, high] = [[(0 - left0) / zoom, (top0 - sheetTall) / zoom], [(sheetWide - left0) / zoom, top0 / zoom]];
-  for (let i = ceil(low[0] / step); i * step <= high[0]; i++) lines.push([px(i * step, 0)[0], 0], [px(i * step, 0)[0], sheetTall], null);
-  for (let i = ceil(low[1] / step); i * step <= high[1]; i++) lines.push([0, px(0, i * step)[1]], [sheetWide, px(0, i * step)[1]], null);
-  draw(sheet, "path", { class: "mesh", d: broken(lines) });
+  const step = meshes();
+  meshed(step, "mesh");
   draw(sheet, "text", { x: sheetWide - 52, y: 20, class: "halo", anchor: "end" }).textContent = say("grid {step}", { step: shown(step, data.length, 3) });
   return [];
 }

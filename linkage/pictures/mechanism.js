@@ -73,6 +73,26 @@ function broken(points) {
 const sheet = byId("mechanism"), EDGE = 1.3;
 let zoom = 1, left0 = 0, top0 = 0, sheetWide = 0, sheetTall = 0, unit0 = 1;
 const px = (x, y) => [left0 + zoom * x, top0 - zoom * y];
+/* Return the place on the sheet [m] of a spot [px]. */
+const placeAt = ([x, y]) => [(x - left0) / zoom, (top0 - y) / zoom];
+/* Return where an event is on the sheet [px]. */
+function spotOf(event) {
+  const box = sheet.getBoundingClientRect();
+  return [event.clientX - box.left, event.clientY - box.top];
+}
+const centroid = (points) => [0, 1].map((k) => points.reduce((sum, each) => sum + each[k], 0) / points.length);
+/* Return the distance of a grid's lines [m]: round in the unit that is shown, some 45 px. */
+function meshes() {
+  const rough = 45 / zoom / data.length.factor, power = 10 ** floor(log10(rough));
+  return [1, 2, 5, 10].map((k) => k * power).find((k) => k >= rough) * data.length.factor;
+}
+/* Draw the lines of a grid that stand so far apart [m]. */
+function meshed(step, kind) {
+  const lines = [], [low, high] = [placeAt([0, sheetTall]), placeAt([sheetWide, 0])];
+  for (let i = ceil(low[0] / step); i * step <= high[0]; i++) lines.push([px(i * step, 0)[0], 0], [px(i * step, 0)[0], sheetTall], null);
+  for (let i = ceil(low[1] / step); i * step <= high[1]; i++) lines.push([0, px(0, i * step)[1]], [sheetWide, px(0, i * step)[1]], null);
+  draw(sheet, "path", { class: kind, d: broken(lines) });
+}
 const spot = (found, point, i) => { const [x, y] = rows.points[point]; return [found.values[x][i], found.values[y][i]]; };
 let parts = [], edition = 0;
 

@@ -121,26 +121,21 @@ function grip({ point, x, y }) {
     if (measuring || pinched.size) return;
     event.preventDefault(); event.stopPropagation();
     const places = scene.names.map((_, p) => spot(pose, p, 0)), from = x === undefined ? places[point] : [present[x], present[y]];
-    gripped = { id: event.pointerId, point, x, y, name, from, places, start: place(event), shift: event.shiftKey };
+    gripped = { id: event.pointerId, point, x, y, name, from, places, start: spotOf(event), shift: event.shiftKey };
     if (x === undefined) play(false);
     sheet.setPointerCapture(event.pointerId);
   });
   return (at) => set(element, { cx: at[point][0], cy: at[point][1] });
 }
-/* Return where an event is on the sheet [px]. */
-function place(event) {
-  const box = sheet.getBoundingClientRect();
-  return [event.clientX - box.left, event.clientY - box.top];
-}
 /* What is touched: the pin under the finger, and those that stand on it. */
 sheet.addEventListener("pointerdown", (event) => {
-  const at = scene.names.map((_, p) => px(...spot(pose, p, 0))), finger = place(event), far = at.map((each) => apart(each, finger)), nearest = far.indexOf(min(...far));
+  const at = scene.names.map((_, p) => px(...spot(pose, p, 0))), finger = spotOf(event), far = at.map((each) => apart(each, finger)), nearest = far.indexOf(min(...far));
   touched = far[nearest] < 24 ? at.flatMap((each, p) => (apart(each, at[nearest]) < 6 ? [p] : [])) : [];
   if (phone.matches) soon("fit");
 }, true);
 on(sheet, "pointermove", (event) => {
   if (!gripped || event.pointerId !== gripped.id) return;
-  const [x, y] = place(event);
+  const [x, y] = spotOf(event);
   gripped.to = [gripped.from[0] + (x - gripped.start[0]) / zoom, gripped.from[1] - (y - gripped.start[1]) / zoom].map(snapped);
   gripped.shift = event.shiftKey;
   soon("drag");

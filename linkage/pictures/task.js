@@ -64,7 +64,7 @@ function missWords() {
 /* The wanted points with their numbers, of poses with a line along the body, and a line to where the machine comes. */
 function wanted() {
   if (!task.points) return [answerShown];
-  const middle = [0, 1].map((k) => task.points.reduce((sum, each) => sum + each[k], 0) / wantedCount), many = wantedCount > 12;
+  const middle = centroid(task.points), many = wantedCount > 12;
   const bars = draw(sheet, "path", { class: "line", w: 2, stroke: css("curve") }), lines = draw(sheet, "path", { class: "line", w: 1.6, stroke: css("ink") });
   const rings = task.points.map(() => draw(sheet, "circle", { r: many ? 2.6 : 4, w: 1.8, fill: css("paper"), stroke: css("curve") }));
   const texts = task.points.map((_, n) => (many && n && (n + 1) % 5 ? null : draw(sheet, "text", { class: "wanted halo", anchor: "middle" })));

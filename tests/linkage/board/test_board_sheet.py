@@ -376,6 +376,21 @@ def test_what_is_led_moves_and_no_link_is_stretched(chromium, empty):  # noqa: F
         assert board.said == []
 
 
+def test_no_name_is_marked_as_text_while_a_pin_is_led(chromium, empty):  # noqa: F811
+    with Board(chromium, empty) as board:
+        four_bar(board)
+        board.tab.locator("button[data-tool=move]").click()
+        corner, (x, y) = board.tab.locator("#mechanism").bounding_box(), board.spot(*board.place("B"))
+        board.tab.mouse.move(x, y)
+        board.tab.mouse.down()
+        marked = []
+        for goal in ((x + 60, y - 100), (x, corner["y"] + 5), (corner["x"] + 5, corner["y"] + 5)):
+            board.tab.mouse.move(*goal, steps=4)
+            marked.append(board("getSelection().toString()"))
+        board.tab.mouse.up()
+        assert marked == [""] * 3
+
+
 def test_numbers_are_typed_with_units(chromium, empty):  # noqa: F811
     with Board(chromium, empty) as board:
         four_bar(board)

@@ -68,8 +68,8 @@ const model = (() => {
     const wrong = [], drawing = { ...empty(), ...given }, lacks = (holds, words) => { if (!holds) wrong.push(words); return holds; };
     const named = (point, where) => lacks(has(drawing.points, point), say("{where} names the point {name}, which is not there", { where, name: String(point).slice(0, MOST.letters) }));
     const listed = (list, most) => Array.isArray(list) && list.length <= most;
-    for (const part of [...PARTS, "lengths"]) lacks(isTable(drawing[part]) && Object.keys(drawing[part]).length <= MOST.entries, say("{part} is no table of up to {most} entries", { part, most: MOST.entries }));
-    for (const part of ["fixed", "notes"]) lacks(listed(drawing[part], MOST.entries) && drawing[part].every((each) => isText(each) && each.length <= 1000), say("{part} is no list of up to {most} texts", { part, most: MOST.entries }));
+    for (const part of [...PARTS, "lengths"]) lacks(isTable(drawing[part]) && Object.keys(drawing[part]).length <= MOST.entries, say("a drawing has a table {part} with at most {most} entries", { part, most: MOST.entries }));
+    for (const part of ["fixed", "notes"]) lacks(listed(drawing[part], MOST.entries) && drawing[part].every((each) => isText(each) && each.length <= 1000), say("a drawing has a list {part} with at most {most} texts", { part, most: MOST.entries }));
     lacks(isName(drawing.name), say("the drawing has no name that a class may have"));
     if (wrong.length) return wrong;
     const all = names(drawing);

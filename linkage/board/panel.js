@@ -57,6 +57,12 @@ function relatives() {
   const found = kind === "points" ? ["links", "slides", "drives", "weights"].flatMap((part) => Object.keys(drawing[part]).filter((each) => pointsOf({ kind: part, name: each }).includes(name)).map((each) => [part, each])) : pointsOf(shownNow.picked).map((each) => ["points", each]);
   return found.length ? [line(...found.map(([part, each]) => button(each, () => pick(part, each))))] : [];
 }
+/* Say how far a cylinder is out, and where its stroke does not reach what is drawn. */
+function reach({ start, end }, out) {
+  const short = Math.min(start, end) - out, long = out - Math.max(start, end), said = make("p", { className: short > 1e-9 || long > 1e-9 ? "bad" : "" });
+  said.textContent = short > 1e-9 ? say("drawn {length} shorter than closed", { length: lengthText(short) }) : long > 1e-9 ? say("drawn {length} longer than its stroke goes", { length: lengthText(long) }) : say("drawn {length} out", { length: lengthText(out) });
+  return said;
+}
 const FIELDS = {
   points(name) {
     const { drawing } = shownNow, put = (axis) => (value) => { const at = [...shownNow.places[name]]; at[axis] = value; return moved(name, at); };
@@ -85,7 +91,7 @@ const FIELDS = {
       ...bores,
       sized(say("Closed length"), model.closedLength(current(), name), data.length, (value) => { commit(model.measured(model.set(current(), "drives", name, { drawn: model.far(current(), ...each.ends) - value }), ...each.ends)); }, 1e-4),
       offered(sized(say("Stroke"), each.end - each.start, data.length, (value) => change({ end: each.start + value }), 1e-4), data.sizes.strokes),
-      note(say("drawn {length} out", { length: lengthText(shownNow.values[name]) })),
+      reach(each, shownNow.values[name]),
     ];
   },
   weights(name) {

@@ -329,7 +329,7 @@ def test_two_fingers_see_closer_and_one_leads(chromium, empty):  # noqa: F811
 def test_what_the_board_cannot_hold_is_told_where_it_is_delivered(chromium, tmp_path):  # noqa: F811
     large = MachineSketch("Large", {f"P{n}": (0.1 * n, 1.0) for n in range(201)}, ("P0",), {})
     with Board(chromium, drawing_board(large, tmp_path / "large.html")) as board:
-        assert "points is no table of up to 200 entries" in board.text("#message") and board.said == []
+        assert "a drawing has a table points with at most 200 entries" in board.text("#message") and board.said == []
 
 
 def test_a_reload_keeps_the_work(chromium, empty):  # noqa: F811
@@ -422,7 +422,11 @@ def test_numbers_are_typed_with_units(chromium, empty):  # noqa: F811
         drive = board.drawing["drives"]["S"]
         assert (drive["bore"], drive["end"] - drive["start"]) == (0.063, 0.2) and 0 < drive["rod"] < 0.063
         points = board.drawing["points"]
-        assert_allclose(dist(*(points[name] for name in drive["ends"])) - drive["drawn"], 0.25)
+        span = dist(*(points[name] for name in drive["ends"]))
+        assert_allclose(span - drive["drawn"], 0.25)
+        for out, said in ((-50, "50 mm shorter than closed"), (300, "100 mm longer than its stroke goes"), (100, "100 mm out")):
+            board.field("Closed length", f"{1000 * span - out!r}")
+            assert f"drawn {said}" in board.text("#fields").replace("\u2009", " ")
         board.keys("Delete")  # in a field it is of the text
         board.tab.locator("#fields").get_by_role("button", name="Delete").click()
         assert [*board.drawing["drives"]] == ["phi"] and board.said == []

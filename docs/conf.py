@@ -14,7 +14,7 @@ author = "the hydrolinkage developers"
 copyright = f"2026 {author}"
 version = release = _project["version"]
 
-extensions = ["myst_parser", "sphinx.ext.autodoc", "made"]
+extensions = ["myst_parser", "sphinx.ext.autodoc", "made", "sphinx.ext.napoleon"]  # `made` reads docstrings first
 myst_enable_extensions = ["amsmath", "attrs_block", "attrs_inline", "colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
 exclude_patterns = ["_build", "_generated/extra", "_generated/api/extra", "**.ipynb", "**.py"]
@@ -23,6 +23,8 @@ default_role = "code"  # docstrings write `names` as Markdown does
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"  # the first lines say shapes and units; types are for checkers
 autodoc_preserve_defaults = True
+napoleon_google_docstring = False
+napoleon_use_rtype = False
 python_maximum_signature_line_length = 88
 
 html_theme = "furo"

@@ -59,10 +59,19 @@ CHARGE = "Accumulator charge"
 @final
 @immutable
 class Accumulator:
-    """A vessel of `volume` [m3] charged with gas to `charge` [Pa gauge], the fluid out, at the gas's temperature.
+    """A vessel charged with gas: `Accumulator(10 * litre, charge=94 * kgf_cm2)`.
 
-    Either may be an array: one design per element. In a class either may follow dimensions: `Accumulator(V_I, charge=P_I)`.
-    A volume of 0 is an absent vessel: the block is that of the others. DefinitionError for a negative volume.
+    Parameters
+    ----------
+    volume : float, array or quantity
+        The gas's volume with the fluid out [m3]. Of an array each design has one; 0 is an absent vessel.
+    charge : float, array or quantity
+        The gas's pressure then [Pa gauge], at the gas's temperature. In a class both may follow dimensions.
+
+    Raises
+    ------
+    DefinitionError
+        The volume is negative.
     """
 
     volume: Any
@@ -180,12 +189,26 @@ SMALLEST = 1e-9
 class AccumulatorBlock:
     """Accumulators on one line, any number and any charges; pressures are gauge [Pa].
 
-    Below its charge an accumulator holds no fluid. `gas` is the law of all of them, `atmosphere` [Pa] what turns gauge
-    into absolute. `atmosphere=0` puts gauge pressures straight into the law, as Rekhlitski and Chuprynin (2013) do.
+    Parameters
+    ----------
+    accumulators : sequence of Accumulator
+        The vessels. One of volume 0 is absent. Below its charge an accumulator holds no fluid.
+    gas : Gas, optional
+        The gas law of all of them, isothermal by default.
+    atmosphere : float, array or quantity, optional
+        The air's pressure [Pa], which turns gauge into absolute, 101325 by default. With 0 gauge pressures go straight into the law, as
+        Rekhlitski and Chuprynin (2013) do.
+    unit : str, optional
+        The unit of pressures in sentences. Without it that of the dimension that a charge follows, else bar.
+
+    Raises
+    ------
+    DefinitionError
+        There is no accumulator, `gas` is no gas law, or a charge is at or below zero absolute.
+
+    Notes
+    -----
     Where a charge, a volume or the atmosphere follows dimensions, `sized(motion)` is the block with numbers.
-    A vessel of volume 0 is absent. Sentences give pressures in `unit`; without it in that of the dimension that a charge
-    follows, else in bar. DefinitionError without accumulators, for anything but a gas law,
-    and for a charge at or below zero absolute.
     """
 
     accumulators: Sequence[Accumulator]

@@ -130,7 +130,22 @@ class BodyOf(Member):
 
 
 class OnCylinder(Point):
-    """The base of points on a body of a cylinder: `along` its axis [m] from the body's own pin, `across` to the left of that way [m]."""
+    """A point on a body of a cylinder, the base of OnBarrel and OnRod.
+
+    Parameters
+    ----------
+    cylinder : Cylinder or str
+        The cylinder.
+    along : float or quantity
+        The distance along its axis [m] from the body's own pin.
+    across : float or quantity, optional
+        The distance from the axis [m], to the left of that direction; 0 by default.
+
+    Raises
+    ------
+    DefinitionError
+        `along` or `across` is not finite, or what is named has no barrel and no rod.
+    """
 
     expects = (("cylinder", "load"),)
     what: ClassVar[str] = "the barrel"

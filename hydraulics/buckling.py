@@ -40,9 +40,23 @@ MOUNTINGS = MappingProxyType({noted("pin-pin"): 1.0, noted("fixed-pin"): 0.69915
 @refuses_changes
 @dataclass(frozen=True)
 class Buckling:
-    """A rod of a diameter [m], how it is held and the safety asked for; `modulus` and `yield_strength` [Pa], steel by default.
+    """The buckling of a rod that is pressed: `Buckling(60 * mm, mounting="pin-pin")`.
 
-    DefinitionError for a value not above zero, a safety below 1, an unknown mounting.
+    Parameters
+    ----------
+    rod : float
+        The rod's diameter [m].
+    mounting : str, optional
+        How its ends are held, "pin-pin" by default.
+    safety : float, optional
+        The factor asked for, 3.5 by default.
+    modulus, yield_strength : float, optional
+        Young's modulus and the yield strength [Pa], those of steel by default.
+
+    Raises
+    ------
+    DefinitionError
+        A value is not above zero, the safety is below 1, or the mounting is not known.
     """
 
     rod: float

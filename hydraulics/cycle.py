@@ -101,14 +101,41 @@ class Stretch:
 
 @final
 class PumpCycle:
-    """A working cycle of one pump.
+    """A working cycle of one pump, as `Pump.check` and `Pump.run` give it.
 
-    `time` (n,) are instants [s]; both sides of a border have one each. `flow` [m3/s], `pressure` [Pa gauge] and `power` [W] are arrays
-    there, by the names of the pump and of its lines: of a line what it takes, what it needs, and the product of both. `share` says by
-    cylinder which part of what it asks for it gets: below 1 it waits. `parts` are the powers [W] by which the energy goes: "pump",
-    "useful", "throttled", "margin", "braked". `litres` [l] go by the same names, `energy` [J] has the same parts as attributes.
-    `events` are those of a run, `case` the load case, `verdict` whether the pump gives what is asked for, and `stretch` how many times
-    longer it takes the pump.
+    Parameters
+    ----------
+    pump : str
+        The name of the pump.
+    lines, cylinders : sequence of str
+        The names of its lines, and of the cylinders that they move.
+    stretches : sequence of Stretch
+        The stretches of time between two borders.
+    limits : PumpLimits
+        The pump's pressure, flow and power.
+    case : str, optional
+        The load case.
+    events : sequence of PumpEvent, optional
+        What happened in a run.
+
+    Attributes
+    ----------
+    time : array (n,)
+        The instants [s]; both sides of a border have one each.
+    flow, pressure, power : mapping of str to array (n,)
+        Of the pump and of each line [m3/s, Pa gauge, W]: what a line takes, what it needs, and the product of both.
+    share : mapping of str to array (n,)
+        By cylinder, which part of what it asks for it gets: below 1 it waits.
+    parts : mapping of str to array (n,)
+        The powers [W] by which the energy goes: "pump", "useful", "throttled", "margin", "braked".
+    litres : mapping of str to float
+        The oil [l], by the same names.
+    energy : PumpEnergy
+        The energies [J], with the same parts as attributes.
+    verdict : Verdict
+        Whether the pump gives what is asked for.
+    stretch : float
+        How many times longer it takes the pump.
     """
 
     def __init__(

@@ -61,7 +61,15 @@ SIDE_WORDS: Mapping[str, str] = MappingProxyType({
 @refuses_changes
 @dataclass(frozen=True)
 class Chamber:
-    """One side of a cylinder, which an OilLine fills: `lift.piston_side`, `lift.rod_side`, by their names too, "lift.rod_side"."""
+    """One side of a cylinder, which an OilLine fills: `lift.piston_side`, or by its name, "lift.rod_side".
+
+    Parameters
+    ----------
+    cylinder : Cylinder or str
+        The cylinder.
+    side : {"piston", "rod"}
+        The side of its piston.
+    """
 
     cylinder: Reference
     side: Side
@@ -105,39 +113,148 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
 
     @abstractmethod
     def filled(self, side: Side, motion: Poses, start: Array, end: Array) -> Array:
-        """Return how much larger a chamber is at one length than at another [m3], both [m] as arrays that broadcast against the motion."""
+        """Return how much larger a chamber is at one length than at another [m3], both [m] as arrays that broadcast against the motion.
+
+        Parameters
+        ----------
+        side : Side
+            The side of the piston.
+        motion : Motion
+            The poses.
+        start, end : array
+            The two lengths [m].
+
+        Returns
+        -------
+        array
+            The volume [m3].
+        """
 
     @abstractmethod
     def filled_written(self, side: Side, start: Quantity, end: Quantity) -> Quantity:
-        """Return the same as a quantity of its class, over the area of a circle of diameter 1 [m]."""
+        """Return the same as a quantity of its class, over the area of a circle of diameter 1 [m].
+
+        Parameters
+        ----------
+        side : Side
+            The side of the piston.
+        start, end : Quantity
+            The two lengths [m].
+
+        Returns
+        -------
+        Quantity
+            The volume over that area [m].
+        """
 
     @abstractmethod
     def length_written(self, sides: Sequence[Side], start: Quantity, oil: Quantity) -> Quantity:
-        """Return its length, as a quantity [m], where some chambers hold more oil than at a length: so much, over the same area."""
+        """Return its length, as a quantity [m], where some chambers hold more oil than at a length: so much, over the same area.
+
+        Parameters
+        ----------
+        sides : sequence of Side
+            The chambers.
+        start : Quantity
+            The length at which they are filled [m].
+        oil : Quantity
+            What they hold more, over that area [m].
+
+        Returns
+        -------
+        Quantity
+            The length [m].
+        """
 
     @abstractmethod
     def thickness(self, motion: Poses, direction: str | None = None) -> float | Array:
-        """Return the diameter of its buckling part [m], to broadcast against the motion."""
+        """Return the diameter of its buckling part [m], to broadcast against the motion.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses.
+        direction : str, optional
+            The direction of motion; where it matters, as at a border of stages.
+
+        Returns
+        -------
+        float or array
+            The diameter [m].
+        """
 
     @abstractmethod
     def length_set(self, name: str, motion: Poses, *, beside_bore: bool = False) -> Array:
-        """Return its closed length or its whole stroke as a motion's designs have it [m], to broadcast against it.
+        """Return its closed length or its whole stroke as a motion's designs have it.
 
-        DefinitionError for one that is not above zero, that is given in millimetres, as it may be seen `beside_bore`, or that follows a
-        stroke of the machine.
+        Parameters
+        ----------
+        name : {"closed", "stroke"}
+            Which length.
+        motion : Motion
+            The poses.
+        beside_bore : bool, optional
+            Whether the bore stands beside it, so that one in millimetres is recognised.
+
+        Returns
+        -------
+        array
+            The length [m], to broadcast against the motion.
+
+        Raises
+        ------
+        DefinitionError
+            It is not above zero, is given in millimetres, or follows a stroke of the machine.
         """
 
     @abstractmethod
     def sides_written(self, written: Formulas, thrust: Array) -> tuple[Array, Array]:
-        """Write the area of the side that works, and return its symbol with the area of the other side [m2]."""
+        """Write the area of the side that works, and return its symbol with the area of the other side [m2].
+
+        Parameters
+        ----------
+        written : Formulas
+            What takes the lines.
+        thrust : array
+            The symbol of the thrust [N].
+
+        Returns
+        -------
+        tuple of array
+            The symbols of both areas [m2].
+        """
 
     @abstractmethod
     def size_verdicts(self, judge: Judge) -> list[Verdict]:
-        """Return the verdicts on its size over all that a judge looks at."""
+        """Return the verdicts on its size over all that a judge looks at.
+
+        Parameters
+        ----------
+        judge : Judge
+            The judge of the machine over its domains.
+
+        Returns
+        -------
+        list of Verdict
+            The verdicts.
+        """
 
     @abstractmethod
     def slender_part(self, motion: Poses, direction: str | None = None) -> tuple[str, int, Sequence[float]]:
-        """Return the size that buckles at a pose by its name, the number of its stage, 0 for a rod, and its possible values [m]."""
+        """Return the size that buckles at a pose by its name, the number of its stage, 0 for a rod, and its possible values [m].
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses.
+        direction : str, optional
+            The direction of motion; where it matters, as at a border of stages.
+
+        Returns
+        -------
+        tuple of str, int and sequence of float
+            The name, the number and the values [m].
+        """
 
     # -- what it is ----------------------------------------------------------------------------------------
 
@@ -192,7 +309,18 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         return 1
 
     def larger(self, motion: Poses) -> list[Sizes]:
-        """Return the standard sizes that give more force, ascending, as a remedy takes them; none where it has no series."""
+        """Return the standard sizes that give more force, ascending, as a remedy takes them; none where it has no series.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses.
+
+        Returns
+        -------
+        list of Sizes
+            The sizes.
+        """
         return []
 
     def lengths_named(self, name: str) -> tuple[Quantity | str, ...]:
@@ -222,11 +350,37 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         return np.asarray(np.abs(reduce(np.add, [self.filled(side, motion, low, high) for side in sides])))[()]
 
     def is_in_stage(self, motion: Poses, stage: int, direction: str | None = None) -> Any:
-        """Return where a stage moves, by its number from 1, to broadcast against a motion; at a border as in a direction."""
+        """Return where a stage moves, by its number from 1, to broadcast against a motion; at a border as in a direction.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses.
+        stage : int
+            The number of the stage.
+        direction : str, optional
+            The direction of motion; where it matters, as at a border of stages.
+
+        Returns
+        -------
+        array of bool
+            Where it moves.
+        """
         return motion.distance(self.A, self.B) >= 0.0
 
     def pulled(self, judge: Judge) -> Verdict | None:
-        """Return the verdict on a load that pulls at it where no oil holds it; None where there is no such load."""
+        """Return the verdict on a load that pulls at it where no oil holds it; None where there is no such load.
+
+        Parameters
+        ----------
+        judge : Judge
+            The judge of the machine over its domains.
+
+        Returns
+        -------
+        Verdict, optional
+            The verdict.
+        """
         return None
 
     def pressed(self, which: Ram | str) -> Condition:
@@ -585,17 +739,38 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
 @final
 @immutable
 class Cylinder(BarrelAndRod, Ram):
-    """`count` equal cylinders side by side between A and B: `lift = Cylinder(A, B, bore=110 * mm, rod=60 * mm, count=2)`.
+    """Equal cylinders side by side between A and B: `lift = Cylinder(A, B, bore=110 * mm, rod=60 * mm, count=2)`.
 
-    In a class bore and rod [m] are the design variables `lift.bore` and `lift.rod`. `works` is the side the pressure acts
-    on: "piston" pushes, "rod" pulls, "both" does what the load asks for. By default it is the side that an OilLine names, else the
-    piston. Its chambers are `lift.piston_side` and `lift.rod_side`, the distance of its pins is `lift.length`. `closed` is that distance
-    drawn in, `stroke` how far it comes out [m], design variables as well where they are given; `mounting` and `safety` are for buckling.
-    It holds what the mechanism needs, in the place of the drive of one stroke; one whose line gives its pressure has that force instead.
+    It holds what the mechanism needs, as the drive of one stroke. One whose line gives its pressure has that force instead. Its chambers
+    are `lift.piston_side` and `lift.rod_side`, the distance of its pins is `lift.length`. With masses or points on it, it is two bodies
+    that slide in each other, `lift.barrel` on A and `lift.piston_rod` on B. Both are as long as it is closed, with the mass in the middle.
 
-    With a `barrel_mass` or a `rod_mass` [kg], of one cylinder, and with points OnBarrel or OnRod it is two bodies that slide in each other.
-    These are `lift.barrel` on A and `lift.piston_rod` on B, both as long as it is closed, their masses in the middle. `max_speed` [m/s] is
-    what its seals allow, for paths in time.
+    Parameters
+    ----------
+    A, B : Point or str
+        The pins of the barrel and of the rod.
+    bore, rod : float or quantity
+        The diameters [m], in a class the design variables `lift.bore` and `lift.rod`.
+    count : int, optional
+        How many cylinders there are, 1 by default.
+    works : {"piston", "rod", "both"}, optional
+        The side that the pressure acts on: "piston" pushes, "rod" pulls, "both" does what the load asks for. By default the side that an
+        OilLine names, else the piston.
+    stroke, closed : float or quantity, optional
+        How far it comes out, and the distance of its pins drawn in [m]; design variables too where they are given.
+    mounting : str, optional
+        How its ends are held against buckling, "pin-pin" by default.
+    safety : float, optional
+        The factor asked for against buckling, 3.5 by default.
+    barrel_mass, rod_mass : float or quantity, optional
+        The masses of one cylinder [kg].
+    max_speed : float or quantity, optional
+        What its seals allow, for paths in time [m/s].
+
+    Raises
+    ------
+    DefinitionError
+        A size is not above zero, the rod is not thinner than the bore, or a word is not known.
     """
 
     A: Reference
@@ -1099,11 +1274,39 @@ class OnLines(ForceElement):
         return False
 
     def holds_line(self, line: Circuit) -> bool:
-        """Return whether it is a valve that holds a line; the load then goes down over it."""
+        """Return whether it is a valve that holds a line; the load then goes down over it.
+
+        Parameters
+        ----------
+        line : Circuit
+            The line.
+
+        Returns
+        -------
+        bool
+            Whether it does.
+        """
         return False
 
     def pressure_lowering(self, line: Circuit, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array | None:
-        """Return the pressure of a line while a cylinder goes down over it [Pa gauge]; None where it does not go down over it."""
+        """Return the pressure of a line while a cylinder goes down over it [Pa gauge]; None where it does not go down over it.
+
+        Parameters
+        ----------
+        line : Circuit
+            The line.
+        cylinder : Ram
+            The cylinder.
+        motion : Motion
+            The poses.
+        acting : Acting
+            The situation: loads, load case, direction and rates.
+
+        Returns
+        -------
+        array, optional
+            The pressure.
+        """
         return None
 
 
@@ -1141,7 +1344,18 @@ class Circuit(OnLines, HasVerdicts):
         return Tie(self.name, self.pressure_shares(members), held=True) if is_kept else None
 
     def rams(self, motion: Poses) -> tuple[Ram, ...]:
-        """Return its cylinders, as the motion's class has them."""
+        """Return its cylinders, as the motion's class has them.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses.
+
+        Returns
+        -------
+        tuple of Ram
+            The cylinders.
+        """
         return tuple(the_cylinder(motion, each) for each in self.references)
 
     def ram(self, motion: Poses) -> Ram:
@@ -1181,15 +1395,48 @@ class Circuit(OnLines, HasVerdicts):
         return "held" if self._is_shut and kind == "given" else kind
 
     def kind_open(self, members: NamedMembers) -> str:
-        """Return the kind of its line while no load case shuts it."""
+        """Return the kind of its line while no load case shuts it.
+
+        Parameters
+        ----------
+        members : mapping of str to Member
+            The members of the class by name.
+
+        Returns
+        -------
+        str
+            The kind.
+        """
         return "held"
 
     def pump(self, members: NamedMembers) -> OnLines | None:
-        """Return the pump on it that may be on others, too; None where it has its own numbers or none."""
+        """Return the pump on it that may be on others, too; None where it has its own numbers or none.
+
+        Parameters
+        ----------
+        members : mapping of str to Member
+            The members of the class by name.
+
+        Returns
+        -------
+        Pump, optional
+            The pump.
+        """
         return None
 
     def has_both_sides(self, members: NamedMembers) -> bool:
-        """Return whether it is on both sides of the cylinders that it names, whatever these say."""
+        """Return whether it is on both sides of the cylinders that it names, whatever these say.
+
+        Parameters
+        ----------
+        members : mapping of str to Member
+            The members of the class by name.
+
+        Returns
+        -------
+        bool
+            Whether it is.
+        """
         return False
 
     @property
@@ -1214,11 +1461,35 @@ class Circuit(OnLines, HasVerdicts):
         return 0.0
 
     def line_pressure(self, motion: Any, acting: Acting | None = None) -> Array:
-        """Return the pressure of its line, where that is one for all its cylinders, shape (...) [Pa gauge]."""
+        """Return the pressure of its line, where that is one for all its cylinders, shape (...) [Pa gauge].
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses.
+        acting : Acting, optional
+            The situation; by default the machine's own loads without friction.
+
+        Returns
+        -------
+        array
+            The pressure.
+        """
         raise DefinitionError(f"{self.name} = {self}: its pressure is asked of a cylinder, {self.name}.pressure_for(motion).")
 
     def fills(self, name: str) -> bool:
-        """Return whether it says how long a cylinder is where it is filled."""
+        """Return whether it says how long a cylinder is where it is filled.
+
+        Parameters
+        ----------
+        name : str
+            The name of the cylinder.
+
+        Returns
+        -------
+        bool
+            Whether it does.
+        """
         return False
 
     def length_given(self, chamber: Chamber, members: NamedMembers) -> Quantity:
@@ -1231,7 +1502,18 @@ class Circuit(OnLines, HasVerdicts):
                 found_in(members, each, f"{title}.{self.name}")
 
     def members(self, members: NamedMembers) -> tuple[Ram, ...]:
-        """Return its cylinders, as a class has them."""
+        """Return its cylinders, as a class has them.
+
+        Parameters
+        ----------
+        members : mapping of str to Member
+            The members of the class by name.
+
+        Returns
+        -------
+        tuple of Ram
+            The cylinders.
+        """
         title = self.name or type(self).__name__
         found = (found_in(members, each, title) if is_named(each) else each for each in self.references)
         return tuple(each for each in found if isinstance(each, Ram))
@@ -1242,7 +1524,22 @@ class Circuit(OnLines, HasVerdicts):
 
     @abstractmethod
     def pressure_in(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array:
-        """Return the pressure on the working side of one of its cylinders, shape (...) [Pa gauge]."""
+        """Return the pressure on the working side of one of its cylinders, shape (...) [Pa gauge].
+
+        Parameters
+        ----------
+        cylinder : Ram
+            The cylinder.
+        motion : Motion
+            The poses.
+        acting : Acting
+            The situation: loads, load case, direction and rates.
+
+        Returns
+        -------
+        array
+            The pressure.
+        """
 
     def bounds_of(self, cylinder: Reference, motion: Poses, lifting: bool, *, share: float = 1.0) -> tuple[Array, Array]:
         """Return between which two thrusts [N] it lets one of its cylinders stand; unbounded unless it says so."""

@@ -49,7 +49,13 @@ class GasLine(Circuit):
 
     @abstractmethod
     def gas_block(self) -> Block | None:
-        """Return the accumulators on it; None for none."""
+        """Return the accumulators on it; None for none.
+
+        Returns
+        -------
+        AccumulatorBlock or callable, optional
+            The accumulators.
+        """
 
     def parts(self) -> tuple[Reference, ...]:
         return (*super().parts(), *getattr(self.gas_block(), "following", ()))
@@ -63,16 +69,52 @@ class GasLine(Circuit):
 
     @abstractmethod
     def charged_at(self, motion: Poses, ram: Ram) -> Mapping[str, Array]:
-        """Return the strokes [SI] at which the block has its charge pressure, for one of its cylinders."""
+        """Return the strokes [SI] at which the block has its charge pressure, for one of its cylinders.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses.
+        ram : Ram
+            The cylinder.
+
+        Returns
+        -------
+        mapping of str to array
+            The strokes by name.
+        """
 
     def length_charged(self, motion: Poses, ram: Ram) -> Array:
-        """Return the length of one of its cylinders where it was charged [m]."""
+        """Return the length of one of its cylinders where it was charged [m].
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses.
+        ram : Ram
+            The cylinder.
+
+        Returns
+        -------
+        array
+            The length [m].
+        """
         return length_at(motion, ram, self.charged_at(motion, ram))
 
     def withdrawn(self, motion: Poses) -> Array:
         """Return the fluid [m3] that has left the block since it was charged, shape (...); negative: pushed in. (36)
 
         By so much its chambers are larger than where it was charged.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses.
+
+        Returns
+        -------
+        array
+            The volume [m3].
         """
         require_poses(motion)
         chambers = ((ram, each.side, motion.distance(ram.A, ram.B)) for ram, each in self.filling(motion.plan.members))
@@ -136,7 +178,18 @@ class GasLine(Circuit):
 
     @abstractmethod
     def on_block(self, block: AccumulatorBlock) -> Self:
-        """Return the same line on other accumulators."""
+        """Return the same line on other accumulators.
+
+        Parameters
+        ----------
+        block : AccumulatorBlock
+            The accumulators.
+
+        Returns
+        -------
+        GasLine
+            The line.
+        """
 
     def accumulators(self, motion: Poses) -> AccumulatorBlock:
         """Return its block as the motion's designs have it, before a movement: settled at the charge pressure, by its own gas law."""
@@ -235,12 +288,23 @@ class GasLine(Circuit):
 class FloatCircuit(GasLine):
     """A cylinder on a closed accumulator block: `FloatCircuit(lift, block, charge_pressure=94 * kgf_cm2, at=h_horizon)`.
 
-    Several on one block, `FloatCircuit([left, right], block, ...)`, have one pressure. The line has `charge_pressure` [Pa gauge] where
-    the stroke that a cylinder follows is `at` [m], other strokes at the sketch.
-    `seal_friction` is what the seals take off that pressure [Pa]. `exponent` 1 is a slow movement, by the block's own gas law. Above 1
-    the block has settled at the charge pressure and moves fast, by p V^exponent. `block` is an AccumulatorBlock, whose charges and volumes
-    may follow dimensions, or a function of the motion that returns one. The cylinder works with one side, and has no other force than
-    the gas's; what its stroke still needs is the drive's.
+    The cylinder works with one side and has no other force than the gas's; what its stroke still needs is the drive's.
+
+    Parameters
+    ----------
+    cylinder : Cylinder, str or sequence of them
+        The cylinders on the block; several have one pressure.
+    block : AccumulatorBlock or callable
+        The accumulators, whose charges and volumes may follow dimensions, or a function of the motion that returns a block.
+    charge_pressure : float or quantity
+        The line's pressure [Pa gauge] where it is charged.
+    at : float or quantity, optional
+        The stroke that a cylinder follows where the line is charged [m], 0 by default; other strokes at the sketch.
+    seal_friction : float or quantity, optional
+        What the seals take off that pressure [Pa], 0 by default.
+    exponent : float or quantity, optional
+        1, the default, is a slow movement by the block's own gas law. Above 1 the block has settled at the charge pressure and moves fast,
+        by p V^exponent.
     """
 
     cylinder: Feeds

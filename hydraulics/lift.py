@@ -61,11 +61,33 @@ class PumpLine(LiftLine):
         return [LiftingCylinder(judge, self, ram, unit) for ram in self.rams(judge.motion)]
 
     def questions(self, judge: Judge) -> list[Question]:
-        """Return the questions of each of its cylinders: whether it carries anything, lifts, holds; none where no load acts."""
+        """Return the questions of each of its cylinders: whether it carries anything, lifts, holds; none where no load acts.
+
+        Parameters
+        ----------
+        judge : Judge
+            The judge of the machine over its domains.
+
+        Returns
+        -------
+        list of Question
+            The questions.
+        """
         return [question for each in self.lifting_cylinders(judge) for question in each.questions()] if carries_loads(judge) else []
 
     def conditions(self, judge: Judge) -> Mapping[str, Condition]:
-        """Return that each of its cylinders lifts, holds and goes back; none where nothing is lifted."""
+        """Return that each of its cylinders lifts, holds and goes back; none where nothing is lifted.
+
+        Parameters
+        ----------
+        judge : Judge
+            The judge of the machine over its domains.
+
+        Returns
+        -------
+        mapping of str to Condition
+            The conditions by the rules' names.
+        """
         cylinders = self.lifting_cylinders(judge) if carries_loads(judge) else []
         if not cylinders or idle(cylinders) is not None:
             return {}
@@ -103,13 +125,23 @@ class PumpLine(LiftLine):
 class LiftCircuit(PumpLine):
     """A pump on a cylinder: `circuit = LiftCircuit(lift, pressure=180 * bar, flow=60 * litre / minute, mechanical_efficiency=0.9)`.
 
-    Several cylinders on one line, `LiftCircuit([lift, aux], ...)`, share one pressure and carry thrust by area. `pressure` is the
-    pump's highest, gauge [Pa], against which is lifted; `relief` that of the relief valve, against which is held (omitted: the
-    pump's); `flow` in m3/s; `back_pressure` that of the returning oil on the other side [Pa gauge]. In a class the numbers are design
-    variables such as `circuit.pressure`.
+    In a class its numbers are design variables such as `circuit.pressure`.
 
-    A `Pump` in the place of the pressure, `LiftCircuit(ram, supply)`, may feed other lines too. It is then on both sides of the cylinder,
-    and says all numbers but `relief` and `back_pressure`.
+    Parameters
+    ----------
+    cylinder : Cylinder, str or sequence of them
+        The cylinders on the line. Several, `LiftCircuit([lift, aux], ...)`, share one pressure and carry thrust by area.
+    pressure : float, quantity or Pump
+        The pump's highest pressure [Pa gauge], against which is lifted. A `Pump` may feed other lines too: then it is on both sides of the
+        cylinder and says all numbers but `relief` and `back_pressure`.
+    flow : float or quantity, optional
+        The pump's flow [m3/s], 0 where it does not matter.
+    mechanical_efficiency, hydraulic_efficiency : float or quantity, optional
+        The cylinder's and the line's efficiencies, 1 by default.
+    back_pressure : float or quantity, optional
+        The pressure of the returning oil on the other side [Pa gauge], 0 by default.
+    relief : float or quantity, optional
+        The relief valve's pressure [Pa gauge], against which is held; by default the pump's.
     """
 
     cylinder: Feeds
@@ -205,6 +237,18 @@ class LiftCircuit(PumpLine):
         return None if self.given(name) is None else (self, name)
 
     def oil(self, motion: Motion) -> Array:
+        """Return how much oil goes through the line over a motion, one value for each design.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses.
+
+        Returns
+        -------
+        array
+            The volume [m3].
+        """
         return self.taken(motion)
 
 

@@ -100,7 +100,13 @@ class Work:
 @final
 @immutable
 class Holding:
-    """Gauge pressures [Pa] that hold a load: on the working side, and on the other one where the load drives on."""
+    """Gauge pressures that hold a load.
+
+    Attributes
+    ----------
+    working, other : array
+        The pressures [Pa] of the working side, and of the other one where the load drives on.
+    """
 
     working: Array
     other: Array
@@ -109,10 +115,16 @@ class Holding:
 @final
 @immutable
 class Lowering:
-    """Going back against a load, gauge pressures [Pa].
+    """Gauge pressures while a machine goes back against a load.
 
-    `working` is what the load alone makes in the working side, `push` what the other side must give where that does not do,
-    `by_itself` whether it sinks without it (a mask).
+    Attributes
+    ----------
+    working : array
+        What the load alone makes in the working side [Pa].
+    push : array
+        What the other side must give where that does not do [Pa].
+    by_itself : array of bool
+        Whether it sinks without a push.
     """
 
     working: Array
@@ -149,12 +161,40 @@ class LiftLine(Circuit):
 
     @abstractmethod
     def says(self, name: str, members: NamedMembers) -> tuple[ForceElement, str] | None:
-        """Return the element with a number of the pump, the relief valve or the tank, and its name there; None without one."""
+        """Return the element with a number of the pump, the relief valve or the tank, and its name there; None without one.
+
+        Parameters
+        ----------
+        name : str
+            The name of the number, such as "pressure".
+        members : mapping of str to Member
+            The members of the class by name.
+
+        Returns
+        -------
+        tuple of ForceElement and str, optional
+            The element and the name.
+        """
 
     def number(self, motion: Poses, name: str) -> Array:
-        """Return such a number as a motion's designs have it [SI], the same at all poses: 0 where nothing says it.
+        """Return a number of the line as a motion's designs have it [SI], the same at all poses: 0 where nothing says it.
 
-        DefinitionError for one that follows a stroke.
+        Parameters
+        ----------
+        motion : Motion
+            The poses.
+        name : str
+            The name of the number, such as "pressure".
+
+        Returns
+        -------
+        array
+            The number.
+
+        Raises
+        ------
+        DefinitionError
+            The number follows a stroke.
         """
         require_poses(motion)
         found = self.says(name, motion.plan.members)

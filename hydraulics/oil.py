@@ -103,14 +103,29 @@ NUMBERS: Mapping[str, tuple[str, ...]] = MappingProxyType({
 class OilLine(PumpLine, GasLine):
     """Oil that joins chambers: `level = OilLine(master.piston_side, slave.piston_side, filled=dict(slave=0.72))`.
 
-    What is `on` it, beside chambers, says what is given. A `Pump` gives the volume, by the pose, so that the line is held. A `Tank` or
-    accumulators give the pressure. With nothing the line is closed: it keeps its oil and gives one of its cylinders its length,
-    `slave.length`. A bare cylinder stands for the side that it works with. A `Relief` may lie on any line.
+    Parameters
+    ----------
+    *on : Chamber, Cylinder, Pump, Tank, Accumulator, Relief or str
+        The chambers, and what says the pressure or the volume. A `Pump` gives the volume, by the pose, so that the line is held. A `Tank`
+        or accumulators give the pressure. With nothing the line is closed: it keeps its oil and gives one of its cylinders its length,
+        `slave.length`. A bare cylinder stands for the side that it works with. A `Relief` may lie on any line.
+    at : float or mapping of str to float, optional
+        The strokes [SI] at which the line is filled or charged; the sketch for strokes that are not named.
+    filled : str or mapping of str to float, optional
+        Instead of `at`, the lengths [m] of some cylinders there, or that all are "open" or "closed".
+    oil : float or quantity, optional
+        What was put in since [m3]: a number, a dimension or a Stroke; 0 by default.
+    make_up : float or quantity, optional
+        The pressure below which a closed line runs empty [Pa gauge], 0 by default.
+    charge_pressure : float or quantity, optional
+        The pressure to which accumulators are charged [Pa gauge].
+    seal_friction, exponent : float or quantity, optional
+        What the seals take off the gas's pressure [Pa], and the exponent of a fast movement, as of a FloatCircuit.
 
-    A line is filled, or charged with `charge_pressure` [Pa gauge], where strokes are `at` their values [SI]: a number or a dict, the
-    sketch for strokes that are not named. `filled` tells lengths of some cylinders there instead [m], or that all are "open" or "closed".
-    `oil` is what was put in since [m3], a number, a dimension or a Stroke. `make_up` is the pressure below which a closed line runs empty
-    [Pa gauge]. `seal_friction` [Pa] and `exponent` are those of a FloatCircuit.
+    Raises
+    ------
+    DefinitionError
+        What is on the line does not go together, or a word or a number is not known.
     """
 
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType(

@@ -48,11 +48,31 @@ class Supply(OnLines):
 class Pump(Supply, HasVerdicts):
     """A pump: `supply = Pump(180 * bar, flow=60 * litre / minute)`; it holds a line, whose pressure follows the pose.
 
-    `pressure` is its highest, gauge [Pa], `flow` in m3/s. In a class they are design variables such as `supply.pressure`. It may be on
-    several lines, `OilLine(ram.piston_side, supply)`, `LiftCircuit(ram, supply)`, which then share it. It gives the highest pressure that
-    one of them needs, and `margin` more [Pa], and no more than its `power` allows [W]. Where its flow is not enough each gets the same part
-    of what it asks for, "by demand", or those that need least get all first: `sharing="least pressure first"`. Lines, circuits or
-    cylinders that are named `first` are served before the others.
+    It may be on several lines, `OilLine(ram.piston_side, supply)`, `LiftCircuit(ram, supply)`, which then share it. It gives the highest
+    pressure that one of them needs. In a class its numbers are design variables such as `supply.pressure`.
+
+    Parameters
+    ----------
+    pressure : float or quantity
+        Its highest pressure [Pa gauge].
+    flow : float or quantity, optional
+        Its flow [m3/s], 0 where it does not matter.
+    mechanical_efficiency, hydraulic_efficiency : float or quantity, optional
+        The cylinders' and the lines' efficiencies, 1 by default.
+    power : float or quantity, optional
+        The most power that it has [W]; unlimited by default.
+    margin : float or quantity, optional
+        How much more pressure it gives than is needed [Pa], 0 by default.
+    sharing : {"by demand", "least pressure first"}, optional
+        Who gets oil where the flow is not enough. "by demand", the default, gives each the same part of what it asks for; else those that
+        need least get all first.
+    first : Member, str or sequence of them, optional
+        Lines, circuits or cylinders that are served before the others.
+
+    Raises
+    ------
+    DefinitionError
+        A number is negative, a word is not known, or what is `first` is not on this pump.
     """
 
     pressure: Parameter
@@ -185,7 +205,13 @@ class Pump(Supply, HasVerdicts):
 @final
 @immutable
 class Relief(Supply):
-    """A relief valve, which opens at a gauge pressure [Pa]: `valve = Relief(200 * bar)`; it may lie on any line."""
+    """A relief valve: `valve = Relief(200 * bar)`; it may lie on any line.
+
+    Parameters
+    ----------
+    pressure : float or quantity
+        The pressure at which it opens [Pa gauge].
+    """
 
     pressure: Parameter
     called: ClassVar[str] = "relief valve"
@@ -194,7 +220,13 @@ class Relief(Supply):
 @final
 @immutable
 class Tank(Supply):
-    """A tank, whose line has a given gauge pressure [Pa]: `back = Tank(5 * bar)`, none where it is open."""
+    """A tank, which gives its line a pressure: `back = Tank(5 * bar)`.
+
+    Parameters
+    ----------
+    pressure : float or quantity, optional
+        The pressure [Pa gauge], 0, of an open tank, by default.
+    """
 
     pressure: Parameter = 0.0
     called: ClassVar[str] = "tank"

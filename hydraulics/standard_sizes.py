@@ -314,11 +314,21 @@ class RamSize(ABC):
 @refuses_changes
 @dataclass(frozen=True)
 class CylinderSize(RamSize):
-    """`count` equal cylinders side by side, of a bore and a rod [m]; `works` is the side the pressure acts on.
+    """The size of equal cylinders side by side: areas, forces and flows without a machine.
 
-    A bore or rod may be an array over designs, for the numbers; the sentences and the offers are for one size.
+    Parameters
+    ----------
+    bore, rod : float or array
+        The diameters [m]. Arrays over designs give numbers; sentences and offers are for one size.
+    count : int, optional
+        How many cylinders there are, 1 by default.
+    works : {"piston", "rod", "both", "regenerative"}, optional
+        The side that the pressure acts on.
 
-    DefinitionError for a bore or rod not above zero, a rod not smaller than the bore, a count that is no positive integer.
+    Raises
+    ------
+    DefinitionError
+        A bore or rod is not above zero, a rod is not smaller than the bore, or the count is no positive integer.
     """
 
     bore: float | Array
@@ -431,7 +441,17 @@ MOST_ROWS = 1_000_000
 
 
 class CatalogueRow(NamedTuple):
-    """A cylinder of a catalogue: bore, rod, stroke and the closed distance of its pins [m]."""
+    """A cylinder of a catalogue.
+
+    Attributes
+    ----------
+    bore, rod : float
+        The diameters [m].
+    stroke : float
+        How far it comes out [m].
+    closed : float
+        The distance of its pins drawn in [m].
+    """
 
     bore: float
     rod: float

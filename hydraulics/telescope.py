@@ -66,12 +66,32 @@ class StageSize(RamSize):
 @final
 @immutable
 class Telescope(Ram):
-    """`count` equal telescopes side by side: `hoist = Telescope(A, B, bores=[145 * mm, 125 * mm], strokes=[1.0, 0.9], closed=1.3)`.
+    """Equal telescopes side by side: `hoist = Telescope(A, B, bores=[145 * mm, 125 * mm], strokes=[1.0, 0.9], closed=1.3)`.
 
-    `bores` are those on which the oil pushes the moving stages, the outermost first, and fall; `strokes` are how far each comes out of
-    the one before, `closed` the distance of the pins drawn in [m]. In a class they are the design variables `hoist.bore_1`,
-    `hoist.stroke_1`, ..., `hoist.closed`; a bore or stroke may follow dimensions. It is single acting: it pushes, and where the load
-    pulls at it no oil holds it. `mounting` and `safety` are for buckling, which is that of the thinnest stage that is out.
+    It is single acting: it pushes, and where the load pulls at it no oil holds it. What buckles is the thinnest stage that is out. In a
+    class its numbers are the design variables `hoist.bore_1`, `hoist.stroke_1`, ..., `hoist.closed`.
+
+    Parameters
+    ----------
+    A, B : Point or str
+        The pins of the barrel and of the last stage.
+    bores : sequence of float or quantity
+        The diameters [m] on which the oil pushes the moving stages, the outermost first, and fall.
+    strokes : sequence of float or quantity
+        How far each stage comes out of the one before [m].
+    closed : float or quantity
+        The distance of the pins drawn in [m].
+    count : int, optional
+        How many telescopes there are, 1 by default.
+    mounting : str, optional
+        How its ends are held against buckling, "pin-pin" by default.
+    safety : float, optional
+        The factor asked for against buckling, 3.5 by default.
+
+    Raises
+    ------
+    DefinitionError
+        Bores do not fall, there are not as many strokes as bores, or a size is not above zero.
     """
 
     A: Reference

@@ -42,9 +42,19 @@ ROUNDED = 5e-4
 class HoldingValve(OnLines, HasVerdicts):
     """A counterbalance valve: `valve = HoldingValve(lifting, pilot=other, setting=210 * bar, ratio=4)`.
 
-    It holds the oil in `line`, that of the loaded side. The pressure in `line` opens it, and `ratio` times that in `pilot`, the line of the
-    other side: p + ratio p_pilot = `setting` [Pa gauge]. While the load is lowered the pump pushes through the pilot line, whatever that is
-    on while it lifts. In a class setting and ratio are design variables, `valve.setting`, `valve.ratio`. It puts no force on the machine.
+    It holds the oil of the loaded side and puts no force on the machine. It opens where p + ratio p_pilot = setting. While the load is
+    lowered the pump pushes through the pilot line, whatever that is on while it lifts.
+
+    Parameters
+    ----------
+    line : OilLine or str
+        The line of the loaded side, in which it holds the oil.
+    pilot : OilLine or str
+        The line of the other side.
+    setting : float or quantity
+        The pressure that opens it without a pilot [Pa gauge], a design variable, `valve.setting`.
+    ratio : float or quantity
+        The pilot's area in parts of the valve's, a design variable, `valve.ratio`.
     """
 
     line: Reference

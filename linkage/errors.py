@@ -17,7 +17,15 @@ Result = TypeVar("Result")
 
 
 class LinkageError(Exception):
-    """The base of every error this framework raises on purpose; `member` is the name of the member that it is about, "" of none."""
+    """The base of every error that this framework raises on purpose.
+
+    Parameters
+    ----------
+    message : str, optional
+        What is wrong, where, and what to do.
+    member : str, optional
+        The name of the member that it is about, "" of none.
+    """
 
     def __init__(self, message: str = "", *, member: str = "") -> None:
         super().__init__(message)
@@ -49,8 +57,16 @@ class UntracedError(DefinitionError):
 class AssemblyError(LinkageError):
     """The mechanism cannot be assembled at some strokes.
 
-    `point` is the name of what could not be placed, `mask` marks the poses (True = not reached, the
-    shape of the motion), `shortfall` is the largest missing length [m] (NaN where it is not a length).
+    Parameters
+    ----------
+    message : str
+        What is wrong, where, and what to do.
+    point : str, optional
+        The name of what could not be placed.
+    mask : array of bool, optional
+        The poses that are not reached (True), of the shape of the motion.
+    shortfall : float, optional
+        The largest missing length [m], NaN where it is not a length.
     """
 
     def __init__(self, message: str, *, point: str = "", mask: npt.ArrayLike | None = None, shortfall: float = float("nan")) -> None:
@@ -63,7 +79,19 @@ class AssemblyError(LinkageError):
 
 
 class SingularError(AssemblyError):
-    """A ratio or a force was asked for at a singular pose; positions stay available in `motion`."""
+    """A ratio or a force was asked for at a singular pose.
+
+    Parameters
+    ----------
+    message : str
+        What is wrong, where, and what to do.
+    point : str, optional
+        The name of what has no ratio or force there.
+    mask : array of bool, optional
+        The singular poses (True), of the shape of the motion.
+    motion : Motion, optional
+        The motion, whose positions stay available.
+    """
 
     def __init__(self, message: str, *, point: str = "", mask: npt.ArrayLike | None = None, motion: object = None) -> None:
         super().__init__(message, point=point, mask=mask)
@@ -72,7 +100,15 @@ class SingularError(AssemblyError):
 
 
 class SingularWarning(UserWarning):
-    """A pose so near to a singular one that digits are lost; `estimate` is the relative error to expect, as the text says."""
+    """A pose so near to a singular one that digits are lost.
+
+    Parameters
+    ----------
+    message : str, optional
+        What loses digits, and where.
+    estimate : float, optional
+        The relative error to expect.
+    """
 
     def __init__(self, message: str = "", *, estimate: float = float("nan")) -> None:
         super().__init__(message)
@@ -127,9 +163,14 @@ class FileError(LinkageError):
 
 
 class StudyError(LinkageError):
-    """A study stopped before its end: the reason, and whether it can go on from there.
+    """A study stopped before its end.
 
-    `designs` are the first and the last design of the part that failed, where it was one of them; the cause is chained.
+    Parameters
+    ----------
+    message : str
+        The reason, and whether the study can go on from there.
+    designs : tuple of int, optional
+        The first and the last design of the part that failed, where it was one of them; the cause is chained.
     """
 
     def __init__(self, message: str, *, designs: tuple[int, int] | None = None) -> None:

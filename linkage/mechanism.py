@@ -166,8 +166,18 @@ class MechanismType(ABCMeta):
 class Mechanism(Shown, metaclass=MechanismType):
     """The base of every mechanism. A subclass declares points, links and strokes, one line each, in any order.
 
-    An instance is a design: `ThreePointHitch(OB=0.32)`; every keyword is a dimension by its name [SI], a float or
-    an array of designs. A subclass of a mechanism is a variant: it replaces members by name and adds others.
+    An instance is a design: `ThreePointHitch(OB=0.32)`. A subclass of a mechanism is a variant: it replaces members by name and adds
+    others.
+
+    Parameters
+    ----------
+    **dimensions : float or array
+        Dimensions by name [SI]: numbers, or arrays with one value for each design. The others are as the class has them.
+
+    Raises
+    ------
+    DefinitionError
+        A name is no dimension, a value is not finite or cannot be, or arrays do not broadcast.
     """
 
     plan: ClassVar[Plan] = Plan({}, "Mechanism")

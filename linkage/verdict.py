@@ -10,12 +10,23 @@ from .shown import Shown
 
 
 class Verdict(str, Shown):
-    """One rule: its name, whether it is kept, and a sentence with the numbers and, where it is not kept, the remedy.
+    """One rule of a machine, and whether it is kept.
 
-    As text it is one line, `ok   lifting: ...` or `FAIL lifting: ...`; it counts as true where the rule is kept, so that
-    `all(machine.verdicts(motion))` says whether everything is. Where nothing is left to judge `ok` is None: the line begins with `--`
-    and counts as not true. `answer` is what the judge found, None where the rule is of another kind;
-    `member` the name of the member that says it, "" for the machine.
+    As text it is one line, `ok   lifting: ...` or `FAIL lifting: ...`. It counts as true where the rule is kept, so that
+    `all(machine.verdicts(motion))` says whether everything is. `member` is the name of the member that says it, "" for the machine.
+
+    Parameters
+    ----------
+    rule : str
+        The name of the rule.
+    ok : bool, optional
+        Whether it is kept. None where nothing is left to judge: the line begins with `--` and counts as not true.
+    sentence : str
+        What is the case, with the numbers and, where the rule is not kept, the remedy.
+    heading : str, optional
+        The rule in the language that is spoken; from the catalogues where it is not given.
+    answer : Answer, optional
+        What the judge found; None where the rule is of another kind.
     """
 
     __slots__ = ("answer", "heading", "member", "ok", "rule", "sentence")
@@ -128,8 +139,13 @@ class Verdict(str, Shown):
 class Remark(Verdict):
     """A sentence about a machine that is no rule: something to know, neither kept nor broken.
 
-    It is printed as the sentence alone, its rule is "remark", its heading is empty and `ok` is None. It counts as true, so that
+    It is printed as the sentence alone. Its rule is "remark", its heading is empty and `ok` is None. It counts as true, so that
     `all(machine.verdicts())` asks the rules only.
+
+    Parameters
+    ----------
+    sentence : str
+        The sentence.
     """
 
     __slots__ = ()

@@ -79,11 +79,10 @@ def front_door() -> dict[str, list[str]]:
 
 
 def door_names(module: str) -> list[str]:
-    """Return the public names of a package's door."""
+    """Return the public classes, functions and values of a package's door."""
     door = import_module(module)
-    found = [name for name, value in vars(door).items() if not name.startswith("_") and not inspect.ismodule(value)]
-    own = [name for name in found if not inspect.isclass(getattr(door, name)) or getattr(door, name).__module__.startswith(module)]
-    return sorted(name for name in own if not isinstance(getattr(door, name), (str, int, float, dict, type(Path()))) and name != "Path")
+    plain_values = (str, int, float, dict, type(Path()))
+    return sorted(name for name in door.__all__ if not isinstance(getattr(door, name), plain_values))
 
 
 def entries(module: str, names: Sequence[str]) -> Iterator[str]:

@@ -31,18 +31,54 @@ LINKS = 200
 
 
 def load(path_or_text: str | os.PathLike[str], trust: Collection[str] = ()) -> type[Mechanism]:
-    """Return the class of mechanism that a TOML or JSON file says; a text is read as such where it has several lines or begins with `{`.
+    """Return the class of mechanism that a TOML or JSON file says.
 
-    A file is data and runs nothing: a class of steps or loads that it names by an import path, `kind = "mypackage.cams:CamFollower"`,
-    must be imported already, or its package stand in `trust`, as in `load(path, trust=["mypackage"])`: then it is imported.
-    Raises FileError with every mistake, its key and, in TOML, its line; AssemblyError for a mechanism that cannot be assembled.
+    A file is data and runs nothing. A class of steps or loads that it names by an import path, `kind = "mypackage.cams:CamFollower"`, must
+    be imported already, or its package be trusted.
+
+    Parameters
+    ----------
+    path_or_text : str or Path
+        The file; a text is read as such where it has several lines or begins with `{`.
+    trust : collection of str, optional
+        Packages that may be imported, `trust=["mypackage"]`.
+
+    Returns
+    -------
+    type of Mechanism
+        The class.
+
+    Raises
+    ------
+    FileError
+        The file has mistakes; each is named with its key and, in TOML, its line.
+    AssemblyError
+        The mechanism cannot be assembled.
     """
     found = source(path_or_text)
     return built(found.data, found.faults, trusted(trust), found.folder)
 
 
 def from_dict(data: Mapping[str, object], trust: Collection[str] = ()) -> type[Mechanism]:
-    """Return the class of mechanism that tables say, as `load` has them from a file. `trust` and errors are those of `load`."""
+    """Return the class of mechanism that tables say, as `load` has them from a file.
+
+    Parameters
+    ----------
+    data : mapping of str to object
+        The tables.
+    trust : collection of str, optional
+        Packages that may be imported, as of `load`.
+
+    Returns
+    -------
+    type of Mechanism
+        The class.
+
+    Raises
+    ------
+    FileError
+        The tables have mistakes; each is named with its key.
+    """
     return built(data, Faults(source="the tables"), trusted(trust))
 
 

@@ -28,7 +28,20 @@ WIDTH = 120
 def to_dict(machine: Machine) -> Keywords:
     """Return a mechanism as tables of plain values; an instance's changed dimensions are the new defaults.
 
-    Raises DefinitionError for what a file cannot hold: several designs at once, members and functions of unknown kinds.
+    Parameters
+    ----------
+    machine : Mechanism or type of Mechanism
+        The machine, a design or a class.
+
+    Returns
+    -------
+    mapping of str to object
+        The tables.
+
+    Raises
+    ------
+    DefinitionError
+        A file cannot hold it: several designs at once, members and functions of unknown kinds.
     """
     if not isinstance(machine, Mechanism) and not is_class_of(machine, Mechanism):
         raise DefinitionError(f"{shortened(machine)} is no mechanism; give a class of Mechanism, or a design of one.")
@@ -74,7 +87,18 @@ def head_table(machine: Machine, order: list[str]) -> Keywords:
 
 
 def left_out(machine: Machine) -> tuple[str, ...]:
-    """Return the names in a class that a file does not hold: functions, checks, values of its own."""
+    """Return the names in a class that a file does not hold: functions, checks, values of its own.
+
+    Parameters
+    ----------
+    machine : Mechanism or type of Mechanism
+        The machine, a design or a class.
+
+    Returns
+    -------
+    tuple of str
+        The names.
+    """
     cls: Any = type(machine) if isinstance(machine, Mechanism) else machine
     if not is_class_of(cls, Mechanism):
         require_mechanism(cls)
@@ -84,12 +108,44 @@ def left_out(machine: Machine) -> tuple[str, ...]:
 
 
 def to_toml(machine: Machine) -> str:
-    """Return a mechanism as TOML text; numbers are exact. DefinitionError for values that a file cannot hold."""
+    """Return a mechanism as TOML text; numbers are exact.
+
+    Parameters
+    ----------
+    machine : Mechanism or type of Mechanism
+        The machine, a design or a class.
+
+    Returns
+    -------
+    str
+        The text.
+
+    Raises
+    ------
+    DefinitionError
+        A file cannot hold some of its values.
+    """
     return "\n\n".join(toml_blocks(to_dict(machine), "")) + "\n"
 
 
 def to_json(machine: Machine) -> str:
-    """Return a mechanism as JSON text; numbers are exact. DefinitionError for values that a file cannot hold."""
+    """Return a mechanism as JSON text; numbers are exact.
+
+    Parameters
+    ----------
+    machine : Mechanism or type of Mechanism
+        The machine, a design or a class.
+
+    Returns
+    -------
+    str
+        The text.
+
+    Raises
+    ------
+    DefinitionError
+        A file cannot hold some of its values.
+    """
     sections = []
     for name, value in to_dict(machine).items():
         text = json_inline(value)
@@ -102,7 +158,17 @@ def to_json(machine: Machine) -> str:
 def save(machine: Machine, path: str | os.PathLike[str]) -> None:
     """Write a mechanism into a file, TOML or JSON by its ending; an existing file is replaced whole.
 
-    FileError where it cannot be written: an existing file is then left as it was.
+    Parameters
+    ----------
+    machine : Mechanism or type of Mechanism
+        The machine, a design or a class.
+    path : str or Path
+        The file.
+
+    Raises
+    ------
+    FileError
+        The file cannot be written: an existing one is then left as it was.
     """
     writers = {".toml": to_toml, ".json": to_json}
     if not isinstance(path, (str, os.PathLike)):

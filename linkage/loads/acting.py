@@ -30,10 +30,22 @@ STEEPEST = 0.5 * pi * (1.0 + 1e-9)
 class LoadCase(Member):
     """A named choice of loads: `transport = LoadCase("transport", scale={"load": 2.0}, slope=10 * deg)`.
 
-    `scale` multiplies loads by name, 0 leaves one out; `only` keeps those named and leaves out all others. `gravity` (x, y)
-    [m/s2] replaces every element's own; without it each keeps its own. `slope` [rad] turns the gravity that applies: positive where the
-    ground rises towards +x, so that weights also pull towards -x. `shut` names lines of oil or gas whose valves are shut: at each pose
-    such a line keeps what it has there, holds, and its pressure is what the loads make of it.
+    Parameters
+    ----------
+    title : str, optional
+        How it is called in texts.
+    scale : mapping of str to float, optional
+        Factors of loads by name; 0 leaves one out.
+    only : sequence of Member or str, optional
+        The loads that are kept; all others are left out.
+    slope : float, optional
+        The ground's slope [rad], 0 by default. It turns gravity: positive where the ground rises towards +x, so that weights also pull
+        towards -x.
+    gravity : tuple of float, optional
+        The gravity (x, y) [m/s2] of every element; without it each keeps its own.
+    shut : sequence of Member or str, optional
+        Lines of oil or gas whose valves are shut. At each pose such a line keeps what it has there and holds; its pressure is what the
+        loads make of it.
     """
 
     kind: ClassVar[str] = "load case"
@@ -210,11 +222,22 @@ StrokeRates: TypeAlias = Mapping[str, ArrayLike] | Literal["as it runs"] | None
 class Acting:
     """The situation in which forces are asked for: `Acting(case="full", direction="extending", drive="S")`.
 
-    `loads` are the machine's own where None, `case` a LoadCase or its name, `direction` one of DIRECTIONS, `rates` the speeds of strokes
-    [1/s], `drive` the stroke that moves where several could. In a plain value None is no case and no friction; where something is judged,
-    None of case or direction means all that occur. `accelerations` [1/s2] are how rates change. Without both a motion in time gives its
-    own. AS_IT_RUNS says this too, and makes them inputs of a program. The inertia of masses counts where accelerations are known;
-    `inertia=False` leaves it out, `inertia=True` insists on it.
+    Parameters
+    ----------
+    loads : sequence of ForceElement or str, optional
+        The loads; by default the machine's own.
+    case : LoadCase or str, optional
+        The load case. In a plain value None is no case; where something is judged, all that occur.
+    direction : {"extending", "retracting", "frictionless"}, optional
+        The direction of motion. In a plain value None is without friction; where something is judged, all that occur.
+    rates : mapping of str to float, optional
+        The speeds of strokes [1/s]; by default those of a motion in time. `AS_IT_RUNS` says this too, and makes them inputs of a program.
+    drive : str, optional
+        The stroke that moves, where several could.
+    accelerations : mapping of str to float, optional
+        How the rates change [1/s2]; by default those of a motion in time.
+    inertia : bool, optional
+        Whether the inertia of masses counts: by default where accelerations are known. True insists on it, False leaves it out.
     """
 
     loads: Loads = None

@@ -29,10 +29,19 @@ Kind = TypeVar("Kind", bound=Member)
 @final
 @dataclass(frozen=True, eq=False)
 class Load:
-    """A force [N], shape (2, ...), that acts at a point; the rest of its shape broadcasts against the motion's.
+    """A force that acts at a point, as a force element gives it to statics.
 
-    At a pin that several bodies share it acts on the body that carries the pin: the frame, else the one declared first. `on` names another
-    body by two of its points, or a two-point element by its name.
+    Parameters
+    ----------
+    point : str
+        The name of the point.
+    force : array (2, ...)
+        The force [N]; the rest of its shape broadcasts against the motion's.
+    on : tuple of str, optional
+        The body that it acts on, by two of its points, or a two-point element by its name. By default that which carries the pin: the
+        frame, else the body that is declared first.
+    element : str, optional
+        The name of the element that it comes from.
     """
 
     point: str

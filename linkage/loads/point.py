@@ -24,9 +24,16 @@ DOWN = (0.0, -g0)  # gravity, m/s2
 @final
 @immutable
 class Weight(ForceElement):
-    """The weight of a mass [kg] at a point: `load = Weight(G, mass=1200)`. Where it is accelerated, its inertia acts too.
+    """The weight of a mass at a point: `load = Weight(G, mass=1200)`. Where it is accelerated, its inertia acts too.
 
-    `gravity` (x, y) [m/s2] is 9.80665 downwards unless another is given; a load case may replace or turn it.
+    Parameters
+    ----------
+    point : Point or str
+        The point.
+    mass : float or quantity
+        The mass [kg], a design variable.
+    gravity : tuple of float, optional
+        The gravity (x, y) [m/s2], 9.80665 downwards by default; a load case may replace or turn it.
     """
 
     point: Reference
@@ -100,9 +107,14 @@ class Directed(ForceElement):
 @final
 @immutable
 class Force(Directed):
-    """A force (x, y) [N] at a point, its direction fixed to the frame: `pull = Force(F, (-5 * kN, 0))`.
+    """A force at a point, its direction fixed to the frame: `pull = Force(F, (-5 * kN, 0))`.
 
-    Its parts are design variables: `pull.x`, `pull.y`, or `pull=(x, y)` at once.
+    Parameters
+    ----------
+    point : Point or str
+        The point.
+    vector : tuple of float or quantity
+        The parts (x, y) [N], design variables: `pull.x`, `pull.y`, or `pull=(x, y)` at once.
     """
 
     point: Reference
@@ -140,13 +152,23 @@ class Force(Directed):
 @final
 @immutable
 class Support(Directed):
-    """A support that pushes a point along a direction (x, y), such as the ground under a shoe: `shoe = Support(R, (0, 1))`.
+    """A support that pushes a point along a direction, such as the ground under a shoe: `shoe = Support(R, (0, 1))`.
 
-    Its reaction is what `reaction(motion, loads, support)` finds. `force` [N] is the one it is taken to have elsewhere:
-    none, unless it is given. Of the direction only the sense counts, not the length.
+    Its reaction is what `reaction(motion, loads, support)` finds. Under a fixed point it bears the frame, a vehicle with a Weight at fixed
+    points, and its reaction is an axle load.
 
-    Under a fixed point it bears the frame, a vehicle with a Weight at fixed points, and its reaction is an axle load. Three or more such
-    supports say their `stiffness` [N/m]; `friction`, a coefficient, is what the ground holds along itself.
+    Parameters
+    ----------
+    point : Point or str
+        The point.
+    direction : tuple of float
+        The direction (x, y), of which only the sense counts.
+    force : float or quantity, optional
+        The force [N] that it is taken to have where its reaction is not looked for, 0 by default.
+    stiffness : float or quantity, optional
+        The stiffness [N/m], which three or more supports of a frame need.
+    friction : float or quantity, optional
+        The coefficient of friction by which the ground holds along itself.
     """
 
     point: Reference
@@ -320,7 +342,15 @@ class OnBody(ForceElement):
 @final
 @immutable
 class Moment(OnBody):
-    """A moment M [Nm] on a body, counter-clockwise: `drag = Moment(arm, M=-250)` or `Moment("O B", M=-250)`."""
+    """A moment on a body: `drag = Moment(arm, M=-250)` or `Moment("O B", M=-250)`.
+
+    Parameters
+    ----------
+    link : Link or str
+        The body, or the names of two of its points.
+    M : float or quantity
+        The moment [N m], counter-clockwise, a design variable.
+    """
 
     link: Body
     M: Parameter
@@ -342,13 +372,23 @@ class Moment(OnBody):
 @final
 @immutable
 class LinkMass(OnBody):
-    """A body's own mass [kg] at its centre of gravity: `own = LinkMass("E D F", mass=30)`.
+    """A body's own mass at its centre of gravity: `own = LinkMass("E D F", mass=30)`.
 
-    `at=(along, across)` [m] is that centre in the body's axes: from its first point towards the second, and to the left.
-    Without it the centre lies in the middle of the points named, as that of a uniform bar does; each point bears an equal
-    share, so that the mass of a cylinder or a telescope goes out with its ends. `gravity` (x, y) [m/s2] as for a Weight.
-    `inertia` [kg m2] is the body's own about that centre. With `at` and without it the mass is a point. Two points without
-    `at` are a uniform bar, also one that stretches. Three and more have equal masses.
+    Parameters
+    ----------
+    link : Link or str
+        The body, or the names of its points.
+    mass : float or quantity
+        The mass [kg], a design variable.
+    at : tuple of float, optional
+        The centre (along, across) [m] in the body's axes: from its first point towards the second, and to the left. By default it lies in
+        the middle of the points named. Each then bears an equal share, so that the mass of a cylinder or a telescope goes out with its
+        ends.
+    gravity : tuple of float, optional
+        The gravity (x, y) [m/s2], as for a Weight.
+    inertia : float or quantity, optional
+        The body's own moment of inertia about that centre [kg m2]. Without it the mass is a point where `at` is given, two points are a
+        uniform bar, also one that stretches, and three and more have equal masses.
     """
 
     link: Body
@@ -424,9 +464,18 @@ THICKEST = 3.0
 @final
 @immutable
 class PinFriction(ForceElement):
-    """Friction in a pin of a radius [m]: the moment coefficient * radius * pin force, against the relative turning.
+    """Friction in a pin: the moment coefficient * radius * pin force, against the relative turning.
 
     A pin of more than two bodies sits fast in the first of them (the frame, if it is one): the others turn on it.
+
+    Parameters
+    ----------
+    point : Point or str
+        The pin.
+    radius : float or quantity
+        The pin's radius [m].
+    coefficient : float or quantity
+        The coefficient of friction.
     """
 
     point: Reference
@@ -456,7 +505,14 @@ class PinFriction(ForceElement):
 class GuideFriction(ForceElement):
     """Friction of a point on the guides and slots it runs on: coefficient * normal force, against the relative sliding.
 
-    `guide` names one of them, where the point runs on several.
+    Parameters
+    ----------
+    point : Point or str
+        The point that slides.
+    coefficient : float or quantity
+        The coefficient of friction.
+    guide : Guide or str, optional
+        One of its guides, where the point runs on several.
     """
 
     point: Reference

@@ -30,8 +30,14 @@ from .element import Array, ForceElement, Glyph, Load, Parameter, Poses
 class Pulley(ForceElement):
     """A pulley that turns freely about a point, for a Rope: `sheave = Pulley(B, radius=80 * mm, side=LEFT)`.
 
-    `radius` is that at which the rope lies [m], a design variable, `sheave.radius`. On the `side` LEFT the rope that comes along turns
-    left around it, so that the pulley stands to its left; on RIGHT it turns right. Several ropes may run over it.
+    Parameters
+    ----------
+    point : Point or str
+        The point about which it turns. Several ropes may run over it.
+    radius : float or quantity
+        The radius at which the rope lies [m], a design variable, `sheave.radius`.
+    side : Side or str
+        On LEFT the rope that comes along turns left around it, so that the pulley is to its left; on RIGHT it turns right.
     """
 
     point: Reference

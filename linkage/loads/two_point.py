@@ -56,7 +56,22 @@ class TwoPoint(ForceElement):
 
     @abstractmethod
     def push(self, motion: Poses, length: Array, rate: Array) -> Array:
-        """Return the thrust [N] at a length [m] that grows at a rate [m/s], 0 at rest; positive where it pushes the ends apart."""
+        """Return the thrust [N] at a length [m] that grows at a rate [m/s], 0 at rest; positive where it pushes the ends apart.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses.
+        length : array
+            The length [m].
+        rate : array
+            How fast it grows [m/s], 0 at rest.
+
+        Returns
+        -------
+        array
+            The thrust [N].
+        """
 
     def joints(self) -> tuple[Joint, ...]:
         return tuple(pinned(point) for point in self.ends)
@@ -142,10 +157,21 @@ def refuse_coincidence(push: Push, length: Array) -> None:
 @final
 @immutable
 class Spring(TwoPoint):
-    """A straight spring from A to B: `relief = Spring(A, B, stiffness=20e3, free_length=0.4)`; thrust -stiffness (AB - free_length) [N].
+    """A straight spring from A to B: `relief = Spring(A, B, stiffness=20e3, free_length=0.4)`.
 
-    Stiffness in N/m. Instead of the free length [m] its `preload` may be given: its pull [N] at the sketch pose, which is where the
-    strokes start unless the class says `drawn(...)`; a negative one pushes.
+    Its thrust is -stiffness (AB - free_length) [N].
+
+    Parameters
+    ----------
+    A, B : Point or str
+        Its ends.
+    stiffness : float or quantity
+        The stiffness [N/m].
+    free_length : float or quantity, optional
+        The length without a force [m].
+    preload : float or quantity, optional
+        Instead of the free length, its pull [N] at the sketch pose; a negative one pushes. That pose is where the strokes start unless the
+        class says `drawn(...)`.
     """
 
     A: Reference
@@ -174,7 +200,15 @@ class Spring(TwoPoint):
 @final
 @immutable
 class Damper(TwoPoint):
-    """A viscous damper from A to B: thrust -coefficient d(AB)/dt [N], the coefficient in N s/m; nothing at rest."""
+    """A viscous damper from A to B: its thrust is -coefficient d(AB)/dt [N], nothing at rest.
+
+    Parameters
+    ----------
+    A, B : Point or str
+        Its ends.
+    coefficient : float or quantity
+        The coefficient [N s/m].
+    """
 
     A: Reference
     B: Reference
@@ -190,7 +224,15 @@ class Damper(TwoPoint):
 @final
 @immutable
 class Actuator(TwoPoint):
-    """A thrust that is known, from A to B: `push = Actuator(A, B, force=12 * kN)` [N], positive where it pushes the ends apart."""
+    """A thrust that is known, from A to B: `push = Actuator(A, B, force=12 * kN)`.
+
+    Parameters
+    ----------
+    A, B : Point or str
+        Its ends.
+    force : float or quantity
+        The thrust [N], positive where it pushes the ends apart.
+    """
 
     A: Reference
     B: Reference
@@ -204,9 +246,17 @@ class Actuator(TwoPoint):
 @final
 @immutable
 class Between(TwoPoint):
-    """A law of one's own from A to B: `strut = Between(A, B, law)`, `law(length, rate)` gives the thrust [N] from m and m/s.
+    """A law of one's own from A to B: `strut = Between(A, B, law)`.
 
-    A gas strut, a chain that only pulls, a bump stop: plain arithmetic on arrays, `np.where` and `np.maximum` where it has branches.
+    It makes a gas strut, a chain that only pulls, or a bump stop.
+
+    Parameters
+    ----------
+    A, B : Point or str
+        Its ends.
+    law : callable
+        `law(length, rate)` gives the thrust [N] from m and m/s: plain arithmetic on arrays, with `np.where` and `np.maximum` where it has
+        branches.
     """
 
     A: Reference

@@ -58,10 +58,36 @@ PER_DESIGN = ("value", "ok", "status", "case", "direction", "drive", "side", "ov
 class Answer:
     """The judge's answer to one question: the worst over all places that were looked at. For a batch, arrays over its designs.
 
-    `value` [SI], infinite where it is unbounded and NaN where there is none; `ok` True, False or None, for a bare measure and where
-    nothing is left to judge, which `status` says. `strokes` say where [m or rad], `case`, `direction`, `drive`, `side` and `over` in which
-    situation, "" where there is one only. `unlimited` and `outside` are shares of the places looked at. `width` is the part of each
-    stroke that the place may be broad at the least to be found, `count` the number of poses looked at.
+    Attributes
+    ----------
+    question : object
+        What was asked.
+    value : float or array
+        The worst value [SI]: infinite where it is unbounded, NaN where there is none.
+    ok : bool or array, optional
+        Whether the condition is met. It is None where only a measure was asked for, and where nothing is left to judge.
+    status : str or array
+        "value", "lost" where the machine cannot be assembled, "unbounded", or "nothing left" to judge.
+    strokes : mapping of str to float or array
+        Where the worst is [m or rad].
+    case, direction, drive, side, over : str or array
+        In which situation it is; "" where there is one only.
+    lost : Lost
+        Where the machine cannot be assembled.
+    unlimited, outside : float
+        The shares of the places looked at without a limit, and outside of the conditions on poses.
+    width : mapping of str to float
+        How broad the worst place has to be at the least to be found, in parts of each stroke.
+    count : int
+        The number of poses looked at.
+    units : mapping of str to str
+        The units in which strokes are shown.
+    measures : str
+        What is measured, which says in which unit the value is shown.
+    time : float or array
+        The instant [s] over a path in time, else NaN.
+    named : frozenset of str
+        What sentences have to name, since there are several: "case", "direction", "drive", "side", "over".
     """
 
     question: object

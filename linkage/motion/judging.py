@@ -63,19 +63,63 @@ class HasVerdicts(Member):
     """What a page calls it above its verdicts, in English as the catalogues have it."""
 
     def questions(self, judge: Judge) -> list[Question]:
-        """Return the questions of its verdicts, so that one pass over the machine answers those of all members."""
+        """Return the questions of its verdicts, so that one pass over the machine answers those of all members.
+
+        Parameters
+        ----------
+        judge : Judge
+            The judge of the machine over its domains.
+
+        Returns
+        -------
+        list of Question
+            The questions.
+        """
         return list(self.conditions(judge).values())
 
     def conditions(self, judge: Judge) -> Mapping[str, Condition]:
-        """Return those of its rules that are plain conditions, by the rules' names; a live page evaluates them for a changed design."""
+        """Return those of its rules that are plain conditions, by the rules' names; a live page evaluates them for a changed design.
+
+        Parameters
+        ----------
+        judge : Judge
+            The judge of the machine over its domains.
+
+        Returns
+        -------
+        mapping of str to Condition
+            The conditions by the rules' names.
+        """
         return {}
 
     def page_words(self, judge: Judge) -> Mapping[str, PageWords]:
-        """Return how a page says those conditions of a changed design, by their rules, where it is not with the condition's own number."""
+        """Return how a page says those conditions of a changed design, by their rules, where it is not with the condition's own number.
+
+        Parameters
+        ----------
+        judge : Judge
+            The judge of the machine over its domains.
+
+        Returns
+        -------
+        mapping of str to PageWords
+            The words by the rules' names.
+        """
         return {}
 
     def load_limits(self, judge: Judge) -> Mapping[str, Condition]:
-        """Return those conditions that limit a load in charts: all, except those that the bounds of forces contain already."""
+        """Return those conditions that limit a load in charts: all, except those that the bounds of forces contain already.
+
+        Parameters
+        ----------
+        judge : Judge
+            The judge of the machine over its domains.
+
+        Returns
+        -------
+        mapping of str to Condition
+            The conditions by the rules' names.
+        """
         return self.conditions(judge)
 
     def load_remarks(self, judge: Judge) -> Mapping[str, Condition]:

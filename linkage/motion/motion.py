@@ -42,11 +42,36 @@ Kind = TypeVar("Kind", bound=Member)
 class Motion(Shown):
     """The poses of a mechanism: all positions, worked out at once; ratios and outputs when asked.
 
-    Arrays are component-first, designs before strokes: a position has the shape (2, *designs, *strokes).
-    Raises AssemblyError where a pose cannot be assembled, unless `unreachable="nan"`. With `per_design` the arrays of strokes begin with
-    the shape of the designs, each of which has strokes of its own. `joining` says how angles are made continuous. `tangent` is how several
-    strokes go on along a path, `over` the declared `Over` that a sweep keeps, `rate_inputs` as a Grid takes them. Of a path in time
-    `instants` say when its poses are passed.
+    `machine.sweep` and `machine.at` make it. Arrays are component-first, designs before strokes: a position has the shape
+    (2, *designs, *strokes).
+
+    Parameters
+    ----------
+    plan : Plan
+        The bound members of the class.
+    designs : mapping of str to float or array
+        Dimensions by name [SI].
+    strokes : mapping of str to array
+        Strokes by name [m or rad].
+    unreachable : {"raise", "nan"}, optional
+        What is done about poses that cannot be assembled.
+    per_design : bool, optional
+        Whether the arrays of strokes begin with the shape of the designs, each of which has strokes of its own.
+    joining : Joining, optional
+        How angles are made continuous.
+    tangent : mapping of str to array, optional
+        How several strokes go on along a path.
+    over : Over, optional
+        The declared `Over` that a sweep keeps.
+    rate_inputs : mapping of str to array, optional
+        Rates and accelerations, as a Grid takes them.
+    instants : Instants, optional
+        When the poses of a path in time are passed.
+
+    Raises
+    ------
+    AssemblyError
+        A pose cannot be assembled, unless `unreachable="nan"`.
     """
 
     _limits_of: ClassVar[Callable[[Any], Limits]] = stroke_search.limits

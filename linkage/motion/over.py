@@ -34,16 +34,27 @@ ALLOWED = "allowed"
 class Over(Member):
     """The domain of a machine. Declared in the class it is where the machine really runs: `loading = Over.path(phi=[...], t=[...])`.
 
-    `machine.sweep(101, over="loading")` is the motion along it: what is drawn, animated and reported of that motion runs there.
+    `Over(phi=(15 * deg, 80 * deg), t=0.0)` is a box. `Over.path(phi=[...], psi=[...])` are straight legs through places in this order, and
+    `Over.poses(...)` these poses and nothing between. `Over.path(time=[0, 2, 4], phi=[...])` is a path in time [s], and so is one with a
+    `Course`, a `ramp` or a `Curve` over time for a stroke: then rates and accelerations are known, and the machine moves as it runs.
+    `machine.sweep(101, over="loading")` is the motion along it.
 
-    `Over(phi=(15 * deg, 80 * deg), t=0.0)` is a box: a pair runs, a number is held, strokes that are not named run over their range.
-    `Over.path(phi=[...], psi=[...])` are straight legs through places in this order, `Over.poses(...)` these poses and nothing between.
-    `Over.path(time=[0, 2, 4], phi=[...], psi=[...])` is a path in time [s], and so is one with a `Course`, a `ramp` or a `Curve` over time
-    for a stroke: then rates and accelerations are known, and the machine moves as it runs.
+    Parameters
+    ----------
+    only : condition or sequence of conditions, optional
+        Conditions on poses, `only=[x("T") <= 4]`: poses outside of them are not looked at.
+    cases : sequence of LoadCase or str, optional
+        The load cases that occur there, "plain" for the machine's own loads; by default all declared and the plain one.
+    lost : str, optional
+        With "allowed", places that cannot be assembled are part of the machine.
+    **strokes : float, quantity, str or pair of them
+        Strokes by name [SI]: a pair runs, a number is held. Strokes that are not named run over their range. Ends may be quantities of the
+        design, or their names.
 
-    `only=[x("T") <= 4]` are conditions on poses: what lies outside is not asked. `cases=("full",)` are the load cases that occur there,
-    "plain" the machine's own loads; default all declared and the plain one. With `lost="allowed"` places that cannot be assembled are
-    part of the machine. Values in SI; the ends of a box and the places of a path may be quantities of the design, or their names.
+    Raises
+    ------
+    DefinitionError
+        A range, a condition, a case or a word is not what it can be.
     """
 
     kind: ClassVar[str] = "over"

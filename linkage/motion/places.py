@@ -613,11 +613,26 @@ class BranchSearch:
 
 @final
 class Target:
-    """A value [SI] that a quantity is to have at a pose: `Target(y("F"), 0.45, S=0.05)`, `Target("tilt", 0.0, unit="deg", S=0.05)`.
+    """A value that a quantity is to have at a pose: `Target(y("F"), 0.45, S=0.05)`, `Target("tilt", 0.0, unit="deg", S=0.05)`.
 
-    The quantity is an output, a quantity or a request. `within` says how far off it may be [SI], by default 1 mm, 0.1 deg, or a
-    thousandth: where nothing gives all targets, misses are weighed by it. `unit` is that of the words. Where strokes are looked for,
-    in `strokes_for` and `follow`, it says none; there angles count modulo a turn. In `follow` the value may be an array (places,).
+    Parameters
+    ----------
+    quantity : str, quantity or request
+        An output's name, a quantity or a request.
+    value : float or array
+        The value [SI]; in `follow` also an array (places,).
+    within : float, optional
+        How far off it may be [SI], by default 1 mm, 0.1 deg, or a thousandth. Where nothing gives all targets, misses are weighed by it.
+    unit : str, optional
+        The unit in which sentences show it.
+    **strokes : float
+        The pose, strokes by name [m or rad]. Where strokes are looked for, in `strokes_for` and `follow`, there are none, and angles count
+        modulo a turn.
+
+    Raises
+    ------
+    DefinitionError
+        The value is not finite, or `within` is not above zero.
     """
 
     def __init__(
@@ -792,10 +807,20 @@ class StrokeRows(np.ndarray[Any, np.dtype[np.float64]]):
 class Positions:
     """The strokes that give some targets: all branches within the ends of the strokes, ascending by the first stroke.
 
-    `strokes` [m or rad] has one row for each branch, with the strokes that are held. `condition` is the condition number of the targets by
-    the strokes in their natural sizes, infinite at a dead point. `misses` is by how much each target is exceeded [SI]. `met` is whether
-    there is a branch. Without one, `nearest` is the row of the pose within the ends at which least is missing, None if nothing can be
-    assembled. `misses` then has its one row, and `sentence` says which stroke would be past which end, by how much.
+    Attributes
+    ----------
+    strokes : mapping of str to array (branches,)
+        One value for each branch [m or rad], with the strokes that are held.
+    condition : array (branches,)
+        The condition number of the targets by the strokes in their natural sizes, infinite at a dead point.
+    met : bool
+        Whether there is a branch.
+    misses : array (branches, targets)
+        By how much each target is exceeded [SI]. Without a branch the one row is that of `nearest`.
+    nearest : mapping of str to array, optional
+        Without a branch, the pose within the ends at which least is missing; None if nothing can be assembled.
+    sentence : str
+        How many branches there are, or which stroke would be past which end, by how much.
     """
 
     strokes: StrokeRows

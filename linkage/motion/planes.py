@@ -37,11 +37,16 @@ Pair = tuple[str, str]
 class Planes(HasVerdicts):
     """Which bodies lie in one plane, plane by plane across the machine: `planes = Planes("OBC AB", "CD EDF", width=60 * mm)`.
 
-    A body goes by its points, its Link, its cylinder or spring, an outline by its name; one may stand in several planes, and what is not
-    named lies in all. `width` [m] is the sum of the half widths of two bars, a design variable by the name `planes.width`; plates count as
-    their points' convex hull, a body with closed outlines on it as these. Its verdict is the `clearance`, the least gap over all that the
-    machine runs. It counts bodies in a common plane that share no pin, the outlines of two that share one, and pins that pass through a
-    plane.
+    Its verdict is the `clearance`, the least gap over all that the machine runs. It counts bodies in a common plane that share no pin, the
+    outlines of two that share one, and pins that pass through a plane.
+
+    Parameters
+    ----------
+    *planes : str
+        The bodies of each plane: a body by its points, its Link, its cylinder or spring, an outline by its name. One may be in several
+        planes, and what is not named lies in all. Plates count as the convex hull of their points, a body with closed outlines as these.
+    width : float or quantity, optional
+        The sum of the half widths of two bars [m], 0 by default; a design variable, `planes.width`.
     """
 
     kind = "planes"

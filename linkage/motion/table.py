@@ -34,11 +34,20 @@ LEAST = 1e-9
 @refuses_changes
 @dataclass(frozen=True, eq=False)
 class Column:
-    """Values in SI, shape (...), and the unit they are read in; a unit of "" is a plain number.
+    """A column of results: values in SI and the unit that they are read in.
 
-    `request` is what a machine is asked for to have them, where that is known: a page in a browser works them out again by it.
-
-    In a chosen system of units, `linkage.units.unit_system`, they are shown in the unit of that.
+    Parameters
+    ----------
+    name : str
+        The heading.
+    values : array
+        The values [SI].
+    unit : str, optional
+        The unit in which they are shown, "" for a plain number. In a chosen system, `linkage.units.unit_system`, that of the system.
+    digits : int, optional
+        The significant digits, 4 by default.
+    request : request, optional
+        What a machine is asked for to have them, where that is known: a page in a browser works them out again by it.
     """
 
     name: str
@@ -176,10 +185,35 @@ class Tabled(Member):
         """Return its columns under the machine's own loads; the table adds its name to theirs where several members have them.
 
         The motion was asked for with `unreachable="nan"`: values are NaN where there is none.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses.
+
+        Returns
+        -------
+        list of Column
+            The columns.
         """
 
     def columns_in(self, motion: Motion, case: LoadCase | str | None = None, direction: str | None = None) -> list[Column]:
-        """Return its columns in a load case, while it moves in a direction; by default none but the plain ones of `columns`."""
+        """Return its columns in a load case, while it moves in a direction; by default none but the plain ones of `columns`.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses.
+        case : LoadCase or str, optional
+            The load case.
+        direction : str, optional
+            The direction of motion; where it matters, as at a border of stages.
+
+        Returns
+        -------
+        list of Column
+            The columns.
+        """
         return self.columns(motion) if case is None and direction is None else []
 
     def gauges(self, plan: Plan) -> Mapping[str, Request]:
@@ -196,12 +230,19 @@ class Tabled(Member):
 @final
 @dataclass(frozen=True)
 class Featured:
-    """The column of results that a machine is about, the points whose paths are drawn, and limits of columns by their names.
+    """What a machine's pictures show where nothing else is asked: a column, paths and limits.
 
-    A limit is `(value [SI], text)` or `(value, text, "below")`: the side that fails, above unless said. Its text stands on that side and
-    says what fails there, or what the line is. `coupler` is the point of a
-    coupler, which a synthesis brings along a path where no other one is said. What is left out is chosen from the results: the last column
-    that changes, no path, no limit.
+    Parameters
+    ----------
+    column : str, optional
+        The name of the column of results that it is about; by default the last one that changes.
+    path : sequence of str, optional
+        The points whose paths are drawn.
+    limits : mapping of str to sequence, optional
+        Limits of columns by their names, each `(value [SI], text)` or `(value, text, "below")`: the side that fails, above unless said. Its
+        text is on that side and says what fails there, or what the line is.
+    coupler : str, optional
+        The point of a coupler, which a synthesis brings along a path where no other one is said.
     """
 
     column: str = ""

@@ -36,12 +36,30 @@ class PartNameError(DefinitionError, AttributeError):
 
 @final
 class Part(Member):
-    """A mechanism in a mechanism: `lower = Part(Arm, S=s1, OB=0.45)`, a class or a design; its members are `lower.B`, `"lower.B"`.
+    """A mechanism in a mechanism: `lower = Part(Arm, S=s1, OB=0.45)`; its members are `lower.B`, `"lower.B"`.
 
-    Keywords are the part's own names. A fixed point becomes a point of the whole, or stands at (x, y). A dimension takes a number or
-    follows a quantity. A stroke follows a quantity; where nothing is said it is one of the whole, `lower.S`. Any other member goes by
-    None. `on` carries the part's axes: two points of a body, a link, nothing for the frame. There it stands `at=(x, y)` [m], turned by
-    `angle` [rad], `mirrored` at its own y axis first. Loads, cylinders, circuits and outlines come along; load cases and `Over`s do not.
+    Loads, cylinders, circuits and outlines come along; load cases and `Over`s do not.
+
+    Parameters
+    ----------
+    machine : type of Mechanism or Mechanism
+        A class or a design.
+    on : Point, Link, str or sequence of them, optional
+        What carries the part's axes: two points of a body, a link, nothing for the frame.
+    at : pair of float or quantity, optional
+        The place (x, y) of the part's origin in those axes [m].
+    angle : float or quantity, optional
+        The angle by which it is turned [rad].
+    mirrored : bool, optional
+        Whether it is mirrored at its own y axis first.
+    **given : object
+        The part's own names. A fixed point becomes a point of the whole, or lies at (x, y). A dimension takes a number or follows a
+        quantity. A stroke follows a quantity; where nothing is said it is one of the whole, `lower.S`. Any other member goes by None.
+
+    Raises
+    ------
+    DefinitionError
+        A name is not one of the part's, or a value does not fit it.
     """
 
     kind = "part"

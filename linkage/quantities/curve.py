@@ -32,10 +32,27 @@ def wrap(angle: Scalar) -> Scalar:
 class Curve:
     """The cubic spline through the rows of a table: `lift = Curve([0.0, 0.1, 0.2], [0.0, 0.02, 0.05])`.
 
-    It passes through all rows, and its slope and curvature are continuous. `lift(S)` of a quantity is a quantity of the class; of
-    numbers it is the value, as the law of a force element asks for it. A `period` makes it periodic: the last row lies one period
-    after the first and has the same value. Else the first two pieces are one polynomial, and the last two ("not a knot").
-    `name` is what equations call it. Source: de Boor, "A Practical Guide to Splines", chapter IV.
+    It passes through all rows, and its slope and curvature are continuous. The first two pieces are one polynomial, and the last two ("not
+    a knot"), unless it is periodic. `lift(S)` of a quantity is a quantity of the class; of numbers it is the value, as the law of a force
+    element asks for it.
+
+    Parameters
+    ----------
+    xs, ys : array (rows,)
+        The table [SI], ascending by `xs`.
+    period : float, optional
+        Makes it periodic: the last row lies one period after the first and has the same value.
+    name : str, optional
+        What equations call it, "curve" by default.
+
+    Raises
+    ------
+    DefinitionError
+        There are too few rows, they do not ascend, or a value is not finite.
+
+    Notes
+    -----
+    Source: de Boor, "A Practical Guide to Splines", chapter IV.
     """
 
     xs: FloatArray

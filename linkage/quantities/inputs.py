@@ -15,7 +15,13 @@ from .quantity import Quantity, in_degrees, is_number, plain
 
 @immutable
 class Stroke(Quantity):
-    """A driven coordinate with its range: a cylinder's stroke [m] or a crank's angle [rad]."""
+    """A driven coordinate with its range: `S = Stroke(0.0, 0.2)`.
+
+    Parameters
+    ----------
+    start, end : float or quantity
+        The range of a cylinder's stroke [m] or a crank's angle [rad].
+    """
 
     start: float
     end: float
@@ -59,7 +65,15 @@ class Variable(Quantity):
 
 @immutable
 class Dimension(Quantity):
-    """A number of the design that has a name of its own [SI]; `unit` is the one it is shown and checked in, such as "kgf"."""
+    """A number of the design that has a name of its own: `reach = Dimension(0.4)`.
+
+    Parameters
+    ----------
+    default : float
+        Its value [SI] where a design says no other.
+    unit : str, optional
+        The unit in which it is shown and checked, such as "kgf".
+    """
 
     default: float
     unit: str = ""

@@ -82,7 +82,13 @@ class Jointed(Member):
     """A member that may hold others: a step, a guide, a force element."""
 
     def joints(self) -> tuple[Joint, ...]:
-        """Return the joints it brings, beside the pins of bodies that share a point."""
+        """Return the joints it brings, beside the pins of bodies that share a point.
+
+        Returns
+        -------
+        tuple of Joint
+            The joints.
+        """
         return ()
 
     def constraints(self, where: Where) -> tuple[Scalar, ...]:

@@ -22,8 +22,13 @@ from ..vectors import Line, Scalar, Vec
 class Member:
     """Anything that a mechanism's class declares.
 
-    Its name is the first one it is bound to. Members refer to each other by name, so that a subclass
-    which replaces a member replaces it for everybody.
+    Its name is the first one it is bound to. Members refer to each other by name, so that a subclass which replaces a member replaces it
+    for everybody.
+
+    Parameters
+    ----------
+    *given, **options
+        The arguments of its own kind.
     """
 
     kind: ClassVar[str] = "member"
@@ -93,15 +98,38 @@ class Member:
         return self._name
 
     def parts(self) -> tuple[Reference, ...]:
-        """Return the references this member is built from, names or members: those in `expects`, unless a subclass says otherwise."""
+        """Return the references this member is built from, names or members: those in `expects`, unless a subclass says otherwise.
+
+        Returns
+        -------
+        tuple of Member or str
+            The references.
+        """
         return tuple(getattr(self, attribute) for attribute, _ in self.expects)
 
     def variables(self) -> tuple[tuple[str, float, str, str], ...]:
-        """Return the design variables this member brings: name, default [SI], kind of measure, display unit or ""."""
+        """Return the design variables this member brings: name, default [SI], kind of measure, display unit or "".
+
+        Returns
+        -------
+        tuple of tuple
+            One for each design variable.
+        """
         return ()
 
     def having(self, values: Mapping[str, float]) -> Self:
-        """Return this member with the design variables among its numbers at other values [SI], by their name or label."""
+        """Return this member with the design variables among its numbers at other values [SI], by their name or label.
+
+        Parameters
+        ----------
+        values : mapping of str to float
+            Values of design variables [SI], by their name or label.
+
+        Returns
+        -------
+        Member
+            The changed member.
+        """
         return self
 
     def renewed(self, **changes: object) -> Self:
@@ -120,14 +148,26 @@ class Member:
         return self
 
     def coordinates(self) -> tuple[tuple[str, Any], ...]:
-        """Return the names and values of both coordinates, where it is a point that is given by them."""
+        """Return the names and values of both coordinates, where it is a point that is given by them.
+
+        Returns
+        -------
+        tuple of tuple
+            The name and the value [m] of each.
+        """
         return ()
 
     def enter(self, table: Any) -> None:
         """Enter the labels of this member in the mechanism's table of dimensions."""
 
     def lengths(self) -> tuple[Member, ...]:
-        """Return the quantities that stand for lengths in this member, beside its labels: none may be negative."""
+        """Return the quantities that stand for lengths in this member, beside its labels: none may be negative.
+
+        Returns
+        -------
+        tuple of Quantity
+            The lengths [m].
+        """
         return ()
 
     @property
@@ -139,7 +179,13 @@ class Member:
     """Its attributes that hold the quantities of `in_radians`."""
 
     def in_radians(self) -> tuple[Any, ...]:
-        """Return the quantities that stand for angles in this member: strokes and dimensions that they are sums of are in rad."""
+        """Return the quantities that stand for angles in this member: strokes and dimensions that they are sums of are in rad.
+
+        Returns
+        -------
+        tuple of Quantity
+            The angles [rad].
+        """
         return tuple(angle for angle in (getattr(self, attribute) for attribute in self.radians) if angle is not None)
 
     def examine(self, members: Mapping[str, Member], title: str) -> None:
@@ -148,23 +194,80 @@ class Member:
             raise DefinitionError(f"{title}: {self.name} = {self}: {fault}.")
 
     def faults(self, members: Mapping[str, Member]) -> Iterator[str]:
-        """Yield the faults of this member among the members of its class, by name, each with the remedy."""
+        """Yield the faults of this member among the members of its class, by name, each with the remedy.
+
+        Parameters
+        ----------
+        members : mapping of str to Member
+            The members of the class by name.
+
+        Yields
+        ------
+        str
+            A fault, with its remedy.
+        """
         yield from ()
 
     def among(self, members: Mapping[str, Member]) -> Self:
-        """Return this member as it is among those of its class; itself, where none of them says something of it."""
+        """Return this member as it is among those of its class; itself, where none of them says something of it.
+
+        Parameters
+        ----------
+        members : mapping of str to Member
+            The members of the class by name.
+
+        Returns
+        -------
+        Member
+            The member.
+        """
         return self
 
     def inner(self, name: str, members: Mapping[str, Member]) -> Member | None:
-        """Return a quantity or point that this member holds by a name of its own, as in `lift.length`; None where there is none."""
+        """Return a quantity or point that this member holds by a name of its own, as in `lift.length`; None where there is none.
+
+        Parameters
+        ----------
+        name : str
+            The name behind the dot.
+        members : mapping of str to Member
+            The members of the class by name.
+
+        Returns
+        -------
+        Member, optional
+            The quantity or point.
+        """
         return None
 
     def cuts(self, members: Mapping[str, Member]) -> tuple[str, ...]:
-        """Return the inputs beside the strokes by which it moves the machine, as the oil of a closed line does."""
+        """Return the inputs beside the strokes by which it moves the machine, as the oil of a closed line does.
+
+        Parameters
+        ----------
+        members : mapping of str to Member
+            The members of the class by name.
+
+        Returns
+        -------
+        tuple of str
+            The names of the inputs.
+        """
         return ()
 
     def driven_cuts(self, members: Mapping[str, Member]) -> tuple[str, ...]:
-        """Return those of its cuts that strokes change as well, as the oil that a stroke puts in."""
+        """Return those of its cuts that strokes change as well, as the oil that a stroke puts in.
+
+        Parameters
+        ----------
+        members : mapping of str to Member
+            The members of the class by name.
+
+        Returns
+        -------
+        tuple of str
+            The names of the inputs.
+        """
         return ()
 
     handed: ClassVar[tuple[str, ...]] = ()
@@ -177,6 +280,16 @@ class Member:
         """Return this member of a part as the machine that has the part sees it; itself, where it has neither axes nor a side.
 
         By itself it changes the signs of what is `handed`, and turns `axes` that its directions are counted in.
+
+        Parameters
+        ----------
+        axes : Axes
+            The part's axes.
+
+        Returns
+        -------
+        Member
+            The member in the whole.
         """
         changes = {attribute: getattr(self, attribute).opposite() for attribute in self.handed if axes.mirrored}
         if self.is_directed and not axes.are_upright:
@@ -184,7 +297,18 @@ class Member:
         return self.renewed(**changes) if changes else self
 
     def sides(self, where: Where) -> tuple[tuple[str, Scalar], ...]:
-        """Return the triangle this member closes, as labelled lengths [m]; empty where it closes none."""
+        """Return the triangle this member closes, as labelled lengths [m]; empty where it closes none.
+
+        Parameters
+        ----------
+        where : Where
+            The reading: places of points and values of quantities.
+
+        Returns
+        -------
+        tuple of tuple
+            The label and the length [m] of each side.
+        """
         return ()
 
 

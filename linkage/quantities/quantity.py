@@ -174,10 +174,32 @@ class Quantity(Operators["Quantity | float | str", "Quantity"], Member):
 
     @abstractmethod
     def rule(self, where: Where) -> Scalar:
-        """Return the value [SI] in a reading."""
+        """Return the value [SI] in a reading.
+
+        Parameters
+        ----------
+        where : Where
+            The reading: places of points and values of quantities.
+
+        Returns
+        -------
+        float or array
+            The value [SI].
+        """
 
     def turning(self, where: Where) -> Turning:
-        """Return the cosine and sine of this angle; without trigonometry where a square root will do."""
+        """Return the cosine and sine of this angle; without trigonometry where a square root will do.
+
+        Parameters
+        ----------
+        where : Where
+            The reading: places of points and values of quantities.
+
+        Returns
+        -------
+        Turning
+            The cosine and the sine.
+        """
         value = where.value(self)
         return np.cos(value), np.sin(value)
 
@@ -206,7 +228,18 @@ class Quantity(Operators["Quantity | float | str", "Quantity"], Member):
         return -self
 
     def text(self, measures: str = "") -> str:
-        """Return this as it is written in source; with `measures` "angle", numbers are in degrees."""
+        """Return this as it is written in source; with `measures` "angle", numbers are in degrees.
+
+        Parameters
+        ----------
+        measures : str, optional
+            With "angle", numbers are in degrees.
+
+        Returns
+        -------
+        str
+            The text.
+        """
         return str(self)
 
     def applied(self, function: str, *operands: Operand) -> Quantity:

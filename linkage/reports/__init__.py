@@ -1,6 +1,5 @@
 """Results as text: tables, values with units, stroke ranges in words."""
 
-from ..star import declare_public
 from .live_columns import LiveColumn, at_its_rates, column_requests, is_column
 from .ranges import closely, ranges_below_zero, reached_span, spans_in_words
 from .results import case_along, column_among, columns_about, force_columns, is_changing, is_loaded, rate_columns, request_in_case, results
@@ -23,4 +22,4 @@ from .runs import (
 from .table import dagger_words, rich_tables, text_table, write_csv
 from .values import design_rows, dimension_unit, stroke_rows
 
-declare_public(globals())
+__all__ = ["results", "rich_tables", "text_table", "write_csv"]

@@ -25,10 +25,23 @@ Asked = TypeVar("Asked")
 def results(machine: Mechanism, motion: Motion, case: Case = None) -> list[Column]:
     """Return the columns of a machine; where it has no table of its own but loads, forces too, NaN at dead points.
 
-    They are the generalised forces of its strokes, and what its members show: of a cylinder thrust, pressure and reserve. To a table
-    of its own are added those of members that a variant of the machine declares. Of a machine that is not held there are places alone.
-    In a load case all are of that case but those of the machine's own table that do not say what asks for them. Where none is given it is
-    the one that the motion is shown in (`case_along`); "plain" are the machine's own loads.
+    They are the generalised forces of its strokes, and what its members show: of a cylinder thrust, pressure and reserve. To a table of its
+    own are added those of members that a variant of the machine declares. Of a machine that is not held there are places alone.
+
+    Parameters
+    ----------
+    machine : Mechanism
+        The machine.
+    motion : Motion
+        The poses.
+    case : LoadCase or str, optional
+        The load case of all columns but those of the machine's own table that do not say what asks for them. By default the one that the
+        motion is shown in; "plain" are the machine's own loads.
+
+    Returns
+    -------
+    list of Column
+        The columns.
     """
     require_mechanism(machine)
     require_motion(motion)

@@ -64,8 +64,19 @@ def column_blocks(columns: Sequence[Column], texts: Sequence[Sequence[str]], wid
 def text_table(columns: Sequence[Column], width: int | None = None, outside: Sequence[bool] = ()) -> Iterator[str]:
     """Yield the lines of a table: headings with units, numbers right-aligned under them.
 
-    With a `width` [characters] a table that is too wide is cut into blocks, the first column repeated in each. A row `outside` what is
-    judged ends with a dagger.
+    Parameters
+    ----------
+    columns : sequence of Column
+        The columns.
+    width : int, optional
+        The width [characters]; a table that is too wide is cut into blocks, the first column repeated in each.
+    outside : sequence of bool, optional
+        Which rows are outside of what is judged; they end with a dagger.
+
+    Yields
+    ------
+    str
+        A line.
     """
     ends = ["", *dagger_ends(outside)]
     texts = [column_texts(column, values) for column, values in zip(columns, flat(columns), strict=True)]
@@ -99,7 +110,22 @@ PADDING = 3  # characters that rich puts between the texts of two columns
 
 
 def rich_tables(columns: Sequence[Column], width: int | None = None, outside: Sequence[bool] = ()) -> Iterator[Table]:
-    """Yield tables for rich's console; more than one where all columns do not fit `width` [characters]. Daggers as in `text_table`."""
+    """Yield tables for rich's console; more than one where all columns do not fit.
+
+    Parameters
+    ----------
+    columns : sequence of Column
+        The columns.
+    width : int, optional
+        The width [characters].
+    outside : sequence of bool, optional
+        Which rows are outside of what is judged; they end with a dagger.
+
+    Yields
+    ------
+    Table
+        A table.
+    """
     from rich.box import SIMPLE_HEAD
     from rich.table import Table
 
@@ -132,8 +158,18 @@ def write_csv(
 ) -> None:  # fmt: skip
     """Write columns as CSV: a header with units, one row a pose, full precision, an empty field for NaN.
 
-    Lines end with CR LF, so a file is to be opened with newline="". `progress(done, total)` hears of the rows written. `labels` are the
-    first field of each row, under the heading `labelled`.
+    Parameters
+    ----------
+    columns : sequence of Column
+        The columns.
+    stream : text file
+        What is written to. Lines end with CR LF, so a file is to be opened with newline="".
+    progress : callable, optional
+        `progress(done, total)` hears of the rows written.
+    labels : sequence of str, optional
+        The first field of each row.
+    labelled : str, optional
+        The heading of these, "run" by default.
     """
     values = flat(columns)
     is_open = callable(getattr(stream, "write", None)) and not isinstance(stream, type)

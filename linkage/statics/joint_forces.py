@@ -102,11 +102,24 @@ def agreeing(found: PoseForces, split: str) -> PoseForces:
 @final
 @dataclass(frozen=True, eq=False)
 class PinForces(Shown):
-    """All joint forces of a motion in one load case and one direction of motion; shapes (2, ...) and (...).
+    """All joint forces of a motion in one load case and one direction of motion.
 
-    `drives` are the generalised forces of the strokes [N or Nm], `thrusts` what each driven length and each two-point element carries
-    [N], positive where it pushes its ends apart. `remarks` say in words where friction locks the mechanism (there the forces are NaN,
-    and `locked` is true) and which dampers stand still.
+    Attributes
+    ----------
+    motion : Motion
+        The poses.
+    joints : tuple of JointForce
+        The force of each joint, shape (2, ...).
+    drives : mapping of str to array
+        The generalised forces of the strokes [N or N m].
+    thrusts : mapping of str to array
+        What each driven length and each two-point element carries [N], positive where it pushes its ends apart.
+    case, direction : str
+        The load case and the direction of motion.
+    locked : array of bool
+        Where friction locks the mechanism; there the forces are NaN.
+    remarks : tuple of str
+        Sentences on where friction locks it, and which dampers do not move.
     """
 
     motion: Motion

@@ -30,14 +30,26 @@ from .work import closed_force
 
 @final
 class Rope(ForceElement, Tabled, HasVerdicts):
-    """A rope, chain or belt over points: `chain = Rope(A, B, C, "D", length=2.4)`; at B and C it runs over the pin, or over a Pulley.
-
-    Its `length` [m] is held: it gives the distance of its last two points, `CD=chain.last`, or of its first two, `chain.first`, to the step
-    that asks for it. A number is the design variable `chain.length`; a Stroke, or what follows one, is a winch. With a `force` [N] in its
-    place that is what it pulls with, as a winch of constant pull does. `weights` say of each straight part how many falls it stands for.
+    """A rope, chain or belt over points: `chain = Rope(A, B, C, "D", length=2.4)`.
 
     It only pulls: where its tension would be negative it goes slack, and what it holds is not kept there. Parts between points of one body
     stay as long as they are. Ends lie at points: a rope that winds up on a drum is a winch.
+
+    Parameters
+    ----------
+    *run : Point, Pulley or str
+        What it runs over, from one end to the other: pins or pulleys.
+    length : float or quantity, optional
+        The length that is held [m]. It gives the distance of its last two points, `CD=chain.last`, or of its first two, `chain.first`, to
+        the step that asks for it. A number is the design variable `chain.length`; a Stroke, or what follows one, is a winch.
+    weights : sequence of float, optional
+        How many falls each straight part has, 1 by default.
+    force : float or quantity, optional
+        Instead of a length, the force [N] with which it pulls, as a winch of constant pull does.
+    stretch : float or quantity, optional
+        How much longer it is than the quantity that its length follows [m], 0 by default; a design variable.
+    against : Rope or str, optional
+        The rope that it works against on one drum.
     """
 
     places: ClassVar[tuple[str, ...]] = ("run",)

@@ -10,10 +10,18 @@ from .step import UNBOUND, Assignment, Position, Step
 
 
 class Crank(Step):
-    """A point X at distance PX from P, in the direction `angle` [rad] counter-clockwise from the x axis.
+    """A point X at a distance from P in a given direction: `A = Crank(O, OA=0.1, angle=phi)`.
 
-    `A = Crank(O, OA=0.1, angle=phi)` with `phi = Stroke(0, 2 * pi)`. `Crank(O, at=(x, y), angle=phi)` is drawn: its length is measured
-    if it is not given, and the angle turns it from where it is drawn.
+    Parameters
+    ----------
+    P : Point or str
+        The pivot.
+    angle : float or quantity
+        The direction PX [rad], counter-clockwise from the x axis; with `at` what turns it from where it is drawn.
+    at : tuple of float, optional
+        The place (x, y) of X in a drawing [m], from which the length is measured if it is not given.
+    **lengths : float or quantity
+        The distance PX by its label [m], such as `OA=0.1`.
     """
 
     P: str

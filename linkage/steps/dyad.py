@@ -11,10 +11,24 @@ from .step import UNBOUND, Assignment, Position, Step
 
 
 class Dyad(Step):
-    """The joint of two links that hang from P and Q (RRR dyad), on one side of P -> Q.
+    """The joint of two links that hang from P and Q (RRR dyad): `B = Dyad(A, O, AB=0.5, OB=0.3, side=RIGHT)`.
 
-    `B = Dyad(A, O, AB=0.5, OB=0.3, side=RIGHT)`: B is 0.5 m from A and 0.3 m from O, to the right of A -> O.
-    A length that follows a stroke is a cylinder. Source: Artobolevsky, class II group of the first kind.
+    Parameters
+    ----------
+    P, Q : Point or str
+        The points that the links hang from.
+    side : Side or str, optional
+        The side of P -> Q on which it lies: the assembly mode.
+    near : tuple of float, optional
+        Instead of the side, its place (x, y) in a sketch [m].
+    at : tuple of float, optional
+        Its place (x, y) in a drawing [m], from which lengths are measured that are not given.
+    **lengths : float or quantity
+        The distances from P and from Q by their labels [m], such as `AB=0.5`. A length that follows a stroke is a cylinder.
+
+    Notes
+    -----
+    Source: Artobolevsky, class II group of the first kind.
     """
 
     P: str

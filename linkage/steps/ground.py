@@ -12,7 +12,13 @@ from .step import Point
 
 
 class Ground(Point):
-    """A fixed point [m]. Its coordinates are design variables: `M.x`, `M.y`, or `M=(x, y)` at once."""
+    """A fixed point: `O = Ground(0.0, 0.0)`.
+
+    Parameters
+    ----------
+    x, y : float or quantity
+        Its coordinates [m], or the pair as one argument. They are design variables: `O.x`, `O.y`, or `O=(x, y)` at once.
+    """
 
     is_fixed = True
     axes = FRAME_AXES
@@ -55,9 +61,14 @@ class Ground(Point):
 
 
 class Carried(Ground):
-    """A point of the body of P and Q by its coordinates in the body's axes [m]: `N = Carried(B, C, 0.4, 0.1)`.
+    """A point of the body of P and Q by its coordinates in the body's axes: `N = Carried(B, C, 0.4, 0.1)`.
 
-    The axes have their origin in P, x goes to Q, y to its left. The coordinates are design variables: `N.x`, `N.y`, or `N=(x, y)`.
+    Parameters
+    ----------
+    P, Q : Point or str
+        The origin of the axes, and the point that x goes to; y goes to its left.
+    x, y : float or quantity
+        The coordinates [m]. They are design variables: `N.x`, `N.y`, or `N=(x, y)` at once.
     """
 
     is_fixed = False

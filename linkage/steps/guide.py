@@ -16,8 +16,16 @@ from .step import Point, position
 class Guide(Jointed):
     """A straight line to slide on: `Guide((0.0, -0.2), angle=0)` in the frame, `Guide(P, Q)` the line of two points.
 
-    The first point is the guide's origin, its direction goes by the angle [rad] or from P to Q. Numbers are design
-    variables: `rail.x`, `rail.y`, `rail.angle`.
+    Numbers are design variables: `rail.x`, `rail.y`, `rail.angle`.
+
+    Parameters
+    ----------
+    P : Point, str or tuple of float
+        The guide's origin, a point or a place (x, y) [m].
+    Q : Point or str, optional
+        A second point, which gives the direction.
+    angle : float or quantity, optional
+        Instead of a second point, the direction [rad].
     """
 
     kind = "guide"
@@ -104,7 +112,15 @@ class Guide(Jointed):
 
 
 class Slide(Jointed):
-    """A point that slides on a guide: `shoe = Slide("C", rail)`."""
+    """A point that slides on a guide: `shoe = Slide("C", rail)`.
+
+    Parameters
+    ----------
+    point : Point or str
+        The point.
+    guide : Guide or str
+        The guide.
+    """
 
     expects = (("point", "point"), ("guide", "guide"))
 
@@ -135,7 +151,15 @@ class Slide(Jointed):
 
 
 class OnGuide(Point):
-    """A point at a distance along a guide from its origin, driven or given: `C = OnGuide(rail, at=S)` [m]."""
+    """A point at a distance along a guide from its origin, driven or given: `C = OnGuide(rail, at=S)`.
+
+    Parameters
+    ----------
+    guide : Guide or str
+        The guide.
+    at : float or quantity
+        The distance from its origin [m], in the guide's direction.
+    """
 
     expects = (("guide", "guide"),)
 

@@ -13,7 +13,15 @@ from .labels import DimensionTable, Slot, Spoken, match, relabelled, written_lab
 
 
 class Link(Member):
-    """Points that move as one body: `Link(O, B, C)`, or `Link("O B C", OB=0.30, OC=0.36, BC=0.16)`."""
+    """Points that move as one body: `Link(O, B, C)`, or `Link("O B C", OB=0.30, OC=0.36, BC=0.16)`.
+
+    Parameters
+    ----------
+    *points : Point or str
+        The points, or their names in one text.
+    **labels : float or quantity
+        Distances [m] and angles [rad] of its points by their labels.
+    """
 
     kind = "link"
     is_mirrored: bool = False

@@ -13,10 +13,21 @@ from .step import UNBOUND, Assignment, Position, Step
 
 
 class OnLink(Step):
-    """A point X rigidly on the body of P and Q: at distance PX from P, under the angle QPX or with the third side QX.
+    """A point X rigidly on the body of P and Q: `C = OnLink(O, B, OC=0.36, BOC=0.4)`.
 
-    With `side` the angle is positive and the side gives its sense; without it the angle is counter-clockwise
-    from PQ. Without angle and third side X lies on the line PQ, beyond P towards Q.
+    Parameters
+    ----------
+    P, Q : Point or str
+        Two points of the body.
+    side : Side or str, optional
+        The side of P -> Q on which X lies; the angle is then positive. Without it the angle is counter-clockwise from PQ.
+    near : tuple of float, optional
+        Instead of the side, the place (x, y) of X in a sketch [m].
+    at : tuple of float, optional
+        The place (x, y) of X in a drawing [m], from which lengths and angles are measured that are not given.
+    **labels : float or quantity
+        The distance PX [m], and the angle QPX [rad] or the third side QX [m]. Without angle and third side X lies on the line PQ, beyond P
+        towards Q.
     """
 
     P: str

@@ -16,10 +16,23 @@ from .step import Bar, Point, Position, position
 
 
 class Pin(Point):
-    """A point that links meet in. `near=(x, y)` is its place in a sketch, which chooses the assembly mode [m].
+    """A point that links meet in: `B = Pin(near=(0.3, 0.2))`.
 
-    `at=(x, y)` is its place in a drawing: lengths and angles that are not given are measured from it.
     A pin that no dyad places belongs to a group, whose pins are found together.
+
+    Parameters
+    ----------
+    *place : object
+        None: a place needs its keyword, and this is what the error says.
+    near : tuple of float, optional
+        Its place (x, y) in a sketch [m], which chooses the assembly mode.
+    at : tuple of float, optional
+        Its place (x, y) in a drawing [m]: lengths and angles that are not given are measured from it.
+
+    Raises
+    ------
+    DefinitionError
+        There is no place, or there are two.
     """
 
     closes = True
@@ -66,8 +79,16 @@ class Pin(Point):
 class Group(Member):
     """Pins that no construction places one by one: an Assur group of class III or higher, solved by Newton's method.
 
-    `Group("D E F")`; the framework finds the groups of a parts list itself. Its equations are the lengths of its
-    rods, the shapes of its rigid links and its slides. Source: Artobolevsky, groups of class III and IV.
+    The framework finds the groups of a parts list itself. Their equations are the lengths of rods, the shapes of rigid links, and slides.
+
+    Parameters
+    ----------
+    pins : str
+        The names of its pins, `Group("D E F")`.
+
+    Notes
+    -----
+    Source: Artobolevsky, groups of class III and IV.
     """
 
     argument_kinds = MappingProxyType({"pins": "points"})

@@ -23,10 +23,32 @@ class Arrow(Member):
 
     @abstractmethod
     def vector(self, where: Where) -> Vec:
-        """Return the vector [m] in a reading."""
+        """Return the vector [m] in a reading.
+
+        Parameters
+        ----------
+        where : Where
+            The reading: places of points and values of quantities.
+
+        Returns
+        -------
+        Vec
+            The vector [m].
+        """
 
     def length(self, where: Where) -> Scalar:
-        """Return its length [m]; the link's where it is known."""
+        """Return its length [m]; the link's where it is known.
+
+        Parameters
+        ----------
+        where : Where
+            The reading: places of points and values of quantities.
+
+        Returns
+        -------
+        float or array
+            The length [m].
+        """
         return np.sqrt(where.apart(where.vector(self).square()))
 
     def __abs__(self) -> Quantity:
@@ -34,7 +56,13 @@ class Arrow(Member):
 
 
 class Vector(Arrow):
-    """The vector PQ = Q - P between two points [m]."""
+    """The vector PQ = Q - P between two points [m].
+
+    Parameters
+    ----------
+    P, Q : Point or str
+        Its start and its end.
+    """
 
     expects = (("P", "point"), ("Q", "point"))
 
@@ -73,7 +101,17 @@ class Axis(Arrow):
 
 
 class Turn(Arrow):
-    """A vector turned by an angle [rad], then scaled to a length [m]; the length is kept where none is given."""
+    """A vector turned by an angle, then scaled to a length.
+
+    Parameters
+    ----------
+    vector : Vector or str
+        The vector.
+    angle : float or quantity
+        The angle [rad], counter-clockwise.
+    length : float or quantity, optional
+        The new length [m]; it is kept where none is given.
+    """
 
     expects = (("base", "vector"), ("angle", "quantity"))
     radians = handed = ("angle",)
@@ -117,7 +155,14 @@ def triangle(where: Where, base2: Scalar, p: Scalar, q: Scalar) -> tuple[Scalar,
 class CosineAngle(Quantity):
     """The angle between the first two sides of a triangle, opposite the third [rad], 0 to pi.
 
-    It closes a loop: NaN where the three sides [m] do not make a triangle.
+    It closes a loop: NaN where the three sides do not make a triangle.
+
+    Parameters
+    ----------
+    a, b : float or quantity
+        The sides [m] that the angle lies between.
+    c : float or quantity
+        The side opposite [m].
     """
 
     measures = "angle"
@@ -171,7 +216,17 @@ class OffsetLinks:
 
 
 class Offset(Point):
-    """The point P + vector [m]. The class finds the constraints `keeps` from the construction of its vectors."""
+    """The point P + vector [m].
+
+    The class finds the constraints `keeps` from the construction of its vectors.
+
+    Parameters
+    ----------
+    P : Point or str
+        The point.
+    vector : Vector or str
+        What is added to it [m].
+    """
 
     keeps = OffsetLinks()
     expects = (("P", "point"), ("by", "vector"))

@@ -8,9 +8,20 @@ from .step import UNBOUND, Position, Step, angle_given
 
 
 class SliderDyad(Step):
-    """A pin on a guide at distance PX from P (RRP dyad): `C = SliderDyad(A, rail, AC=0.4, side=RIGHT)`.
+    """A pin on a guide at a distance from P (RRP dyad): `C = SliderDyad(A, rail, AC=0.4, side=RIGHT)`.
 
-    RIGHT is the solution farther along the guide's direction, LEFT the other one. Length in m.
+    Parameters
+    ----------
+    P : Point or str
+        The other end of its link.
+    guide : Guide or str
+        The guide.
+    side : Side or str, optional
+        RIGHT is the solution farther along the guide's direction, LEFT the other one.
+    near : tuple of float, optional
+        Instead of the side, its place (x, y) in a sketch [m].
+    **lengths : float or quantity
+        The distance from P by its label [m], such as `AC=0.4`.
     """
 
     P: str
@@ -52,10 +63,22 @@ class SliderDyad(Step):
 
 
 class PinSlotDyad(Step):
-    """A point X of a body that turns about P while its slot glides over the pin Q (RPR dyad).
+    """A point X of a body that turns about P while its slot glides over the pin Q (RPR dyad): `R = PinSlotDyad(O, A, OR=0.5)`.
 
-    The slot is parallel to P -> X, at `offset` [m] to its left (default 0: it passes through P). RIGHT (the default):
-    Q lies ahead of P along P -> X; LEFT: behind it. `R = PinSlotDyad(O, A, OR=0.5)`.
+    Parameters
+    ----------
+    P : Point or str
+        The pivot of the body.
+    Q : Point or str
+        The pin in its slot.
+    offset : float or quantity, optional
+        The distance [m] of the slot, which is parallel to P -> X, to the left; 0, through P, by default.
+    side : Side or str, optional
+        RIGHT, the default: Q lies ahead of P along P -> X; LEFT: behind it.
+    near : tuple of float, optional
+        Instead of the side, the place (x, y) of X in a sketch [m].
+    **lengths : float or quantity
+        The distance of X from P by its label [m], such as `OR=0.5`.
     """
 
     P: str
@@ -122,7 +145,13 @@ class PinSlotDyad(Step):
 
 
 class GuideCross(Step):
-    """The pin of two sliders, each on its guide (PRP dyad): where the guides cross. `C = GuideCross(rail, post)`."""
+    """The pin of two sliders, each on its guide (PRP dyad), where the guides cross: `C = GuideCross(rail, post)`.
+
+    Parameters
+    ----------
+    guide, other : Guide or str
+        The guides.
+    """
 
     guide: str
     other: str
@@ -152,10 +181,18 @@ class GuideCross(Step):
 
 
 class YokeDyad(Step):
-    """The point X of a body that slides along a guide while its slot glides over the pin P (RPP dyad, Scotch yoke).
+    """The point X of a body that slides along a guide while its slot glides over a pin (RPP dyad, Scotch yoke): `X = YokeDyad(A, rail)`.
 
-    X is where the slot meets the guide; the slot stands under `angle` [rad] to the guide, default 90 degrees.
-    `X = YokeDyad(A, rail)`.
+    X is where the slot meets the guide.
+
+    Parameters
+    ----------
+    P : Point or str
+        The pin in its slot.
+    guide : Guide or str
+        The guide.
+    angle : float or quantity, optional
+        The angle of the slot to the guide [rad], a right angle by default.
     """
 
     P: str

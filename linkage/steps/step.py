@@ -83,7 +83,18 @@ class Point(Jointed):
 
     @abstractmethod
     def place(self, where: Where) -> Vec:
-        """Return the position [m]; NaN where it cannot be assembled."""
+        """Return the position [m]; NaN where it cannot be assembled.
+
+        Parameters
+        ----------
+        where : Where
+            The reading: places of points and values of quantities.
+
+        Returns
+        -------
+        Vec
+            The position [m].
+        """
         raise DefinitionError(f"{self.name}: {type(self).__name__} does not say where its point lies; give it place(where).")
 
     def __str__(self) -> str:
@@ -94,6 +105,16 @@ class Point(Jointed):
         """Return the residuals that vanish at this point's place, in every reading: place minus rule, unless a step overrides it.
 
         A point that closes a loop says the equations whose root `place` chooses; a free construction says none.
+
+        Parameters
+        ----------
+        where : Where
+            The reading: places of points and values of quantities.
+
+        Returns
+        -------
+        tuple of float or array
+            The residuals [m].
         """
         if self.is_fixed:
             return ()
@@ -101,7 +122,13 @@ class Point(Jointed):
         return miss.x, miss.y
 
     def expansion(self) -> tuple[Assignment, ...]:
-        """Return the primitives that this step stands for, in the vector method's order; empty where its own rule is written out."""
+        """Return the primitives that this step stands for, in the vector method's order; empty where its own rule is written out.
+
+        Returns
+        -------
+        tuple of Assignment
+            The primitives by their names.
+        """
         return ()
 
     @property
@@ -115,23 +142,63 @@ class Point(Jointed):
         return 0.0
 
     def bars(self) -> tuple[Bar, ...]:
-        """Return the links of two points that this step brings."""
+        """Return the links of two points that this step brings.
+
+        Returns
+        -------
+        tuple of Bar
+            The links.
+        """
         return ()
 
     def bodies(self) -> tuple[tuple[str, ...], ...]:
-        """Return the points this step makes rigid with each other."""
+        """Return the points this step makes rigid with each other.
+
+        Returns
+        -------
+        tuple of tuple of str
+            The names of the points, body by body.
+        """
         return ()
 
     def meeting(self, where: Where) -> tuple[Vec, ...]:
-        """Return the two directions whose angle is the transmission angle of this joint; empty where it has none."""
+        """Return the two directions whose angle is the transmission angle of this joint; empty where it has none.
+
+        Parameters
+        ----------
+        where : Where
+            The reading: places of points and values of quantities.
+
+        Returns
+        -------
+        tuple of Vec
+            The directions.
+        """
         return ()
 
     def modes(self) -> tuple[Side, ...]:
-        """Return the assembly modes a side chooses from; empty where there is only one."""
+        """Return the assembly modes a side chooses from; empty where there is only one.
+
+        Returns
+        -------
+        tuple of Side
+            The modes.
+        """
         return ()
 
     def shortage(self, where: Where) -> tuple[str, Scalar]:
-        """Return which length is too short to place this point, in words, and by how much [m]."""
+        """Return which length is too short to place this point, in words, and by how much [m].
+
+        Parameters
+        ----------
+        where : Where
+            The reading: places of points and values of quantities.
+
+        Returns
+        -------
+        tuple of str and float or array
+            The length in words, and what is missing [m].
+        """
         return "its point lies nowhere", float("nan")
 
     def outline(self, where: Where) -> tuple[Contour, ...]:
@@ -185,7 +252,13 @@ class Step(Point):
         return joined_names(*points) if self.spoken is None else self.spoken.word(*points)
 
     def slots(self) -> tuple[Slot, ...]:
-        """Return the labels this step takes; the step knows its points' names by now."""
+        """Return the labels this step takes; the step knows its points' names by now.
+
+        Returns
+        -------
+        tuple of Slot
+            The labels.
+        """
         return tuple(Slot(f"{letter}X", (getattr(self, letter), self.X)) for letter in self.arms)
 
     def bars(self) -> tuple[Bar, ...]:
@@ -252,7 +325,13 @@ class Step(Point):
         return f"{self.X or self.name or '?'} = {type(self).__name__}({', '.join(map(label, self.parents))})"
 
     def arguments(self) -> list[str]:
-        """Return the arguments as they would be written."""
+        """Return the arguments as they would be written.
+
+        Returns
+        -------
+        list of str
+            The arguments.
+        """
         words = [*map(label, self.parents)]
         words += written_labels(self.labels, self.fitting() if self.X else ())
         if self.side is not None:

@@ -24,16 +24,39 @@ from .designs import DesignValues, check_once
 @final
 @immutable
 class Box:
-    """Settings: `ranges` from low to high [SI] by name, times the `choices`, each a mapping of names to values."""
+    """Settings to look at: ranges of values, times choices.
+
+    Parameters
+    ----------
+    ranges : mapping of str to tuple of float
+        From low to high [SI] by name.
+    choices : sequence of mapping, optional
+        Each a mapping of names to values; one without names by default.
+    """
 
     ranges: Mapping[str, tuple[float, float]]
     choices: Sequence[Mapping[str, Any]] = ({},)
 
     @classmethod
     def of(cls, machine: Mechanism, vary: Mapping[str, Any]) -> Box:
-        """Return the box that `dict(MK=(0.80, 0.96), M=[(0.22, 1.05), (0.22, 0.95)])` means: a pair is a range, a list the choices.
+        """Return the box that `dict(MK=(0.80, 0.96), M=[(0.22, 1.05), (0.22, 0.95)])` means.
 
-        Raises DefinitionError for an unknown dimension, a range the wrong way round, or anything else.
+        Parameters
+        ----------
+        machine : Mechanism
+            The machine.
+        vary : mapping of str to object
+            By name a pair, which is a range, or a list of choices [SI].
+
+        Returns
+        -------
+        Box
+            The settings.
+
+        Raises
+        ------
+        DefinitionError
+            A dimension is not known, a range is the wrong way round, or it is anything else.
         """
         check_mechanism(machine)
         if not isinstance(vary, Mapping):
@@ -56,7 +79,20 @@ class Box:
         return box
 
     def settings(self, unit: FloatArray, choice: Index) -> DesignValues:
-        """Return settings (m,) by name, from coordinates (m, k) between 0 and 1 and the number of the choice (m,)."""
+        """Return settings by name, from coordinates in parts of the ranges.
+
+        Parameters
+        ----------
+        unit : array (m, k)
+            The coordinates between 0 and 1.
+        choice : array of int (m,)
+            The number of the choice.
+
+        Returns
+        -------
+        mapping of str to array (m,)
+            The settings [SI].
+        """
         low, high = np.array([*self.ranges.values()], float).reshape(-1, 2).T
         values = np.where(unit == 1.0, high, low + unit * (high - low))  # the far end to its last digit
         found: DesignValues = dict(zip(self.ranges, values.T, strict=True))
@@ -66,10 +102,21 @@ class Box:
         return found
 
     def sample(self, count: int, *, method: str = "sobol", seed: int = 0) -> DesignValues:
-        """Return settings (count,) by name, spread evenly over the ranges and choices: the designs of a survey.
+        """Return settings by name, spread evenly over the ranges and choices: the designs of a survey. They are the same for the same seed.
 
-        By a scrambled Sobol sequence, evenest where count is a power of two, a Latin hypercube, `method="latin"`, or pseudo-random
-        numbers, `method="random"`; the same for the same seed.
+        Parameters
+        ----------
+        count : int
+            How many; a Sobol sequence is evenest for a power of two.
+        method : {"sobol", "latin", "random"}, optional
+            A scrambled Sobol sequence, the default, a Latin hypercube, or pseudo-random numbers.
+        seed : int, optional
+            The seed, 0 by default.
+
+        Returns
+        -------
+        mapping of str to array (count,)
+            The settings [SI].
         """
         many = len(self.choices) > 1
         unit = unit_points(count, len(self.ranges) + many, method, seed)

@@ -44,8 +44,18 @@ class Relaxation:
 class InfeasibleError(StudyError):
     """No design in the box keeps all conditions.
 
-    `nearest` is the machine that misses them least, `relaxations` what has to give way for it, all of them together; `conflict` the
-    conditions that pull against one another there. `alternatives` are conditions of which one alone may give way, with all others kept.
+    Parameters
+    ----------
+    message : str
+        What is missing, and what would help.
+    nearest : Mechanism
+        The machine that misses the conditions least.
+    relaxations : sequence of Relaxation
+        What has to give way for it, all of them together.
+    conflict : sequence of Constraint
+        The conditions that pull against one another there.
+    alternatives : sequence of Relaxation, optional
+        Conditions of which one alone may give way, with all others met.
     """
 
     def __init__(

@@ -28,10 +28,25 @@ FACTORS: Mapping[str, str] = MappingProxyType(
 @refuses_changes
 @dataclass(frozen=True)
 class LoadRule:
-    """Factors of the load by its limit: `LoadRule("works rule", hydraulic=0.9, tipping=0.7)`.
+    """Factors of the load by its limit: `LoadRule("works rule", hydraulic=0.9, tipping=0.7)`. Each is above 0 and not above 1.
 
-    `hydraulic` of what each cylinder carries, `tipping` and `slipping` of what the supports do, `pressure` of the pump's pressure with
-    which cylinders lift, not of what holds. Each is above 0 and not above 1. `remark` is written beside it in a legend.
+    Parameters
+    ----------
+    title : str
+        How the rule is called.
+    hydraulic : float, optional
+        The part of what each cylinder carries.
+    tipping, slipping : float, optional
+        The parts of what the supports do.
+    pressure : float, optional
+        The part of the pump's pressure with which cylinders lift, not of what holds.
+    remark : str, optional
+        What is written beside it in a legend.
+
+    Raises
+    ------
+    DefinitionError
+        A factor is not above 0, or above 1.
     """
 
     title: str

@@ -38,10 +38,22 @@ MEMORY = 1 << 28
 @final
 @immutable
 class Band:
-    """A quantity over the strokes, shapes (...), of machines with tolerances; `unit` is the one it is shown in.
+    """A quantity over the strokes, of machines with tolerances; arrays have the shape (...) of the strokes.
 
-    `nominal` is that of the machine as it is set. `mean`, `sigma` and `percentiles`, by their percentage, are over the designs that have a
-    value there, which are `share` of all. `low` and `high` are the worst case with every deviation within its limits.
+    Attributes
+    ----------
+    quantity, unit : str
+        Its name, and the unit in which it is shown.
+    nominal : array
+        That of the machine as it is set [SI].
+    mean, sigma : array
+        Mean and standard deviation over the designs that have a value there [SI].
+    percentiles : mapping of float to array
+        By their percentage [SI].
+    share : array
+        The share of all designs that have a value there.
+    low, high : array
+        The worst case with every deviation within its limits [SI].
     """
 
     quantity: str
@@ -60,9 +72,32 @@ class Band:
 class MonteCarlo:
     """Machines with tolerances: a `Band` of each quantity, and the share of machines that are good.
 
-    `yield_rate` is the share of the designs that can be assembled and keep every condition, `assembled` that of those that have a value of
-    every quantity at every stroke, `kept` that of those that keep a condition, by its words. `good` is the mask of the good designs, shape
-    (count,), and `designs` their dimensions by name.
+    `yield_rate` is the share of the designs that can be assembled and keep every condition.
+
+    Attributes
+    ----------
+    machine : Mechanism
+        The machine as it is set.
+    tolerances : mapping of str to Tolerance
+        By dimension.
+    strokes : mapping of str to array
+        The poses looked at [m or rad].
+    of : mapping of str to Measured
+        What is measured, by name.
+    bands : mapping of str to Band
+        The bands, by name.
+    conditions : tuple of Constraint
+        What a good machine keeps.
+    designs : mapping of str to array (count,)
+        The dimensions of the designs [SI].
+    good : array of bool (count,)
+        The good designs.
+    assembled : float
+        The share of the designs that have a value of every quantity at every stroke.
+    kept : mapping of str to float
+        The share of the designs that keep each condition, by its words.
+    at : str
+        The poses in words.
     """
 
     machine: Mechanism
@@ -94,7 +129,18 @@ class MonteCarlo:
         return self.bands[name]
 
     def design(self, place: int) -> Mechanism:
-        """Return the machine of one of the designs, by its number."""
+        """Return the machine of one of the designs, by its number.
+
+        Parameters
+        ----------
+        place : int
+            The number of the design.
+
+        Returns
+        -------
+        Mechanism
+            The machine.
+        """
         check_in_count(self.machine.plan.title, "design", place, self.count)
         return self.machine.replaced(**{name: float(value[place]) for name, value in self.designs.items()})
 
@@ -129,17 +175,41 @@ def monte_carlo(
 ) -> MonteCarlo:
     """Return the bands of quantities over machines with tolerances, and how many of them keep conditions.
 
-    `monte_carlo(hitch, ["tilt", drive_force()], {"OB": 0.1 * mm, "M": 0.5 * mm}, subject_to=[most("tilt") <= 18 * deg])`. Quantities, in a
-    list or by names of your own, are outputs, requests, measures, or functions of a motion of many designs, which give a number for each
-    pose or for each design. Dimensions are independent of each other; a tolerance's law is normal with three sigmas to its limit unless
-    `Tolerance` says another. `method` is "sobol", "latin" or "random", `count` the number of designs; strokes as in `machine.at`, by
-    default 21 over a single one. A design that cannot be assembled at one of the strokes is lost, and no good machine; percentiles
-    are of the others there. Measures and conditions look at these strokes alone; an integral looks between
-    them, too.
+    `monte_carlo(hitch, ["tilt", drive_force()], {"OB": 0.1 * mm, "M": 0.5 * mm}, subject_to=[most("tilt") <= 18 * deg])`. A design that
+    cannot be assembled at one of the strokes is lost, and no good machine; percentiles are of the others there. The worst case begins at
+    the corner of the tolerances where each dimension's own effect is the worst. Neighbouring corners and middles are evaluated until none
+    is worse. Beside the results it needs the dimensions of all designs, and 256 MB.
 
-    The worst case begins at the corner of the tolerances where each dimension's own effect is the worst, and is bettered by true
-    evaluation of the neighbouring corners and middles until none is worse. Beside the results it needs the dimensions of all designs, and
-    256 MB. The results are the same for the same seed, whatever the number of threads.
+    Parameters
+    ----------
+    machine : Mechanism
+        The machine as it is set, one design.
+    of : sequence or mapping of str
+        Quantities, in a list or by names of your own: outputs, requests, measures, or functions of a motion of many designs, which give a
+        number for each pose or for each design.
+    tolerances : mapping of str to Tolerance or float
+        By dimension [SI]; the dimensions are independent of each other. A number is the limit of a normal law at three sigmas.
+    subject_to : sequence of conditions, optional
+        What a good machine keeps. Measures and conditions look at the strokes alone; an integral looks between them, too.
+    count : int, optional
+        The number of designs, 16384 by default.
+    percentiles : sequence of float, optional
+        Which percentiles, 5, 50 and 95 by default.
+    method : {"sobol", "latin", "random"}, optional
+        How designs are spread.
+    seed : int, optional
+        The seed, 0 by default. The results are the same for the same seed, whatever the number of threads.
+    backend : {"numpy", "numba"}, optional
+        Which back end works it out.
+    threads : int, optional
+        How many threads.
+    **strokes : float or array
+        As in `machine.at`, by default 21 over a single stroke.
+
+    Returns
+    -------
+    MonteCarlo
+        The bands, and the good machines.
     """
     poses, plan = StudyPoses.of(machine, strokes, POSES), machine.plan
     named = tolerances_of(plan, tolerances)

@@ -118,11 +118,40 @@ class AtBound:
 class Optimum(Shown):
     """The best design found, assembled over the whole stroke.
 
-    `machine` is the design, `value` its objective [SI], `start_value` that of the design it began with (NaN where that cannot be
-    assembled). `conditions` say what each condition has to spare and which are active, `bounds` which variables stand at their ends.
-    `agreed` of `tries` local searches came to this value; `cut` says which combinations of choices cannot keep a condition, whatever the
-    variables. `edges` say where the machine itself stops it: links that no longer meet, a bore that must be above its rod. `limit` is that
-    of the designs where it was reached, so that this is the best so far; None where the search came to its end.
+    Attributes
+    ----------
+    machine, start : Mechanism
+        The design, and that which the search began with.
+    value, start_value : float
+        Their objectives [SI]; NaN where the first one cannot be assembled.
+    start_missing : float
+        By how much the first one misses the conditions, scaled; 0 where it keeps them.
+    conditions : tuple of Kept
+        What each condition has to spare, and which are active.
+    bounds : tuple of AtBound
+        The variables at their ends.
+    variables : mapping of str to float
+        The values found [SI].
+    agreed, tries : int
+        How many of the local searches came to this value.
+    searched : int
+        How many combinations of choices were searched.
+    cut : tuple of str
+        Which combinations of choices cannot keep a condition, whatever the variables.
+    evaluations : int
+        How many designs were looked at.
+    problem : Problem
+        The objective and the conditions over their samples.
+    unit : array
+        The variables in parts of their ranges.
+    combination : tuple of int
+        The choices taken, by number.
+    tried : tuple of EvaluatedDesigns
+        The designs looked at, stage by stage.
+    limit : int, optional
+        That of the designs where it was reached, so that this is the best so far; None where the search came to its end.
+    edges : tuple of str
+        Where the machine itself stops it: links that no longer meet, a bore that must be above its rod.
     """
 
     machine: Mechanism
@@ -184,10 +213,22 @@ class Optimum(Shown):
         return f", {100.0 * self.gain:.3g} % better than {show(self.start_value, units)} to begin with"
 
     def rounded(self, to: float = 1.0 * mm, angle: float = 0.1 * deg) -> Rounded:
-        """Return the design with its lengths on steps of `to` [m] and its angles on steps of `angle` [rad], as a drawing gives them.
+        """Return the design with its dimensions on steps, as a drawing gives them.
 
-        Of the steps about each value those are taken that keep every condition and cost least; where none does, the one that misses
-        least, and it says so.
+        Of the steps about each value those are taken that keep every condition and cost least; where none does, the one that misses least,
+        and it says so.
+
+        Parameters
+        ----------
+        to : float, optional
+            The step of lengths [m], 1 mm by default.
+        angle : float, optional
+            The step of angles [rad], 0.1 deg by default.
+
+        Returns
+        -------
+        Rounded
+            The rounded design.
         """
         problem, judged = self.problem, []
         units = problem.space.unit(rounded_values(self.machine, problem.space, self.unit, to, angle, MOST_ROUNDINGS))
@@ -211,7 +252,18 @@ class Optimum(Shown):
         return Rounded(machine, value, cost, missing, text)
 
     def rows(self, rounded: Rounded | None = None) -> tuple[ResultRow, ...]:
-        """Return the variables, the objective and the conditions, before and after, and of a rounded design too."""
+        """Return the variables, the objective and the conditions, before and after, and of a rounded design too.
+
+        Parameters
+        ----------
+        rounded : Rounded, optional
+            The rounded design, as another column.
+
+        Returns
+        -------
+        tuple of ResultRow
+            The rows.
+        """
         problem, plan = self.problem, self.problem.plan
         machines = [self.start, self.machine, *([rounded.machine] if rounded else [])]
         at_end = {each.variable.name: each for each in self.bounds}
@@ -234,7 +286,18 @@ class Optimum(Shown):
         return tuple(rows)
 
     def table(self, rounded: Rounded | None = None) -> str:
-        """Return the rows as aligned text."""
+        """Return the rows as aligned text.
+
+        Parameters
+        ----------
+        rounded : Rounded, optional
+            The rounded design, as another column.
+
+        Returns
+        -------
+        str
+            The lines of the table.
+        """
         # columns that hold nothing are left out
         cells = result_cells(self.rows(rounded), ".6g", ".2g")
         kept = [place for place in range(len(RESULT_HEADINGS)) if any(line[place] for line in cells[1:])]
@@ -242,12 +305,36 @@ class Optimum(Shown):
         return text_columns([[line[place] for place in kept] for line in cells], words)
 
     def csv(self, path: Place, rounded: Rounded | None = None) -> None:
-        """Write the rows into a CSV file, in full precision; FileError where it cannot be written."""
+        """Write the rows into a CSV file, in full precision.
+
+        Parameters
+        ----------
+        path : str or Path
+            The file.
+        rounded : Rounded, optional
+            The rounded design, as another column.
+
+        Raises
+        ------
+        FileError
+            The file cannot be written.
+        """
         with replacing_text(path) as stream:
             csv.writer(stream).writerows(result_cells(self.rows(rounded)))
 
     def designs_csv(self, path: Place) -> None:
-        """Write every design that was looked at into a CSV file: its dimensions, its objective, and the part missing of a condition."""
+        """Write every design that was looked at into a CSV file: its dimensions, its objective, and the part missing of a condition.
+
+        Parameters
+        ----------
+        path : str or Path
+            The file.
+
+        Raises
+        ------
+        FileError
+            The file cannot be written.
+        """
         plan, objective = self.problem.plan, self.problem.objectives[0]
         unit = unit_of_measure(plan, objective)
         headings = [heading_with_unit(name, unit_of(plan, name)) for name in tried_names(self.tried[0].space)]
@@ -258,7 +345,18 @@ class Optimum(Shown):
                 writer.writerow("" if each != each else each if isinstance(each, str) else repr(each) for each in row)
 
     def designs_jsonl(self, path: Place) -> None:
-        """Write every design that was looked at into a file of JSON lines, in SI; null where there is no value."""
+        """Write every design that was looked at into a file of JSON lines, in SI; null where there is no value.
+
+        Parameters
+        ----------
+        path : str or Path
+            The file.
+
+        Raises
+        ------
+        FileError
+            The file cannot be written.
+        """
         names = [*tried_names(self.tried[0].space), "value", "missing"]
         with replacing_text(path) as stream:
             for stage, *row in tried_rows(None, "", self.tried):

@@ -43,7 +43,23 @@ class FrontPoint:
 @final
 @immutable
 class Front(Shown):
-    """The designs of which none is better in all objectives, in the order of the first: `front.points[0].machine`."""
+    """The designs of which none is better in all objectives, in the order of the first: `front.points[0].machine`.
+
+    Attributes
+    ----------
+    title : str
+        The machine's title.
+    objectives : tuple of Measure
+        What is made least or greatest.
+    units : tuple of str
+        The units in which they are shown.
+    points : tuple of FrontPoint
+        The designs with their values.
+    evaluations : int
+        How many designs were looked at.
+    limit : int, optional
+        That of the designs where it was reached; None where the search came to its end.
+    """
 
     title: str
     objectives: tuple[Measure, ...]

@@ -38,7 +38,17 @@ many times that of the usual ones [%]."""
 @final
 @immutable
 class Settings(Told):
-    """All values [SI] of a dimension that give the target, ascending; `sentence` says so, or why there is none."""
+    """All values of a dimension that give a target.
+
+    Attributes
+    ----------
+    name : str
+        The dimension.
+    values : tuple of float
+        The values [SI], ascending.
+    sentence : str
+        What was found, or why there is none.
+    """
 
     name: str
     values: tuple[float, ...]
@@ -71,17 +81,43 @@ def settings_for(
     points: Any = None,
     **strokes: float,
 ) -> Settings | Solutions:
-    """Return every value of a dimension in a range at which a quantity has a target value [SI], at one pose of one design.
+    """Return every value of dimensions in a range at which quantities have target values, of one design.
 
-    `settings_for(hitch, "MK", "tilt", 0.0, between=(0.5, 1.3), S=0.1)`. Roots are found to rounding; two that lie closer than a
-    thousandth of the range may be missed. Settings that cannot be assembled over the whole stroke are no answer. `unit` is the
-    quantity's in the sentence.
+    `settings_for(hitch, "MK", "tilt", 0.0, between=(0.5, 1.3), S=0.1)`; with several targets
+    `settings_for(hitch, {"MK": (0.5, 1.3), "M": [(0.22, 1.05), (0.22, 0.95)]}, [Target("tilt", 0.0, S=0.1), ...])`. Settings that cannot be
+    assembled over the whole stroke are no answer. Roots of one dimension are found to rounding; two that lie closer than a thousandth of
+    the range may be missed. For a path, a function or poses of a body `synthesise` is quicker, and finds their strokes too.
 
-    Several dimensions and targets: `settings_for(hitch, {"MK": (0.5, 1.3), "M": [(0.22, 1.05), (0.22, 0.95)]}, targets)` takes a list of
-    targets such as `Target("tilt", 0.0, S=0.1)`. It returns all `Solutions` in the box that are found from `points` of it, for every
-    choice. Without one it returns the nearest setting, with what is missing of each target. There are at least as many targets as ranges,
-    DefinitionError for fewer. Ranges may be any number: the search goes on from the best of at most 16,384 points, by exact derivatives.
-    For a path, a function or poses of a body `synthesise` is quicker, and finds their strokes too.
+    Parameters
+    ----------
+    machine : Mechanism
+        The machine, one design.
+    name : str or mapping of str to object
+        The dimension, or several with their ranges and choices, as in `Box.of`.
+    quantity : str, quantity, request or list of Target
+        The quantity, or the targets of several dimensions: at least as many as there are ranges.
+    target : float, optional
+        The value of the quantity [SI], 0 by default.
+    between : tuple of float, optional
+        The range of one dimension [SI].
+    unit : str, optional
+        The quantity's unit in the sentence.
+    points : int, optional
+        From how many points of the box the search of several dimensions begins; it goes on from the best of at most 16,384, by exact
+        derivatives.
+    **strokes : float
+        The pose of one quantity [m or rad].
+
+    Returns
+    -------
+    Settings or Solutions
+        The values of one dimension, or all settings of several that were found. Without one the nearest setting, with what is missing of
+        each target.
+
+    Raises
+    ------
+    DefinitionError
+        There are fewer targets than ranges, or a name or a range cannot be.
     """
     if isinstance(name, Mapping):
         single = [*(["between"] if between is not None else []), *(["unit"] if unit else []), *strokes]
@@ -198,11 +234,22 @@ def no_setting_words(words: Mapping[str, str], own: str, unit: str, at: FloatArr
 @final
 @immutable
 class Solutions(Told):
-    """All settings of several dimensions that give the targets, or the nearest one; `sentence` says so.
+    """All settings of several dimensions that give the targets, or the nearest one.
 
-    `settings` are values [SI] by name. `met` is whether they give every target, with a machine that is assembled over its whole stroke.
-    `misses` are, by settings, how far each target is missed [SI], zero to rounding where they are met. Where `is_family` they are some of
-    infinitely many.
+    Attributes
+    ----------
+    machine : Mechanism
+        The machine that was set.
+    settings : tuple of mapping
+        Values [SI] by name.
+    met : bool
+        Whether they give every target, with a machine that is assembled over its whole stroke.
+    misses : tuple of tuple of float
+        By settings, how far each target is missed [SI], zero to rounding where they are met.
+    is_family : bool
+        Whether they are some of infinitely many.
+    sentence : str
+        What was found, or why there is none.
     """
 
     machine: Mechanism

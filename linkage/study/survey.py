@@ -284,9 +284,18 @@ SMALLEST, LARGEST, PARTS = 64, 2048, 64
 @final
 @immutable
 class Survey(Mapping[str, Array], Shown):
-    """The measured values: `found["travel"]`, shape (m,), for each name that `measure` gave.
+    """The measured values of many designs: `found["travel"]`, shape (m,), for each name that `measure` gave.
 
-    `batches` are the batches in the order in which they came: start, stop, seconds, cpu, and kept for those from the folder.
+    Attributes
+    ----------
+    machine : Mechanism
+        The machine that was varied.
+    designs : Designs
+        The values of each dimension, (m,) [SI].
+    results : mapping of str to array (m,)
+        The measured values, by name.
+    batches : tuple of Batch
+        The batches in the order in which they came: start, stop, seconds, cpu, and whether they were read from the folder.
     """
 
     machine: Mechanism
@@ -310,7 +319,18 @@ class Survey(Mapping[str, Array], Shown):
         return len(self.results)
 
     def design(self, number: int) -> Mechanism:
-        """Return the machine of one design, by its number: `found.design(found["travel"].argmax())`."""
+        """Return the machine of one design, by its number: `found.design(found["travel"].argmax())`.
+
+        Parameters
+        ----------
+        number : int
+            The number of the design.
+
+        Returns
+        -------
+        Mechanism
+            The machine.
+        """
         check_in_count(self.machine.plan.title, "design", number, self.designs.count)
         rows = self.designs.dimensions(int(number), int(number) + 1)
         one = {name: tuple(float(part.flat[0]) for part in value) if isinstance(value, tuple) else value[0] for name, value in rows.items()}
@@ -339,26 +359,47 @@ def survey(
     piece: int | None = None,
     version: str | int = "",
 ) -> Survey:
-    """Return the values of `measure` for many designs: `survey(hitch, {"OB": array, "M": (xs, ys)}, measure)["travel"]`, shape (m,).
+    """Return the values of a function for many designs: `survey(hitch, {"OB": array, "M": (xs, ys)}, measure)["travel"]`, shape (m,).
 
-    `vary` are dimensions by name [SI], each an array (m,); `over`, which elsewhere says where strokes run, is refused.
+    The results are the same to the last bit whoever does the work, on processors of one kind with the same libraries and OMP_NUM_THREADS.
 
-    `measure(machine)` is called with some designs at a time, in arrays, and
-    returns numbers or truth values for each of them, arrays (designs,) by name. What it returns for a design must not depend on
-    the others.
+    Parameters
+    ----------
+    machine : Mechanism
+        The machine that is varied.
+    vary : mapping of str to array (m,)
+        Dimensions by name [SI].
+    measure : callable
+        `measure(machine)` is called with some designs at a time, in arrays. It returns numbers or truth values for each of them, arrays
+        (designs,) by name. What it returns for a design must not depend on the others.
+    over : None, optional
+        Refused: elsewhere it says where strokes run.
+    executor : Executor, optional
+        Anything with `submit`: a pool of `concurrent.futures`, `distributed.Client(...).get_executor()`; by default this process. Batches
+        take some tenths of a second, a few for each worker. A batch whose worker was lost is sent again.
+    folder : str or Path, optional
+        Where finished batches are written, so that the same call goes on where another one stopped. A folder knows `measure` by its source
+        text, by that of the functions of its module which it names, and by the values they read.
+    progress : bool or callable, optional
+        True shows a bar on stderr; a function is called with (done, total) designs.
+    backend : {"numpy", "numba"}, optional
+        The one back end of all batches.
+    piece : int, optional
+        How many designs are measured at a time, by default 64 to 2048, by their number alone.
+    version : str or int, optional
+        Counted up where something changes that `measure` does not show; a lambda needs it.
 
-    `executor` is anything with `submit`: a pool of `concurrent.futures`, `distributed.Client(...).get_executor()`; without one this process
-    does the work. Batches go out that take some tenths of a second, a few for each worker. A batch whose worker was lost is sent again.
-    With `folder` finished batches are kept there, and the same call goes on where another one stopped. A folder knows `measure` by its
-    source text, by that of the functions of its module which it names, and by the values they read. Count up `version` when something
-    changes that lies deeper; a lambda needs it. `progress=True` shows a bar on stderr; a function is called with (done, total) designs.
+    Returns
+    -------
+    Survey
+        The values by name.
 
-    The results are the same to the last bit whoever does the work, on processors of one kind with the same libraries and
-    OMP_NUM_THREADS. Designs are measured `piece` at a time, by default 64 to 2048, by their number alone. All go on one back
-    end, "numpy" or "numba".
-
-    Raises DefinitionError for designs or results that cannot be, or a folder of another study; StudyError where measure fails, naming
-    the designs, and where the executor breaks.
+    Raises
+    ------
+    DefinitionError
+        Designs or results cannot be, or the folder is that of another study.
+    StudyError
+        `measure` fails, naming the designs, or the executor breaks.
     """
     check_one_design(machine)
     check_vary(machine, "survey", over)

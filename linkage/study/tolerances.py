@@ -38,10 +38,15 @@ WITHIN = 0.9973002039367398
 @refuses_changes
 @dataclass(frozen=True)
 class Tolerance:
-    """How far a dimension may lie from its value [SI]: `0.1 * mm` to either side, or `(-0.1 * mm, 0.2 * mm)`; and by which law.
+    """How far a dimension may lie from its value: `Tolerance(0.1 * mm)`.
 
-    "normal": the limits are three sigmas from the middle, and 0.27 % lie beyond them; "truncated": the same without these; "uniform":
-    every value between the limits is as likely as another.
+    Parameters
+    ----------
+    limits : float or tuple of float
+        The limits [SI]: one number to either side, or a pair, `(-0.1 * mm, 0.2 * mm)`.
+    law : {"normal", "truncated", "uniform"}, optional
+        "normal", the default: the limits are three sigmas from the middle, and 0.27 % lie beyond them. "truncated": the same without these.
+        "uniform": every value between the limits is as likely as another.
     """
 
     limits: float | tuple[float, float]
@@ -74,7 +79,18 @@ class Tolerance:
         return half / SIGMAS * (sqrt(1.0 - cut) if self.law == "truncated" else 1.0)
 
     def deviations(self, unit: FloatArray) -> FloatArray:
-        """Return deviations [SI] that are spread by the law where `unit` is spread evenly over 0 to 1."""
+        """Return deviations [SI] that are spread by the law where `unit` is spread evenly over 0 to 1.
+
+        Parameters
+        ----------
+        unit : array
+            Numbers between 0 and 1.
+
+        Returns
+        -------
+        array
+            The deviations [SI].
+        """
         middle, half = 0.5 * (self.low + self.high), 0.5 * (self.high - self.low)
         if self.law == "uniform":
             return np.asarray(middle + half * (2.0 * unit - 1.0))
@@ -183,8 +199,20 @@ def values_shifted(
 def sigma(quantity: RequestLike, tolerances: Mapping[str, ToleranceLike]) -> NodeRequest:
     """Return the request for the standard deviation of a quantity, sqrt(sum (g_i sigma_i)^2) with its exact gradient g.
 
-    `sigma("tilt", {"OB": 0.1 * mm, "M": 0.5 * mm})` in the quantity's unit, in `evaluate`, `function`, `gradient` and searches. Dimensions
-    are independent of each other. Source: the law of propagation of uncertainty, ISO/IEC Guide 98-3 (GUM), 5.1.2.
+    `sigma("tilt", {"OB": 0.1 * mm, "M": 0.5 * mm})` is in the quantity's unit, in `evaluate`, `function`, `gradient` and searches.
+    Dimensions are independent of each other. Source: the law of propagation of uncertainty, ISO/IEC Guide 98-3 (GUM), 5.1.2.
+
+    Parameters
+    ----------
+    quantity : str, quantity or request
+        The quantity.
+    tolerances : mapping of str to Tolerance or float
+        By dimension [SI].
+
+    Returns
+    -------
+    NodeRequest
+        The request.
     """
 
     def identity(plan: Plan) -> Hashable:
@@ -231,10 +259,28 @@ def spread(
     tolerances: Mapping[str, ToleranceLike],
     strokes: Mapping[str, Any],
 ) -> FloatArray:
-    """Return the standard deviation of a quantity at designs and strokes, shape (*designs, *strokes), from exact gradients.
+    """Return the standard deviation of a quantity at designs and strokes, from exact gradients.
 
-    `spread(hitch, {"OB": array}, "tilt", {"OB": 0.1 * mm, "CD": 0.2 * mm}, {"S": array})` is one kernel call; NaN where the quantity or
-    its gradient has no value. It is `evaluate([sigma(...)])` of these designs.
+    `spread(hitch, {"OB": array}, "tilt", {"OB": 0.1 * mm, "CD": 0.2 * mm}, {"S": array})` is one kernel call. It is
+    `evaluate([sigma(...)])` of these designs.
+
+    Parameters
+    ----------
+    machine : Mechanism
+        The machine.
+    designs : mapping of str to array
+        Dimensions by name [SI].
+    quantity : str, quantity or request
+        The quantity.
+    tolerances : mapping of str to Tolerance or float
+        By dimension [SI].
+    strokes : mapping of str to array
+        Strokes by name [m or rad].
+
+    Returns
+    -------
+    array (*designs, *strokes)
+        The standard deviation; NaN where the quantity or its gradient has no value.
     """
     check_mechanism(machine)
     traced_number(machine.plan, quantity)
@@ -252,10 +298,20 @@ POSES = 21
 @final
 @dataclass(frozen=True)
 class Effect:
-    """The effect of one dimension on a quantity: its gradient, and the quantity's change [SI] at either limit of the tolerance.
+    """The effect of one dimension on a quantity. `linear_low` and `linear_high` are the changes that the gradient tells.
 
-    `low` and `high` are the real changes, `linear_low` and `linear_high` those that the gradient tells; `share` is the dimension's of the
-    variance, to the first order. NaN where the machine cannot be assembled at a limit.
+    Attributes
+    ----------
+    name : str
+        The dimension.
+    tolerance : Tolerance
+        Its tolerance.
+    gradient : float
+        The quantity's derivative by it [SI].
+    low, high : float
+        The quantity's real changes at either limit [SI], NaN where the machine cannot be assembled there.
+    share : float
+        The dimension's share of the variance, to the first order.
     """
 
     name: str
@@ -284,7 +340,19 @@ class Effect:
 @final
 @immutable
 class Tornado:
-    """The effect of every tolerance by itself on a quantity at one pose: bars, the longest first; `sigma` is that of all together."""
+    """The effect of every tolerance by itself on a quantity at one pose.
+
+    Attributes
+    ----------
+    plan : Plan
+        The machine's plan.
+    quantity, unit, at : str
+        The quantity, the unit in which it is shown, and the pose in words.
+    nominal, sigma : float
+        Its value, and the standard deviation of all together [SI].
+    bars : tuple of Effect
+        The effects, the longest first.
+    """
 
     plan: Plan
     quantity: str
@@ -320,8 +388,30 @@ def tornado(
     """Return the effect of every single tolerance on a quantity at one pose, the largest first.
 
     `tornado(hitch, "tilt", {"OB": 0.1 * mm, "CD": 0.2 * mm}, unit="deg", S=0.1)`. Gradients are exact; those of a measure over the strokes
-    looked at, `most("tilt")`, and of a function of a motion are central differences over a thousandth of the tolerance. `unit` is that
-    of the words, by default the quantity's own. Raises AssemblyError where the machine as it is set cannot be assembled.
+    looked at, `most("tilt")`, and of a function of a motion are central differences over a thousandth of the tolerance.
+
+    Parameters
+    ----------
+    machine : Mechanism
+        The machine, one design.
+    quantity : str, quantity, request, measure or callable
+        The quantity.
+    tolerances : mapping of str to Tolerance or float
+        By dimension [SI].
+    unit : str, optional
+        The unit of the words, by default the quantity's own.
+    **strokes : float or array
+        As in `machine.at`.
+
+    Returns
+    -------
+    Tornado
+        The effects.
+
+    Raises
+    ------
+    AssemblyError
+        The machine as it is set cannot be assembled.
     """
     poses, plan = StudyPoses.of(machine, strokes, POSES), machine.plan
     unit_or_none(unit, where="tornado(unit=...)")
@@ -368,9 +458,20 @@ def gradient_at(machine: Mechanism, poses: StudyPoses, quantity: Measured, toler
 @final
 @immutable
 class SobolIndices:
-    """The shares of a quantity's variance by dimension: `first` order, by itself, and `total`, with all it acts together with.
+    """The shares of a quantity's variance by dimension; arrays have the shape (...) of the strokes.
 
-    Both by name, shapes (...) of the strokes; `sigma`, shape (...), is the standard deviation that they divide.
+    Attributes
+    ----------
+    quantity : str
+        The quantity.
+    strokes : mapping of str to array
+        The poses [m or rad].
+    first : mapping of str to array
+        The share of each dimension by itself.
+    total : mapping of str to array
+        Its share together with all it acts together with.
+    sigma : array
+        The standard deviation that they divide [SI].
     """
 
     quantity: str
@@ -400,13 +501,39 @@ def sobol(
     threads: int = 1,
     **strokes: object,
 ) -> SobolIndices:
-    """Return the Sobol indices of a quantity over tolerances, at every stroke looked at; by default 21 over a single one.
+    """Return the Sobol indices of a quantity over tolerances, at every stroke looked at.
 
-    `sobol(hitch, "tilt", {"OB": 5 * mm, "CD": 5 * mm}, S=0.1)`; a measure such as `most("tilt")` is one number over the strokes. The
-    number of designs is `count`, a power of two, times two more than there are dimensions. Source: Saltelli and others, Computer Physics
-    Communications 181 (2010), 259-270, by `scipy.stats.sobol_indices`.
+    `sobol(hitch, "tilt", {"OB": 5 * mm, "CD": 5 * mm}, S=0.1)`. Source: Saltelli and others, Computer Physics Communications 181 (2010),
+    259-270, by `scipy.stats.sobol_indices`.
 
-    Raises DefinitionError where designs cannot be assembled, so that the variance is not known, or where nothing varies.
+    Parameters
+    ----------
+    machine : Mechanism
+        The machine, one design.
+    quantity : str, quantity, request, measure or callable
+        The quantity; a measure such as `most("tilt")` is one number over the strokes.
+    tolerances : mapping of str to Tolerance or float
+        By dimension [SI].
+    count : int, optional
+        A power of two: so many designs, times two more than there are dimensions.
+    seed : int, optional
+        The seed, 0 by default.
+    backend : {"numpy", "numba"}, optional
+        Which back end works it out.
+    threads : int, optional
+        How many threads.
+    **strokes : float or array
+        As in `machine.at`, by default 21 over a single stroke.
+
+    Returns
+    -------
+    SobolIndices
+        The shares of the variance.
+
+    Raises
+    ------
+    DefinitionError
+        Designs cannot be assembled, so that the variance is not known, or nothing varies.
     """
     poses, plan = StudyPoses.of(machine, strokes, POSES), machine.plan
     named, title = tolerances_of(plan, tolerances), measured_title(plan, quantity)

@@ -61,12 +61,36 @@ FEW, BEYOND = 6, 0.25
 @final
 @immutable
 class WorkingField:
-    """The loads at a point over a grid of places; arrays of the shape (heights, radii).
+    """The loads at a point over a grid of places; arrays have the shape (heights, radii).
 
-    `load` [N] is NaN out of reach, infinite where nothing limits it; `limiter` names what does: an element, a limit by its name,
-    "tipping", "out of reach". `strokes` are those of the pose by name [m or rad], `of` the load that each limiter leaves [N], factors of
-    the rule included. `x` and `y` are the places [m]; `case`, `rule`, `remarks` say under what it holds. `failing` says in how many cells
-    conditions fail that limit nothing, such as a rod that buckles.
+    Attributes
+    ----------
+    machine : Mechanism
+        The machine.
+    point : str
+        Where the load acts.
+    along : tuple of float
+        The direction of the load.
+    x, y : array
+        The places [m].
+    load : array
+        The greatest load [N]: NaN out of reach, infinite where nothing limits it.
+    limiter : array of str
+        What limits it: an element, a limit by its name, "tipping", "out of reach".
+    strokes : mapping of str to array
+        Those of the pose [m or rad].
+    of : mapping of str to array
+        The load that each limiter leaves [N], factors of the rule included.
+    rule : LoadRule
+        The factors of the load by its limit.
+    case : str
+        The load case.
+    remarks : tuple of str
+        What was left out, in sentences.
+    failing : mapping of str to int
+        In how many cells conditions fail that limit nothing, such as a rod that buckles.
+    search : FieldSearch
+        The search that found the poses.
     """
 
     machine: Mechanism

@@ -33,10 +33,26 @@ MOST_RANGES = 8
 @final
 @immutable
 class Zone:
-    """The band of a quantity over the strokes: `low` and `high`, shape (...), over all settings that can be assembled.
+    """The band of a quantity over the strokes, over all settings that can be assembled.
 
-    `low_at` and `high_at` are the settings that give them. `reached` is the share of the settings looked at that have a value,
-    `complete` the mask of the strokes where all of them have; `remarks` say in words what was left out.
+    `complete` is the mask of the strokes where all settings have a value.
+
+    Attributes
+    ----------
+    quantity : str
+        The quantity.
+    strokes : mapping of str to array
+        The poses [m or rad].
+    low, high : array
+        The least and the greatest value [SI], of the shape (...) of the strokes.
+    low_at, high_at : mapping of str to object
+        The settings that give them.
+    reached : array
+        The share of the settings looked at that have a value.
+    looked_at : int
+        How many settings were looked at.
+    remarks : tuple of str
+        What was left out, in sentences.
     """
 
     quantity: str
@@ -58,11 +74,26 @@ class Zone:
 def zone(machine: Mechanism, quantity: QuantityLike, vary: Any = None, *, over: None = None, **strokes: Any) -> Zone:
     """Return the true extremes of a quantity at every stroke, over a box of settings and not only its corners.
 
-    `vary` are ranges and choices as in `Box.of`; `over`, which elsewhere says where strokes run, is refused.
+    The search is deterministic. Settings that cannot be assembled, or where the quantity has no value, are left out, counted and reported
+    in `remarks`. Angles are taken within 180 deg of those of the machine as it is set.
 
-    The quantity is a named output, or a function of a motion that gives a number for each pose. Strokes as in `machine.at`, by default 51
-    poses over a single one. The search is deterministic. Settings that cannot be assembled, or where the quantity has no value, are left
-    out, counted and reported in `remarks`. Angles are taken within 180 deg of those of the machine as it is set.
+    Parameters
+    ----------
+    machine : Mechanism
+        The machine, one design.
+    quantity : str or callable
+        A named output, or a function of a motion that gives a number for each pose.
+    vary : mapping of str to object
+        Ranges and choices, as in `Box.of`.
+    over : None, optional
+        Refused: elsewhere it says where strokes run.
+    **strokes : float or array
+        As in `machine.at`, by default 51 poses over a single stroke.
+
+    Returns
+    -------
+    Zone
+        The band of the quantity.
     """
     check_one_design(machine)
     check_vary(machine, "zone", over)

@@ -39,12 +39,21 @@ ROUND = 72  # the corners of a circle
 
 
 class Outline(Member):
-    """A line through corners [m], closed and filled unless it says otherwise: `bucket = Outline([(0, 0), (0.9, 0), (0.5, 0.6)], on="B N")`.
+    """A line through corners: `bucket = Outline([(0, 0), (0.9, 0), (0.5, 0.6)], on="B N")`.
 
-    It is drawn and holds nothing: mobility, plan, forces and kernels do not know it. `on` names what carries it: two points of a body,
-    one point, a link, or nothing for the frame. `hatched` hatches the line on the right of its way, as the ground below one from left
-    to right. Coordinates may follow dimensions, but no stroke: what moves is carried.
-    `Outline.circle`, `.line`, `.dxf` and `.image` make the others.
+    It is drawn and holds nothing: mobility, plan, forces and kernels do not know it. `Outline.circle`, `.line`, `.dxf` and `.image` make
+    the others.
+
+    Parameters
+    ----------
+    points : sequence of corners
+        The corners (x, y) [m]. They may follow dimensions, but no stroke: what moves is carried.
+    on : Point, Link or str, optional
+        What carries it: two points of a body, one point, a link, or nothing for the frame.
+    closed, filled : bool, optional
+        Whether it is closed and filled, as it is by default.
+    hatched : bool, optional
+        Whether the right side of its direction is hatched, as the ground below a line from left to right.
     """
 
     kind = "outline"

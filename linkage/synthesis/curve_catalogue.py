@@ -244,7 +244,14 @@ def amplitude_names() -> list[str]:
 class CurveMatch(Shown):
     """A machine of a catalogue, laid onto a curve, and how far its own curve is off.
 
-    `distance` is the root mean square distance of points at the same part of the way, in parts of the curve's own from its middle.
+    Attributes
+    ----------
+    machine : Mechanism
+        The machine.
+    distance : float
+        The root mean square distance of points at the same part of the curve, in parts of the curve's own from its middle.
+    number : int
+        Its number in the catalogue.
     """
 
     machine: Mechanism
@@ -260,8 +267,18 @@ class CurveMatch(Shown):
 class CurveCatalogue(Shown):
     """Closed curves of a point, of designs that run their whole turn: `catalogue.nearest(points)`.
 
-    `kind` says whose they are. `units` (m, k) are the designs, `amplitudes` (m, 2 h) the sizes of their descriptors, `looked` how many
-    designs were looked at, `seed` that of their sequence.
+    Attributes
+    ----------
+    kind : CurveClass
+        The class of machine and the point.
+    units : array (m, k)
+        The designs, in parts of their ranges.
+    amplitudes : array (m, 2 h)
+        The sizes of the descriptors of their curves.
+    looked : int
+        How many designs were looked at.
+    seed : int
+        That of their sequence.
     """
 
     kind: CurveClass
@@ -279,15 +296,41 @@ class CurveCatalogue(Shown):
     __repr__ = __str__
 
     def design(self, number: int) -> Mechanism:
-        """Return the machine of a curve, by its number; its first two fixed points stand 1 m apart."""
+        """Return the machine of a curve, by its number; its first two fixed points stand 1 m apart.
+
+        Parameters
+        ----------
+        number : int
+            The number of the curve.
+
+        Returns
+        -------
+        Mechanism
+            The machine.
+        """
         check_in_count(self.kind.class_title, "curve", number, len(self))
         values = self.kind.values(self.units[int(number)][None])
         return self.kind.machine.replaced(**{name: float(value[0]) for name, value in self.kind.designs(values).items()})
 
     def nearest(self, points: object, count: int = 8) -> tuple[CurveMatch, ...]:
-        """Return the machines whose curves are nearest to the closed curve through points (n, 2) [m], laid onto it, the nearest first.
+        """Return the machines whose curves are nearest to a closed curve, laid onto it, the nearest first.
 
-        DefinitionError for anything but a closed curve.
+        Parameters
+        ----------
+        points : array (n, 2)
+            The points of the curve [m].
+        count : int, optional
+            How many machines, 8 by default.
+
+        Returns
+        -------
+        tuple of CurveMatch
+            The machines.
+
+        Raises
+        ------
+        DefinitionError
+            The curve is not closed.
         """
         require_whole(f"{self.kind.class_title}: count", count, "a whole number from 1 on is expected", least=1)
         task = PathTask(points, of=self.kind.of, closed=True)
@@ -310,7 +353,20 @@ class CurveCatalogue(Shown):
         return tuple(Varied(name, name, 1.0, 0.0, 1.0, None, "") for name in owners)
 
     def near(self, curve: ClosedCurves, many: int = NEIGHBOURS) -> Index:
-        """Return the numbers of the curves whose amplitudes are nearest to a curve's, in whatever sense it is passed."""
+        """Return the numbers of the curves whose amplitudes are nearest to a curve's, in whatever sense it is passed.
+
+        Parameters
+        ----------
+        curve : ClosedCurves
+            The curve.
+        many : int, optional
+            How many, 2048 by default.
+
+        Returns
+        -------
+        array of int
+            The numbers.
+        """
         wanted = curve.amplitudes[0].reshape(2, -1)[:, :HARMONICS].astype(np.float32)
         own = np.einsum("ij,ij->i", self.amplitudes, self.amplitudes)
         products = self.amplitudes @ np.stack([wanted.ravel(), wanted[::-1].ravel()], axis=1)
@@ -318,7 +374,18 @@ class CurveCatalogue(Shown):
         return np.argpartition(far, many)[:many] if many < len(far) else np.arange(len(far))
 
     def laid(self, points: FloatArray) -> tuple[Index, FloatArray, FloatArray]:
-        """Return the numbers (m,) of the nearest curves, their dimensions (m, k) laid onto points (n, 2), and the distances (m,)."""
+        """Return the numbers of the nearest curves, their dimensions laid onto points, and the distances.
+
+        Parameters
+        ----------
+        points : array (n, 2)
+            The points of the curve [m].
+
+        Returns
+        -------
+        tuple of array
+            Numbers (m,), dimensions (m, k) [SI], distances (m,).
+        """
         curve, _ = drawn_curve(points)
         numbers = self.near(curve)
         kind, space = self.kind, Space(self.variables, (), ())
@@ -340,7 +407,20 @@ class CurveCatalogue(Shown):
         return numbers[order], likeness.applied(fit, values, factor, by)[order], distance[order]
 
     def population(self, fit: Fit, many: int) -> FloatArray:
-        """Return the designs nearest to a task's curve, laid onto it, as unit coordinates (m, n) of its search, beyond 0 and 1 too."""
+        """Return the designs nearest to a task's curve, laid onto it, as unit coordinates (m, n) of its search, beyond 0 and 1 too.
+
+        Parameters
+        ----------
+        fit : Fit
+            The task's fit.
+        many : int
+            How many designs.
+
+        Returns
+        -------
+        array (m, n)
+            The coordinates.
+        """
         values = self.laid(fit.rows.wanted[:2].T)[1][:many]
         known = {each.owner: values[:, place] for place, each in enumerate(self.variables)}
         present = fit.space.present(fit.problem.machine)

@@ -61,9 +61,30 @@ CHANGE = 1e-3
 class SynthesisedMachine(Told, Shown):
     """A machine that does a task over its whole stroke.
 
-    `error` is the sum of the squares of its misses [SI^2], `rms` their root mean square a point, `most` the largest miss [SI], at the point
-    `worst`, counted from 1. `strokes` (n,) are those at which it comes to the points, `reached` (r, n) what it has there. `transmission` is
-    the least transmission angle of its joints [rad], NaN without one, `ranked` what it was ranked by, NaN where that is the error.
+    Attributes
+    ----------
+    machine : Mechanism
+        The machine.
+    error, rms : float
+        The sum of the squares of its misses [SI^2], and their root mean square a point [SI].
+    most, worst
+        The largest miss [SI], and at which point, counted from 1.
+    strokes : array (n,)
+        The strokes at which it comes to the points [m or rad].
+    reached : array (r, n)
+        What it has there [SI].
+    transmission : float
+        The least transmission angle of its joints [rad], NaN without one.
+    ranked : float
+        What it was ranked by, NaN where that is the error.
+    sentence : str
+        How well it does the task.
+    at : array
+        The strokes in parts of their range.
+    base : array
+        The variables in parts of their ranges.
+    combination : tuple of int
+        The choices taken, by number.
     """
 
     machine: Mechanism
@@ -110,11 +131,32 @@ class RoundedMachine(Told):
 class Synthesis(Told, Shown):
     """All distinct machines that were found for a task, the best first, each assembled over its whole stroke.
 
-    `solutions` are these; none where nothing runs. `misses` are the best of those that are no answers. `population` designs were spread
-    over the box, of which `running` are assembled over the whole stroke, `starts` local searches begun; `evaluations` counts all designs
-    that were looked at. `limit` is that of the designs where it was reached; None where the search came to its end. Where several classes
-    were searched, `classes` are what was found of each, the best first, and `table` compares them; `start`, `task` and `problem` are then
-    those of the best class.
+    Where several classes were searched, `table` compares them; `start`, `task` and `problem` are then those of the best class.
+
+    Attributes
+    ----------
+    start : Mechanism
+        The machine that was varied.
+    task : PathTask, FunctionTask or PoseTask
+        The task.
+    solutions : tuple of SynthesisedMachine
+        The machines, none where nothing runs.
+    misses : tuple of Miss
+        The best of those that are no answers.
+    population, running : int
+        How many designs were spread over the box, and how many of them are assembled over the whole stroke.
+    starts : int
+        How many local searches began.
+    evaluations : int
+        How many designs were looked at.
+    limit : int, optional
+        That of the designs where it was reached; None where the search came to its end.
+    problem : Problem
+        The task and the conditions over their samples.
+    fits : tuple of Fit
+        How each combination of choices was fitted.
+    classes : tuple of Synthesis
+        What was found of each of several classes, the best first.
     """
 
     start: Mechanism
@@ -203,9 +245,23 @@ class Synthesis(Told, Shown):
         return exact_error(self.fits[0].rows)
 
     def rounded(self, to: float = 1.0 * mm, angle: float = 0.1 * deg, *, place: int = 0) -> RoundedMachine:
-        """Return an answer with its lengths on steps of `to` [m] and its angles on steps of `angle` [rad], as a drawing gives them.
+        """Return an answer with its dimensions on steps, as a drawing gives them.
 
         Of the steps about each value those are taken that run, keep the conditions and miss the task least; untimed strokes are found anew.
+
+        Parameters
+        ----------
+        to : float, optional
+            The step of lengths [m], 1 mm by default.
+        angle : float, optional
+            The step of angles [rad], 0.1 deg by default.
+        place : int, optional
+            Which answer, from 0 on; the best by default.
+
+        Returns
+        -------
+        RoundedMachine
+            The rounded machine.
         """
         return rounded_machine(self, self.answer_at(place, "rounded"), to, angle)
 
@@ -213,27 +269,90 @@ class Synthesis(Told, Shown):
         """Return the error of an answer as a measure [SI^2]: `monte_carlo(found.machine, {"error": found.measure()}, ...)`.
 
         It is that of this answer and of machines near it: an untimed point counts by its distance from the path there.
+
+        Parameters
+        ----------
+        place : int, optional
+            Which answer, from 0 on; the best by default.
+
+        Returns
+        -------
+        Measure
+            The measure.
         """
         total: Measure = sum_of_parts(self.point_measures(place))
         return total
 
     def point_measures(self, place: int = 0) -> tuple[Measure, ...]:
-        """Return the squared miss of an answer at each point as a measure [SI^2]; `each**0.5 <= 0.5 * mm` is a condition."""
+        """Return the squared miss of an answer at each point as a measure [SI^2]; `each**0.5 <= 0.5 * mm` is a condition.
+
+        Parameters
+        ----------
+        place : int, optional
+            Which answer, from 0 on; the best by default.
+
+        Returns
+        -------
+        tuple of Measure
+            One for each point.
+        """
         answer = self.answer_at(place, "measure")
         fit = self.fit_of(answer)
         slides = fit.timing.width == fit.rows.count
         return squares_near(answer.machine, fit.rows, fit.timing.stroke, fit.held, answer.strokes, slides=slides)
 
     def fit_of(self, answer: SynthesisedMachine) -> Fit:
-        """Return the fit that an answer is of."""
+        """Return the fit that an answer is of.
+
+        Parameters
+        ----------
+        answer : SynthesisedMachine
+            One of the machines found.
+
+        Returns
+        -------
+        Fit
+            The fit.
+        """
         return next(each for each in self.own(answer).fits if each.combination == answer.combination)
 
     def own(self, answer: SynthesisedMachine) -> Synthesis:
-        """Return the results of the class of an answer: itself where one class was searched."""
+        """Return the results of the class of an answer: itself where one class was searched.
+
+        Parameters
+        ----------
+        answer : SynthesisedMachine
+            One of the machines found.
+
+        Returns
+        -------
+        Synthesis
+            The results of the class.
+        """
         return next((each for each in self.classes if any(answer is one for one in each.solutions)), self)
 
     def answer_at(self, place: int, asked: str) -> SynthesisedMachine:
-        """Return the answer of a place, from 0 on; StudyError where there is none, DefinitionError for a place that is not there."""
+        """Return the answer of a place, from 0 on.
+
+        Parameters
+        ----------
+        place : int
+            The place.
+        asked : str
+            What it is for, in the words of an error.
+
+        Returns
+        -------
+        SynthesisedMachine
+            The answer.
+
+        Raises
+        ------
+        StudyError
+            There are no answers.
+        DefinitionError
+            The place is not there.
+        """
         if not self.solutions:
             raise StudyError(str(self))
         fits = is_whole(place) and 0 <= place < len(self.solutions)
@@ -241,14 +360,31 @@ class Synthesis(Told, Shown):
         return self.solutions[place]
 
     def csv(self, path: Place) -> None:
-        """Write a row for each answer into a CSV file: its rank, errors, dimensions and strokes; FileError where it cannot be written."""
+        """Write a row for each answer into a CSV file: its rank, errors, dimensions and strokes.
+
+        Parameters
+        ----------
+        path : str or Path
+            The file.
+
+        Raises
+        ------
+        FileError
+            The file cannot be written.
+        """
         with replacing_text(path) as stream:
             writer = csv.writer(stream)
             writer.writerow(self.header())
             writer.writerows(self.table_rows())
 
     def header(self) -> list[str]:
-        """Return the headings of the answers' table, with units."""
+        """Return the headings of the answers' table, with units.
+
+        Returns
+        -------
+        list of str
+            The headings.
+        """
         if self.classes:  # a column for every name that one of them has
             return ["rank", "class", "links", "size, mm", *dict.fromkeys(name for each in self.classes for name in each.header()[1:])]
         plan, fit = self.problem.plan, self.fits[0]
@@ -260,7 +396,13 @@ class Synthesis(Told, Shown):
         return ["rank", "error", *missed, "worst", heading_with_unit("transmission", "deg"), *names, *strokes]
 
     def table_rows(self) -> list[list[str]]:
-        """Return the rows of the answers' table, `error` in SI, full precision; of several classes empty where one has no such column."""
+        """Return the rows of the answers' table, `error` in SI, full precision; of several classes empty where one has no such column.
+
+        Returns
+        -------
+        list of list of str
+            The rows.
+        """
         if self.classes:
             cells: dict[int, dict[str, str]] = {}
             for own in self.classes:

@@ -83,12 +83,22 @@ class TaskRows:
 @refuses_changes
 @dataclass(frozen=True, eq=False, init=False)
 class PathTask:
-    """A path that a point is to go along: `PathTask([(0.1, 0.2), (0.1, 0.3)], of="P")`, points (n, 2) [m].
+    """A path that a point is to go along: `PathTask([(0.1, 0.2), (0.1, 0.3)], of="P")`.
 
-    `at` are the strokes (n,) [SI] of timed points. Without them the points are passed in the order in which they stand, to either side,
-    within one turn, unless `in_order=False`. A path is a closed curve where its last point is its first one, or `closed=True`: the machine
-    then goes along all of it in one turn of its crank. Without `of` it is the point that the machine names as that of its coupler,
-    `Featured(coupler="P")`; for several classes `of={FourBar: "P", Jansen: "F"}` says it of each.
+    Parameters
+    ----------
+    points : array (n, 2)
+        The points of the path [m].
+    of : str or mapping, optional
+        The point that goes along it; for several classes `{FourBar: "P", Jansen: "F"}`. By default that which the machine names as that of
+        its coupler, `Featured(coupler="P")`.
+    at : array (n,), optional
+        The strokes of timed points [SI].
+    in_order : bool, optional
+        Whether points that are not timed are passed in their order, to either side, within one turn. This is the default.
+    closed : bool, optional
+        Whether the path is a closed curve, along all of which the machine goes in one turn of its crank. By default it is where its last
+        point is its first one.
     """
 
     points: FloatArray
@@ -132,12 +142,19 @@ class PathTask:
 @refuses_changes
 @dataclass(frozen=True, eq=False, init=False)
 class FunctionTask:
-    """Values that an output or a quantity is to have at strokes: `FunctionTask([0.0, 0.1], [0.0, 5 * deg], of="tilt")`, (n,) each [SI].
+    """Values that an output or a quantity is to have at strokes: `FunctionTask([0.0, 0.1], [0.0, 5 * deg], of="tilt")`.
 
-    Several quantities at the same strokes are a list, with a row of values for each, NaN where one is not wanted:
-    `FunctionTask([0.0, 0.1], [[0.0, 0.09], [1.2, nan]], of=["tilt", ratio("tilt")])`; the first one is wanted at every stroke. A miss of
-    each counts in parts of `within`, one for each quantity, by default 1 in SI. Angles count modulo a turn. For several
-    classes `of`, of one quantity, may be a dictionary, class by class.
+    Parameters
+    ----------
+    strokes : array (n,)
+        The strokes [SI].
+    values : array (n,) or (k, n)
+        The values [SI], a row for each quantity, NaN where one is not wanted. The first quantity has a value at every stroke. Angles count
+        modulo a turn.
+    of : str, quantity, list or mapping
+        The quantity, or a list of several, `of=["tilt", ratio("tilt")]`. For several classes a dictionary of one quantity, class by class.
+    within : float or sequence of float, optional
+        The size of a miss that counts as 1, for each quantity [SI], 1 by default.
     """
 
     at: FloatArray | None
@@ -186,9 +203,22 @@ class FunctionTask:
 @refuses_changes
 @dataclass(frozen=True, eq=False, init=False)
 class PoseTask:
-    """Poses that a body is to take: `PoseTask(x, y, angle, of="C D")`, where C is to be [m] and the direction of CD [rad], (n,) each.
+    """Poses that a body is to take: `PoseTask(x, y, angle, of="C D")`.
 
-    `at` are the strokes (n,) [SI] of timed poses. An angle counts as what `length` [m] does with it, by default the distance of CD.
+    Parameters
+    ----------
+    x, y : array (n,)
+        The places of its first point [m].
+    angle : array (n,)
+        The directions from its first point to the second [rad].
+    of : str or mapping
+        The body, by two of its points.
+    at : array (n,), optional
+        The strokes of timed poses [SI].
+    length : float, optional
+        The length [m] with which an angle counts, by default the distance of the two points.
+    in_order : bool, optional
+        Whether poses that are not timed are passed in their order. This is the default.
     """
 
     x: FloatArray

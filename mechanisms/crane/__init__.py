@@ -36,9 +36,25 @@ DRIVE_FIGURES = ("moments", "positions")
 
 
 def drive_figure(name: str, drive: BoomDrive | DrivenArm) -> Figure:
-    """Return a figure of a drive as a matplotlib figure; DefinitionError for an unknown name, a batch.
+    """Return a figure of a drive as a matplotlib figure.
 
-    "moments" is what it gives and what is asked of it over its angle, "positions" the drive at its ends and where it has least to spare.
+    Parameters
+    ----------
+    name : {"moments", "positions"}
+        "moments" is what it gives and what is asked of it over its angle, "positions" the drive at its ends and where it has least to
+        spare.
+    drive : BoomDrive or DrivenArm
+        The drive.
+
+    Returns
+    -------
+    Figure
+        The figure.
+
+    Raises
+    ------
+    DefinitionError
+        The name is not known, or it is a batch of designs.
     """
     from .figures import DRIVES
 
@@ -46,10 +62,25 @@ def drive_figure(name: str, drive: BoomDrive | DrivenArm) -> Figure:
 
 
 def crane_figure(name: str, crane: Crane | None = None) -> Figure:
-    """Return a figure of a crane, by default the shipped one, as a matplotlib figure; DefinitionError for an unknown name, a batch.
+    """Return a figure of a crane as a matplotlib figure.
 
-    "positions" are those that its skeleton is laid out by, "moments" what boom and arm are given and asked for, "map" the load map,
-    "reach" all that the tip reaches.
+    Parameters
+    ----------
+    name : {"positions", "moments", "map", "reach"}
+        "positions" are those that its skeleton is laid out by, "moments" what boom and arm are given and asked for, "map" the load map,
+        "reach" all that the tip reaches.
+    crane : Crane, optional
+        The crane, by default the shipped one.
+
+    Returns
+    -------
+    Figure
+        The figure.
+
+    Raises
+    ------
+    DefinitionError
+        The name is not known, or it is a batch of designs.
     """
     from .figures import DRAWN
 

@@ -64,7 +64,17 @@ class JudgedSize:
 @final
 @immutable
 class DriveDesign:
-    """All cylinders of a series judged for one drive, in the order of the series; `best` has the least objective."""
+    """All cylinders of a series judged for one drive, in the order of the series; `best` has the least objective.
+
+    Attributes
+    ----------
+    what : str
+        The drive.
+    objective : str
+        What is made least.
+    sizes : tuple of JudgedSize
+        The cylinders, each with the drive found for it or why there is none.
+    """
 
     what: str
     objective: str
@@ -172,10 +182,31 @@ def design_boom_drive(
 ) -> DriveDesign:
     """Return the boom's drive, every cylinder of the series judged: the stroke S and the pins r_2, r_3 that `optimise` finds for each.
 
-    `objective` is "area", what is given over what is asked integrated over the angle (2.33); "ratio", its greatest M_g / M_l (2.32); or
-    "difference", (2.32) read as the greatest M_g - M_l. Kept are both ends of the cylinder (2.31), M_g >= M_l (2.34), S up to the
-    longest stroke, `lowest_pin` l <= r_2 <= h_0 (2.37), r_3_min <= r_3 <= l_c. `clearance` is how (2.35) is read, "b/2 + D" or
-    "(b + D)/2". `starts` and `seed` are those of `optimise`. Infeasible sizes are reported in words, not raised.
+    Kept are both ends of the cylinder (2.31), M_g >= M_l (2.34), S up to the longest stroke, lowest_pin l <= r_2 <= h_0 (2.37), r_3_min <=
+    r_3 <= l_c. Sizes that cannot do it are reported in words, not raised.
+
+    Parameters
+    ----------
+    duty : DriveDuty, optional
+        The duty, the source's by default.
+    cylinders : DriveCylinders, optional
+        The series.
+    objective : {"area", "ratio", "difference"}, optional
+        "area", what is given over what is asked integrated over the angle (2.33); "ratio", its greatest M_g / M_l (2.32); or "difference",
+        (2.32) read as the greatest M_g - M_l.
+    clearance : {"b/2 + D", "(b + D)/2"}, optional
+        How (2.35) is read.
+    lowest_pin : float, optional
+        The least r_2 in parts of the closed length l.
+    r_3_min : float, optional
+        The least r_3 [m].
+    starts, seed : int, optional
+        As of `optimise`.
+
+    Returns
+    -------
+    DriveDesign
+        The cylinders judged.
     """
     duty, cylinders = duty or DriveDuty(), cylinders or DriveCylinders()
     one_word("objective", objective, ("area", "ratio", "difference"))
@@ -247,12 +278,29 @@ LEAST_TRANSMISSION = 25 * deg
 class ArmRules:
     """The conditions of an arm drive beside its moments, and the reading of the source's lost signs.
 
-    `excess` is k_r of (2.61): M_g2 is over M_l2 by no more than (k_r - 1) K_A, from `excess_from` on, "phi_0" or "psi_0". `above` is
-    what the lever's pins stay above the boom's axis at both ends (2.63): "r_6", a height [m], or None. `angles` reads (2.65): "free" does
-    not impose it, "travels" asks lever and arm for 90 and 100 deg of travel, "angles" holds alpha_1 under 90 and alpha_2 under 100 deg.
-    `transmission` is the least angle between coupler and lug [rad], 0 for none. r_6 [m], the bend delta [rad], the bell crank's angle
-    at its pivot [rad] and the eyes that (2.60) counts are given. A drive without a four-bar keeps (2.62), (2.64) and the boom's length
-    alone: (2.61) is what a four-bar is for.
+    A drive without a four-bar keeps (2.62), (2.64) and the boom's length alone: (2.61) is what a four-bar is for.
+
+    Parameters
+    ----------
+    r_6 : float, optional
+        The height of the boom drive's pin C above the boom's axis [m].
+    delta : float, optional
+        The bend [rad].
+    crank : float, optional
+        The bell crank's angle at its pivot [rad].
+    eyes : float, optional
+        The eyes that (2.60) counts.
+    excess : float, optional
+        k_r of (2.61): M_g2 is over M_l2 by no more than (k_r - 1) K_A.
+    excess_from : {"phi_0", "psi_0"}, optional
+        From where on the excess counts.
+    above : {"r_6"}, float or None, optional
+        What the lever's pins stay above the boom's axis at both ends (2.63): "r_6", a height [m], or nothing.
+    angles : {"free", "travels", "angles"}, optional
+        The reading of (2.65): "free" does not impose it, "travels" asks lever and arm for 90 and 100 deg of travel, "angles" holds alpha_1
+        under 90 and alpha_2 under 100 deg.
+    transmission : float, optional
+        The least angle between coupler and lug [rad], 0 for none.
     """
 
     r_6: float = 150 * mm
@@ -275,7 +323,20 @@ class ArmRules:
         require_number("transmission", self.transmission, "an angle below 90 * deg is expected, 0 for none", least=0.0, below=0.5 * pi)
 
     def conditions(self, duty: DriveDuty, scheme: str = "a") -> list[Any]:
-        """Return the conditions (2.61) to (2.65) of a duty, those that are kept by a drive of a scheme of fig. 2.13."""
+        """Return the conditions (2.61) to (2.65) of a duty.
+
+        Parameters
+        ----------
+        duty : DriveDuty
+            The duty.
+        scheme : str, optional
+            The scheme of fig. 2.13, whose drives keep them.
+
+        Returns
+        -------
+        list of Condition
+            The conditions.
+        """
         psi_0, psi_k, (machine, _) = duty.psi_0, duty.psi_k, SCHEMES[scheme]
         closed, out = (psi_0, psi_k) if machine.opens_by_piston else (psi_k, psi_0)
         found = [
@@ -319,10 +380,31 @@ def design_arm_drive(
 ) -> DriveDesign:
     """Return the arm's drive, every cylinder of the series judged: lengths and stroke by `optimise`.
 
-    `scheme` is that of fig. 2.13: "a" over a lever and a coupler, "b" over a bell crank, "c" straight from under the boom, "d" from above.
-    `objective` is "weight", the steel of (2.60), or "area", M_g2 - M_l2 integrated over the angle; `most_area` [N m rad] bounds the second
-    while the first is least. `rules` are the conditions (2.61) to (2.65), `bounds` those of the lengths [m] and of alpha_20 [rad], by
-    default the scheme's. `starts` and `seed` are those of `optimise`. Infeasible sizes are reported in words, not raised.
+    Sizes that cannot do it are reported in words, not raised.
+
+    Parameters
+    ----------
+    duty : DriveDuty, optional
+        The duty, the source's by default.
+    cylinders : DriveCylinders, optional
+        The series.
+    scheme : {"a", "b", "c", "d"}, optional
+        That of fig. 2.13: "a" over a lever and a coupler, "b" over a bell crank, "c" straight from under the boom, "d" from above.
+    rules : ArmRules, optional
+        The conditions (2.61) to (2.65).
+    objective : {"weight", "area"}, optional
+        "weight", the steel of (2.60), or "area", M_g2 - M_l2 integrated over the angle.
+    bounds : mapping of str to tuple of float, optional
+        Those of the lengths [m] and of alpha_20 [rad], by default the scheme's.
+    most_area : float, optional
+        The bound of the area [N m rad] while the weight is least.
+    starts, seed : int, optional
+        As of `optimise`.
+
+    Returns
+    -------
+    DriveDesign
+        The cylinders judged.
     """
     duty, cylinders, rules = duty or DriveDuty(), cylinders or DriveCylinders(), rules or ArmRules()
     one_word("objective", objective, ("weight", "area"))
@@ -389,9 +471,30 @@ class Compromise(NamedTuple):
 def arm_drive_front(
     bore: float, rod: float, duty: DriveDuty | None = None, cylinders: DriveCylinders | None = None, *, count: int = 5, **options: Any
 ) -> list[Compromise]:
-    """Return the Pareto front of one cylinder: `count` drives from the least mass to the least area, the area bounded step by step.
+    """Return the Pareto front of one cylinder, from the least mass to the least area, the area bounded step by step.
 
-    `options` are those of `design_arm_drive`. DefinitionError where the cylinder does not serve at all.
+    Parameters
+    ----------
+    bore, rod : float
+        The cylinder [m].
+    duty : DriveDuty, optional
+        The duty, the source's by default.
+    cylinders : DriveCylinders, optional
+        Pressure and lengths of the cylinder.
+    count : int, optional
+        How many drives, 5 by default.
+    **options : object
+        Those of `design_arm_drive`.
+
+    Returns
+    -------
+    list of Compromise
+        The drives.
+
+    Raises
+    ------
+    DefinitionError
+        The cylinder does not serve at all.
     """
     ensure(count >= 2, f"count={count}: a front has two ends at least.")
     one = replace(cylinders or DriveCylinders(), sizes=((bore, rod),))

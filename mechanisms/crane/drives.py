@@ -69,7 +69,18 @@ class BoomDrive(Mechanism):
     raising = Over(phi=("phi_0", "phi_k"))
 
     def working(self, count: int = 101) -> Motion:
-        """Return the motion from phi_0 to phi_k, at `count` poses."""
+        """Return the motion from phi_0 to phi_k, at `count` poses.
+
+        Parameters
+        ----------
+        count : int, optional
+            The number of poses.
+
+        Returns
+        -------
+        Motion
+            The motion.
+        """
         return self.at(phi=np.linspace(self["phi_0"], self["phi_k"], count))
 
     def columns(self, motion: Motion) -> list[Column]:
@@ -143,7 +154,18 @@ class DrivenArm(Mechanism):
     unfolding = Over(psi=("psi_0", "psi_k"), cases=["case_1", "case_2"])  # one moment at a time, (2.39)
 
     def working(self, count: int = 101) -> Motion:
-        """Return the motion from psi_0 to psi_k, at `count` poses."""
+        """Return the motion from psi_0 to psi_k, at `count` poses.
+
+        Parameters
+        ----------
+        count : int, optional
+            The number of poses.
+
+        Returns
+        -------
+        Motion
+            The motion.
+        """
         return self.at(psi=np.linspace(self["psi_0"], self["psi_k"], count))
 
     def columns(self, motion: Motion) -> list[Column]:

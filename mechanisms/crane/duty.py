@@ -42,11 +42,28 @@ LONGEST_REACH = 40.0
 @final
 @dataclass(frozen=True)
 class Duty:
-    """The duty of a forwarder's crane: reach L, rated moment M, the vehicle and its load; by default the source's example.
+    """The duty of a forwarder's crane; by default the source's example.
 
-    Lengths in m, M in N m, `payload` in kg, `rho_w` in kg/m3, psi_0 in rad. Heights from the ground: H_p of the platform, H_w of the tool,
-    H_k of the cab, H_max the legal one. A x B is the stack's ground plan, k_d the share of it that is wood. c is how far the column's axis
-    is from the guard, psi_0 the least angle between boom and arm.
+    Parameters
+    ----------
+    L : float, optional
+        The reach [m].
+    M : float, optional
+        The rated moment [N m].
+    H_p, H_w, H_k, H_max : float, optional
+        The heights from the ground of the platform, the tool and the cab, and the legal one [m].
+    payload : float, optional
+        The load of the vehicle [kg].
+    A, B : float, optional
+        The sides of the stack's ground plan [m].
+    k_d : float, optional
+        The share of the stack that is wood.
+    rho_w : float, optional
+        The density of wood [kg/m3].
+    c : float, optional
+        The distance of the column's axis from the guard [m].
+    psi_0 : float, optional
+        The least angle between boom and arm [rad].
     """
 
     L: float = 10.0
@@ -90,7 +107,13 @@ class Duty:
         return self.M / self.L
 
     def dimensions(self) -> Mapping[str, float]:
-        """Return the dimensions of a crane's class: `CraneSkeleton(**duty.dimensions())`."""
+        """Return the dimensions of a crane's class: `CraneSkeleton(**duty.dimensions())`.
+
+        Returns
+        -------
+        mapping of str to float
+            The dimensions [SI].
+        """
         names = ("L", "M", "H_p", "H_w", "H_k", "H_max", "h_s", "c", "psi_0", "Q")
         return {name: getattr(self, name) for name in names}
 
@@ -131,7 +154,22 @@ def moments(crane: CraneSkeleton, drive: str, phi: ArrayLike, psi: ArrayLike, t:
 
 
 def boom_bound(crane: CraneSkeleton, phi: ArrayLike, *, case: str = LIFTING) -> FloatArray:
-    """Return M_l(phi) [N m], the shape of phi: the greatest moment that lowers the boom, over all positions of arm and telescope."""
+    """Return the greatest moment M_l that lowers the boom, over all positions of arm and telescope.
+
+    Parameters
+    ----------
+    crane : Crane
+        The crane, one design.
+    phi : array
+        The boom's angles [rad].
+    case : str, optional
+        The load case.
+
+    Returns
+    -------
+    array
+        The moment [N m], of the shape of phi.
+    """
     at, limits = np.ravel(np.asarray(phi, float)), crane.limits_of()
     found = np.full(at.size, -np.inf)
     for t in limits["t"]:
@@ -141,10 +179,24 @@ def boom_bound(crane: CraneSkeleton, phi: ArrayLike, *, case: str = LIFTING) -> 
 
 
 def arm_bound(crane: CraneSkeleton, psi: ArrayLike, *, case: str = LIFTING) -> tuple[FloatArray, FloatArray]:
-    """Return M_l1 and M_l2 (psi) [N m], over all positions of the boom: the moments that unfold and fold the arm.
+    """Return the moments M_l1 and M_l2 that unfold and fold the arm, over all positions of the boom.
 
     M_l1 is not above zero and holds with the telescope in, where the cylinder folds the arm; M_l2 is not below zero and holds with the
-    telescope out. Both have the shape of psi.
+    telescope out.
+
+    Parameters
+    ----------
+    crane : Crane
+        The crane, one design.
+    psi : array
+        The arm's angles [rad].
+    case : str, optional
+        The load case.
+
+    Returns
+    -------
+    tuple of array
+        The moments [N m], of the shape of psi.
     """
     at, limits = np.ravel(np.asarray(psi, float)), crane.limits_of()
     t_0, t_k = limits["t"]
@@ -168,9 +220,20 @@ def clipped(value: Operand, low: Operand | None, high: Operand | None = None) ->
 class DriveDuty:
     """The lengths, angles and moments that boom drive and arm drive are made for; by default those of the source's examples 2 and 3.
 
-    l_c, l_p, l_t, h_0 are the lengths of boom, arm, telescope stroke and column, b_0 and b_c the heights of column and boom [m]. The boom's
-    angle from the upward vertical goes from phi_0 to phi_k, the one between boom and arm from psi_0 to psi_k [rad]. The bounds of moments
-    [N m]: K_B of sin(phi) for the boom, K_A for the arm with its telescope out, K_A1 with it in.
+    Parameters
+    ----------
+    l_c, l_p, l_t, h_0 : float, optional
+        The lengths of boom, arm, telescope stroke and column [m].
+    b_0, b_c : float, optional
+        The heights of column and boom [m].
+    phi_0, phi_k : float, optional
+        The range of the boom's angle from the upward vertical [rad].
+    psi_0, psi_k : float, optional
+        The range of the angle between boom and arm [rad].
+    K_B : float, optional
+        The bound of the boom's moment, of sin(phi) [N m].
+    K_A, K_A1 : float, optional
+        The bounds of the arm's moment with its telescope out and in [N m].
     """
 
     l_c: float = 4.454601406907623
@@ -204,10 +267,26 @@ class DriveDuty:
     def of_masses(
         cls, *, l_c: float, l_p: float, l_t: float, W: float, W_c: float, W_p: float, W_t: float, Q: float, **others: float
     ) -> DriveDuty:
-        """Return the duty of a crane of so many kilograms: W the whole, W_c boom, W_p arm, W_t telescope; Q the load's weight [N].
+        """Return the duty of a crane of so many kilograms.
 
-        `others` are h_0, b_0, b_c [m] and the angles [rad]. G_i = 9.81 W_i, the boom's centre at 0.4 l_c, its drive's, 2.5 % of the
-        crane, at 0.7 l_c, the arm's at 0.45 of its length. (2.19), (2.22) to (2.27), (2.39) to (2.43)
+        G_i = 9.81 W_i, the boom's centre at 0.4 l_c, its drive's, 2.5 % of the crane, at 0.7 l_c, the arm's at 0.45 of its length. (2.19),
+        (2.22) to (2.27), (2.39) to (2.43)
+
+        Parameters
+        ----------
+        l_c, l_p, l_t : float
+            The lengths of boom, arm and telescope stroke [m].
+        W, W_c, W_p, W_t : float
+            The masses of the whole, boom, arm and telescope [kg].
+        Q : float
+            The load's weight [N].
+        **others : float
+            h_0, b_0, b_c [m] and the angles [rad].
+
+        Returns
+        -------
+        DriveDuty
+            The duty.
         """
         for name, value in {"W": W, "W_c": W_c, "W_p": W_p, "W_t": W_t, "Q": Q}.items():
             not_negative(value, name)
@@ -222,10 +301,24 @@ FAITHFUL = 1e-6
 
 
 def duty_of(crane: CraneSkeleton) -> DriveDuty:
-    """Return the required moments of a crane's drives, one design: its lengths and angles, and the moments of its weights and load.
+    """Return the required moments of a crane's drives: its lengths and angles, and the moments of its weights and load.
 
-    K_A, K_A1 and K_B are its drives' forces with the arm level, telescope out or in, and the boom level. DefinitionError where its bound
-    of moments is not of that form, as with loads of another kind.
+    K_A, K_A1 and K_B are its drives' forces with the arm level, telescope out or in, and the boom level.
+
+    Parameters
+    ----------
+    crane : Crane
+        The crane, one design.
+
+    Returns
+    -------
+    DriveDuty
+        The duty.
+
+    Raises
+    ------
+    DefinitionError
+        The bound of moments is not of that form, as with loads of another kind.
     """
     limits = crane.limits_of()
     (phi_0, phi_k), (psi_0, psi_k), (_, t_k) = limits["phi"], limits["psi"], limits["t"]
@@ -251,10 +344,20 @@ SIZES_MM = ((63, 36), (70, 40), (80, 45), (90, 50), (100, 56), (110, 63), (125, 
 @final
 @dataclass(frozen=True)
 class DriveCylinders:
-    """The cylinders a drive is chosen from: (bore, rod) [m] in ascending order, their pressure and their lengths.
+    """The cylinders that a drive is chosen from.
 
-    `pressure` is gauge [Pa], `efficiency` the cylinder's. One of bore D with the stroke S is S + f_0 + f_1 D long closed (2.36) and comes
-    out by no more than `longest` bores.
+    Parameters
+    ----------
+    sizes : sequence of tuple of float, optional
+        Bores and rods [m] in ascending order.
+    pressure : float, optional
+        The pressure [Pa gauge].
+    efficiency : float, optional
+        The cylinder's efficiency.
+    f_0, f_1 : float, optional
+        The dead length of a cylinder of bore D is f_0 + f_1 D [m] (2.36).
+    longest : float, optional
+        The longest stroke in bores.
     """
 
     sizes: Sequence[tuple[float, float]] = tuple((bore * mm, rod * mm) for bore, rod in SIZES_MM)
@@ -276,10 +379,34 @@ class DriveCylinders:
         positive(one_number(self.longest, "longest"), "longest")
 
     def dimensions(self, bore: float, rod: float) -> Mapping[str, float]:
-        """Return the dimensions of a drive's class for one of them."""
+        """Return the dimensions of a drive's class for one of them.
+
+        Parameters
+        ----------
+        bore, rod : float
+            The cylinder [m].
+
+        Returns
+        -------
+        mapping of str to float
+            The dimensions [SI].
+        """
         return {"D": bore, "d": rod, "p": self.pressure, "n": self.efficiency, "f_0": self.f_0, "f_1": self.f_1}
 
     def swallowed(self, bore: float, rod: float = 0.0) -> float:
-        """Return the greatest work [J] of a bore over its longest stroke: its piston's, or with a rod its annulus's."""
+        """Return the greatest work [J] of a bore over its longest stroke: its piston's, or with a rod its annulus's.
+
+        Parameters
+        ----------
+        bore : float
+            The bore [m].
+        rod : float, optional
+            The rod [m].
+
+        Returns
+        -------
+        float
+            The work.
+        """
         area = pi / 4.0 * (bore**2 - rod**2)
         return self.pressure * self.efficiency * area * self.longest * bore

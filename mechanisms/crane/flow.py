@@ -42,11 +42,32 @@ def design_skeleton(
     seed: int = 0,
     progress: Any = False,
 ) -> Optimum:
-    """Return the skeleton of least W_m (2.4) for a duty, by default the source's: `design_skeleton(Duty(L=8.5)).machine`.
+    """Return the skeleton of least W_m (2.4) for a duty: `design_skeleton(Duty(L=8.5)).machine`.
 
-    `reading` is how (2.13) is read: ">=", the folded tip clears the guard, or "<=", it comes as near. With `cab`, the distance of
-    the column's axis from the cab [m], the crane is back-broken in transport, (2.17), (2.18). `vary` bounds variables otherwise.
-    InfeasibleError, with the conflict and the least relaxation, where no skeleton keeps all conditions.
+    Parameters
+    ----------
+    duty : Duty, optional
+        The duty, the source's by default.
+    reading : {">=", "<="}, optional
+        How (2.13) is read: ">=", the folded tip clears the guard, or "<=", it comes as near.
+    cab : float, optional
+        The distance of the column's axis from the cab [m]: with it the crane is back-broken in transport, (2.17), (2.18).
+    vary : mapping of str to tuple of float, optional
+        Other bounds of variables [SI].
+    starts, seed : int, optional
+        As of `optimise`.
+    progress : bool or callable, optional
+        As of `optimise`.
+
+    Returns
+    -------
+    Optimum
+        The skeleton.
+
+    Raises
+    ------
+    InfeasibleError
+        No skeleton keeps all conditions; the conflict and the least relaxation are named.
     """
     asked = Duty() if duty is None else duty
     made = CraneSkeleton if cab is None else BackBrokenSkeleton
@@ -72,7 +93,17 @@ def design_skeleton(
 @final
 @immutable
 class CraneDesign:
-    """A crane designed from its duty: the result of each stage, None where the user gave it, and the whole crane."""
+    """A crane designed from its duty: the result of each stage, and the whole crane.
+
+    Attributes
+    ----------
+    skeleton : Optimum, optional
+        The skeleton, None where the user gave it.
+    boom, arm : DriveDesign, optional
+        The drives, None where the user gave them.
+    crane : Crane
+        The crane.
+    """
 
     skeleton: Optimum | None
     boom: DriveDesign | None
@@ -92,11 +123,36 @@ def design_crane(
     cab: float | None = None,
     progress: Any = False,
 ) -> CraneDesign:
-    """Return a crane for a duty, by default the source's: skeleton, boom drive, arm drive, each from the stage before.
+    """Return a crane for a duty: skeleton, boom drive, arm drive, each from the stage before.
 
-    `skeleton`, `boom` or `arm` replace a stage's result; `scheme` is that of the arm's drive, "a" to "d" of fig. 2.13, of
-    which c and d want an arm that folds little, such as Duty(psi_0=60 * deg). `cylinders` are those the drives are chosen from; `reading`
-    and `cab` go to `design_skeleton`. DefinitionError, with all reasons, where no cylinder serves a drive.
+    Parameters
+    ----------
+    duty : Duty, optional
+        The duty, the source's by default.
+    skeleton : CraneSkeleton, optional
+        Replaces the first stage's result.
+    boom : BoomDrive, optional
+        Replaces the second stage's result.
+    arm : DrivenArm, optional
+        Replaces the third stage's result.
+    scheme : {"a", "b", "c", "d"}, optional
+        That of the arm's drive, fig. 2.13; c and d want an arm that folds little, such as Duty(psi_0=60 * deg).
+    cylinders : DriveCylinders, optional
+        Those that the drives are chosen from.
+    reading, cab : optional
+        As of `design_skeleton`.
+    progress : bool or callable, optional
+        As of `optimise`.
+
+    Returns
+    -------
+    CraneDesign
+        The crane, and the result of each stage.
+
+    Raises
+    ------
+    DefinitionError
+        No cylinder serves a drive; all reasons are named.
     """
     found = None if skeleton is not None else design_skeleton(duty, reading=reading, cab=cab, progress=progress)
     bare = skeleton if found is None else found.machine
@@ -120,8 +176,26 @@ CRANES: Sequence[tuple[type[DrivenArm], type[Crane], int]] = (
 def with_drives(skeleton: CraneSkeleton, boom: BoomDrive, arm: DrivenArm) -> Crane:
     """Return the whole crane of a skeleton, a boom drive and an arm drive, all of one design.
 
-    The telescope's cylinder is as long as the telescope asks; its bore is that of the shipped crane. DefinitionError for an arm drive
-    of another than the four schemes.
+    The telescope's cylinder is as long as the telescope asks; its bore is that of the shipped crane.
+
+    Parameters
+    ----------
+    skeleton : CraneSkeleton
+        The skeleton.
+    boom : BoomDrive
+        The boom's drive.
+    arm : DrivenArm
+        The arm's drive.
+
+    Returns
+    -------
+    Crane
+        The crane.
+
+    Raises
+    ------
+    DefinitionError
+        The arm drive is of another than the four schemes.
     """
     made, count = next(((crane, count) for drive, crane, count in CRANES if isinstance(arm, drive)), (None, 0))
     if made is None:
@@ -155,14 +229,36 @@ def cylinder_numbers(name: str, drive: BoomDrive | DrivenArm) -> dict[str, float
 
 
 def boom_drive_of(crane: Crane) -> BoomDrive:
-    """Return the boom's drive of a whole crane of one design on its own, with the crane's required moments."""
+    """Return the boom's drive of a whole crane of one design on its own, with the crane's required moments.
+
+    Parameters
+    ----------
+    crane : Crane
+        The crane, one design.
+
+    Returns
+    -------
+    BoomDrive
+        The drive.
+    """
     duty = duty_of(crane)
     asked = {name: getattr(duty, name) for name in ("l_c", "K_B", "K_A", "phi_0", "phi_k", "psi_k")}
     return BoomDrive(**asked, **own_numbers(crane, "lift"), **{f"r_{k}": float(crane[f"boom_r{k}"]) for k in range(1, 5)})
 
 
 def arm_drive_of(crane: Crane) -> DrivenArm:
-    """Return the arm's drive of a whole crane of one design on its own, with the crane's required moments."""
+    """Return the arm's drive of a whole crane of one design on its own, with the crane's required moments.
+
+    Parameters
+    ----------
+    crane : Crane
+        The crane, one design.
+
+    Returns
+    -------
+    DrivenArm
+        The drive.
+    """
     duty = duty_of(crane)
     drive, count = next((drive, count) for drive, made, count in CRANES if isinstance(crane, made))
     asked = {name: getattr(duty, name) for name in ("l_p", "K_A", "K_A1", "phi_0", "phi_k", "psi_0", "psi_k")}

@@ -55,15 +55,40 @@ def along_stroke(crane: Crane, stroke: str, at: ArrayLike) -> dict[str, Any]:
 
 
 def boom_moment(crane: Crane, phi: ArrayLike) -> FloatArray:
-    """Return M_g(phi) [N m], the shape of phi: the lifting moment of the boom's cylinder at the pump's pressure. (2.29)"""
+    """Return the lifting moment M_g of the boom's cylinder at the pump's pressure (2.29).
+
+    Parameters
+    ----------
+    crane : Crane
+        The crane, one design.
+    phi : array
+        The boom's angles [rad].
+
+    Returns
+    -------
+    array
+        The moment [N m], of the shape of phi.
+    """
     push, _ = sides(crane.position(1), "phi")
     return -push * lever(crane, "phi", phi)
 
 
 def arm_moment(crane: Crane, psi: ArrayLike) -> tuple[FloatArray, FloatArray]:
-    """Return M_g1 and M_g2 (psi) [N m], the shape of psi: the moments of the arm's cylinder with its two sides. (2.44)
+    """Return the moments M_g1 and M_g2 of the arm's cylinder with its two sides (2.44).
 
     M_g1 folds the arm and is negative, M_g2 unfolds it; a cylinder that opens the arm while it grows folds it by its rod side.
+
+    Parameters
+    ----------
+    crane : Crane
+        The crane, one design.
+    psi : array
+        The arm's angles [rad].
+
+    Returns
+    -------
+    tuple of array
+        The moments [N m], of the shape of psi.
     """
     (push, pull), arm = sides(crane.position(1), "psi"), lever(crane, "psi", psi)
     pushes, pulls = push * arm, -pull * arm
@@ -71,9 +96,22 @@ def arm_moment(crane: Crane, psi: ArrayLike) -> tuple[FloatArray, FloatArray]:
 
 
 def drive_limits(crane: Crane) -> dict[str, tuple[float, float]]:
-    """Return how far each drive goes in this design, phi, psi [rad], t [m], as far as its cylinder's closed and open length let it.
+    """Return how far each drive goes in this design, as far as its cylinder's closed and open length let it.
 
-    DefinitionError for a batch, and where a cylinder's length fits none of its drive's positions.
+    Parameters
+    ----------
+    crane : Crane
+        The crane, one design.
+
+    Returns
+    -------
+    dict of str to tuple of float
+        The ends of phi, psi [rad] and t [m].
+
+    Raises
+    ------
+    DefinitionError
+        It is a batch, or a cylinder's length fits none of its drive's positions.
     """
     check_one_design(crane)
     return {stroke: within(crane, stroke, *span) for stroke, span in crane.limits_of().items()}
@@ -121,10 +159,27 @@ def load_map(
     rated: float | None = None,
     case: str = LIFTING,
 ) -> WorkingField:
-    """Return the greatest load at the tip over heights and radii [m], from the ground and from the column's axis; of one design.
+    """Return the greatest load at the tip over heights and radii.
 
-    The telescope stands where it carries most; the load pulls down the slope of the load case. `stability` is the moment about the
-    column's axis that the vehicle stands [N m], the crane's own weights included; `rated` a load [N] that is not exceeded.
+    The telescope is where it carries most; the load pulls down the slope of the load case.
+
+    Parameters
+    ----------
+    crane : Crane
+        The crane, one design.
+    heights, radii : array
+        The places [m], from the ground and from the column's axis.
+    stability : float, optional
+        The moment about the column's axis that the vehicle bears [N m], the crane's own weights included.
+    rated : float, optional
+        A load that is not exceeded [N].
+    case : str, optional
+        The load case.
+
+    Returns
+    -------
+    WorkingField
+        The loads.
     """
     cases = crane.plan.of_kind(LoadCase)
     x, y = on_slope((0.0, -1.0), cases[known_name("Load case", case, cases)].slope)
@@ -139,7 +194,18 @@ def load_map(
 
 
 def envelope(crane: Crane) -> Reach:
-    """Return the reach of one crane's tip, its border and area; obstacles such as vehicle and ground are left out."""
+    """Return the reach of one crane's tip, its border and area; obstacles such as vehicle and ground are left out.
+
+    Parameters
+    ----------
+    crane : Crane
+        The crane, one design.
+
+    Returns
+    -------
+    Reach
+        The reach.
+    """
     return load_map(crane, [0.0], [0.0]).search.reach
 
 
@@ -153,7 +219,17 @@ def strength(crane: Crane) -> dict[str, PinForces]:
     """Return the pin forces of one crane in the source's load cases: lifting at full reach, dragging by the arm, on a side slope.
 
     Lifting: the load Q on the straight crane, all positions of the boom; on the slope the same, as the load case `side_slope` tilts it.
-    Dragging: the tip drawn in along the ground by the greatest pull that the cylinders hold, nothing hanging from it.
+    Dragging: the tip drawn in along the ground by the greatest pull that the cylinders hold, without a load on it.
+
+    Parameters
+    ----------
+    crane : Crane
+        The crane, one design.
+
+    Returns
+    -------
+    dict of str to PinForces
+        By load case.
     """
     limits = crane.limits_of()
     straight = crane.at(phi=np.linspace(*limits["phi"], COUNT), psi=limits["psi"][1], t=limits["t"][1])

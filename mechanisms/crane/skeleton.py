@@ -161,16 +161,30 @@ class CraneSkeleton(Mechanism):
 
     @classmethod
     def conditions(cls, reading: str) -> dict[str, str]:
-        """Return the named margins that a skeleton has to keep, with their words, by how (2.13) is read: ">=" or "<=" c.
+        """Return the named margins that a skeleton has to keep, with their words.
 
-        ">=": the folded tip clears the guard; "<=": it comes as near as that.
+        Parameters
+        ----------
+        reading : {">=", "<="}
+            How (2.13) is read: ">=", the folded tip clears the guard, or "<=", it comes as near as that.
+
+        Returns
+        -------
+        dict of str to str
+            The words by name.
         """
         require(reading in GUARDS, "reading", reading, '(2.13) is read as ">=", the tip clears the guard, or "<=", it comes so near')
         name, words = GUARDS[reading]
         return {**cls.margins, name: words}
 
     def judged(self) -> list[Verdict]:
-        """Return the source's conditions on the skeleton of one design, (2.10)-(2.16)."""
+        """Return the source's conditions on the skeleton of one design, (2.10)-(2.16).
+
+        Returns
+        -------
+        list of Verdict
+            The verdicts.
+        """
         rules = self.conditions(self.reading)
         found = {name: float(value) for name, value in self.outputs(*self.errors, *rules).items()}
         verdicts = []
@@ -187,21 +201,60 @@ class CraneSkeleton(Mechanism):
         return verdicts
 
     def outputs(self, *names: str) -> dict[str, FloatArray]:
-        """Return named outputs that hang on the design alone [SI], such as W_m, one value a design."""
+        """Return named outputs that hang on the design alone [SI], such as W_m, one value a design.
+
+        Parameters
+        ----------
+        *names : str
+            The names.
+
+        Returns
+        -------
+        dict of str to array
+            The values.
+        """
         motion = self.at(unreachable="nan", **{name: stroke.start for name, stroke in self.strokes.items()})
         return {name: motion[name] for name in names}
 
     def output(self, name: str) -> float:
-        """Return a named output of one design that hangs on the design alone [SI]."""
+        """Return a named output of one design that hangs on the design alone [SI].
+
+        Parameters
+        ----------
+        name : str
+            The name.
+
+        Returns
+        -------
+        float
+            The value.
+        """
         return float(self.outputs(name)[name])
 
     def limits_of(self) -> dict[str, tuple[float, float]]:
-        """Return how far each drive goes in this design: phi, psi [rad], t [m]."""
+        """Return how far each drive goes in this design: phi, psi [rad], t [m].
+
+        Returns
+        -------
+        dict of str to tuple of float
+            The ends by stroke.
+        """
         psi = float(self["psi_0"]), float(self["psi_k"])
         return {"phi": (float(self["phi_0"]), self.output("phi_k")), "psi": psi, "t": (0.0, float(self["l_t"]))}
 
     def position(self, number: int) -> Motion:
-        """Return one of the positions that the skeleton is laid out by: 1 reaching, 2 over the stakes, 3 over the guard, 4 in transport."""
+        """Return one of the positions that the skeleton is laid out by.
+
+        Parameters
+        ----------
+        number : int
+            1 reaching, 2 over the stakes, 3 over the guard, 4 in transport.
+
+        Returns
+        -------
+        Motion
+            The pose.
+        """
         ensure(number in POSITIONS, f"Position {cited(number)} is unknown; the skeleton has {', '.join(map(str, POSITIONS))}.")
         (phi_0, phi_k), (psi_0, psi_k), (t_0, t_k) = self.limits_of().values()
         poses = {1: (phi_k, psi_k, t_k), 2: (phi_0, max(phi_0, psi_0), t_0), 3: (phi_0, psi_0, t_0), 4: (90 * deg, psi_0, t_0)}

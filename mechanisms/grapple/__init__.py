@@ -22,10 +22,25 @@ FIGURES = ("stems", "moments")
 
 
 def figure(name: str, grapple: Grapple | None = None) -> Figure:
-    """Return a figure of a grapple, by default the shipped one, as a matplotlib figure; DefinitionError for an unknown name, a batch.
+    """Return a figure of a grapple as a matplotlib figure.
 
-    "stems" is the grapple open, at the largest and at the smallest stem, with the rosette of stems that rest on T. "moments" is what
-    its lever gives and what the stems need, over their diameter.
+    Parameters
+    ----------
+    name : {"stems", "moments"}
+        "stems" is the grapple open, at the largest and at the smallest stem, with the rosette of stems that rest on T. "moments" is what
+        its lever gives and what the stems need, over their diameter.
+    grapple : Grapple, optional
+        The grapple, by default the shipped one.
+
+    Returns
+    -------
+    Figure
+        The figure.
+
+    Raises
+    ------
+    DefinitionError
+        The name is not known, or it is a batch of designs.
     """
     from .figures import DRAWN
 

@@ -41,7 +41,20 @@ RIGHT_ANGLE = 90 * deg
 
 
 def assumed_moment(D: Quantity, arm: Quantity) -> Quantity:
-    """Return the assumed law of M_1 [N m]: a push of 6 kN + 40 kN/m2 D**2 on the lever. The source's own (fig. 2.24) is not at hand."""
+    """Return the assumed law of M_1 [N m]: a push of 6 kN + 40 kN/m2 D**2 on the lever. The source's own (fig. 2.24) is not at hand.
+
+    Parameters
+    ----------
+    D : Quantity
+        The stem's diameter [m].
+    arm : Quantity
+        The lever [m].
+
+    Returns
+    -------
+    Quantity
+        The moment.
+    """
     return (6000.0 + 40000.0 * D**2) * arm
 
 
@@ -49,10 +62,41 @@ def assumed_moment(D: Quantity, arm: Quantity) -> Quantity:
 @refuses_changes
 @dataclass(frozen=True)
 class Duty:
-    """The stems [m], the wrap angles [rad] and the possible drives of the lever; every number as in `Grapple`.
+    """The stems, the wrap angles and the possible drives of the lever; every number as in `Grapple`.
 
-    `cylinders` are bores and rods [m], `strokes` standard strokes [m]; `box` is the room for the pin E: left, right, low, high [m] (2.89).
-    `moment` gives M_1; `inner` puts the cylinder at the inner hinge, where its rod side works. DefinitionError for what cannot be.
+    Parameters
+    ----------
+    D_0, d_0 : float, optional
+        The largest and the smallest stem [m].
+    alpha, beta : float, optional
+        The wrap angles [rad].
+    hinge_gap : float, optional
+        The gap of the hinge off the largest stem [m].
+    opening : float, optional
+        The opening angle over the one that lets the stem go.
+    bush : float, optional
+        The radius of the hinge's bush [m].
+    dead, dead_bores : float, optional
+        The closed length of the cylinder beyond its stroke is dead + dead_bores bore [m].
+    pressure : float, optional
+        The pressure [Pa gauge].
+    efficiency : float, optional
+        The cylinder's efficiency.
+    cylinders : sequence of tuple of float, optional
+        Bores and rods [m].
+    strokes : sequence of float, optional
+        Standard strokes [m].
+    box : tuple of float, optional
+        The room for the pin E: left, right, low, high [m] (2.89).
+    moment : callable, optional
+        `moment(D, arm)` gives M_1 [N m].
+    inner : bool, optional
+        Whether the cylinder is at the inner hinge, where its rod side works.
+
+    Raises
+    ------
+    DefinitionError
+        A number cannot be.
     """
 
     D_0: float = 550 * mm
@@ -97,7 +141,22 @@ class Duty:
 
     @classmethod
     def at_breast_height(cls, diameter: float, q_0: float, **others: Any) -> Duty:
-        """Return the duty for trees of a diameter at breast height [m], the stem q_0 times as thick where it is gripped. (2.67)"""
+        """Return the duty for trees of a diameter at breast height (2.67).
+
+        Parameters
+        ----------
+        diameter : float
+            The diameter [m].
+        q_0 : float
+            How many times as thick the stem is where it is gripped.
+        **others : object
+            The other numbers of a duty.
+
+        Returns
+        -------
+        Duty
+            The duty.
+        """
         positive(one_number(q_0, "q_0"), "q_0")
         return cls(D_0=q_0 * one_number(diameter, "diameter"), **others)
 
@@ -130,7 +189,20 @@ def numbers_of(given: Any) -> list[float]:
 
 
 def grapple_for(duty: Duty, **design: float) -> Grapple:
-    """Return the machine of a duty: a class with the range of theta and the M_1 that it needs, and a `design` of it [SI]."""
+    """Return the machine of a duty: a class with the range of theta and the M_1 that it needs.
+
+    Parameters
+    ----------
+    duty : Duty
+        The duty.
+    **design : float
+        A design of it, dimensions by name [SI].
+
+    Returns
+    -------
+    Grapple
+        The machine.
+    """
     base: type[Grapple] = InnerGrapple if duty.inner else Grapple
     layout = {name: getattr(duty, name) for name in duty.in_machine}
     given = {**layout, "circuit.pressure": duty.pressure, "circuit.mechanical_efficiency": duty.efficiency}
@@ -163,9 +235,18 @@ ROOM = 2.0 * mm
 @refuses_changes
 @dataclass(frozen=True)
 class Combination:
-    """A cylinder, a stroke and a place of E with which OC from `low` to `high` [m] keeps all conditions; `rho` is the best OC looked at.
+    """A cylinder, a stroke and a place of E, and for which OC all conditions are kept.
 
-    `value` is the objective there: M_g / M_1 or the arm [m].
+    Attributes
+    ----------
+    bore, rod, S : float
+        The cylinder's diameters and its stroke [m].
+    side_E, rho : float
+        The place of E, and the best OC looked at [m].
+    value : float
+        The objective there: M_g / M_1 or the arm [m].
+    low, high : float
+        The range of OC that keeps all conditions [m].
     """
 
     bore: float
@@ -198,7 +279,19 @@ def arm_to_spare() -> Request:
 def feasible(duty: Duty, objective: str = "even", machine: Grapple | None = None) -> list[Combination]:
     """Return the combinations that keep every condition of (2.95) somewhere, the best first, as a grid of OC of 1 mm shows them.
 
-    `machine` is one of the duty, where there is one already.
+    Parameters
+    ----------
+    duty : Duty
+        The duty.
+    objective : {"even", "arm"}, optional
+        As of `design`.
+    machine : Grapple, optional
+        One of the duty, where there is one already.
+
+    Returns
+    -------
+    list of Combination
+        The combinations.
     """
     one_word("objective", objective, OBJECTIVES)
     made, found = machine or grapple_for(duty), []
@@ -243,9 +336,26 @@ def conditions(duty: Duty, machine: Grapple) -> list[Any]:
 
 
 def design(duty: Duty, objective: str = "even", combinations: Sequence[Combination] | None = None) -> Optimum:
-    """Return the best design of a duty: the least greatest M_g / M_1, or ("arm") of the least bore the greatest arm at D_0.
+    """Return the best design of a duty.
 
-    `combinations` are those searched on, by default the three most promising ones of `feasible`. StudyError where none is good.
+    Parameters
+    ----------
+    duty : Duty
+        The duty.
+    objective : {"even", "arm"}, optional
+        "even", the least greatest M_g / M_1, or "arm", of the least bore the greatest arm at D_0.
+    combinations : sequence of Combination, optional
+        Those searched on, by default the three most promising ones of `feasible`.
+
+    Returns
+    -------
+    Optimum
+        The design.
+
+    Raises
+    ------
+    StudyError
+        No design is good.
     """
     one_word("objective", objective, OBJECTIVES)
     machine = grapple_for(duty)

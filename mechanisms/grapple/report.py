@@ -34,13 +34,39 @@ def require_grapple(motion: Motion) -> Motion:
 
 
 def gripping(motion: Motion, count: int = 101) -> Motion:
-    """Return the same designs over the angles at which they hold stems, from D_0 to d_0, each its own."""
+    """Return the same designs over the angles at which they hold stems, from D_0 to d_0, each its own.
+
+    Parameters
+    ----------
+    motion : Motion
+        The poses.
+    count : int, optional
+        The number of poses.
+
+    Returns
+    -------
+    Motion
+        The motion.
+    """
     closing = require_grapple(motion).sketched(ref("closing_angle"))
     return _over(motion, np.zeros_like(closing), -closing, count)
 
 
 def travelling(motion: Motion, count: int = 101) -> Motion:
-    """Return the same designs over the lever's whole way, from open to d_0, each its own."""
+    """Return the same designs over the lever's whole way, from open to d_0, each its own.
+
+    Parameters
+    ----------
+    motion : Motion
+        The poses.
+    count : int, optional
+        The number of poses.
+
+    Returns
+    -------
+    Motion
+        The motion.
+    """
     start, closing = (require_grapple(motion).sketched(ref(name)) for name in ("opening_angle", "closing_angle"))
     return _over(motion, start, -closing, count)
 
@@ -83,7 +109,13 @@ def require_placed(motion: Motion) -> Motion:
 
 @dataclass(frozen=True)
 class GrappleState:
-    """Values at the poses of a motion, arrays of its shape: D [m], H [m], M_g and M_1 [N m] of one lever."""
+    """The grip at the poses of a motion: arrays of its shape D [m], H [m], M_g and M_1 [N m] of one lever.
+
+    Parameters
+    ----------
+    motion : Motion
+        The motion of a grapple.
+    """
 
     motion: Motion
 
@@ -111,7 +143,18 @@ class GrappleState:
 
 
 def moment_ratio(motion: Motion) -> FloatArray:
-    """Return M_g / M_1 of a motion, shape (...)."""
+    """Return M_g / M_1 of a motion, shape (...).
+
+    Parameters
+    ----------
+    motion : Motion
+        The poses.
+
+    Returns
+    -------
+    array (...)
+        The ratio.
+    """
     state = GrappleState(motion)
     return np.asarray(state.given / state.needed)
 

@@ -24,9 +24,21 @@ FIGURES = ("2", "2a", "2b", "3", "3a", "3b", "4", "4a", "4b", "5", "5a", "5b", "
 
 
 def figure(number: int | str, machine: HeaderBalancer | None = None, measured: Sequence[Deviation] = ()) -> Figure:
-    """Return a figure of the paper as a matplotlib figure: a half of it, "2a", or both side by side, 2.
+    """Return a figure of the paper as a matplotlib figure.
 
-    It shows the header of the paper's figure, or the `machine` given. `measured` curves are laid over the reactions.
+    Parameters
+    ----------
+    number : int or str
+        A half of a figure, "2a", or both side by side, 2.
+    machine : HeaderBalancer, optional
+        The machine, by default with the header of the paper's figure.
+    measured : sequence of Deviation, optional
+        Measured curves, laid over the reactions.
+
+    Returns
+    -------
+    Figure
+        The figure.
     """
     from .figures import figure
 

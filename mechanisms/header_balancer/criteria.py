@@ -45,9 +45,18 @@ HEADERS: Mapping[int, Mapping[str, float]] = MappingProxyType(
 @final
 @dataclass(frozen=True)
 class Way:
-    """How hang-up is looked at: the gas law while the line is charged, the exponent of a fast movement after it
+    """How hang-up is looked at.
 
-    (None: by the same law), and the atmosphere [Pa] (None: the machine's).
+    Parameters
+    ----------
+    title : str
+        How it is called.
+    gas : Gas, optional
+        The gas law while the line is charged, isothermal by default.
+    exponent : float, optional
+        The exponent of a fast movement after it; by default the same law.
+    atmosphere : float, optional
+        The air's pressure [Pa]; by default the machine's.
     """
 
     title: str
@@ -56,7 +65,18 @@ class Way:
     atmosphere: float | None = None
 
     def charge_limits(self, motion: Motion) -> FloatArray:
-        """Return the charge pressure [Pa] at which the shoe just carries nothing at each pose, moving down, shape (n,)."""
+        """Return the charge pressure [Pa] at which the shoe just carries nothing at each pose, moving down, shape (n,).
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses.
+
+        Returns
+        -------
+        array (n,)
+            The charge pressure.
+        """
         balance = HeaderState(motion)
         block, left = balance.circuit.accumulators(motion), balance.circuit.withdrawn(motion)
         block = replace(block, gas=self.gas, atmosphere=block.atmosphere if self.atmosphere is None else self.atmosphere)
@@ -92,9 +112,24 @@ WAYS = (SLOW, FAST, PAPER, CHARGED_FAST)
 
 
 def charge_for(motion: Motion, wanted: float) -> float:
-    """Return the charge pressure at the horizon for a reaction of all shoes [N], without friction. (35)
+    """Return the charge pressure at the horizon for a reaction of all shoes, without friction (35).
 
-    DefinitionError where it is below zero: so much reaction the weights do not give.
+    Parameters
+    ----------
+    motion : Motion
+        The poses.
+    wanted : float
+        The reaction [N].
+
+    Returns
+    -------
+    float
+        The pressure [Pa].
+
+    Raises
+    ------
+    DefinitionError
+        The pressure is below zero: so much reaction the weights do not give.
     """
     require_number("wanted", wanted, "one reaction of all shoes is expected, in N")
     ensure(not wanted < 0.0, f"A reaction of {show(wanted, 'kgf', 4)} would pull at the ground; ask for zero or more.")
@@ -110,7 +145,22 @@ def charge_for(motion: Motion, wanted: float) -> float:
 def largest_charge(motion: Motion, way: Way = SLOW) -> float:
     """Return the largest charge pressure at the horizon at which the shoe, moving down, never lifts off over the following range.
 
-    DefinitionError where none will do: the header is lighter than the accumulators hold at their own gas charge.
+    Parameters
+    ----------
+    motion : Motion
+        The poses.
+    way : Way, optional
+        How hang-up is looked at, slowly by default.
+
+    Returns
+    -------
+    float
+        The pressure [Pa].
+
+    Raises
+    ------
+    DefinitionError
+        None will do: the header is lighter than the accumulators hold at their own gas charge.
     """
     require_motion(motion)
     judge = Judge(motion.plan, motion.designs, [over_following(motion, 2)])
@@ -130,7 +180,18 @@ LEAST_RESERVE = 0.1
 
 
 def criteria(motion: Motion) -> list[Verdict]:
-    """Return the verdicts on the five criteria and on the relief valve, and the paper's conclusions; the motion says which design."""
+    """Return the verdicts on the five criteria and on the relief valve, and the paper's conclusions; the motion says which design.
+
+    Parameters
+    ----------
+    motion : Motion
+        The poses.
+
+    Returns
+    -------
+    list of Verdict
+        The verdicts.
+    """
     fine = over_following(motion)
     balance = HeaderState(fine)
     ways = SLOW, FAST, PAPER if motion.inputs["atmosphere"] else NORMAL  # slow with the gas law the other way, too

@@ -71,7 +71,20 @@ def require_header(motion: Motion) -> None:
 
 
 def over_following(motion: Motion, count: int = 101) -> Motion:
-    """Return the same design over the following range, from the shoe's lowest place to its highest, equally spaced in h."""
+    """Return the same design over the following range, from the shoe's lowest place to its highest, equally spaced in h.
+
+    Parameters
+    ----------
+    motion : Motion
+        The poses.
+    count : int, optional
+        The number of poses.
+
+    Returns
+    -------
+    Motion
+        The motion.
+    """
     require_header(motion)
     require_whole("count", count, "a whole number of poses is expected, such as 101", least=1, most=MANY)
     range_ = float(motion.inputs["follows"])
@@ -254,7 +267,18 @@ def reaction_columns(motion: Motion) -> list[Column]:
 
 
 def relief(motion: Motion) -> Answer:
-    """Return the greatest pressure [Pa gauge] of lifting by the pump from the horizon to the end of the stroke, one design."""
+    """Return the greatest pressure [Pa gauge] of lifting by the pump from the horizon to the end of the stroke, one design.
+
+    Parameters
+    ----------
+    motion : Motion
+        The poses.
+
+    Returns
+    -------
+    Answer
+        The pressure, and where it is.
+    """
     lifted = motion.moved({"h": np.array([stroke_of(motion, 0.0), motion.plan.strokes["h"].end])})
     judge = Judge(motion.plan, motion.designs, [lifted])
     return judge.answer(most(lambda at: HeaderState(at).required_while("extending")))

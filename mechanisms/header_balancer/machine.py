@@ -150,19 +150,43 @@ class ImprovedBalancer(HeaderBalancer):
 
 
 def with_header(number: int, **changes: Any) -> HeaderBalancer:
-    """Return the machine with header 1, 2 or 3 at its published setting, other design variables [SI] changed as said."""
+    """Return the machine with a header at its published setting.
+
+    Parameters
+    ----------
+    number : int
+        Header 1, 2 or 3.
+    **changes : float or array
+        Other design variables [SI].
+
+    Returns
+    -------
+    HeaderBalancer
+        The machine.
+    """
     if not is_whole(number) or number not in HEADERS:
         raise DefinitionError(f"Header {cited(number)} is unknown; the paper has {', '.join(map(str, HEADERS))}.")
     return HeaderBalancer(**{**HEADERS[number], **changes})
 
 
 def setting_table(wanted: Sequence[float], changes: Mapping[str, Any] | None = None) -> list[Column]:
-    """Return the charge pressure at the horizon for each header and each wanted reaction of all shoes [N]. (35)
+    """Return the charge pressure at the horizon for each header and each wanted reaction (35).
 
-    Beside it stands the reaction that is left, at the least, moving down over the following range. Another column says
-    whether the setting keeps the largest charge without hang-up (1 yes, 0 no): slow, or fast where `changes` say n=1.4.
-    NaN where the weights do not give so much reaction, or the line would be charged below every gas charge and be rigid.
-    `changes` are design variables [SI] of all headers.
+    Beside it is the reaction that is left, at the least, moving down over the following range. Another column says whether the setting
+    keeps the largest charge without hang-up (1 yes, 0 no): slow, or fast where `changes` say n=1.4. NaN where the weights do not give so
+    much reaction, or the line would be charged below every gas charge and be rigid.
+
+    Parameters
+    ----------
+    wanted : sequence of float
+        The reactions of all shoes [N].
+    changes : mapping of str to object, optional
+        Design variables [SI] of all headers.
+
+    Returns
+    -------
+    list of Column
+        The columns.
     """
     try:
         forces, changed = np.atleast_1d(real(wanted)), dict(changes or {})

@@ -32,7 +32,17 @@ PLACES = {"R_y": "length", "h": "length"}
 
 @immutable
 class Deviation:
-    """One measured curve: heights of the shoe [m], measured and calculated values [SI], deviation of each [%]."""
+    """One measured curve against the calculation; `percent` is the deviation of each point.
+
+    Attributes
+    ----------
+    curve : str
+        The name of the curve.
+    height : array (n,)
+        The heights of the shoe [m].
+    measured, calculated : array (n,)
+        The values [SI].
+    """
 
     curve: str
     height: FloatArray
@@ -66,8 +76,23 @@ class Deviation:
 def read_measured(path: str | Path) -> Mapping[str, FloatArray]:
     """Return the columns of a CSV file [SI] by name: R_y or h, and F_R up, F_R down, P as far as they are there.
 
-    A heading is a name and its unit: `"R_y, mm"` or `R_y [mm]`. Fields are parted by commas, or by semicolons (then a
-    comma may be the decimal sign). An empty field is a value not measured. FileError names the line.
+    A heading is a name and its unit: `"R_y, mm"` or `R_y [mm]`. Fields are parted by commas, or by semicolons (then a comma may be the
+    decimal sign). An empty field is a value not measured.
+
+    Parameters
+    ----------
+    path : str or Path
+        The file.
+
+    Returns
+    -------
+    mapping of str to array
+        The columns.
+
+    Raises
+    ------
+    FileError
+        The file cannot be read; the line is named.
     """
     try:
         lines = read(path).decode("utf-8-sig").splitlines()
@@ -113,7 +138,20 @@ def _number(row: Sequence[str], index: int, where: str, delimiter: str) -> float
 
 
 def deviations(motion: Motion, measured: Mapping[str, FloatArray]) -> list[Deviation]:
-    """Return every measured curve against the calculated one of a design, at the measured places."""
+    """Return every measured curve against the calculated one of a design, at the measured places.
+
+    Parameters
+    ----------
+    motion : Motion
+        The poses.
+    measured : mapping of str to array
+        The columns, as `read_measured` gives them.
+
+    Returns
+    -------
+    list of Deviation
+        One for each measured curve.
+    """
     if not isinstance(measured, Mapping) or not set(measured) & set(PLACES):
         raise DefinitionError(f"{cited(measured)} holds no measured curves with their places, R_y or h; take read_measured(path).")
     return list(_each(motion, measured))

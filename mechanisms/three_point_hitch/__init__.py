@@ -21,10 +21,25 @@ FIGURES = ("zones", "capacity", "lift")
 
 
 def figure(name: str, hitch: ThreePointHitch | None = None) -> Figure:
-    """Return a figure of a hitch, by default the shipped one, as a matplotlib figure; DefinitionError for an unknown name, a batch.
+    """Return a figure of a hitch as a matplotlib figure.
 
-    "zones" is figure 2 of the paper, over the admissible settings. "capacity" is the capacity curve with its weakest point and
-    the tractor's limits, "lift" the hitch at the ends of its lift range.
+    Parameters
+    ----------
+    name : {"zones", "capacity", "lift"}
+        "zones" is figure 2 of the paper, over the admissible settings. "capacity" is the capacity curve with its weakest point and the
+        tractor's limits, "lift" the hitch at the ends of its lift range.
+    hitch : ThreePointHitch, optional
+        The hitch, by default the shipped one.
+
+    Returns
+    -------
+    Figure
+        The figure.
+
+    Raises
+    ------
+    DefinitionError
+        The name is not known, or it is a batch of designs.
     """
     from .figures import DRAWN
 

@@ -50,9 +50,21 @@ def own_loads(motion: AnyMotion) -> list[str]:
 
 
 def capacity(motion: Motion, point: str = "G", share: float = 1.0) -> FloatArray:
-    """Return G_g = F_cyl eta / I (28) [N], shape (...), at a point and a `share` of the pump's pressure.
+    """Return the lifting capacity G_g = F_cyl eta / I (28), with F_cyl = p_max area (29) and I = dy/dS of the point.
 
-    F_cyl = p_max area (29), I = dy/dS of the point. NaN where I is not above zero: not limited by this cylinder.
+    Parameters
+    ----------
+    motion : Motion
+        The poses.
+    point : str, optional
+        The point that the load is at.
+    share : float, optional
+        The share of the pump's pressure, 1 by default.
+
+    Returns
+    -------
+    array (...)
+        The capacity [N]; NaN where I is not above zero: not limited by this cylinder.
     """
     return circuit_of(motion).lifted(motion, point, own_loads(motion), share=share)
 
@@ -88,12 +100,40 @@ def write_capacity(written: Formulas) -> None:
 
 
 def at_hitch_points(motion: Motion, share: float = SHARE) -> FloatArray:
-    """Return the capacity with the load at the hitch points F [N], shape (...)."""
+    """Return the capacity with the load at the hitch points F [N], shape (...).
+
+    Parameters
+    ----------
+    motion : Motion
+        The poses.
+    share : float, optional
+        The share of the pump's pressure, 0.9 by default.
+
+    Returns
+    -------
+    array (...)
+        The capacity.
+    """
     return capacity(motion, "F", share)
 
 
 def behind(motion: Motion, distance: float = BEHIND, share: float = SHARE) -> FloatArray:
-    """Return the capacity with the load's centre a distance [m] behind the hitch points, square to the upright [N], shape (...)."""
+    """Return the capacity with the load's centre a distance behind the hitch points, square to the upright.
+
+    Parameters
+    ----------
+    motion : Motion
+        The poses.
+    distance : float, optional
+        The distance [m], 0.61 by default.
+    share : float, optional
+        The share of the pump's pressure, 0.9 by default.
+
+    Returns
+    -------
+    array (...)
+        The capacity [N].
+    """
     require_motion(motion)
     require_number("distance", distance, "one number in m is expected, such as 0.61")
     tested = {"FG": distance, "KFG": 90 * deg}
@@ -140,9 +180,20 @@ CHANGES = {
 
 @dataclass(frozen=True)
 class Weakest:
-    """The weakest point of the capacity curve of one design: stroke and height of F [m], capacity [N] and ratio I there.
+    """The weakest point of the capacity curve of one design.
 
-    `stage` is what its ratio owes most to, against the best point; `remedy` the change of one dimension that helps most.
+    Attributes
+    ----------
+    stroke, height : float
+        The stroke and the height of F there [m].
+    capacity : float
+        The capacity there [N].
+    ratio : float
+        The ratio I there.
+    stage : str
+        What its ratio owes most to, against the best point.
+    remedy : str
+        The change of one dimension that helps most.
     """
 
     stroke: float
@@ -165,7 +216,18 @@ class Weakest:
 
 
 def weakest(motion: Motion) -> Weakest | None:
-    """Return the weakest point over a motion of one design; None where the cylinder limits nothing."""
+    """Return the weakest point over a motion of one design; None where the cylinder limits nothing.
+
+    Parameters
+    ----------
+    motion : Motion
+        The poses.
+
+    Returns
+    -------
+    Weakest, optional
+        The weakest point.
+    """
     judge = Judge(motion.plan, motion.designs, [motion])
     worst, easiest = judge.answers([most(MotionFunction(stroke_per_newton)), least(MotionFunction(stroke_size_per_newton))])
     if not worst.value > 0.0:
@@ -242,14 +304,41 @@ def admissible(hitch: Mechanism) -> Mapping[str, Any]:
 
 
 def tilt_zone(hitch: Mechanism, over: Mapping[str, Any] | None = None, **strokes: Any) -> Zone:
-    """Return the least and the greatest tilt [rad] over the admissible settings at every stroke, or over others."""
+    """Return the least and the greatest tilt [rad] over the admissible settings at every stroke.
+
+    Parameters
+    ----------
+    hitch : ThreePointHitch
+        The hitch, one design.
+    over : mapping of str to object, optional
+        Other settings, as in `Box.of`.
+    **strokes : float or array
+        As in `machine.at`.
+
+    Returns
+    -------
+    Zone
+        The zone.
+    """
     return zone(hitch, "tilt", admissible(hitch) if over is None else over, **strokes)
 
 
 def capacity_zone(hitch: Mechanism, over: Mapping[str, Any] | None = None, **strokes: Any) -> Zone:
-    """Return the least and the greatest capacity [N] over the admissible settings at every stroke, or over others.
+    """Return the least and the greatest capacity [N] over the admissible settings at every stroke.
 
-    `low` is NaN where no setting is limited by the cylinder; `high` where some setting is not, which is then a remark.
+    Parameters
+    ----------
+    hitch : ThreePointHitch
+        The hitch, one design.
+    over : mapping of str to object, optional
+        Other settings, as in `Box.of`.
+    **strokes : float or array
+        As in `machine.at`.
+
+    Returns
+    -------
+    Zone
+        The zone. `low` is NaN where no setting is limited by the cylinder; `high` where some setting is not, which is then a remark.
     """
     found = zone(hitch, stroke_per_newton, admissible(hitch) if over is None else over, **strokes)
     low, high = from_stroke_per_newton(found.high), from_stroke_per_newton(found.low)
@@ -262,7 +351,18 @@ def capacity_zone(hitch: Mechanism, over: Mapping[str, Any] | None = None, **str
 
 
 def zone_columns(capacity: Zone, tilt: Zone) -> list[Column]:
-    """Return both zones as a table over the stroke."""
+    """Return both zones as a table over the stroke.
+
+    Parameters
+    ----------
+    capacity, tilt : Zone
+        The zones.
+
+    Returns
+    -------
+    list of Column
+        The columns.
+    """
     return [
         Column("S", capacity.strokes["S"], "mm", 1),
         Column(noted("capacity_min"), capacity.low, "kN", 2),
@@ -280,9 +380,21 @@ WIDE = (0.3, 3.0)
 
 
 def vertical_mast(hitch: Mechanism, S: float, between: tuple[float, float] | None = None) -> Settings:
-    """Return every length of the upper link MK [m] that makes the mast vertical at a stroke [m], or why there is none.
+    """Return every length of the upper link MK [m] that makes the mast vertical at a stroke, or why there is none.
 
-    Without a range it looks from 0.3 to 3 times MK.
+    Parameters
+    ----------
+    hitch : ThreePointHitch
+        The hitch, one design.
+    S : float
+        The stroke [m].
+    between : tuple of float, optional
+        The range of lengths [m], by default from 0.3 to 3 times MK.
+
+    Returns
+    -------
+    Settings
+        The lengths.
     """
     require_mechanism(hitch)
     wide = between if between is not None else (WIDE[0] * hitch["MK"], WIDE[1] * hitch["MK"])

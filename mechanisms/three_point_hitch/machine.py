@@ -157,7 +157,17 @@ class HitchCategory1(ThreePointHitch):
 
 @dataclass(frozen=True)
 class Category:
-    """The dimensions of an ISO 730 category [m], and a machine of such proportions, whose other dimensions are illustrative."""
+    """The dimensions of an ISO 730 category, and a machine of such proportions, whose other dimensions are illustrative.
+
+    Attributes
+    ----------
+    number : int
+        The category.
+    mast_height, lower_span, upper_pin, lower_pin : float
+        The mast's height, the span of the lower hitch points, and the diameters of the pins [m].
+    machine : type of ThreePointHitch
+        The machine.
+    """
 
     number: int
     mast_height: float

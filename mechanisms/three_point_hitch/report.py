@@ -64,7 +64,18 @@ def added_moment(motion: Motion) -> FloatArray:
 
 
 def front_axle(motion: Motion) -> FloatArray:
-    """Return the front axle's load square to the ground [N], shape (...); below zero the tractor tips over backwards."""
+    """Return the front axle's load square to the ground [N], shape (...); below zero the tractor tips over backwards.
+
+    Parameters
+    ----------
+    motion : Motion
+        The poses.
+
+    Returns
+    -------
+    array (...)
+        The load.
+    """
     given = motion.inputs
     moment = given["vehicle_mass"] * vehicle_lever(motion) + given["load.mass"] * implement_lever(motion)
     return np.asarray(-(g0 * moment + added_moment(motion)) / given["wheelbase"])
@@ -83,17 +94,50 @@ def mass_leaving(motion: Motion, share: FloatArray | float) -> FloatArray:
 
 
 def tipping_mass(motion: Motion) -> FloatArray:
-    """Return the implement's mass at which the tractor tips [kg], shape (...); NaN where none does."""
+    """Return the implement's mass at which the tractor tips [kg], shape (...); NaN where none does.
+
+    Parameters
+    ----------
+    motion : Motion
+        The poses.
+
+    Returns
+    -------
+    array (...)
+        The mass.
+    """
     return mass_leaving(motion, 0.0)
 
 
 def largest_mass(motion: Motion) -> FloatArray:
-    """Return the largest implement's mass that leaves the front axle its least share [kg], shape (...); NaN where there is no limit."""
+    """Return the largest implement's mass that leaves the front axle its least share [kg], shape (...); NaN where there is no limit.
+
+    Parameters
+    ----------
+    motion : Motion
+        The poses.
+
+    Returns
+    -------
+    array (...)
+        The mass.
+    """
     return mass_leaving(motion, motion.inputs["least_front"])
 
 
 def tipping_slope(motion: Motion) -> FloatArray:
-    """Return how steep it may go uphill until the tractor tips over backwards [rad], shape (...); 0 where it tips on level ground."""
+    """Return how steep it may go uphill until the tractor tips over backwards [rad], shape (...); 0 where it tips on level ground.
+
+    Parameters
+    ----------
+    motion : Motion
+        The poses.
+
+    Returns
+    -------
+    array (...)
+        The slope.
+    """
     given, (a, b, c) = motion.inputs, added(motion)
     along = g0 * (given["vehicle_mass"] * given["vehicle_x"] + given["load.mass"] * motion.x("G")) + a
     up = g0 * (given["vehicle_mass"] * given["vehicle_y"] + given["load.mass"] * motion.y("G")) - b
@@ -137,7 +181,18 @@ def balance_verdict(judge: Judge) -> Verdict:
 # -- tables and verdicts ----------------------------------------------------------------------------------------
 
 def capacity_columns(motion: Motion) -> list[Column]:
-    """Return stroke and lift height, ratio, capacities, tilt, upper link (tension positive), and the tractor's balance."""
+    """Return stroke and lift height, ratio, capacities, tilt, upper link (tension positive), and the tractor's balance.
+
+    Parameters
+    ----------
+    motion : Motion
+        The poses.
+
+    Returns
+    -------
+    list of Column
+        The columns.
+    """
     return [
         Column("S", motion.strokes["S"], "mm", 1),
         Column("F_y", motion.y("F"), "mm", 1),
@@ -259,7 +314,20 @@ def pressure_words(motion: Motion) -> str:
 
 
 def upper_link_force(motion: Motion, case: Case = None) -> FloatArray:
-    """Return the force in the upper link MK [N], shape (...): positive in tension, negative in compression."""
+    """Return the force in the upper link MK [N], shape (...): positive in tension, negative in compression.
+
+    Parameters
+    ----------
+    motion : Motion
+        The poses.
+    case : LoadCase or str, optional
+        The load case.
+
+    Returns
+    -------
+    array (...)
+        The force.
+    """
     elements = motion.plan.of_kind(ForceElement)  # a spring at M, say, has a joint of its own there
     (joint,) = (each for each in pin_forces(motion, case=case).at("M") if not {each.on, each.by} & set(elements))
     on_link = joint.force if joint.by == "frame" else -joint.force

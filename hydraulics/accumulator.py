@@ -17,7 +17,7 @@ from dataclasses import replace
 from functools import cached_property, partial, reduce
 from math import isfinite
 from types import MappingProxyType
-from typing import Any, ClassVar, final
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -56,7 +56,6 @@ LARGEST = 10.0
 CHARGE = "Accumulator charge"
 
 
-@final
 @immutable
 class Accumulator:
     """A vessel charged with gas: `Accumulator(10 * litre, charge=94 * kgf_cm2)`.
@@ -121,7 +120,6 @@ class Accumulator:
 # for any gas law. Source: Rekhlitski, Chuprynin (2013), (17)-(33), for any number of charges.
 
 
-@final
 @immutable
 class GasBank:
     """Gas charges [Pa absolute] in vessels [m3], one of each per gas; a charge or volume may be an array over designs."""
@@ -184,7 +182,6 @@ SMALLEST = 1e-9
 """Share of the gas volume below which no gas is left: no equation of a gas says what happens there."""
 
 
-@final
 @immutable
 class AccumulatorBlock:
     """Accumulators on one line, any number and any charges; pressures are gauge [Pa].

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from types import MappingProxyType
-from typing import Any, ClassVar, Self, final
+from typing import Any, ClassVar, Self
 
 from linkage.errors import DefinitionError, unknown
 from linkage.frozen import immutable
@@ -108,7 +108,6 @@ class BarrelAndRod(TwoPoint):
         return (*super().glyphs(members), *(Glyph("mass", points) for points in self._masses.values() if points[1] in members))
 
 
-@final
 @immutable
 class BodyOf(Member):
     """A body of a cylinder, for a LinkMass or a Moment: `lift.barrel`, `lift.piston_rod`, by their names too, "lift.barrel"."""
@@ -224,7 +223,6 @@ class OnCylinder(Point):
         return f"{type(self).__name__}({label(self.cylinder)}, {spelled(self.along)}{across})"
 
 
-@final
 class OnBarrel(OnCylinder):
     """A point on the barrel of a cylinder: `K = OnBarrel(lift, 0.35, 0.08)`.
 
@@ -233,7 +231,6 @@ class OnBarrel(OnCylinder):
     """
 
 
-@final
 class OnRod(OnCylinder):
     """A point on the rod of a cylinder: `K = OnRod(lift, 0.1)`.
 

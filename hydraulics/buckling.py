@@ -17,7 +17,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from math import pi, sqrt
 from types import MappingProxyType
-from typing import final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -36,7 +35,6 @@ MOUNTINGS = MappingProxyType({noted("pin-pin"): 1.0, noted("fixed-pin"): 0.69915
 """Buckling length over length, by how the two ends are held (Euler's four cases; 0.699156 is pi over the root of tan x = x)."""
 
 
-@final
 @refuses_changes
 @dataclass(frozen=True)
 class Buckling:

@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, final
+from typing import Any
 
 import numpy as np
 
@@ -35,7 +35,6 @@ STANDS = 1e-10
 """Of the rates of the strokes: a length that changes by less stands, to rounding."""
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class Inlet:
     """How a cylinder takes oil from a line while it extends or retracts (`sense` 1 or -1).
@@ -59,7 +58,6 @@ class Inlet:
         return "extending" if self.sense > 0.0 else "retracting"
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class Branch:
     """One cylinder's flow from one line over some instants: `flow` (m,), the `need` (m,), and its `force` and `speed` where it moves.
@@ -85,7 +83,6 @@ class Branch:
         return self.useful - (self.signed * self.flow if self.inlet.sides is not None else self.force * self.speed)
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class Taken:
     """The flows of all consumers over some instants, each with its branches, and the lengths of the cylinders (rams, m) [m]."""
@@ -125,7 +122,6 @@ class Taken:
         return np.array(rows).reshape(-1, self.lengths.shape[1])
 
 
-@final
 class Consumers:
     """The lines on a pump, with the cylinders on them, of one design in one situation.
 

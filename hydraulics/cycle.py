@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, final
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -57,7 +57,6 @@ def is_smooth(rows: Sequence[Array], size: float) -> bool:
     return not len(rows) or bool(np.all(np.abs(np.array(rows) @ TO_COEFFICIENTS.T[:, -2:]) <= SMOOTH * size))
 
 
-@final
 @immutable
 class PumpEvent:
     """An event of a cycle: its `time` [s], its `kind`, its `cylinder` or line, and a sentence."""
@@ -71,7 +70,6 @@ class PumpEvent:
         return said("at {time}: {sentence}", time=show(self.time, "s", 7), sentence=self.sentence)
 
 
-@final
 @refuses_changes
 @dataclass(frozen=True)
 class PumpEnergy:
@@ -84,7 +82,6 @@ class PumpEnergy:
     braked: float
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class Stretch:
     """A stretch between two borders: instants (m,), the pump's pressure there, and each consumer's share and branches.
@@ -99,7 +96,6 @@ class Stretch:
     blocked: tuple[int, ...] = ()
 
 
-@final
 class PumpCycle:
     """A working cycle of one pump, as `Pump.check` and `Pump.run` give it.
 
@@ -301,7 +297,6 @@ def unchanged(arrays: Mapping[str, Array]) -> Mapping[str, Array]:
     return FrozenDict({name: read_only(each) for name, each in arrays.items()})
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class PumpRun:
     """A pump's run: its cycle, with its machine, its design and its situation. It stands with the path that the run made."""

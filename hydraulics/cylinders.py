@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 from functools import partial, reduce
 from operator import add
 from types import MappingProxyType
-from typing import Any, ClassVar, Literal, Self, TypeAlias, TypeVar, Unpack, cast, final
+from typing import Any, ClassVar, Literal, Self, TypeAlias, TypeVar, Unpack, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -57,7 +57,6 @@ SIDE_WORDS: Mapping[str, str] = MappingProxyType({
 })  # fmt: skip
 
 
-@final
 @refuses_changes
 @dataclass(frozen=True)
 class Chamber:
@@ -736,7 +735,6 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         return body_name(label(end) for end in (self.A, self.B))
 
 
-@final
 @immutable
 class Cylinder(BarrelAndRod, Ram):
     """Equal cylinders side by side between A and B: `lift = Cylinder(A, B, bore=110 * mm, rod=60 * mm, count=2)`.
@@ -1072,7 +1070,6 @@ class Cylinder(BarrelAndRod, Ram):
         return "rod", 0, standard_rods(bore)
 
 
-@final
 @immutable
 class AllOf(Condition):
     """Several conditions as one: the worst counts."""

@@ -13,7 +13,7 @@ from dataclasses import replace
 from functools import partial, reduce
 from math import nan
 from types import MappingProxyType
-from typing import Any, ClassVar, Self, TypeAlias, cast, final
+from typing import Any, ClassVar, Self, TypeAlias, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -283,7 +283,6 @@ class GasLine(Circuit):
         return [load for push in self.pushes(motion, rates) for load in end_forces(push, motion)]
 
 
-@final
 @immutable
 class FloatCircuit(GasLine):
     """A cylinder on a closed accumulator block: `FloatCircuit(lift, block, charge_pressure=94 * kgf_cm2, at=h_horizon)`.

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from typing import final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -199,7 +198,6 @@ class Gas(ABC):
         return self.pressure_of(self.specific(positive(p0, "Charge pressure")) * ratio)
 
 
-@final
 @immutable
 class Polytropic(Gas):
     """Ideal gas with p V^n = const: n = 1 is isothermal (slow), n = 1.4 adiabatic (fast). `n` may be an array over states."""
@@ -300,7 +298,6 @@ TERMS = (  # i, j, c
 )  # fmt: skip
 
 
-@final
 @immutable
 class RealNitrogen(Gas):
     """Real nitrogen kept at one temperature (a slow change); see above for source, range and error."""

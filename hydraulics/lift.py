@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from types import MappingProxyType
-from typing import Any, ClassVar, final
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -120,7 +120,6 @@ class PumpLine(LiftLine):
             return [Verdict.refused("lifting", error)]
 
 
-@final
 @immutable
 class LiftCircuit(PumpLine):
     """A pump on a cylinder: `circuit = LiftCircuit(lift, pressure=180 * bar, flow=60 * litre / minute, mechanical_efficiency=0.9)`.
@@ -350,7 +349,6 @@ def idle(cylinders: Sequence[LiftingCylinder]) -> Verdict | None:
     return Verdict("lifting", None, text)
 
 
-@final
 class LiftingCylinder:
     """One cylinder of a circuit over all that a judge looks at."""
 

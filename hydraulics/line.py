@@ -14,7 +14,7 @@ from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
-from typing import Any, Unpack, cast, final
+from typing import Any, Unpack, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -44,7 +44,6 @@ class Choice(ActingKeywords, total=False):
     cylinder: Reference | None
 
 
-@final
 @immutable
 class Work:
     """A cylinder's thrust [N] while it grows (`sense` 1) or shrinks (-1), its size, and the mechanical efficiency.
@@ -97,7 +96,6 @@ class Work:
         return np.where(resists, self.along / self.k_m, self.along * self.k_m)
 
 
-@final
 @immutable
 class Holding:
     """Gauge pressures that hold a load.
@@ -112,7 +110,6 @@ class Holding:
     other: Array
 
 
-@final
 @immutable
 class Lowering:
     """Gauge pressures while a machine goes back against a load.

@@ -18,7 +18,7 @@ from functools import partial, reduce
 from math import pi
 from operator import add
 from types import MappingProxyType
-from typing import Any, ClassVar, TypeAlias, Unpack, cast, final
+from typing import Any, ClassVar, TypeAlias, Unpack, cast
 
 import numpy as np
 
@@ -70,7 +70,6 @@ from .shut import EMPTY, intensified, shut_verdicts
 from .standing import standing_pressure
 
 
-@final
 @immutable
 class LineLength(Quantity):
     """The length that a closed line gives one of its cylinders [m]."""
@@ -99,7 +98,6 @@ NUMBERS: Mapping[str, tuple[str, ...]] = MappingProxyType({
 """The numbers of a line that count, by its kind."""
 
 
-@final
 class OilLine(PumpLine, GasLine):
     """Oil that joins chambers: `level = OilLine(master.piston_side, slave.piston_side, filled=dict(slave=0.72))`.
 

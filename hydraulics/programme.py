@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import final
 
 import numpy as np
 
@@ -28,7 +27,6 @@ KEYS = ("pump", "until", "case", "start", "demands")
 EXAMPLE = '[demands] with "boom.ram" = "0.15 m/s", or rows of instants and speeds, [["0 s", "0.15 m/s"], ["2 s", "0 m/s"]]'
 
 
-@final
 @immutable
 class Programme:
     """Demands on a pump: `demands` by cylinders, `start` by strokes, the end `until` [s], the load case."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
-from typing import Any, ClassVar, Literal, cast, final
+from typing import Any, ClassVar, Literal, cast
 
 import numpy as np
 
@@ -43,7 +43,6 @@ class Supply(OnLines):
         check_pressures(self, self.called, () if isinstance(self, Tank) else ("pressure",))
 
 
-@final
 @immutable
 class Pump(Supply, HasVerdicts):
     """A pump: `supply = Pump(180 * bar, flow=60 * litre / minute)`; it holds a line, whose pressure follows the pose.
@@ -202,7 +201,6 @@ class Pump(Supply, HasVerdicts):
         return worked(self, machine, demands, until, start, acting)
 
 
-@final
 @immutable
 class Relief(Supply):
     """A relief valve: `valve = Relief(200 * bar)`; it may lie on any line.
@@ -217,7 +215,6 @@ class Relief(Supply):
     called: ClassVar[str] = "relief valve"
 
 
-@final
 @immutable
 class Tank(Supply):
     """A tank, which gives its line a pressure: `back = Tank(5 * bar)`.

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from functools import partial, reduce
 from operator import add
 from types import MappingProxyType
-from typing import Any, TypeAlias, final
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -451,7 +451,6 @@ def buckling(cylinder: Reference, *, case: Case = None, direction: str | None = 
 # A condition of a search.
 
 
-@final
 @dataclass(frozen=True)
 class Fits(Condition):
     """A cylinder's closed and open length serve the whole stroke, and it comes out by no more than it is long closed."""

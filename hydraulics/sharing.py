@@ -15,7 +15,7 @@ from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass
 from math import inf
 from operator import lt
-from typing import Any, TypeVar, final
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -31,7 +31,6 @@ SAME_NEED = 1e-11
 """Of the cut-off: needs that differ by no more are one, to rounding."""
 
 
-@final
 @immutable
 class PumpLimits:
     """The limits of a pump: its greatest `flow` and `power` [W], the `margin` above the need and the `cut_off` [Pa].
@@ -46,7 +45,6 @@ class PumpLimits:
     least_first: bool
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class Wanted:
     """The demands of consumers: flows and needs, those at their ends, and the tiers in which they are served.
@@ -65,7 +63,6 @@ class Wanted:
     """What those that creep take already."""
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class Fed:
     """The supply of consumers: `shares` of their demands, 0 to 1, and the pump's `pressure`.
@@ -82,7 +79,6 @@ class Fed:
     blocked: tuple[int, ...]
 
 
-@final
 class Choices:
     """Decisions of an algorithm, in order: made anew, or replayed as `made` before."""
 

@@ -29,7 +29,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 from math import pi
-from typing import Literal, NamedTuple, TypeAlias, final, get_args
+from typing import Literal, NamedTuple, TypeAlias, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -48,7 +48,6 @@ from .inputs import Array, all_finite, in_metres, not_negative, one_design, one_
 # as makers' catalogues reproduce them.
 
 
-@final
 @refuses_changes
 @dataclass(frozen=True)
 class Series:
@@ -310,7 +309,6 @@ class RamSize(ABC):
         return speed[()]
 
 
-@final
 @refuses_changes
 @dataclass(frozen=True)
 class CylinderSize(RamSize):

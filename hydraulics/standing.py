@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import cached_property, reduce
-from typing import final
 
 import numpy as np
 
@@ -63,7 +62,6 @@ def standing_pressure(line: Circuit, motion: AnyMotion, acting: Acting) -> Array
     return np.asarray(found[0] + np.zeros(motion.shape))[()] if motion.shape else found[0]
 
 
-@final
 @immutable
 class CommonStroke:
     """Cylinders that one stroke moves over a motion's poses; of several each counts by how its length follows that stroke."""

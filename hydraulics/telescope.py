@@ -21,7 +21,7 @@ from functools import reduce
 from itertools import accumulate, pairwise
 from operator import add
 from types import MappingProxyType
-from typing import Any, ClassVar, cast, final
+from typing import Any, ClassVar, cast
 
 import numpy as np
 
@@ -45,7 +45,6 @@ STAGES = 12
 """More moving stages than any telescope has."""
 
 
-@final
 @immutable
 class StageSize(RamSize):
     """The bore of the stage that moves [m], one number or an array over the poses; `count` telescopes side by side."""
@@ -63,7 +62,6 @@ class StageSize(RamSize):
         return 0.0 * self.push_area
 
 
-@final
 @immutable
 class Telescope(Ram):
     """Equal telescopes side by side: `hoist = Telescope(A, B, bores=[145 * mm, 125 * mm], strokes=[1.0, 0.9], closed=1.3)`.

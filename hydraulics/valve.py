@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from functools import partial
 from types import MappingProxyType
-from typing import ClassVar, Unpack, cast, final
+from typing import ClassVar, Unpack, cast
 
 import numpy as np
 
@@ -37,7 +37,6 @@ ROUNDED = 5e-4
 """Of a setting: what it may be below the usual one, as that is told in four digits."""
 
 
-@final
 @immutable
 class HoldingValve(OnLines, HasVerdicts):
     """A counterbalance valve: `valve = HoldingValve(lifting, pilot=other, setting=210 * bar, ratio=4)`.

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import Any, TypeAlias, cast, final
+from typing import Any, TypeAlias, cast
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -73,7 +73,6 @@ class PumpMotion(Motion):
     cycle: PumpCycle
 
 
-@final
 @dataclass(frozen=True)
 class Mode:
     """The decisions of a stretch: the choices in sharing, cylinders at an end, and those that go on level or creep at the cut-off."""
@@ -84,7 +83,6 @@ class Mode:
     creep: frozenset[int] = frozenset()
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class Going:
     """The state over some instants: flows, each consumer's supply, and the rates of the strokes (n, m)."""
@@ -102,7 +100,6 @@ class Going:
         return np.broadcast_to(np.asarray(self.fed.pressure, float), self.shares.shape[1:])
 
 
-@final
 class PumpedMachine:
     """A machine on one pump with demands on its cylinders, in the modes of their movement."""
 
@@ -550,7 +547,6 @@ TO_POWERS = np.array([
 """Chebyshev's polynomials from 0 to 1, by powers."""
 
 
-@final
 class Events:
     """The events of a run, found by comparing the states before and after each."""
 

@@ -10,7 +10,7 @@ from copy import copy
 from dataclasses import replace
 from functools import wraps
 from inspect import isfunction
-from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Self, TypeVar, cast, final
+from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Self, TypeVar, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -109,7 +109,6 @@ def check_motion(machine: Mechanism, motion: object, what: str) -> None:
         raise DefinitionError(f"{machine.plan.title}: {said}; give one of {machine.plan.title}.")
 
 
-@final
 class ClassBody(dict[str, object]):
     """The body of a class while it is read: a name with a member takes no other one, which would lose the first."""
 
@@ -135,7 +134,6 @@ def as_line(value: object) -> str:
         return f"{type(value).__name__}(...)"
 
 
-@final
 class MechanismType(ABCMeta):
     """The class of the classes of mechanism: a class does not change once it is made."""
 

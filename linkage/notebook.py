@@ -14,7 +14,7 @@ from functools import singledispatch
 from html import escape
 from io import BytesIO
 from itertools import count
-from typing import Any, final
+from typing import Any
 
 import numpy as np
 from matplotlib import rc_context
@@ -49,7 +49,6 @@ MOST_ROWS, MOST_COLUMNS = 11, 12
 WIDTH, HEIGHT = 8.0, 6.0  # of a drawing, inch
 
 
-@final
 @dataclass(frozen=True)
 class LivePage(Shown):
     """A live page in a notebook: its HTML, and how high its frame is [pixels]."""

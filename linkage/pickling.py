@@ -8,12 +8,11 @@ from functools import partial
 from importlib import import_module
 from inspect import unwrap
 from types import CellType, CodeType, FunctionType
-from typing import Any, final
+from typing import Any
 
 INSIDE = ".<locals>."
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class InnerFunction:
     """A nested function, by its place and its closure; unpickled it is the function."""

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator, Mapping
 from functools import lru_cache
 from importlib import import_module
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Generic, TypeVar, final
+from typing import TYPE_CHECKING, Generic, TypeVar
 
 from .errors import DefinitionError, LinkageError
 
@@ -62,7 +62,6 @@ def guarded(load: Callable[[], T], what: str) -> T:
         raise DefinitionError(f"{what} cannot be loaded: {why}") from error
 
 
-@final
 class Plugins(Generic[T]):
     """All entries of one kind, by name: those of this package, and those that others bring in a group of entry points.
 

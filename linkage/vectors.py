@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import Any, Generic, Self, TypeAlias, TypeVar, final
+from typing import Any, Generic, Self, TypeAlias, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -76,7 +76,6 @@ def pick(a: Scalar, b: Scalar, x: Scalar, y: Scalar) -> Scalar:
     return np.where(a <= b, x, y)
 
 
-@final
 class Side(IntEnum):
     """The assembly mode of a point: LEFT or RIGHT of its first parent -> second parent."""
 
@@ -98,7 +97,6 @@ LEFT = Side.LEFT
 RIGHT = Side.RIGHT
 
 
-@final
 @dataclass(frozen=True, slots=True, eq=False)
 class Vec:
     """A vector or a position in the plane [m]; the components are scalars of one reading."""
@@ -143,7 +141,6 @@ class Vec:
         return np.sqrt(self.square())
 
 
-@final
 @dataclass(frozen=True, slots=True, eq=False)
 class Line:
     """A straight line: an origin [m] and a direction of length one."""

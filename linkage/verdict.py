@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, ClassVar, Self, final
+from typing import Any, ClassVar, Self
 
 from .errors import DefinitionError, cited
 from .language import heading_of, said
@@ -135,7 +135,6 @@ class Verdict(str, Shown):
         return type(self), (self.rule, self.ok, self.sentence, self.heading)
 
 
-@final
 class Remark(Verdict):
     """A sentence about a machine that is no rule: something to know, neither kept nor broken.
 

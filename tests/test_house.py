@@ -279,3 +279,33 @@ def test_no_room_bears_the_name_of_a_public_function():
     rooms = {path.parent.name for path in (ROOT / "linkage").glob("*/__init__.py")}
     assert rooms == set(FLOOR) - {*FLOORS[0], "mechanism", "notebook"}
     assert not rooms & {name for name in linkage.__all__ if callable(getattr(linkage, name))}
+
+
+BASES = {
+    "ActingKeywords", "Amount", "Arithmetic", "Asked", "AssemblyError", "BarrelAndRod", "DefinitionError", "Directed", "Expression",
+    "FourBar", "FrozenDict", "Function", "Ground", "Jointed", "Kind", "Leaf", "LinkageError", "Mechanism", "Member", "Members",
+    "Mistakes", "Motion", "Number", "OnBody", "OnCylinder", "OnLines", "OnePose", "Outline", "PlacedFile", "Poses", "PumpLine",
+    "Range", "Reading", "Renaming", "Request", "Shown", "Step", "StudyError", "Supply", "Told", "TurnV", "VectorNumber", "Verdict",
+    "Where",
+}  # fmt: skip
+"""Classes that others are derived from though they have no abstract method; all others are abstract or final."""
+
+
+def derived_from(texts: dict[str, str]) -> set[str]:
+    """Return the classes among some files, path to text, that others are derived from though they have no abstract method."""
+    classes = [node for path, text in texts.items() if not path.startswith("mechanisms/") for node in nodes(text)[ast.ClassDef]]
+    marks = {c.name: {ast.unparse(mark) for part in c.body for mark in getattr(part, "decorator_list", ())} for c in classes}
+    bases = [ast.unparse(base) for text in texts.values() for node in nodes(text)[ast.ClassDef] for base in node.bases]
+    named = {base.split("[")[0].split(".")[-1] for base in bases}
+    return {name for name in named & marks.keys() if "abstractmethod" not in marks[name]}
+
+
+def test_classes_are_abstract_or_final():
+    packages = tuple(f"{package}/" for package in MAY_IMPORT)
+    assert derived_from({path: text for path, text in sources().items() if path.startswith(packages)}) == BASES
+
+
+def test_a_base_that_is_not_abstract_is_found():
+    leaf = "class Dyad(Step):\n    pass\nclass Step:\n    @abstractmethod\n    def place(self): ...\n"
+    assert derived_from({"linkage/steps/dyad.py": leaf}) == set()
+    assert derived_from({"linkage/steps/dyad.py": leaf, "hydraulics/own.py": "class Own(Dyad):\n    pass\n"}) == {"Dyad"}

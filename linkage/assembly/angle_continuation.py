@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import pi
 from types import MappingProxyType
-from typing import Self, final
+from typing import Self
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -114,7 +114,6 @@ def piece_length(plan: Plan, name: str) -> float:
     return min(abs(stroke.end - stroke.start), 2.0 * pi) / PIECES
 
 
-@final
 @dataclass(frozen=True)
 class StrokeLines:
     """Lines in stroke space, each with its design, its first strokes, the strokes per unit of place, and its whole length.
@@ -198,7 +197,6 @@ class StrokeLines:
         return AnglePath.from_stretches(done, points.subset(points.place == 0.0), begin)
 
 
-@final
 @dataclass(frozen=True)
 class Points:
     """Places on ways with a vector there, shape (2, k), and its derivative by the place."""
@@ -219,7 +217,6 @@ class Points:
         return Points(np.concatenate([self.line, other.line]), np.concatenate([self.place, other.place]), value, rate)
 
 
-@final
 @dataclass(frozen=True)
 class AnglePath:
     """An angle along ways: pieces in order, with the angle at their start [rad], NaN behind where it is lost, and its change over each."""
@@ -277,7 +274,6 @@ def followed_nodes(plan: Plan, name: str) -> list[Node]:
     return [*nodes, *(each for stroke in plan.strokes for each in plan.derived(nodes, (stroke,)))]
 
 
-@final
 @dataclass(frozen=True)
 class Vectors:
     """The vector whose direction is followed, anywhere on ways; `known` are the angles that it may hang on."""

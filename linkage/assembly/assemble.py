@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass
 from itertools import combinations, permutations, starmap
-from typing import Any, final
+from typing import Any
 
 import numpy as np
 
@@ -20,7 +20,6 @@ from .sketch import ONE_PLACE, Sketch, all_behind, missing_labels, sided, with_b
 
 # The shape of a link: the distances and angles of its points, from its labels or a drawing.
 
-@final
 class Shape:
     """A link's shape as known from its own labels and those of links of the same body. Lengths in m, angles in rad."""
 
@@ -188,7 +187,6 @@ def check_names(members: Mapping[str, Member], title: str) -> None:
 
 # What no dyad pattern places: the smallest sets of pins whose equations determine them together.
 
-@final
 @dataclass(frozen=True)
 class PinEquation:
     """An equation of the parts list: its loose pins, and its words."""
@@ -380,7 +378,6 @@ def sketched(member: Member) -> bool:
     return isinstance(member, Step) and (member.near is not None or member.drawn_at is not None)
 
 
-@final
 class Parts:
     """The parts settled so far, and the pins, links and slides still to be used; settled at the sketch where positions choose."""
 

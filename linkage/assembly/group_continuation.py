@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, final
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -43,7 +43,6 @@ def row_names(letter: str, count: int) -> list[str]:
     return [f"{letter}{k}" for k in range(count)]
 
 
-@final
 class Program:
     """The loops of a group's continuation: the rows of the lanes' memory that they read and write, and each row's new value."""
 
@@ -292,7 +291,6 @@ STEPS_KEPT = 1024
 """The places of steps of later groups of which the pins are kept."""
 
 
-@final
 class InputRoute:
     """Ways of the program's inputs, straight lines over places of lanes: a lane for every design and each of n ways.
 
@@ -319,7 +317,6 @@ class InputRoute:
         return {name: start if np.ndim(slope) == 0 and slope == 0.0 else start + place * slope for name, (start, slope) in lines}
 
 
-@final
 @dataclass(frozen=True)
 class Lanes:
     """Where ways begin and how far they are to go, arrays (lanes,): u (coordinates, lanes) [m]."""
@@ -339,7 +336,6 @@ class Lanes:
         return np.array([self.goal, self.goal if self.exact else np.full(len(self.goal), np.inf), self.largest])
 
 
-@final
 class GroupPath:
     """One group's way along each lane of a route: the places it was solved at, and the solution at any place between."""
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TypeAlias, final
+from typing import TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -27,7 +27,6 @@ LINE = 1.0 / 8
 """The largest step of a straight way from the sketch to a pose of several strokes, or from the class's design to another."""
 
 
-@final
 @dataclass(frozen=True)
 class GroupSolution:
     """The inputs that groups' solutions supply, shape (designs, poses), and the group whose branches cross on the way, counted from 1."""

@@ -6,7 +6,6 @@ from collections.abc import Iterator, Mapping
 from copy import copy
 from dataclasses import dataclass, field
 from itertools import permutations
-from typing import final
 
 import numpy as np
 
@@ -28,7 +27,6 @@ SAME = 1e-6
 """Solutions nearer to each other than this part of the mechanism's size are one."""
 
 
-@final
 @dataclass(frozen=True)
 class Assembly(Shown):
     """One way to put a mechanism together: the side of each dyad, and where the points are then [m].

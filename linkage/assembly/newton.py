@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import reduce
-from typing import final
 
 import numpy as np
 import numpy.typing as npt
@@ -29,7 +28,6 @@ THRESHOLD = 0.25
 """At the sketch a pivot is at least so large beside the entries it clears away."""
 
 
-@final
 class Newton:
     """The equations of one group of a plan in its pins' coordinates; groups before it are inputs.
 
@@ -178,7 +176,6 @@ def nearness(rows: FloatArray) -> FloatArray:
 # The equations of a group as programs: as the constraints state them, and solved by elimination written out for its own structure.
 
 
-@final
 @immutable
 class GroupEquations:
     """The residuals of a group, the roots they determine, and the Jacobian by rows; groups before it are held."""
@@ -208,7 +205,6 @@ class GroupEquations:
         return rows
 
 
-@final
 @immutable
 class Programs:
     """Newton's step and the clearance of a group, from its pins and the known values before: inputs `@k0`, `@k1`, ...
@@ -291,7 +287,6 @@ def group_size(equations: GroupEquations, rods: int) -> Node:
     return largest_of(lengths) ** 0.5
 
 
-@final
 class Elimination:
     """The elimination of a group's Jacobian as operations on nodes, its pivots chosen at the sketch: few operations, none too small."""
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from copy import copy
 from dataclasses import dataclass
 from math import acos, atan2, cos, pi, remainder, sin
-from typing import Any, final
+from typing import Any
 
 import numpy as np
 
@@ -236,7 +236,6 @@ def check_foreign(part: Part, axes: Axes | None) -> None:
                 raise DefinitionError(f"{said}: a joint of it holds the frame, and the part is carried; {remedy}.", member=part.name)
 
 
-@final
 class MovedReading:
     """A machine's reading whose points have been moved as the axes of a part allow: shifted, turned, mirrored."""
 
@@ -301,7 +300,6 @@ DIGITS = 3
 """Digits of the stroke that is named as a remedy."""
 
 
-@final
 @dataclass(frozen=True)
 class Difference:
     """A length [m] or an angle [rad] that is given otherwise than it is drawn, and which of its points stands off its place [m]."""

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from operator import methodcaller
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeAlias, final
+from typing import TYPE_CHECKING, TypeAlias
 from urllib.parse import parse_qsl
 
 from ..disk import check_place
@@ -89,7 +89,6 @@ def repeatable(name: str, metavar: str, help: str, dest: str | None = None) -> O
     return option(name, metavar=metavar, action="append", default=[], help=help, dest=dest)
 
 
-@final
 class FromLink(Action):
     """Takes the dimensions of a live page's link, as if `--set` had said them."""
 

@@ -11,7 +11,7 @@ from argparse import ArgumentParser, Namespace
 from collections.abc import Callable, Sequence
 from contextlib import redirect_stdout
 from importlib.metadata import EntryPoint, PackageNotFoundError, version
-from typing import Any, NoReturn, TextIO, cast, final
+from typing import Any, NoReturn, TextIO, cast
 
 from .. import plugins
 from ..checks import is_class_of
@@ -72,7 +72,6 @@ PROGRAM = "hydrolinkage"
 BAD_INPUT, INTERRUPTED, PIPE_CLOSED = 2, 130, 141
 
 
-@final
 class OneLineParser(ArgumentParser):
     """A parser that reports a mistake in one line."""
 
@@ -176,7 +175,6 @@ FILES = ("output", "csv", "folder", "file", "pictures")
 """Arguments that name a file which a command writes, or one that says which it writes."""
 
 
-@final
 class LastingOutput:
     """Standard output that goes on in silence where nobody reads it any more; `broken` says so."""
 

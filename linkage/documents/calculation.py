@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, final
+from typing import Any
 
 from ..errors import LinkageError
 from ..formulas import equations
@@ -18,7 +18,6 @@ DIGITS = 30
 """The digits that the equations are worked out with, so that what they print is theirs and nothing of it is rounding."""
 
 
-@final
 @dataclass(frozen=True)
 class FilledEquations:
     """The equations of a design at a pose, their values there by name [SI], and why those of its forces are missing, if they are."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any, final
+from typing import Any
 
 import numpy as np
 
@@ -23,7 +23,6 @@ NUMERIC = 1e-6
 """The bound of a comparison with numerical derivatives, relative."""
 
 
-@final
 @dataclass(frozen=True)
 class Check:
     """A check: its name, its comparison, the largest relative difference found, its bound; NaN where it could not be made."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import groupby
-from typing import TYPE_CHECKING, TypeAlias, final
+from typing import TYPE_CHECKING, TypeAlias
 
 from ..language import said
 from .title import TitleBlock
@@ -14,7 +14,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-@final
 @dataclass(frozen=True)
 class Formula:
     """A formula in LaTeX, as part of a text or a table."""
@@ -22,7 +21,6 @@ class Formula:
     latex: str
 
 
-@final
 @dataclass(frozen=True)
 class Mark:
     """Whether a rule is kept: its word, and whether that is good; None where it is neither."""
@@ -41,7 +39,6 @@ HALF, BESIDE, FORMULA = 50, 3, 8
 """Letters that half a page has room for, that stand beside a cell, and that a formula or a mark takes at the most."""
 
 
-@final
 @dataclass(frozen=True)
 class TableBlock:
     """A table: headings, rows, and how each column stands, "l" to the left, "r" as numbers do, "m" for long text."""
@@ -65,7 +62,6 @@ class TableBlock:
         return sum(BESIDE + max(len(each) if isinstance(each, str) else FORMULA for each in column) for column in cells)
 
 
-@final
 @dataclass(frozen=True)
 class Equality:
     """An equation in LaTeX: its number, 0 for none, and the terms between its signs of equality."""
@@ -74,7 +70,6 @@ class Equality:
     steps: tuple[str, ...]
 
 
-@final
 @dataclass(frozen=True)
 class Illustration:
     """A picture: its name, its size [inch], the room beside its axes [inch: left, right, bottom, top], and its paint function."""
@@ -90,7 +85,6 @@ Block: TypeAlias = str | tuple[str, ...] | TableBlock | Equality | Illustration
 """A paragraph of some sentences; short texts below each other, each with a mark in front; a table, an equation, a picture."""
 
 
-@final
 @dataclass(frozen=True)
 class Section:
     """A numbered section."""
@@ -121,7 +115,6 @@ def small_kind(block: Block) -> type | None:
     return None
 
 
-@final
 @dataclass(frozen=True)
 class Document:
     """A whole document: its title, its title block, its facts, and its sections."""

@@ -6,7 +6,6 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 from math import cos, sin
-from typing import final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -170,7 +169,6 @@ def case_tables(subject: ReportSubject, cases: Mapping[str, Sequence[PinLoad] | 
 # Blocked: a point held fast against a stop, a cylinder pushes or pulls with what its relief valve lets through.
 
 
-@final
 @dataclass(frozen=True)
 class Blocked:
     """The largest force of a joint while the machine is blocked.
@@ -271,7 +269,6 @@ def worst_blocked(subject: ReportSubject, point: str, held: Iterable[str]) -> li
     return list(worst.values())
 
 
-@final
 @dataclass(frozen=True)
 class Stop:
     """A point against a stop over some poses: the forces of joints and cylinders from the machine's own loads and two unit forces there."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
-from typing import Any, final
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -248,7 +248,6 @@ def draw_column(ax: Axes, motion: Motion, column: Column, bound: Sequence[object
         small_text(ax, with_decimals(text), (1.0, value), (-4, -3 if is_least else 3), INK, ("axes fraction", "data"))
 
 
-@final
 class SpokenTicks(ScalarFormatter):
     """Numbers along an axis with the decimal sign of the language that is spoken."""
 

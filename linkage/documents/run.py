@@ -6,7 +6,6 @@ from collections.abc import Container, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import final
 
 import numpy as np
 
@@ -44,7 +43,6 @@ def same_curve(one: Column, other: Column) -> bool:
     return len(kinds) == 1 and size > 0.0 and bool(np.allclose(first, second, rtol=CLOSE, atol=CLOSE * size, equal_nan=True))
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class ReportSubject:
     """A design, who answers questions over all that it runs, and the runs along which it is shown."""

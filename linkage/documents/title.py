@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
-from typing import final
 
 from ..checks import require
 from ..language import said
 
 
-@final
 @dataclass(frozen=True)
 class TitleBlock:
     """The lines of a title block, each as text; "" leaves an empty line to write on. DefinitionError for anything but one line of text."""

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from itertools import permutations
-from typing import Any, final
+from typing import Any
 
 import numpy as np
 import sympy
@@ -32,7 +32,6 @@ ITERATED = "found by iteration: a number, not a formula"
 BY_ENGINE = "told by the engine: a number, not a formula"
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class CalculatedColumn:
     """One quantity over the poses: the number of its equation, its name, its words and its SI unit; `expr` is None for plain numbers.
@@ -52,7 +51,6 @@ class CalculatedColumn:
     checks: bool = False
 
 
-@final
 class Calculation:
     """The equations of one design over a run, forces and transfer ratios included, as columns in their order.
 
@@ -271,7 +269,6 @@ LITTLE = 0.1
 """What a dimension that is zero becomes, in its unit; a hundredth of that where it has none."""
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class LiveResult:
     """A column of results; its formula in the calculation's symbols, or None, and the dimensions that must stay 0 or 1 for it."""
@@ -291,7 +288,6 @@ Trial = tuple[list[FloatArray], dict[sympy.Symbol, Any]]
 """A design's table of results, and what the formulas give there."""
 
 
-@final
 class FormulaSearch:
     """Looks for the formulas of a table of results on designs that differ a little."""
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from itertools import combinations
 from math import copysign, hypot
 from types import MappingProxyType
-from typing import Any, final
+from typing import Any
 from xml.sax.saxutils import escape, quoteattr
 
 import numpy as np
@@ -48,7 +48,6 @@ PIN = 0.5
 """The radius of a pin whose bearing is not declared, in sizes."""
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class Polyline:
     """A line through vertices, shape (n, 2) [mm]; `arcs` are the tangents of a quarter of the arcs that follow each, 0 straight."""
@@ -65,7 +64,6 @@ class Polyline:
         return self.arcs or (0.0,) * len(self.vertices)
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class Circle:
     """A circle [mm]."""
@@ -76,7 +74,6 @@ class Circle:
     radius: float
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class Lettering:
     """A text whose lower left corner stands at a place, with its height [mm]."""
@@ -88,7 +85,6 @@ class Lettering:
     height: float
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class Measured:
     """The distance of two places [mm] with the name of the dimension, its line so far to the left, its letters so high [mm]."""

@@ -9,7 +9,7 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import Any, final
+from typing import Any
 
 import numpy as np
 
@@ -35,7 +35,6 @@ MOST_POSES = 50
 """More poses in one drawing are no drawing any more."""
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class ExportJob:
     """The work of an export: a machine or a motion, the file's name, and the other arguments of `export`."""
@@ -93,7 +92,6 @@ def sheet_run(job: ExportJob) -> Run:
     return next(straight, None) or replace(one_run(job.machine, job.at), case=runs[0].case)
 
 
-@final
 class Workbook(Exporter):
     """Live formulas, worked out anew by whatever opens them."""
 
@@ -108,7 +106,6 @@ class Workbook(Exporter):
         return job.machine.at(unreachable="nan", **sheet_run(job).over(np.linspace(0.0, 1.0, job.count)))
 
 
-@final
 class Csv(Exporter):
     """A table of results: of a machine its own, over its strokes; of a motion `motion_columns`, or `columns`."""
 
@@ -142,7 +139,6 @@ def motion_columns(motion: Motion) -> list[Column]:
     return [*{each.name: each for each in found}.values()]
 
 
-@final
 class TrueSize(Exporter):
     """A drawing in millimetres, true size, by layers; `write` makes the file's bytes of its poses, its paths and its title."""
 
@@ -155,7 +151,6 @@ class TrueSize(Exporter):
         return self.write(*drawing_of(job))
 
 
-@final
 class SketchFile(Exporter):
     """A machine of pins, links, slides, cranks and cylinders at one pose, for a program that draws such."""
 

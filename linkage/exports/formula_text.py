@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Mapping
-from typing import final
 
 import sympy
 from sympy.printing.precedence import PRECEDENCE
@@ -30,7 +29,6 @@ def formula(expr: sympy.Expr, read: Callable[[sympy.Symbol], str]) -> str | None
     return text if len(text) <= LONGEST_FORMULA else None
 
 
-@final
 class FormulaText(StrPrinter):  # type: ignore[misc]
     """A formula's text; `read` gives the place of a symbol."""
 

@@ -10,7 +10,7 @@ from functools import cached_property
 from inspect import cleandoc
 from string import ascii_uppercase
 from textwrap import shorten
-from typing import TYPE_CHECKING, Any, final
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import sympy
@@ -58,7 +58,6 @@ def workbook(calculation: Calculation, name: str) -> bytes:
     return stream.getvalue()
 
 
-@final
 class Sheets:
     """The sheets of one workbook; texts are written as texts, whatever they begin with."""
 

@@ -13,7 +13,7 @@ import operator
 from collections.abc import Callable, Mapping
 from inspect import signature
 from types import MappingProxyType
-from typing import Any, ClassVar, final
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -125,7 +125,6 @@ def criterion_of(text: object, machine: Mechanism) -> Any:
     return CriterionParser(text, machine).whole()
 
 
-@final
 class CriterionParser(Grammar):
     """Reads one measure, quantity or condition of a machine."""
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from copy import copy
 from itertools import chain, permutations
 from math import isfinite
-from typing import Any, final
+from typing import Any
 
 import numpy as np
 
@@ -21,7 +21,6 @@ from .expression import arrow_in, expression
 from .names import FileTable, Names
 
 
-@final
 class Design:
     """The values that a mechanism's members have, as a file holds them: numbers, and expressions as text."""
 

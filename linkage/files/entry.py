@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import MISSING, dataclass, fields, is_dataclass, replace
 from inspect import Parameter, ismethod, signature
-from typing import Any, final
+from typing import Any
 
 from ..checks import is_listed
 from ..errors import DefinitionError, ensure, told
@@ -38,7 +38,6 @@ EXAMPLES = {"point": ("A", "O"), "guide": ("rail", "post"), "vector": ("AB",), "
 # -- the arguments of a class ------------------------------------------------------------------------------
 
 
-@final
 @dataclass(frozen=True)
 class Argument:
     """An argument of a class, its key in a file, and its default, Parameter.empty where it must be given.
@@ -161,7 +160,6 @@ def written_table(member: object, design: Design, arguments: Iterable[Argument],
     return found | inner
 
 
-@final
 @immutable
 class Within(Kind):
     """The kind of an argument that is a value of a class: the arguments of that class stand among those of the member."""
@@ -216,7 +214,6 @@ def worded(cls: type[Any]) -> bool:
     return issubclass(cls, (Point, ForceElement))
 
 
-@final
 class FileEntry:
     """How the members of a class stand in a file: the table of their section, and the `word` that tells them apart there, if any.
 

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from itertools import accumulate
 from types import MappingProxyType
-from typing import Any, ClassVar, final
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -46,7 +46,6 @@ def words_with_numbers(others: str, units: tuple[str, ...]) -> re.Pattern[str]:
     return re.compile(rf"\s*(?:{number}|{others}|(?P<end>\Z))")
 
 
-@final
 @dataclass(frozen=True, slots=True)
 class Token:
     """A word of an expression: its kind (`number`, `name`, `sign`, `end`), its text, and a number's value [SI] and unit."""
@@ -242,7 +241,6 @@ class Grammar(ABC):
         raise self.fault("a number, a name or a bracket", node)
 
 
-@final
 class Parser(Grammar):
     """Reads one expression of a file."""
 

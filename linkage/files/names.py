@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar, cast, final
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar, cast
 from unicodedata import normalize
 
 from ..checks import is_listed
@@ -26,7 +26,6 @@ DEEPEST_NAME = 12
 """So many names stand in a dotted one at most: those of parts in parts, of a member, of its number."""
 
 
-@final
 @dataclass(frozen=True)
 class Names:
     """The members of a file by name: the section each stands in, and its kind (`point`, `quantity`, `guide`, ...)."""

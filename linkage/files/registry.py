@@ -14,7 +14,7 @@ from functools import cached_property, lru_cache
 from importlib import import_module
 from math import isfinite
 from types import ModuleType
-from typing import Any, TypeAlias, final
+from typing import Any, TypeAlias
 
 from .. import loads, plugins, steps, surroundings
 from ..checks import is_class_of
@@ -123,7 +123,6 @@ LONGER = 4  # characters that a dimension may be longer in its unit than in SI
 # -- entries that are no tables ----------------------------------------------------------------------------
 
 
-@final
 @dataclass(frozen=True)
 class Bare:
     """How the members of a class stand in a file without keys, such as `A = [0.2, 0.55]`; the only class of its section."""
@@ -258,7 +257,6 @@ OWN: tuple[AnEntry, ...] = (
 # -- all that there are ------------------------------------------------------------------------------------
 
 
-@final
 @dataclass(frozen=True)
 class Registry:
     """The entries there are, by section and word for reading, by class for writing."""

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, replace
 from io import StringIO
 from math import isfinite
 from pathlib import Path
-from typing import Any, NoReturn, final
+from typing import Any, NoReturn
 
 from ..disk import check_name, read
 from ..errors import DefinitionError, FileError, ensure, known_name
@@ -29,7 +29,6 @@ TOML_LINE = 5_000  # characters: a dotted key as long as a file takes the parser
 FAULTS_SHOWN = 20
 
 
-@final
 @dataclass(frozen=True)
 class Source:
     """A file's tables, the name it is spoken of by, and where its keys stand."""
@@ -262,7 +261,6 @@ def each_of(given: Iterable[tuple[object, object]], read: Callable[[Any, Any], A
     return found
 
 
-@final
 @dataclass
 class Faults(Mistakes):
     """The mistakes of a whole file. `source` is its name, `line_of` tells the line of a key, 0 where it is not known."""

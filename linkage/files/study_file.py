@@ -17,7 +17,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import field, replace
 from inspect import Parameter, signature
 from pathlib import Path
-from typing import Any, TypeAlias, final, get_type_hints
+from typing import Any, TypeAlias, get_type_hints
 
 from ..checks import is_listed
 from ..disk import check_place
@@ -48,7 +48,6 @@ RANGE_WORDS = 'a range such as "270 to 330 mm", "270 to 330 mm in steps of 5 mm"
 _AROUND = re.compile(r"\s*(?:within|around|\+-|\+/-|±)\s*(?P<by>.+?)(?:\s+(?:in steps of|by)\s+(?P<step>.+?))?\s*\Z")
 
 
-@final
 @immutable
 class StudyHead:
     """A study file as it is read: its tables, the mistakes found so far, the machine, and the folder that its paths start from."""

@@ -20,7 +20,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Annotated, Any, final
+from typing import Annotated, Any
 
 import numpy as np
 
@@ -55,7 +55,6 @@ from .study_file import FindMachine, Settings, StudyHead, amount_said
 MET_TO_ROUNDING = 1e-12
 
 
-@final
 @dataclass(frozen=True)
 class TextMeasures:
     """The function that a survey measures with: measures and conditions by name, as text, at so many poses of a stroke.
@@ -137,7 +136,6 @@ def named_measures(given: Any) -> dict[str, str]:
 
 # -- the studies ---------------------------------------------------------------------------------------------
 
-@final
 @immutable
 class TaskResult:
     """The result of a study file: sentences, a table, the study's own result, and whether there is a solution."""
@@ -434,7 +432,6 @@ TASK_OUTPUTS: Mapping[str, Sequence[str]] = {
 }
 
 
-@final
 @immutable
 class StudyFile:
     """The studies that a file asks for, each with its keywords, the folder that the survey is kept in, and the files of their results."""

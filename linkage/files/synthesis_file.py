@@ -19,7 +19,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import Annotated, Any, TypeAlias, final
+from typing import Annotated, Any, TypeAlias
 
 import numpy as np
 
@@ -70,7 +70,6 @@ _NUMBER = re.compile(r"\s*[-+.\d]")
 _OUTSIDE = re.compile(r"\s*outside\s*\(\s*(?P<outline>[^()]+?)\s*\)\s*\Z")
 
 
-@final
 @immutable
 class SearchFile:
     """A search that a file asks for: its function, the machine or several, the keywords, the steps of `round`, and the files of results."""
@@ -395,7 +394,6 @@ SYNTHESIS: Mapping[str, Read] = {
 _HEADING = re.compile(r"(?P<name>[^\[(,/]*?)\s*(?:[\[(,/]\s*(?P<unit>[^\])]*?)\s*[\])]?)?\Z")
 
 
-@final
 @dataclass(frozen=True)
 class PointColumn:
     """A column of a task's points: its names, the first of which messages use, its kind, and whether it may be missing."""

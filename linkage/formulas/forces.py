@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
-from typing import Any, TypeAlias, cast, final
+from typing import Any, TypeAlias, cast
 
 import numpy as np
 import sympy
@@ -40,7 +40,6 @@ from .symbolic import LENGTH, NUMBER, Term, Unit, term, unit_named
 STILL = sympy.ZeroMatrix(2, 1)
 
 
-@final
 class LineDerivatives:
     """Derivatives by one stroke of the lines read so far."""
 
@@ -171,7 +170,6 @@ WORDS = (
 )
 
 
-@final
 @immutable
 class Pulled:
     """A load as it is written: its point, its symbol, and its direction: -1 downwards, 1 upwards, 0 a vector's own."""
@@ -181,7 +179,6 @@ class Pulled:
     way: int
 
 
-@final
 class ForceLines:
     """The equations of a design's forces, on a listing; one pose of symbols for the laws (see `linkage.loads.element.Formulas`)."""
 
@@ -491,7 +488,6 @@ def given_rate(forces: ForceLines, target: str | Distance, stroke: str, by: symp
     return symbol
 
 
-@final
 class Chain:
     """The derivatives by one stroke that forces need: of the points that carry loads, and of the lengths of members."""
 

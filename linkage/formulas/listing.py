@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from typing import Any, cast, final
+from typing import Any, cast
 
 import numpy as np
 import sympy
@@ -65,7 +65,6 @@ def x_axis_of(axes: Axes, reading: Listing) -> sympy.MatrixExpr:
 
 # A line of the listing: what stands for what.
 
-@final
 @immutable
 class ListingLine:
     """One line: a symbol, its formula, and its unit."""
@@ -80,7 +79,6 @@ class ListingLine:
         return str(Text().doprint(self.lhs))
 
 
-@final
 @immutable
 class GivenNumber:
     """A symbol that no line gives, its value at the poses of a motion [SI], and its unit."""
@@ -95,7 +93,6 @@ class GivenNumber:
         return dict(zip(explicit(self.symbol), value if self.symbol.is_Matrix else (value,), strict=True))
 
 
-@final
 class Listing:
     """A reading (see `linkage.quantities.Where`) whose scalars are terms; asking for a member writes its lines first."""
 

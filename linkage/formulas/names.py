@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from typing import Self, final
+from typing import Self
 
 import sympy
 from sympy.matrices.expressions.matexpr import MatrixElement, MatrixExpr
@@ -22,7 +22,6 @@ def vector_symbol(name: str) -> sympy.MatrixSymbol:
     return sympy.MatrixSymbol(name, 2, 1)
 
 
-@final
 class PointSymbol(sympy.MatrixSymbol):  # type: ignore[misc]
     """The symbol of a position: it comes first in a sum."""
 
@@ -56,7 +55,6 @@ class TurnV(MatrixExpr):  # type: ignore[misc]
         return self
 
 
-@final
 class TurnVL(TurnV):
     """The vector V turned by the angle a [rad] and scaled to the length L [m]: TurnV(V, a) L/|V|."""
 
@@ -68,7 +66,6 @@ class TurnVL(TurnV):
         return self.args[2].doit() / Norm(self.args[0]).doit()
 
 
-@final
 class Tcos(sympy.Function):  # type: ignore[misc]
     """The angle between the sides L1 and L2 of a triangle, opposite L3 [rad], 0 to pi: the cosine rule."""
 
@@ -90,7 +87,6 @@ class VectorNumber(sympy.Expr):  # type: ignore[misc]
         return super().__new__(cls, *map(sympy.sympify, args))
 
 
-@final
 class Norm(VectorNumber):
     """The length |V| [m]."""
 
@@ -101,7 +97,6 @@ class Norm(VectorNumber):
         return sympy.sqrt(x**2 + y**2)
 
 
-@final
 class Direction(VectorNumber):
     """The direction of V [rad], counter-clockwise from the x axis."""
 
@@ -110,7 +105,6 @@ class Direction(VectorNumber):
         return sympy.atan2(y, x)
 
 
-@final
 class Dot(VectorNumber):
     """The scalar product of two vectors [m2]."""
 
@@ -119,7 +113,6 @@ class Dot(VectorNumber):
         return a * c + b * d
 
 
-@final
 class Cross(VectorNumber):
     """The z component of the vector product of two vectors [m2]."""
 
@@ -128,7 +121,6 @@ class Cross(VectorNumber):
         return a * d - b * c
 
 
-@final
 class Deg(VectorNumber):
     """An angle written in degrees."""
 
@@ -152,7 +144,6 @@ def explicit(expr: sympy.Basic) -> tuple[sympy.Expr, ...]:
     return tuple(each.xreplace(plain) for each in entries)
 
 
-@final
 class SymbolNames:
     """The symbols of a mechanism, each thing one, and their text and LaTeX. No two things share a text."""
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from textwrap import wrap
 from types import MappingProxyType
-from typing import Any, TypeAlias, final, overload
+from typing import Any, TypeAlias, overload
 
 import mpmath
 import numpy as np
@@ -172,7 +172,6 @@ def members_with_lines(listing: Listing) -> dict[str, sympy.Basic]:
     return {name: symbol for name, symbol in symbols.items() if symbol in lines or name in listing.unknowns}
 
 
-@final
 @immutable
 class Equation:
     """`lhs = rhs`, both SymPy: a scalar symbol, or a matrix symbol of shape (2, 1) for a point or a vector.
@@ -237,7 +236,6 @@ class Equation:
         return f"({self.number}) {self}"
 
 
-@final
 @dataclass(frozen=True)
 class SheetLine:
     """An equation with its numbers, in LaTeX: `symbol = formula = numbers = results`; `numbers` is empty where it says nothing new.
@@ -292,7 +290,6 @@ def value_shown(value: Scalar, unit: Unit) -> str:
     return f"{plain_number(float(value) / size)} {name}".rstrip()
 
 
-@final
 class Equations(Sequence[Equation], Shown):
     """The equations of one design, in the vector method's order; `print` shows them numbered.
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from math import hypot
-from typing import final
 
 import sympy
 from sympy.matrices.expressions.matexpr import MatrixElement
@@ -62,7 +61,6 @@ def signed_sum(terms: Sequence[str]) -> str:
     return text
 
 
-@final
 class Text(StrPrinter):  # type: ignore[misc]
     """Plain text: `AB = TurnVL(AO, -OAB, L_AB)`. With `values` numbers replace the symbols."""
 
@@ -129,7 +127,6 @@ class Text(StrPrinter):  # type: ignore[misc]
 HEADS = {TurnV: r"\operatorname{TurnV}", TurnVL: r"\operatorname{TurnV}_{L}", Tcos: r"\operatorname{Tcos}", Direction: r"\arg"}
 
 
-@final
 class Latex(LatexPrinter):  # type: ignore[misc]
     r"""LaTeX: `\overrightarrow{AB} = \operatorname{TurnV}_{L}\left(...\right)`. `words` holds the symbols' LaTeX.
 

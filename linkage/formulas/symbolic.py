@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache, partial
 from math import isnan
-from typing import ClassVar, Protocol, final
+from typing import ClassVar, Protocol
 
 import numpy as np
 import sympy
@@ -27,7 +27,6 @@ from .names import Cross, Deg, Dot, Norm, TurnV
 # What an expression measures: lengths, angles, and products of them.
 
 
-@final
 @dataclass(frozen=True)
 class Unit:
     """Powers of metre and radian; not `known` where a formula mixes units that it cannot follow."""
@@ -127,7 +126,6 @@ def degrees(value: float) -> sympy.Expr:
     return Deg(exact_number(shown)) if value else sympy.S.Zero
 
 
-@final
 class Term(Operators["Term | float", "Term"]):
     """An expression and its unit; adds, multiplies and takes NumPy's functions, as the rules of quantities ask."""
 
@@ -171,7 +169,6 @@ def term(value: Scalar) -> Term:
     return value if isinstance(value, Term) else Term(exact_number(float(value)))
 
 
-@final
 class Relation:
     """A comparison of terms: np.where chooses by it. A test by np.any is of input that is refused, and taken to be in order."""
 
@@ -258,7 +255,6 @@ FUNCTIONS: dict[str, Callable[..., Term]] = {
 # Tabulated functions: a name in the equations, polynomials of its pieces when they are written out.
 
 
-@final
 class CurveFunction(sympy.Function):  # type: ignore[misc]
     """A tabulated function, or a derivative of it, by its name."""
 
@@ -304,7 +300,6 @@ class VectorReading(Protocol):
         """Return the length of the link PQ; None without a link."""
 
 
-@final
 class Place:
     """A point, a vector or a direction. Its expression is asked for when it is first needed, so that nothing idle is written."""
 

@@ -10,7 +10,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import groupby, zip_longest
-from typing import TypeAlias, final
+from typing import TypeAlias
 
 from ..language import with_decimals
 
@@ -28,7 +28,6 @@ FENCES = {"lvert": "|", "rvert": "|", "{": "{", "}": "}", "lfloor": "⌊", "rflo
 SPACES = {",": 0.17, ":": 0.22, ";": 0.28, "quad": 1.0, " ": 0.3, "!": 0.0}
 
 
-@final
 @dataclass(frozen=True)
 class Sign:
     """One sign or word: a `variable`, a `word` of several letters in italics, a `name` upright, a `number`, an `operator`, a `space`."""
@@ -37,7 +36,6 @@ class Sign:
     text: str
 
 
-@final
 @dataclass(frozen=True)
 class BoxRow:
     """Boxes beside each other."""
@@ -45,7 +43,6 @@ class BoxRow:
     parts: tuple[Box, ...]
 
 
-@final
 @dataclass(frozen=True)
 class Fraction:
     """One box over another."""
@@ -54,7 +51,6 @@ class Fraction:
     under: Box
 
 
-@final
 @dataclass(frozen=True)
 class Script:
     """A box with an index or an exponent, or both."""
@@ -64,7 +60,6 @@ class Script:
     high: Box | None
 
 
-@final
 @dataclass(frozen=True)
 class Arrowed:
     """A box under an arrow; a long one as wide as the box."""
@@ -73,7 +68,6 @@ class Arrowed:
     long: bool
 
 
-@final
 @dataclass(frozen=True)
 class Rooted:
     """The square root of a box."""
@@ -81,7 +75,6 @@ class Rooted:
     base: Box
 
 
-@final
 @dataclass(frozen=True)
 class Fenced:
     """A box between signs as high as it is."""
@@ -91,7 +84,6 @@ class Fenced:
     right: str
 
 
-@final
 @dataclass(frozen=True)
 class Lines:
     """Rows of boxes below each other."""
@@ -164,7 +156,6 @@ def rough_width(box: Box) -> float:
     return sum(1.0 + max(map(rough_width, column)) for column in columns)
 
 
-@final
 class _Reader:
     """Reads a formula token by token."""
 

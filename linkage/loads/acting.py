@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, fields, replace
 from inspect import Parameter, signature
 from math import pi
 from types import MappingProxyType
-from typing import ClassVar, Literal, Protocol, Self, TypeAlias, TypedDict, TypeVar, final
+from typing import ClassVar, Literal, Protocol, Self, TypeAlias, TypedDict, TypeVar
 
 from numpy.typing import ArrayLike
 
@@ -25,7 +25,6 @@ PLAIN_CASE = "plain"
 STEEPEST = 0.5 * pi * (1.0 + 1e-9)
 
 
-@final
 @immutable
 class LoadCase(Member):
     """A named choice of loads: `transport = LoadCase("transport", scale={"load": 2.0}, slope=10 * deg)`.
@@ -216,7 +215,6 @@ StrokeRates: TypeAlias = Mapping[str, ArrayLike] | Literal["as it runs"] | None
 """How fast strokes move, or how their rates change, by name."""
 
 
-@final
 @refuses_changes
 @dataclass(frozen=True)
 class Acting:

@@ -6,7 +6,7 @@ from abc import abstractmethod
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import MISSING, Field, dataclass, fields, is_dataclass
 from types import MappingProxyType
-from typing import Any, ClassVar, Literal, Protocol, Self, TypeAlias, TypeVar, final
+from typing import Any, ClassVar, Literal, Protocol, Self, TypeAlias, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -26,7 +26,6 @@ Rate: TypeAlias = "float | Array"
 Kind = TypeVar("Kind", bound=Member)
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class Load:
     """A force that acts at a point, as a force element gives it to statics.
@@ -51,7 +50,6 @@ class Load:
     """The element that puts it there, where it acts."""
 
 
-@final
 @dataclass(frozen=True)
 class Glyph:
     """The sign of an element in pictures: a word for the form, the points it hangs on, their number, a direction [rad].
@@ -84,7 +82,6 @@ class TwoPinned(Protocol):
         """The names of its two points."""
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class Push:
     """The thrust [N] of a straight two-point member, positive where it pushes its ends apart; it broadcasts against the motion.
@@ -97,7 +94,6 @@ class Push:
     name: str = ""
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class Share:
     """The share of a tie's force in a straight member: its thrust at a force of 1, positive where it pushes; broadcasts over the poses."""
@@ -106,7 +102,6 @@ class Share:
     of: Callable[[Poses], Array]
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class Reeving:
     """A member of a tie that bends, as a rope over pulleys: the forces on its points at a thrust of one newton.
@@ -124,7 +119,6 @@ class Reeving:
     back_share: Callable[[Poses], Array] = lambda motion: np.zeros(())
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class Tie:
     """Straight members whose thrusts follow one force, each with its share: the sum of their lengths, by these shares, is its way.
@@ -143,7 +137,6 @@ class Tie:
     added: Quantity | None = None
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class Friction:
     """Dry friction in a pin of a radius [m], or on the guides a point runs on (radius None; one guide where it is named)."""
@@ -287,7 +280,6 @@ and dampers take the sense and the size of its rates."""
 SENSES: Mapping[str, int] = MappingProxyType(dict(zip((*DIRECTIONS, AS_IT_RUNS), (0, 1, -1, 1), strict=True)))
 
 
-@final
 class Rates(dict[str, Rate]):
     """How strokes move, by name [1/s], a number or an array over the poses each; empty at rest.
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Hashable, Mapping
 from math import cos, sin
 from types import MappingProxyType
-from typing import ClassVar, Self, TypeAlias, final
+from typing import ClassVar, Self, TypeAlias
 
 import numpy as np
 
@@ -21,7 +21,6 @@ from .element import AT_REST, Array, ForceElement, Friction, Glyph, Load, Parame
 DOWN = (0.0, -g0)  # gravity, m/s2
 
 
-@final
 @immutable
 class Weight(ForceElement):
     """The weight of a mass at a point: `load = Weight(G, mass=1200)`. Where it is accelerated, its inertia acts too.
@@ -104,7 +103,6 @@ class Directed(ForceElement):
         return vector(1.0, (x, y))
 
 
-@final
 @immutable
 class Force(Directed):
     """A force at a point, its direction fixed to the frame: `pull = Force(F, (-5 * kN, 0))`.
@@ -149,7 +147,6 @@ class Force(Directed):
         return f"Force({label(self.point)}, ({value_text(self.x)}, {value_text(self.y)}))"
 
 
-@final
 @immutable
 class Support(Directed):
     """A support that pushes a point along a direction, such as the ground under a shoe: `shoe = Support(R, (0, 1))`.
@@ -339,7 +336,6 @@ class OnBody(ForceElement):
         return f"{type(self).__name__}({', '.join([repr(' '.join(map(label, self.body_references()))), *self.words()])})"
 
 
-@final
 @immutable
 class Moment(OnBody):
     """A moment on a body: `drag = Moment(arm, M=-250)` or `Moment("O B", M=-250)`.
@@ -369,7 +365,6 @@ class Moment(OnBody):
         return couple(*self.axis(motion), self.sense * self.number(motion, "M"))
 
 
-@final
 @immutable
 class LinkMass(OnBody):
     """A body's own mass at its centre of gravity: `own = LinkMass("E D F", mass=30)`.
@@ -461,7 +456,6 @@ THICKEST = 3.0
 """m; the radius of a larger pin was given in millimetres."""
 
 
-@final
 @immutable
 class PinFriction(ForceElement):
     """Friction in a pin: the moment coefficient * radius * pin force, against the relative turning.
@@ -500,7 +494,6 @@ class PinFriction(ForceElement):
         return {("pin", name_of(self.point)): f"are the friction of the pin {name_of(self.point)}. {ONE_COEFFICIENT}"}
 
 
-@final
 @immutable
 class GuideFriction(ForceElement):
     """Friction of a point on the guides and slots it runs on: coefficient * normal force, against the relative sliding.

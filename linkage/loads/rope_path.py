@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from math import pi
 from types import MappingProxyType
-from typing import Any, ClassVar, final
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -25,7 +25,6 @@ from ..vectors import Scalar, Side, Vec
 from .element import Array, ForceElement, Glyph, Load, Parameter, Poses
 
 
-@final
 @immutable
 class Pulley(ForceElement):
     """A pulley that turns freely about a point, for a Rope: `sheave = Pulley(B, radius=80 * mm, side=LEFT)`.
@@ -78,7 +77,6 @@ class Pulley(ForceElement):
         return [*super().words(), f"side={self.side}"]
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class Station:
     """A point that a rope runs over, with the pulley there, if it runs over one."""
@@ -110,7 +108,6 @@ def stations_of(run: Sequence[Reference], members: Mapping[str, Member]) -> tupl
     return tuple(found)
 
 
-@final
 @immutable
 class RopePath(Quantity):
     """The length of a rope's path over points [m], of pulleys of some radii and senses, each straight part so often as its weight says."""

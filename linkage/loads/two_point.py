@@ -10,7 +10,7 @@ from abc import abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any, ClassVar, Literal, TypeAlias, cast, final, get_args
+from typing import Any, ClassVar, Literal, TypeAlias, cast, get_args
 
 import numpy as np
 
@@ -23,7 +23,6 @@ from .element import AT_REST, Array, ForceElement, Formulas, Glyph, Load, Parame
 DrawnAs: TypeAlias = Literal["strut", "spring", "damper", "cylinder"]
 
 
-@final
 @dataclass(frozen=True)
 class Halves:
     """The two bodies of a straight member, of which the second slides in the first: that on A, then that on B.
@@ -154,7 +153,6 @@ def refuse_coincidence(push: Push, length: Array) -> None:
         raise DefinitionError(f"{what}: its ends coincide at some poses and give no direction; move one of them.")
 
 
-@final
 @immutable
 class Spring(TwoPoint):
     """A straight spring from A to B: `relief = Spring(A, B, stiffness=20e3, free_length=0.4)`.
@@ -197,7 +195,6 @@ class Spring(TwoPoint):
         return stiffness * (motion.sketched(Distance(self.A, self.B)) - length) - self.number(motion, "preload")
 
 
-@final
 @immutable
 class Damper(TwoPoint):
     """A viscous damper from A to B: its thrust is -coefficient d(AB)/dt [N], nothing at rest.
@@ -221,7 +218,6 @@ class Damper(TwoPoint):
         return -self.number(motion, "coefficient") * rate
 
 
-@final
 @immutable
 class Actuator(TwoPoint):
     """A thrust that is known, from A to B: `push = Actuator(A, B, force=12 * kN)`.
@@ -243,7 +239,6 @@ class Actuator(TwoPoint):
         return self.number(motion, "force")
 
 
-@final
 @immutable
 class Between(TwoPoint):
     """A law of one's own from A to B: `strut = Between(A, B, law)`.

@@ -7,7 +7,6 @@ from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import combinations
-from typing import final
 
 import numpy as np
 
@@ -124,7 +123,6 @@ ASIDE = (0.5, 0.37, 0.61)
 """Shares of the strokes at which mobility is looked at again: of whole turns, the middle may be in line, or at rest, as well."""
 
 
-@final
 @dataclass(frozen=True)
 class Mobility:
     """The number of independent motions, by rank and by count, the redundant links, and the loose bodies.

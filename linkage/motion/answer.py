@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from math import nan
-from typing import Any, Self, TypeAlias, final
+from typing import Any, Self, TypeAlias
 
 import numpy as np
 
@@ -22,7 +22,6 @@ LOST_SHARE = "lost share"
 """What the value of an answer about reach is: a part of the places looked at."""
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class Lost:
     """Places without a value: their share, the deepest of them [m or rad], and the missing length there.
@@ -53,7 +52,6 @@ PER_DESIGN = ("value", "ok", "status", "case", "direction", "drive", "side", "ov
 """What each design of a batch has an answer of its own."""
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class Answer:
     """The judge's answer to one question: the worst over all places that were looked at. For a batch, arrays over its designs.

@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import accumulate, pairwise
-from typing import Any, final
+from typing import Any
 
 import numpy as np
 
@@ -38,7 +38,6 @@ LEAST = 1e-3
 """Of a result's natural size: a value that is smaller counts as so large where its relative error is told."""
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class Rounding:
     """Rounding errors of the nodes of some results: their program, the groups' pins in it, and the machine's size."""
@@ -66,7 +65,6 @@ def iterated(plan: Plan) -> tuple[Iterated, ...]:
     return tuple(map(Iterated.from_closure, closures))
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class PrecisionLeft:
     """Values of a program, how far rounding scatters them, shape (rows, n), and the machine's size [m], shape (n,)."""
@@ -94,7 +92,6 @@ class PrecisionLeft:
         return PrecisionLeft(np.hypot.reduce(self.values, axis=0)[None], np.hypot.reduce(self.errors, axis=0)[None], self.size)
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class Conditioning:
     """How far poses (n,) are from singular ones for a result.

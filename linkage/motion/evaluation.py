@@ -10,7 +10,7 @@ from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import accumulate
-from typing import Any, final
+from typing import Any
 
 import numpy as np
 
@@ -94,7 +94,6 @@ def assumed_of(plan: Plan, requests: Sequence[Request]) -> list[Node]:
     return [node for each in requests for node in each.notes(plan).assumed]
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class CloseLook:
     """Where requests over a grid have trouble, masks (requests, m, n): `refused` near a singular pose, `doubtful` next to one.
@@ -122,7 +121,6 @@ class CloseLook:
         return CloseLook(refused, doubtful, missing, empty, self.broken[band, part], self.worst)
 
 
-@final
 @dataclass(frozen=True)
 class Evaluation:
     """Requests over a grid of poses, and how they are worked out."""

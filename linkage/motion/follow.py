@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import isfinite
-from typing import Any, TypeAlias, final
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -93,7 +93,6 @@ def start_of(places: Places, start: Any) -> FloatArray:
     return np.array([known[name] for name in places.free])
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class Route:
     """The places of a path, with the targets' values at each (n, t)."""
@@ -240,7 +239,6 @@ class Route:
         return Motion(self.places.plan, self.places.designs, self.places.every(strokes.T), unreachable)
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class TrackedPose:
     """A pose on the way: its strokes, values and slopes, and their determinant, whose sign tells two branches apart."""
@@ -251,7 +249,6 @@ class TrackedPose:
     determinant: float
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class Track:
     """The strokes (n, k) of a path on one branch, from the first place that it reaches, NaN from where it ends, with the last pose."""

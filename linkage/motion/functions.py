@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from math import isfinite, nan
-from typing import Any, NoReturn, TypeAlias, final
+from typing import Any, NoReturn, TypeAlias
 
 import numpy as np
 
@@ -204,7 +204,6 @@ Pose: TypeAlias = Callable[[Sequence[float]], tuple[float, ...] | None]
 """All components at the strokes of one pose, one after the other; None where it has to be looked at closely."""
 
 
-@final
 class PoseProgram:
     """Some requests in floats. `of_design(designs)` is a function of strokes and rates, in the order of `names`."""
 
@@ -257,7 +256,6 @@ class PoseProgram:
         return not self._plan.solved and bool(keeps_digits(self._plan, self._requests, inputs, every).all())
 
 
-@final
 class PoseFunction:
     """Requests of one design as a function of the strokes, in floats; it can be sent to other processes.
 

@@ -16,7 +16,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import reduce
 from itertools import combinations, pairwise, product
-from typing import TypeAlias, final
+from typing import TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -105,7 +105,6 @@ def check_forms(motion: MotionLike, names: Iterable[str]) -> None:
                     raise DefinitionError(f"{what}; correct the dimensions that its corners follow.", member=name)
 
 
-@final
 @dataclass(frozen=True)
 class Piece:
     """A convex piece of a shape: its corners in order, or points of which the outermost count, and how far it is rounded out [m]."""
@@ -129,7 +128,6 @@ class Piece:
         return list(combinations(self.places, 2))
 
 
-@final
 @dataclass(frozen=True)
 class BodyShape:
     """The shape of a body: its points, each for itself in the frame, or an outline."""
@@ -377,7 +375,6 @@ def ear_room(order: Sequence[Vec], place: int, sense: Scalar) -> Scalar:
 # Where two bodies come nearest.
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class NearestPlaces:
     """The places of two bodies that are nearest to each other, shape (2,) each [m], and their gap [m].

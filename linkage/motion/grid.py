@@ -8,7 +8,7 @@ from functools import cached_property
 from hashlib import blake2b
 from math import prod
 from types import MappingProxyType
-from typing import Any, Protocol, Self, TypeAlias, TypeVar, cast, final
+from typing import Any, Protocol, Self, TypeAlias, TypeVar, cast
 
 import numpy as np
 
@@ -24,7 +24,6 @@ from .instants import Instants
 Made = TypeVar("Made")
 
 
-@final
 class Grid:
     """Designs times strokes. Arrays are component-first, designs before strokes.
 
@@ -233,7 +232,6 @@ def not_joined(grid: Grid, angles: FloatArray, kernel: Kernel) -> FloatArray:
     return angles
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class JoinedTo:
     """Angles within 180 deg of those of poses that are known: of `like`, by their number `near`, an array that fits the grid's poses.
@@ -289,7 +287,6 @@ def _joined(angle: FloatArray) -> FloatArray:
 
 # What follows from directions: nodes worked out again where an angle is continued past half a turn along the stroke.
 
-@final
 @dataclass(frozen=True, eq=False)
 class Angles:
     """Some nodes, the moving angles behind them, and the kernel of these."""

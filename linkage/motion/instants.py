@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from hashlib import blake2b
-from typing import Any, Self, final
+from typing import Any, Self
 
 import numpy as np
 
@@ -15,7 +15,6 @@ from ..program import FloatArray
 from ..quantities import Course
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class Instants:
     """Instants of a path in time [s], shaped as the poses there. The rates and accelerations of the strokes go by name.

@@ -12,7 +12,7 @@ from contextlib import suppress
 from copy import copy
 from dataclasses import dataclass, field, replace
 from functools import cached_property, reduce
-from typing import Any, TypeAlias, final
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -75,7 +75,6 @@ TIE = 1e-9
 # Situations: which load cases and movements occur.
 
 
-@final
 @dataclass(frozen=True)
 class Situation:
     """A load case and a movement that occur: the case's name, the direction, and the stroke that moves; "" for none."""
@@ -96,7 +95,6 @@ class Situation:
         return self.direction not in ("", FRICTIONLESS)
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class Sought:
     """A piece of a leaf in a situation, as something to look for: `sense` is 1.0 where its greatest value is the worst."""
@@ -139,7 +137,6 @@ class Sought:
         return np.asarray(np.maximum(highest, 0.0) if self.stays_at_zero else self.sense * highest)
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class WorstPiece:
     """The worst of a row over one `Over`: its value and strokes, arrays over the designs; shares of the places asked for."""
@@ -159,7 +156,6 @@ class WorstPiece:
         return quantity.mover if isinstance(quantity, Request) else None
 
 
-@final
 class Domain:
     """One `Over` of some designs: the motion that covers it, and its lost places."""
 
@@ -401,7 +397,6 @@ def case_named(plan: Plan, case: object) -> str:
 # Rows as one function of a motion.
 
 
-@final
 @dataclass(eq=False)
 class Coverage:
     """Counts on the first grid: shares of its places that are lost or outside, and of each row without a value, or without a bound.
@@ -426,7 +421,6 @@ class Coverage:
         time = float(np.broadcast_to(self.time, np.shape(self.lost_share))[design])
         return replace(self, lost_share=lost, outside=outside, deepest=deepest if lost else {}, time=time, design=design)
 
-@final
 class Asked:
     """Rows as one function of a motion: each times its sense, shape (rows, ...); NaN where a place is not asked for or has no value."""
 
@@ -567,7 +561,6 @@ def worst_at(motion: Motion, worst: Worst) -> FloatArray:
 # Questions.
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class Candidate:
     """A question in one situation over one `Over`: its value, its margin (below zero where not kept), arrays over designs, and where."""
@@ -597,7 +590,6 @@ class Candidate:
         return replace(self, strokes=strokes, seen=None if self.seen is None else self.seen.of_design(place), **own)
 
 
-@final
 class Judge:
     """Who answers questions about some designs of a machine: over all of its `overs`, in all that acts."""
 

@@ -6,7 +6,7 @@ from abc import abstractmethod
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, ClassVar, final
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -40,7 +40,6 @@ JUDGED = 200
 """Designs of a batch whose members are judged, each by itself."""
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class PageWords:
     """How a page says a rule: a sentence with {value}, {limit} and {place} where it is kept, in English as the catalogues have it.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import nan
-from typing import Any, final
+from typing import Any
 
 import numpy as np
 
@@ -19,7 +19,6 @@ from ..steps import Step
 from ..units import UNITS, deg, display_unit, show, shown_number, unit_sign
 
 
-@final
 @refuses_changes
 @dataclass(frozen=True)
 class StrokeLimits:
@@ -72,7 +71,6 @@ class StrokeLimits:
         return [f"  {said('reachable from {low} to {high} {unit}', low=low, high=high, unit=sign)}", *stops]
 
 
-@final
 class Limits(FrozenDict[str, StrokeLimits], Shown):
     """The limits of every stroke by name, and of the `box` of all strokes, None where that is not looked at; printed as sentences.
 
@@ -91,7 +89,6 @@ class Limits(FrozenDict[str, StrokeLimits], Shown):
         return "\n".join(map(str, [*self.values(), *box, *([self.remark] if self.remark else [])]))
 
 
-@final
 @refuses_changes
 @dataclass(frozen=True)
 class BoxLimits:
@@ -115,7 +112,6 @@ class BoxLimits:
         return "\n".join([f"{said('together')}: {self.title}", f"  {gone}", *(f"  {each}" for each in self.margins if each.tells)])
 
 
-@final
 @refuses_changes
 @dataclass(frozen=True)
 class LoopMargin:
@@ -166,7 +162,6 @@ class LoopMargin:
         }[self.kind]
 
 
-@final
 @refuses_changes
 @dataclass(frozen=True)
 class Interval:
@@ -181,7 +176,6 @@ class Interval:
         return self.low <= value <= self.high
 
 
-@final
 @refuses_changes
 @dataclass(frozen=True)
 class Extreme:
@@ -192,7 +186,6 @@ class Extreme:
     stroke: float
 
 
-@final
 @refuses_changes
 @dataclass(frozen=True)
 class Held:
@@ -206,7 +199,6 @@ class Held:
         return f"{self.stroke} = {stroke_text(self.value, self.unit, 6)}"
 
 
-@final
 @refuses_changes
 @dataclass(frozen=True)
 class Open:

@@ -13,7 +13,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import reduce
 from importlib.resources import files
-from typing import final
 
 import numpy as np
 
@@ -30,7 +29,6 @@ REGULAR = (1.0 + math.sqrt(1.0 - 0.3**2)) / 0.3
 """The condition up to which a loop does not count where several near dead points lose digits together."""
 
 
-@final
 @dataclass(frozen=True)
 class LiveText:
     """JavaScript of a machine, and the names of its parts.

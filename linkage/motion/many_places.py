@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations, product
-from typing import Any, final
+from typing import Any
 
 import numpy as np
 
@@ -44,7 +44,6 @@ EDGE = 1e-10
 """How far outside the range of a stroke, in shares of it, a pose counts as at its end."""
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class PlacePoses:
     """Poses that give places: of which place (n,), unit coordinates of all strokes looked for (n, k), those solved for first."""
@@ -62,7 +61,6 @@ class PlacePoses:
         return PlacePoses(self.place[rows], self.unit[rows])
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class ManyPlaces:
     """Targets of one design, the first two of which are x and y of a point, for many places.
@@ -211,7 +209,6 @@ def spared(every: Places, count: int) -> tuple[str, ...]:
     return found
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class PlaceGrid:
     """A grid of strokes with the targets' values there (t, n): axes of the strokes that are solved for, and of those to spare.

@@ -17,7 +17,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import partial, reduce
 from types import MappingProxyType
-from typing import Any, ClassVar, NoReturn, TypeAlias, TypeGuard, final
+from typing import Any, ClassVar, NoReturn, TypeAlias, TypeGuard
 
 import numpy as np
 
@@ -117,7 +117,6 @@ def as_measure(given: object) -> Measure:
     raise DefinitionError(f"{cited(given)} is no measure and no number; write one such as least(...) or 35 * kN.")
 
 
-@final
 @dataclass(frozen=True, eq=False, repr=False)
 class Given(Measure):
     """A number [SI]; `measures` is its kind, "length", where it was written with a unit."""
@@ -138,7 +137,6 @@ class Given(Measure):
         return f"{self.value:.6g}"
 
 
-@final
 @dataclass(frozen=True, eq=False, repr=False)
 class CombinedMeasure(Measure):
     """Two measures joined by an operator."""
@@ -201,7 +199,6 @@ class Leaf(Measure):
         return f"{self.word}({words_of(self.quantity)})"
 
 
-@final
 @dataclass(frozen=True, eq=False, repr=False)
 class Least(Leaf):
     """The least value over the stroke."""
@@ -210,7 +207,6 @@ class Least(Leaf):
     sense: ClassVar[float] = -1.0
 
 
-@final
 @dataclass(frozen=True, eq=False, repr=False)
 class Most(Leaf):
     """The greatest value over the stroke."""
@@ -219,7 +215,6 @@ class Most(Leaf):
     sense: ClassVar[float] = 1.0
 
 
-@final
 @dataclass(frozen=True, eq=False, repr=False)
 class Integral(Leaf):
     """The integral over a stroke."""
@@ -228,7 +223,6 @@ class Integral(Leaf):
     word: ClassVar[str] = "integral"
 
 
-@final
 @dataclass(frozen=True, eq=False, repr=False)
 class At(Leaf):
     """The value at one pose."""
@@ -244,7 +238,6 @@ class At(Leaf):
         return f"at({', '.join([words_of(self.quantity), *(f'{name}={value:.6g}' for name, value in self.strokes.items())])})"
 
 
-@final
 @dataclass(frozen=True, eq=False, repr=False)
 class Worst:
     """The greatest (`sense` 1.0) or the least (-1.0) value of a quantity over another stroke: again a quantity, of the others."""
@@ -427,7 +420,6 @@ class Condition(ABC):
     __ge__ = __lt__ = __gt__ = __le__
 
 
-@final
 @dataclass(frozen=True, eq=False, repr=False)
 class Constraint(Condition):
     """A measure compared with another: `least(q) >= 35 * kN`."""
@@ -458,7 +450,6 @@ class Constraint(Condition):
         return f"{self.left} {self.symbol} {self.right}"
 
 
-@final
 class Reachable(Condition):
     """Every pose of the stroke is assembled: kept by every search, also where it is not written."""
 
@@ -606,7 +597,6 @@ APART = ("length", "angle", "force", "pressure", "speed", "acceleration", "power
 """Kinds of which no two add or compare. Work and moments are written in many ways, an angle in them often left out."""
 
 
-@final
 @dataclass(frozen=True)
 class MeasureKind:
     """The powers of length, force, angle and time; `is_sure` where no number without a unit stands in a product, which may have had one."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
-from typing import Any, ClassVar, Self, final
+from typing import Any, ClassVar, Self
 
 import numpy as np
 import numpy.typing as npt
@@ -30,7 +30,6 @@ OPTIONS = ("only", "cases", "lost", "time")
 ALLOWED = "allowed"
 
 
-@final
 class Over(Member):
     """The domain of a machine. Declared in the class it is where the machine really runs: `loading = Over.path(phi=[...], t=[...])`.
 
@@ -413,7 +412,6 @@ class Over(Member):
         return str(self)
 
 
-@final
 @dataclass(frozen=True)
 class Run:
     """The values that each moving stroke passes, as many each, and the values of those held [m or rad].

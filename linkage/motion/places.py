@@ -10,7 +10,7 @@ from collections.abc import ItemsView, Iterable, Mapping, Sequence, ValuesView
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import combinations, product
-from typing import Any, NoReturn, TypeAlias, final
+from typing import Any, NoReturn, TypeAlias
 
 import numpy as np
 
@@ -73,7 +73,6 @@ MOST = 64
 """Branches that are told, where infinitely many meet the targets."""
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class PlaceProgram:
     """Some targets by the strokes that are looked for: kernels of their values, of their slopes, of both, and of the squared size [m2].
@@ -111,7 +110,6 @@ def way_of(count: int) -> RunOptions:
     return QUICKEST if count <= FEW else ON_ARRAYS
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class Places:
     """Targets of one design, bound to its plan, by the strokes that are looked for; the others are held.
@@ -370,7 +368,6 @@ def check_independent(places: Places, condition: FloatArray) -> None:
 # -- the search ----------------------------------------------------------------------------------------------
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class Found:
     """Unit coordinates (n, k) that were found, and by how much the targets are missed there (n, t) [SI]."""
@@ -416,7 +413,6 @@ def unmet_words(places: Places, wanted: FloatArray, near: Found) -> str:
     return text
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class BranchSearch:
     """A search of solutions in a box of unit coordinates, from -out to 1 + out."""
@@ -611,7 +607,6 @@ class BranchSearch:
 
 
 
-@final
 class Target:
     """A value that a quantity is to have at a pose: `Target(y("F"), 0.45, S=0.05)`, `Target("tilt", 0.0, unit="deg", S=0.05)`.
 
@@ -751,7 +746,6 @@ TOLD = 4
 """Branches that are told in a sentence."""
 
 
-@final
 class StrokeRows(np.ndarray[Any, np.dtype[np.float64]]):
     """Strokes [m or rad], one row a branch, one column a stroke: `rows[0]`, `rows["boom"]`, `rows[0]["boom"]`, `machine.at(**rows[0])`.
 
@@ -801,7 +795,6 @@ class StrokeRows(np.ndarray[Any, np.dtype[np.float64]]):
         return StrokeRows, (np.array(self), self.names)
 
 
-@final
 @refuses_changes
 @dataclass(frozen=True, eq=False)
 class Positions:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from itertools import combinations
 from types import MappingProxyType
-from typing import Any, ClassVar, final
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -33,7 +33,6 @@ from .requests import NodeRequest, Trait
 Pair = tuple[str, str]
 
 
-@final
 class Planes(HasVerdicts):
     """Which bodies lie in one plane, plane by plane across the machine: `planes = Planes("OBC AB", "CD EDF", width=60 * mm)`.
 

@@ -14,7 +14,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import reduce
 from itertools import pairwise
-from typing import Any, TypeAlias, final
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -31,7 +31,6 @@ from .gaps import SMALLEST, Pick, nearest_on
 from .requests import NodeRequest
 
 
-@final
 @dataclass(frozen=True)
 class Polygon:
     """A polygon by its corners [m]."""
@@ -64,7 +63,6 @@ class Polygon:
         return f"[{', '.join(f'({x:g}, {y:g})' for x, y in self.corners)}]"
 
 
-@final
 @dataclass(frozen=True)
 class Disc:
     """A circle by its centre and radius [m]."""
@@ -98,7 +96,6 @@ Shape: TypeAlias = Polygon | Disc
 LISTS = (list, tuple, np.ndarray)
 
 
-@final
 @dataclass(frozen=True)
 class Forbidden:
     """A shape in which a point may not stand: corners, an outline or the name of one."""
@@ -122,7 +119,6 @@ def outside(shape: object) -> Forbidden:
     return Forbidden(shape)
 
 
-@final
 @dataclass(frozen=True)
 class Region:
     """Where a point may stand: in one of the shapes `within`, where there are any, and in none of those that are `without`."""

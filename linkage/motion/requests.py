@@ -13,7 +13,7 @@ from functools import reduce
 from itertools import product
 from operator import or_
 from types import MappingProxyType
-from typing import Any, TypeAlias, cast, final
+from typing import Any, TypeAlias, cast
 from weakref import ref
 
 import numpy as np
@@ -221,7 +221,6 @@ class Request(Arithmetic):
 RequestLike: TypeAlias = str | Member | Request
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class SmoothPiece:
     """A smooth piece of a question: a value per pose, and the side of the cylinder that it belongs to, "" for none.
@@ -335,7 +334,6 @@ def dimensions_of(plan: Plan, names: object) -> list[tuple[str, int]]:
 
 # Values, and ratios of any order.
 
-@final
 @dataclass(frozen=True)
 class Value(Request):
     """A point, a vector or a quantity, and the strokes that it is differentiated by, one after the other: a value, or a transfer ratio.
@@ -480,7 +478,6 @@ LIKE_ITS_PARTS = ("add", "subtract", "negative", "absolute", "minimum", "maximum
 """The functions whose values measure what their parts measure."""
 
 
-@final
 @dataclass(frozen=True)
 class Combined(Request):
     """One of NumPy's functions of requests, quantities and numbers, per pose. Bound, its parts are requests and numbers.
@@ -665,7 +662,6 @@ def bracketed(part: Request | Quantity | float, binding: int) -> str:
     return f"({text})" if binds < binding else text
 
 
-@final
 @dataclass(frozen=True)
 class MotionFunction(Request):
     """A function of a motion that depends on the motion alone, as a request; its results are cached for a design."""
@@ -689,7 +685,6 @@ class MotionFunction(Request):
 # What functions of a plan say.
 
 
-@final
 @dataclass(frozen=True, eq=False, kw_only=True)
 class NodeRequest(Request):
     """A request without a class of its own: functions of a plan give its nodes and the members it is built from, or refuse it.

@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise, product
-from typing import Any, Protocol, TypeAlias, final, runtime_checkable
+from typing import Any, Protocol, TypeAlias, runtime_checkable
 
 import numpy as np
 import numpy.typing as npt
@@ -94,7 +94,6 @@ def strokes_moved(motion: Motion) -> tuple[str, ...]:
 # Where on the way of a motion something is below zero, looked for between its poses, whatever their number.
 
 
-@final
 @dataclass(frozen=True)
 class Span:
     """A part of a motion's way, from the strokes `start` to the strokes `end` [m or rad, which `units` say], in the order of the way.
@@ -201,7 +200,6 @@ STRAIGHT = 1e-9  # of the range of each stroke: poses as near as this to a strai
 LONGEST = 16  # times the samples of one leg: of any way, however often it turns back
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class Legs:
     """Legs from corner to corner: the strokes [SI] at the corners (legs + 1,), and in how many intervals each leg is looked at.
@@ -323,7 +321,6 @@ def values_of(f: Function, motion: Motion, *, everywhere: bool = False) -> Float
     return found if everywhere else np.where(motion.reached, found, np.nan)
 
 
-@final
 class OnLegs:
     """A function of the poses along a motion's way, of K quantities and D designs; a search calls `look`.
 
@@ -394,7 +391,6 @@ class Bounded(Protocol):
         """Return one of them, by its number."""
 
 
-@final
 class InBox:
     """A function of the poses in the box from the least to the greatest value of k strokes that a motion moves; others stand still."""
 

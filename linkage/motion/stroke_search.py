@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, final
+from typing import Any
 
 import numpy as np
 
@@ -72,7 +72,6 @@ def limits(motion: MotionLike) -> Limits:
     return Limits({name: recalled(motion, ("limits", name), line.stroke_limits) for name, line in lines.items()})
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class StrokeLine:
     """One design along one stroke, the others held."""
@@ -465,7 +464,6 @@ ON_ARRAYS = RunOptions("numpy")
 INNER = np.arange(1, PARTS) / PARTS
 
 
-@final
 @dataclass(frozen=True)
 class Interruption:
     """An interruption along a stroke: from `low` to `high` [m or rad] a step cannot be assembled; equal at a change point."""
@@ -492,7 +490,6 @@ class Interruption:
         return f"{what} of {self.step} at {self.stroke} = {stroke_text(self.low, self.unit)}"
 
 
-@final
 @dataclass(frozen=True)
 class Clearances:
     """The loops of a plan that move, and the kernels of how clear of their dead points they are, and of the size of rounding there."""

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from importlib import import_module
-from typing import Any, ClassVar, TypeVar, final
+from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 
@@ -227,7 +227,6 @@ class Tabled(Member):
 # What a machine is about: the curve, the paths and the limits that its pictures show where nothing else is asked for.
 
 
-@final
 @dataclass(frozen=True)
 class Featured:
     """What a machine's pictures show where nothing else is asked: a column, paths and limits.

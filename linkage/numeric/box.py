@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from dataclasses import fields, replace
 from itertools import combinations, product
-from typing import Protocol, Self, final
+from typing import Protocol, Self
 
 import numpy as np
 
@@ -67,7 +67,6 @@ def values_a_stroke(k: int, designs: int) -> int:
 # -- starts and what is known of them ------------------------------------------------------------------------
 
 
-@final
 @immutable
 class Climbs:
     """Searches, arrays (r, ...): their function and design, the best place and its value, the next stencil, the value it should show."""
@@ -199,7 +198,6 @@ def starts_of(box: SeenBox) -> tuple[Climbs, FloatArray]:
 # -- where it is smooth: a quadratic on a stencil ------------------------------------------------------------
 
 
-@final
 @immutable
 class Quadratic:
     """Quadratics (r,) of places (r, k) in their stencils, from -1 to 1: value, gradient, second derivatives."""

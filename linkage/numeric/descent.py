@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TypeAlias, final
+from typing import TypeAlias
 
 import numpy as np
 
@@ -73,7 +73,6 @@ def descended(
     return unit, off
 
 
-@final
 @immutable
 class DampedSystem:
     """The linear equations of a step of Levenberg and Marquardt from unit coordinates (m, k), and their solution, the `step` (m, k).

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import TypeAlias, final
+from typing import TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -44,7 +44,6 @@ SEEN, REFUSED = 1e-9, 1e-5  # of a leg: how near a value must keep growing, to a
 PLATEAU = 2.0**-12  # of the distance at which a value stopped growing: where it is level from there on numbers went no nearer
 
 
-@final
 @immutable
 class Highest:
     """The highest value of K functions of D designs, arrays (K, D): value, NaN where there is none; leg and t; whether it is unbounded."""
@@ -55,7 +54,6 @@ class Highest:
     unbounded: Mask
 
 
-@final
 @immutable
 class Tops:
     """Places that may be highest, arrays (K, D, c): their values, half the brackets about them, and the most that may hide in these."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, final
+from typing import Any
 
 import numpy as np
 
@@ -18,7 +18,6 @@ ENDLESS = 1e-2
 """Of the panels' sizes: panels that disagree by more however fine they are stand at a pole, and there is no integral."""
 
 
-@final
 @immutable
 class Quadrature:
     """An integral (...), infinite where there is none, the `error` that the panels leave (...), and their `edges` (n + 1,)."""

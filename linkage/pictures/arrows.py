@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations, product
-from typing import final
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -39,7 +38,6 @@ TURN_ANGLES = np.radians(np.linspace(-150.0, 70.0, 49))
 """The angles that a curved arrow goes through."""
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class VectorArrow:
     """A vector at a point [m], shape (2,) each, in SI, with its colour; `text` stands after its value, `name` finds it in the figure."""
@@ -56,7 +54,6 @@ class VectorArrow:
         return float(np.hypot(*self.vector))
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class TurningArrow:
     """A moment [Nm] at a point [m], positive counter-clockwise."""
@@ -70,7 +67,6 @@ class TurningArrow:
     """The curve's radius in sizes: another one where several stand about one point."""
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class ArrowLayer:
     """Arrows to one scale, in a unit; `keys` are the meanings of the colours, `sense` the positive direction."""
@@ -204,7 +200,6 @@ BESIDE = 20.0  # pixels within which a text is taken for that of an arrow
 EDGE = 3.0  # pixels kept free along the sheet's edges
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class Wording:
     """A text that is to stand near a place [m]: preferably on along a way, shape (2,).
@@ -239,7 +234,6 @@ def wordings(layer: ArrowLayer, scale: float, size: float) -> list[Wording]:
     return found
 
 
-@final
 class PlacedWording:
     """A text that is written, the spots it may stand at, shape (n, 2) [pixels], and which of them it has chosen."""
 

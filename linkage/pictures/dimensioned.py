@@ -6,7 +6,6 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import final
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -58,7 +57,6 @@ def dimensioned(ax: Axes, motion: Motion) -> None:
         each.draw(ax)
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class LengthLine:
     """A dimension line from P to Q, moved aside: its text, its two ends and those of the lines that lead to it, shape (2,) [m]."""
@@ -95,7 +93,6 @@ class LengthLine:
         haloed(ax, self.text, 0.5 * (start + end), LETTERS, style.INK, 3.0, rotation=way, **NUMBER)
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class AngleArc:
     """An arc about a corner from one direction to another [rad], counter-clockwise, with its text."""

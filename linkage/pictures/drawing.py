@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, final
+from typing import Any
 
 import numpy as np
 from matplotlib.artist import Artist
@@ -63,7 +63,6 @@ UNDER = 2.5
 """The layer of what is written on the sheet under a mechanism."""
 
 
-@final
 class Drawing:
     """The parts of a mechanism on some axes; `update` moves them to another pose."""
 
@@ -123,7 +122,6 @@ class Drawing:
 # Rigid bodies: bars with round ends, plates with round corners.
 
 
-@final
 class BodyPart(MovingPart):
     """The line around the outermost points of a body or a slot, at a radius [m]."""
 
@@ -160,7 +158,6 @@ FIXED = 1.6
 """The layer of what stands still around a mechanism, below all of it."""
 
 
-@final
 class MarkPart(MovingPart):
     """A mark: its lines, its hatches, and a picture under them."""
 
@@ -227,7 +224,6 @@ def read_picture(path: str) -> FloatArray:
 # Points: pins as circles, others as small dots, and the thin lines of a bare construction.
 
 
-@final
 class CirclePart(MovingPart):
     """A point as a circle."""
 
@@ -252,7 +248,6 @@ def dot(ax: Axes, name: str, size: float, look: Look) -> CirclePart:
     return CirclePart(ax, name, 0.48 * size, look.colour(style.INK), style.PAPER, style.THIN, look.level + 0.8)
 
 
-@final
 class StayPart(MovingPart):
     """Two points that a construction joins: a thin broken line."""
 

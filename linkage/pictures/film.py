@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 from shutil import copyfileobj
 from tempfile import TemporaryDirectory, gettempdir
-from typing import Any, TypeAlias, cast, final
+from typing import Any, TypeAlias, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -153,7 +153,6 @@ TITLE_GAP = 12.0
 """Between a title and what stands beside it [pixels], at the least."""
 
 
-@final
 class Stage:
     """A figure with a mechanism on the left and a live curve on the right; `frame` gives it at a pose."""
 
@@ -243,7 +242,6 @@ class Stage:
         return np.array(self.canvas.buffer_rgba())
 
 
-@final
 class Stamp:
     """A name drawn once and then put down beside its point, to whole pixels: to set it anew in each frame takes most of the time."""
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from typing import Any, TypeAlias, final
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -32,7 +32,6 @@ Rates: TypeAlias = Mapping[str, Any] | None
 SENSE = noted("A pin force is drawn as it acts on the body named; where none is named, from the frame on what it holds.")
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class ForceQuestion:
     """Which forces are drawn: all, or those on one body; and of which loads, as `pin_forces` takes them."""
@@ -72,7 +71,6 @@ def force_question(
     return ForceQuestion("" if forces is True else str(forces), loads, case, direction, drive, rates)
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class ForcesAt:
     """The forces of a machine at one pose, a flat index; `refusal` says in words why there are none."""

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import final
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -76,7 +74,6 @@ def closing_words(layer: ArrowLayer, body: str) -> str:
     return said("Forces and moments balance to {share} of the largest.", share=f"{max(*parts, 1e-17):.0e}")
 
 
-@final
 class FreeBodyPicture:
     """One body at a pose with the forces on it; `box` is the sheet's, with room for all arrows [m]."""
 

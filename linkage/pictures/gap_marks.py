@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from itertools import product
-from typing import TypeAlias, final
+from typing import TypeAlias
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -34,7 +34,6 @@ Pairs: TypeAlias = tuple[tuple[str, str], ...] | None
 """The bodies that are compared where no `Planes` are declared, pair by pair; None where these or two names say which."""
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class GapMark:
     """The gap of two bodies at a pose: its name, its two places, shape (2, 2) [m], and its text; another pose's is faint."""

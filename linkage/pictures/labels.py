@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from types import MappingProxyType
-from typing import final
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -36,7 +35,6 @@ MINOR = 0.75
 """The size of the letters of a point of a construction, as a share of the others'."""
 
 
-@final
 class LabelPart(MovingPart):
     """A point's name at an offset [points], joined to the point by a thin line where it stands away from it."""
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import groupby
-from typing import final
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -33,7 +32,6 @@ SAME = 1e-6
 """Forces whose directions differ by less [rad] are parallel; speeds are equal that differ by a thousandth of it times the largest."""
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class LeverArm:
     """A lever arm: the dimension from a pin to a force's line of action, and where that force begins, (2,) [m].

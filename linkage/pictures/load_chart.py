@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from string import ascii_uppercase
 from textwrap import TextWrapper
-from typing import final
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -30,7 +29,6 @@ LINE = 0.2
 LEFT, TOP = 0.85, 0.95
 
 
-@final
 class ChartText:
     """A field's words in the chosen units and language: loads, radii, heights, letters, lines of the legend.
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, final
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -42,7 +42,6 @@ BEYOND = 0.6
 """A pole further outside what is drawn than this part of it is told in words."""
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class Overlays:
     """The overlays to draw: forces, velocities at stroke rates, poles of bodies, the nearest bodies, bodies loose while locked."""
@@ -125,7 +124,6 @@ class Overlays:
                 ax.plot(*path, color=POLE, linewidth=1.1, linestyle=(0, (1.0, 1.6)), zorder=14.0, gid=f"centrode of {body}")
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class PoleMark:
     """A pole: its name, its place (2,) [m], the points that thin lines go to; or, where there is none, the words why."""
@@ -143,7 +141,6 @@ class PoleMark:
         return bool(np.isfinite(self.at).all() and left - room < x < right + room and bottom - room < y < top + room)
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class Overlay:
     """The overlay of one pose on a sheet: arrows to their scales, poles, notes, gaps, lever arms.

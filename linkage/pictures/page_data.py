@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from functools import cached_property
 from itertools import groupby, permutations
 from pathlib import Path
-from typing import Any, cast, final
+from typing import Any, cast
 
 import numpy as np
 
@@ -65,7 +65,6 @@ def track_number(track: SlideTrack, part: str, axis: str) -> NodeRequest:
     return NodeRequest(text=f"the {part} of {track.name}", key=("track", track.name, part, axis), nodes_of=nodes, names_of=names)
 
 
-@final
 class PageRequests:
     """The contents of a machine's page, and its requests to the program, by names of its own."""
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Any, TypeVar, cast, final
+from typing import Any, TypeVar, cast
 
 import numpy as np
 
@@ -21,7 +21,6 @@ from ..statics import AnyMotion, JointForce, LawRequest, TracedMotion, applied_l
 Asked = TypeVar("Asked")
 
 
-@final
 @dataclass(frozen=True)
 class PageSituation:
     """How a page shows forces over an `Over`: in a load case; over a path in time, the motion, at its rates."""

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Hashable, Mapping, Sequence
 from contextlib import suppress
 from functools import cached_property, reduce
-from typing import Any, TypeAlias, final
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -56,7 +56,6 @@ def where_true(request: Request, which: str) -> NodeRequest:
     return NodeRequest(text=text, key=("where", which, request.key), nodes_of=nodes, names_of=request.names)
 
 
-@final
 class LiveQuestions:
     """The questions of a page, and the rows that they ask the program for, by names of their own."""
 

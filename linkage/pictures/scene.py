@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import combinations, pairwise, product
 from operator import methodcaller
-from typing import TypeAlias, final
+from typing import TypeAlias
 
 import numpy as np
 
@@ -32,7 +32,6 @@ MARGIN = 3.2
 """How far a track goes on beyond the travel, in sizes."""
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class SlideTrack:
     """A straight track: its origin [m] and its direction at every pose, shape (2, n), and the points that slide on it."""
@@ -83,7 +82,6 @@ Pose: TypeAlias = int | tuple[int, ...]
 Bounds: TypeAlias = tuple[float, float, float, float]
 
 
-@final
 @dataclass(frozen=True)
 class TwoForceMember:
     """A two-force member from P to Q: its form, and how far to the left of P -> Q, in sizes, where others share its points.
@@ -103,7 +101,6 @@ class TwoForceMember:
         return HALF[self.drawn_as] + abs(self.aside)
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class Plate:
     """A body's form: in each corner the shares of its points, shape (k, n), counter-clockwise; two corners are a bar."""
@@ -116,7 +113,6 @@ class Plate:
         return np.asarray(self.shares @ np.array([places[name] for name in self.points]))
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class DrawnMark:
     """Lines that some points carry, in axes at the first of them [m]: along the direction of the last two, and to its left.
@@ -164,7 +160,6 @@ class DrawnMark:
         return np.concatenate([np.empty((0, 2)), *lines, *([self.under[1]] if self.under else [])])
 
 
-@final
 @dataclass(frozen=True)
 class DrawnCylinder:
     """A cylinder from P to Q as it is drawn [m]: its barrel from bottom to mouth, its piston between least and most, moved aside."""
@@ -195,7 +190,6 @@ PRIMES = 3
 RAISED = str.maketrans("0123456789", "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079")
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class Scene:
     """The things to draw in a motion of one design. Raises DefinitionError for a batch of designs.

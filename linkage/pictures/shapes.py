@@ -6,7 +6,6 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from types import MappingProxyType
-from typing import final
 
 import numpy as np
 import numpy.typing as npt
@@ -148,7 +147,6 @@ YOKE = 0.38
 """Half the thickness of the piece that holds an element beside its pin, in sizes."""
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class DrawnLine:
     """One line of a mark: rows of a share of its length, a way along it [m], one across, to the left [m], and 1 where a piston moves it.

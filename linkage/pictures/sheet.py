@@ -6,7 +6,7 @@ import os
 from collections.abc import Sequence
 from io import BytesIO
 from pathlib import Path
-from typing import Any, TypeAlias, final
+from typing import Any, TypeAlias
 
 import numpy as np
 from matplotlib import rcParams
@@ -62,7 +62,6 @@ def panels(size: tuple[float, float], across: int, down: int = 1, count: int | N
     return figure, axes
 
 
-@final
 class RoundValues(MaxNLocator):
     """Ticks at round values of a unit that is so much of SI, no more of them than have room along their axis."""
 
@@ -175,7 +174,6 @@ def pixels_text(wide: int, high: int) -> str:
     return f"{wide} x {high} pixels take {4e-9 * wide * high:.2g} GB to draw"
 
 
-@final
 class Picture(Figure):
     """A matplotlib figure whose `savefig` replaces a file whole; FileError, in words, where it cannot be written. Notebooks show it."""
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from math import ceil
-from typing import final
 
 import numpy as np
 
@@ -20,7 +19,6 @@ from ..reports import NOTHING, At, Run, column_among, in_case_words, motion_over
 from ..units import factor, show, shown_in
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class StrokeAxis:
     """The stroke that a motion runs along, as a picture shows it: its name, its unit, and its values in that unit, shape (n,).
@@ -141,7 +139,6 @@ CLOSED = 1e-6
 """Points that end so near to where they began, compared with the linkage, have gone round."""
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class Playback:
     """A motion along one stroke, the poses in reach in the order they are shown, the column to follow.

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import final
 
 INK = "#24313f"
 MUTED = "#67737f"
@@ -38,7 +37,6 @@ THIN = 0.8
 DPI = 150
 
 
-@final
 @dataclass(frozen=True)
 class Look:
     """How strongly a mechanism is drawn: `fade` mixes every colour with the paper, 0 to 1; `level` is its layer; `tint` colours it all."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import final
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -43,7 +42,6 @@ MOST_NUMBERED = 12
 """Points that are all numbered; of more it is every fifth."""
 
 
-@final
 class ShownAnswer:
     """An answer as it is drawn: its place, the task in the names of its class, the stroke that moves, and the point that is to come there.
 

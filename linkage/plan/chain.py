@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import final
 
 from ..frozen import immutable
 from ..quantities import Joint, JointSide, Member, Quantity, Stroke, body_name, joined_names, needed_behind, needs, of_kind
@@ -17,7 +16,6 @@ from ..steps import Point
 from .members import FRAME, Body, Members, carrying_pairs, member_sides, spanning_name
 
 
-@final
 @dataclass(frozen=True)
 class ChainBody:
     """A body of the chain: the `frame`, a `body`, a `barrel` or a `rod`, an `arm` or its `carriage`, a sliding `block`."""
@@ -27,7 +25,6 @@ class ChainBody:
     points: tuple[str, ...]
 
 
-@final
 @immutable
 class Pair:
     """A `pin` at a point or a `slide`, between two bodies by their names; `length` is the length a slide drives, by these `strokes`."""
@@ -40,7 +37,6 @@ class Pair:
     length: Quantity | None = None
 
 
-@final
 class KinematicChain:
     """Bodies and pairs. Bodies that share a point are pinned there to the first of them, n bodies by n - 1 pins."""
 

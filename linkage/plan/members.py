@@ -9,7 +9,7 @@ from functools import cached_property
 from graphlib import CycleError, TopologicalSorter
 from math import pi
 from types import MappingProxyType
-from typing import Any, TypeVar, final
+from typing import Any, TypeVar
 
 from ..errors import DefinitionError, about, unknown
 from ..frozen import FrozenDict
@@ -24,7 +24,6 @@ from .table import Table
 FRAME = "frame"
 
 
-@final
 @dataclass(frozen=True)
 class Body:
     """Points that move as one. The frame holds all fixed points."""
@@ -61,7 +60,6 @@ def merged(groups: Iterable[Sequence[str]], ground: Sequence[str]) -> tuple[Body
 Kind = TypeVar("Kind", bound=Member)
 
 
-@final
 class Named(FrozenDict[str, Any]):
     """Members by name, those of parts by each of their names: a point that is fused with another one is that one."""
 

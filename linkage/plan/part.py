@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from copy import copy
 from dataclasses import fields, is_dataclass
 from types import MappingProxyType
-from typing import Any, final
+from typing import Any
 
 import numpy as np
 
@@ -34,7 +34,6 @@ class PartNameError(DefinitionError, AttributeError):
     """A name that a part has not."""
 
 
-@final
 class Part(Member):
     """A mechanism in a mechanism: `lower = Part(Arm, S=s1, OB=0.45)`; its members are `lower.B`, `"lower.B"`.
 
@@ -234,7 +233,6 @@ class Part(Member):
         return f"Part({', '.join([*words, *more])})"
 
 
-@final
 class HeldName(str):
     """The name of a member of a part, and the prefix of its inner names: `lower.ram.length`, `lower.ram.rod_side`."""
 
@@ -252,7 +250,6 @@ class HeldName(str):
         return Ref(f"{self}.{name}") if member.inside[name] == "quantity" else f"{self}.{name}"
 
 
-@final
 class Inner:
     """A part of a part, by which its members are named: `lower.tool.T`."""
 
@@ -339,7 +336,6 @@ class Renaming:
         return given
 
 
-@final
 class Renamed(Renaming):
     """The members of a part under their names in the whole."""
 

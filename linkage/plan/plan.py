@@ -6,7 +6,7 @@ from collections import deque
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from functools import cached_property
 from threading import RLock
-from typing import TypeVar, cast, final
+from typing import TypeVar, cast
 from uuid import uuid4
 from weakref import WeakValueDictionary
 
@@ -99,7 +99,6 @@ MOST_KERNELS = 1024
 """The kernels of a plan that are kept: loads with numbers of their own make one for each number."""
 
 
-@final
 class Plan(Members, Shown):
     """The ordered members of a mechanism with their program: printable, traceable, the same for every design."""
 

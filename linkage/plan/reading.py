@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from copy import copy
 from functools import cached_property, reduce
-from typing import Self, final
+from typing import Self
 
 import numpy as np
 
@@ -177,7 +177,6 @@ class Reading(Where):
         return True
 
 
-@final
 class ArrayReading(Reading):
     """The eager evaluation on NumPy arrays: a dead point is reached to rounding, and every loop tells how near it is.
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from math import isclose
-from typing import TypeAlias, cast, final
+from typing import TypeAlias, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -23,7 +23,6 @@ Label: TypeAlias = frozenset[str] | tuple[str, frozenset[str]]
 """What a label measures: the two ends of a length, or the corner of an angle and its two sides' ends."""
 
 
-@final
 @dataclass(frozen=True)
 class DesignVariable:
     """One design variable: its default [SI], kind of measure, owner, and display unit, if it has one."""

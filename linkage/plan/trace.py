@@ -6,7 +6,7 @@ from collections.abc import Container, Hashable, Mapping, Sequence
 from dataclasses import dataclass, fields
 from functools import cached_property, reduce
 from types import MappingProxyType
-from typing import Any, final
+from typing import Any
 
 import numpy as np
 
@@ -30,7 +30,6 @@ def rate_name(stroke: str, order: int = 1) -> str:
     return f"{stroke}.{'rate' if order == 1 else 'acceleration'}"
 
 
-@final
 @dataclass(frozen=True)
 class Guard:
     """A node that is above zero where a member can be worked out; a member of "" is all of them."""
@@ -39,7 +38,6 @@ class Guard:
     node: Node
 
 
-@final
 @dataclass(frozen=True)
 class Nearness:
     """How far a member is from a singular pose: the square of a loop's sine, or of a distance over the machine's size, over REGULAR's."""
@@ -50,7 +48,6 @@ class Nearness:
     """What `node` is a lower bound of, where that costs less."""
 
 
-@final
 @dataclass(frozen=True)
 class Loop:
     """A loop that places a step: links that must meet, guides that must cross, a length that must be positive, a direction.
@@ -64,7 +61,6 @@ class Loop:
     terms: tuple[Node, ...]
 
 
-@final
 class Trace(Reading):
     """A reading whose scalars are the nodes of one graph; `kept` caches results of others, by their keys."""
 

@@ -16,7 +16,7 @@ from functools import lru_cache
 from hashlib import sha256
 from pathlib import Path
 from types import CodeType, ModuleType
-from typing import Any, final
+from typing import Any
 
 from ..disk import in_words, read, replacing
 from ..errors import FileError
@@ -59,7 +59,6 @@ def is_trusted(folder: Path) -> bool:
     return False
 
 
-@final
 @dataclass
 class CompiledFile:
     """The text of one program in its file, and its compiled code: beside the file, in folders that `take` is given."""

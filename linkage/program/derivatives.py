@@ -8,14 +8,12 @@ from __future__ import annotations
 
 import heapq
 from collections.abc import Iterator, Mapping, Sequence
-from typing import final
 
 from .elimination import entries, solution
 from .node import Closure, Graph, Node
 from .operations import OPERATIONS
 
 
-@final
 class Tangent:
     """The derivative of nodes along a direction in the inputs.
 
@@ -100,7 +98,6 @@ def gradient(output: Node, by: Sequence[Node]) -> list[Node]:
     return [found.get(each, shares.zero) for each in by]
 
 
-@final
 class Shares:
     """How much each node adds to a result, worked out backwards; only where inputs in question lie behind it.
 

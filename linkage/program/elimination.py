@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from heapq import heapify, heappop, heappush
 from itertools import count
-from typing import final
 
 import numpy as np
 
@@ -66,7 +65,6 @@ def eliminated(matrix: Sequence[Sequence[Node]], right: Sequence[Node]) -> list[
     return SparseSystem([{place: each for place, each in enumerate(row) if not is_zero(each)} for row in matrix], right).unknowns()
 
 
-@final
 class SparseSystem:
     """A linear system as plain operations; entries that are zero by its structure are neither compared nor subtracted.
 

@@ -6,7 +6,6 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from math import frexp
-from typing import final
 
 import numpy as np
 
@@ -94,7 +93,6 @@ EXACT = frozenset(("constant", "input", "negative", "absolute", "sign", "minimum
 """Operations that do not round, or whose arguments are shaken already."""
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class Iterated:
     """Unknowns that come into a program as inputs, found by iteration from the residuals that vanish there."""

@@ -10,7 +10,6 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from math import inf, isnan, log
 from types import MappingProxyType
-from typing import final
 
 import numpy as np
 
@@ -22,7 +21,6 @@ OUTWARDS = 1e-14
 """By what part of its size an end is moved outwards, for rounding."""
 
 
-@final
 @dataclass(frozen=True)
 class Enclosure(Operators["Enclosure | float", "Enclosure"]):
     """An interval: all values between two bounds, these included."""

@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Protocol, TypeAlias, final
+from typing import Protocol, TypeAlias
 
 import numpy as np
 
@@ -30,7 +30,6 @@ from .schedule import Schedule, schedule
 from .text import GUARDED, PYTHON, Dialect, function_text
 
 
-@final
 class PlainFloats:
     """A program as two functions of floats: the design part and the pose part."""
 
@@ -145,7 +144,6 @@ def fixed_backend(backend: str) -> Iterator[None]:
         BACKEND.reset(token)
 
 
-@final
 @dataclass(frozen=True)
 class Result:
     """The result of a kernel: values, shape (outputs, designs, poses), and one number a guard, above zero where it holds at all poses."""
@@ -154,7 +152,6 @@ class Result:
     guards: FloatArray
 
 
-@final
 @dataclass(frozen=True)
 class RunOptions:
     """How a kernel is run: by the back end of a name or a class of one's own, by itself the quickest; and on how many threads."""
@@ -195,7 +192,6 @@ ADDED = Plugins[Callable[[Schedule], Backend]](
 QUICKEST = RunOptions()
 
 
-@final
 class Kernel:
     """Some nodes of a program as a function of designs and poses.
 

@@ -12,7 +12,6 @@ from functools import partial
 from itertools import product
 from string import ascii_lowercase, ascii_uppercase
 from types import MappingProxyType
-from typing import final
 
 from .. import plugins
 from ..checks import instance_of
@@ -32,7 +31,6 @@ def number_text(value: float, infinite: str, nothing: str) -> str:
     return repr(value) if math.isfinite(value) else infinite if value > 0.0 else f"-{infinite}"
 
 
-@final
 @dataclass(frozen=True)
 class ProgramText:
     """A program as lines of one language, for a function to be put around them.
@@ -79,7 +77,6 @@ class Language(ABC):
         return "\n".join(self.function(program)) + "\n"
 
 
-@final
 class C(Language):
     """C99: `void poses(long n, const double *d, const double *const *p, double *const *o)`.
 
@@ -187,7 +184,6 @@ def short_names(taken: Collection[str]) -> Iterator[str]:
                 yield each
 
 
-@final
 @dataclass
 class Expressions:
     """Nodes as JavaScript: nodes with a name are in `named`, others are written where they are read, once; `turning` are angles."""
@@ -262,7 +258,6 @@ CONTINUED = f"const u=[],{PARTS['turns']}=(k,a)=>{{a-=V*Math.round((a-(u[k]??a))
 """Angles continued from pose to pose, NaN passed over; V is a turn."""
 
 
-@final
 @dataclass(frozen=True)
 class Inputs:
     """How inputs are read: the dimensions `d[k]`, all else that is given `p[k]`, by their places there."""
@@ -319,7 +314,6 @@ def function_body(given: Mapping[Node, str], results: Sequence[Node], outer: Col
     return f"{{{writer.statements(nodes)}return[{','.join(map(writer.read, results))}]}}"
 
 
-@final
 class JavaScript:
     """JavaScript as a language of `source`: `function poses(d, p)`, dimensions and strokes in arrays; the outputs in one."""
 

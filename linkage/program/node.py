@@ -11,7 +11,7 @@ from copy import copy
 from enum import IntEnum
 from threading import Lock
 from types import MappingProxyType
-from typing import Any, NoReturn, TypeAlias, final
+from typing import Any, NoReturn, TypeAlias
 
 import numpy as np
 
@@ -22,7 +22,6 @@ from .operations import OPERATIONS
 Operand: TypeAlias = "Node | float"
 
 
-@final
 class Level(IntEnum):
     """The inputs a node depends on."""
 
@@ -31,7 +30,6 @@ class Level(IntEnum):
     POSE = 2
 
 
-@final
 class Node(Operators["Operand", "Node"]):
     """One scalar of the program: a constant, an input, or an operation on nodes.
 
@@ -74,7 +72,6 @@ class Node(Operators["Operand", "Node"]):
         return f"{self.op}({', '.join(f'n{each.number}' for each in self.args)})"
 
 
-@final
 class Closure:
     """Unknowns that close a loop, and the residuals that vanish there.
 
@@ -110,7 +107,6 @@ class Closure:
             root.closure = entered
 
 
-@final
 class Graph:
     """All nodes of a program, each once.
 

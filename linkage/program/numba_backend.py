@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from functools import cached_property
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any, TypeAlias, final
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -63,7 +63,6 @@ def compiled_loop(text: str, name: str, arguments: Callable[[Any], Sequence[Any]
     return compiled_in_file(text, name, make)
 
 
-@final
 class NumbaLoop:
     """A program as a compiled loop; the design part is left to NumPy."""
 

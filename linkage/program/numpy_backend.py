@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cache, cached_property
 from pathlib import Path
 from threading import local
-from typing import TypeAlias, TypeGuard, cast, final
+from typing import TypeAlias, TypeGuard, cast
 
 import numpy as np
 
@@ -26,7 +26,6 @@ SMALLEST, LARGEST = 8192, 16384
 """The poses of a block."""
 
 
-@final
 class NumpyBlocks:
     """A program over a pool of registers, block by block: the longer of designs and poses along the rows."""
 
@@ -176,7 +175,6 @@ def window(value: FloatArray, band: slice, part: slice, shape: tuple[int, ...]) 
 # 40 ns and a float 170 ns.
 
 
-@final
 class Registers:
     """Names for the operands: constants `c`, inputs `i`, outputs `o`, and a reused pool `r`."""
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import final
 
 import numpy as np
 
@@ -113,7 +112,6 @@ def choice_partials(result: Scalar, a: Scalar, b: Scalar) -> tuple[Scalar, Scala
     return result.graph.pick(a, b, 1.0, 0.0), result.graph.pick(a, b, 0.0, 1.0)
 
 
-@final
 @dataclass(frozen=True)
 class OperationRule:
     """One operation: how arrays evaluate it, how it is written, and its partial derivatives.

@@ -7,7 +7,6 @@ from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from heapq import heapify, heappop, heappush
-from typing import final
 
 from .node import Level, Node
 
@@ -24,7 +23,6 @@ def ancestors(nodes: Iterable[Node], known: Container[Node] = ()) -> list[Node]:
     return sorted(found, key=lambda node: node.number)
 
 
-@final
 @dataclass(frozen=True)
 class Schedule:
     """The nodes of a kernel in an order of dependence: computed once per design, then once per pose."""

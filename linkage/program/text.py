@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import final
 
 from .node import Node
 from .operations import OPERATIONS
 from .schedule import Schedule, ancestors
 
 
-@final
 @dataclass(frozen=True)
 class Dialect:
     """How a language writes operations, numbers and assignments."""
@@ -29,7 +27,6 @@ PYTHON = Dialect(TEMPLATES)
 GUARDED = Dialect({**TEMPLATES, "divide": "divide({}, {})", "reciprocal": "reciprocal({})"})
 
 
-@final
 class NodeNames:
     """The names of nodes in a text, by their place in it, so that equal programs have equal texts."""
 

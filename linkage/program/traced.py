@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
-from typing import final
 
 import numpy as np
 from numpy.lib.mixins import NDArrayOperatorsMixin
@@ -36,7 +35,6 @@ def method(ufunc: np.ufunc) -> Callable[..., Scalar]:
     return lambda self, *others: ufunc(self, *others)
 
 
-@final
 @dataclass(eq=False)
 class Notes:
     """Conditions of traced laws: nodes `assumed` above zero, and `switches` above zero where another law holds.
@@ -64,7 +62,6 @@ class Notes:
         self.claims[name] = self.claims.get(name, ()) + tuple(node for node in self.gaps if node not in taken)
 
 
-@final
 class Traced(NDArrayOperatorsMixin):
     """One number of a law at any pose: a node, and the notes of the law. Vectors are arrays of two of them."""
 
@@ -116,7 +113,6 @@ class Traced(NDArrayOperatorsMixin):
     )
 
 
-@final
 class Comparison:
     """A comparison of traced numbers: a node that is 1 where it is true, else -1.
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Hashable
 from dataclasses import field
-from typing import final
 
 import numpy as np
 
@@ -21,7 +20,6 @@ def is_nothing(given: Quantity) -> bool:
     return given.constant == 0.0
 
 
-@final
 @immutable
 class Axes:
     """Axes that stand `at` a place, turned by an `angle` [rad], in the frame or in the axes of the body of two points P and Q.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from math import comb, sqrt
-from typing import Any, Self, TypeAlias, final
+from typing import Any, Self, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -32,7 +32,6 @@ Phases: TypeAlias = tuple[FloatArray, FloatArray, float]
 """Instants (n + 1,) [s], the polynomials between them by powers of the time since each begins (k, n), and the last value."""
 
 
-@final
 @refuses_changes
 class Course:
     """A stroke over time: `Course([0.0, 2.0, 4.0], [0.10, 0.30, 0.10])` gives the value and its exact derivatives at every instant.

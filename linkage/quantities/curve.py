@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import cached_property
 from math import pi
-from typing import Any, final
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -27,7 +27,6 @@ def wrap(angle: Scalar) -> Scalar:
     return np.arctan2(np.sin(angle), np.cos(angle))
 
 
-@final
 @refuses_changes
 class Curve:
     """The cubic spline through the rows of a table: `lift = Curve([0.0, 0.1, 0.2], [0.0, 0.02, 0.05])`.
@@ -201,7 +200,6 @@ def column(what: str, given: npt.ArrayLike, owner: str) -> FloatArray:
     return found
 
 
-@final
 @immutable
 class CurveValue(Quantity):
     """The value, or a derivative, of a curve at a quantity."""

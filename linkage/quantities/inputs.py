@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import ClassVar, final
+from typing import ClassVar
 
 from ..errors import DefinitionError, cited
 from ..frozen import immutable
@@ -49,7 +49,6 @@ class Stroke(Quantity):
         return self.text()
 
 
-@final
 @immutable
 class Variable(Quantity):
     """A design variable that a label or a coordinate made: `OB`, `M.x`."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal, TypeAlias, final
+from typing import Literal, TypeAlias
 
 from ..frozen import immutable, refuses_changes
 from ..vectors import Line, Scalar
@@ -18,7 +18,6 @@ from .quantity import Quantity
 Role: TypeAlias = Literal["body", "runner", "slider", "guide", "own"]
 
 
-@final
 @refuses_changes
 @dataclass(frozen=True)
 class JointSide:
@@ -36,7 +35,6 @@ class JointSide:
 FRAME_SIDE = JointSide()
 
 
-@final
 @refuses_changes
 @dataclass(frozen=True)
 class Driven:
@@ -47,7 +45,6 @@ class Driven:
     sign: float = 1.0
 
 
-@final
 @immutable
 class Joint:
     """A joint at a point, by which the body `by` holds the body `on` in the directions `holds`.

@@ -5,7 +5,6 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Hashable, Mapping
 from dataclasses import field
-from typing import final
 
 import numpy as np
 
@@ -48,7 +47,6 @@ class Output(Quantity):
         return f"{self.function_name}({', '.join(filter(None, words))})"
 
 
-@final
 @immutable
 class Angle(Output):
     """The direction of P -> Q [rad], counter-clockwise from the x axis."""
@@ -75,7 +73,6 @@ class Angle(Output):
         return v.x * scale, v.y * scale
 
 
-@final
 @immutable
 class Distance(Output):
     """The distance of P and Q [m]."""
@@ -89,7 +86,6 @@ class Distance(Output):
         return where.direction(name_of(self.P), name_of(self.Q)).length()
 
 
-@final
 @immutable
 class Coordinate(Output):
     """A point's x or y [m]."""
@@ -111,7 +107,6 @@ class Coordinate(Output):
         return P.x if self.axis == "x" else P.y
 
 
-@final
 @immutable
 class Length(Quantity):
     """The length of a vector [m]: `abs(AO)`."""
@@ -195,7 +190,6 @@ def y(P: Reference) -> Quantity:
     return Coordinate(P, "y")
 
 
-@final
 @immutable
 class AtPose(Quantity):
     """The value of a quantity at one pose of the strokes, the same at all poses; strokes that are not named are at the sketch.
@@ -221,7 +215,6 @@ class AtPose(Quantity):
         return said("{quantity} at {strokes}", quantity=self.of, strokes=as_mapping(self.strokes))
 
 
-@final
 @immutable
 class InnerQuantity(Quantity):
     """A quantity that a member holds by a name of its own, written by the class: `lift.length`."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 import operator
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Hashable, Iterator, Mapping
-from typing import Any, NoReturn, TypeAlias, cast, final
+from typing import Any, NoReturn, TypeAlias, cast
 
 import numpy as np
 
@@ -124,7 +124,6 @@ COMPARED = "What holds over a stroke is said of one number of it: least(q) >= ..
 CHOICE = "choose by np.maximum or np.minimum, or make two classes of it"
 
 
-@final
 @immutable
 class PoseCondition:
     """A comparison that holds at some poses and not at others: `x("T") <= 4`; for `Over(..., only=[...])`.
@@ -349,7 +348,6 @@ class Number(Quantity):
         return repr(self.number)
 
 
-@final
 @immutable
 class Ref(Quantity):
     """A quantity by its name, for one that is not bound yet."""
@@ -401,7 +399,6 @@ def ref(name: str) -> Quantity:
     return Ref(name)
 
 
-@final
 @immutable
 class Sum(Expression):
     """The sum of two quantities; of two angles it is carried as cosine and sine."""
@@ -430,7 +427,6 @@ class Sum(Expression):
         return f"{spelled(self.a, 1, kind)} + {spelled(self.b, 2, kind)}"
 
 
-@final
 @immutable
 class Negative(Expression):
     """A quantity with its sign changed."""
@@ -469,7 +465,6 @@ def signed_terms(given: Quantity, members: Mapping[str, Member], sign: float = 1
             yield sign, given
 
 
-@final
 class Operation(Expression):
     """The product, quotient or power of two quantities."""
 
@@ -486,7 +481,6 @@ class Operation(Expression):
         return f"{spelled(self.a, self.left)} {self.symbol} {spelled(self.b, self.right)}"
 
 
-@final
 class Function(Expression):
     """A function of quantities: `np.sqrt(L1**2 + L2**2)`."""
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
 from math import dist, hypot, inf
-from typing import Any, final
+from typing import Any
 
 from ..errors import ensure, unknown
 from ..surroundings import dxf_entities
@@ -36,7 +36,6 @@ def read_dxf(found: FoundMachine, path: str, layers: Mapping[str, Sequence[str]]
     DrawingReader(found, entities, {role: [each.lower() for each in layers.get(role, (role,))] for role in ROLES}).read()
 
 
-@final
 class DrawingReader:
     """The entities of a drawing by the roles of their layers, on their way into a `FoundMachine`."""
 

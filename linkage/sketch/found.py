@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import combinations, permutations
 from math import cos, dist, hypot, inf, isfinite, pi, remainder, sin
-from typing import Any, TypeAlias, final
+from typing import Any, TypeAlias
 from unicodedata import normalize
 
 from ..errors import FileError, did_you_mean
@@ -32,7 +32,6 @@ SMALL, LARGE = 5e-3, 100.0
 SHOWN_ITEMS = 8
 
 
-@final
 @dataclass
 class FoundPoint:
     """A point of a file in its units, by its own name there."""
@@ -42,7 +41,6 @@ class FoundPoint:
     fixed: bool = False
 
 
-@final
 @dataclass
 class FoundDrive:
     """A drive: a crank about its first key or a cylinder between two; the stroke [units of the file, rad] where the file gives it.
@@ -58,7 +56,6 @@ class FoundDrive:
     """Where it begins, seen from the drawn pose, as `reach` is where it ends."""
 
 
-@final
 @dataclass
 class FoundMachine:
     """Points, links, slides and drives by the keys of a file, and notes on them. `unit` is 1 of the file [m]; None where it has none."""

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from math import atan2, dist, isfinite
-from typing import Any, final
+from typing import Any
 
 from ..checks import is_listed, is_number
 from ..errors import DefinitionError, FileError, cited, ensure, quoted
@@ -20,7 +20,6 @@ from ..units import show
 Place = tuple[float, float]
 
 
-@final
 @dataclass(frozen=True)
 class SketchSlide:
     """A point that slides on a straight line.
@@ -37,7 +36,6 @@ class SketchSlide:
     along: tuple[str, str] | float
 
 
-@final
 @dataclass(frozen=True)
 class SketchDrive:
     """A drive of a sketch, a crank or a cylinder, by a stroke of its own.
@@ -65,7 +63,6 @@ class SketchDrive:
     rod: float | None = None
 
 
-@final
 @dataclass(frozen=True)
 class SketchWeight:
     """The weight of a mass at a point.
@@ -82,7 +79,6 @@ class SketchWeight:
     mass: float
 
 
-@final
 @dataclass(frozen=True)
 class MachineSketch:
     """Pins by coordinates, named links, fixed pins, slides and drives: a machine as one draws it.

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import takewhile
 from math import pi, radians
-from typing import Any, final
+from typing import Any
 from urllib.parse import parse_qs, unquote
 
 import numpy as np
@@ -28,7 +28,6 @@ SHORT = re.compile(r"[\w-]{1,2}\.[\w-]+(?:,[\w-]+)*\.[\w-]+,[\w-]+\.[0-3]{3,4}\.
 """How the text of a short address begins: settings as flags, numbers, whole numbers and units."""
 
 
-@final
 @dataclass(frozen=True)
 class PlusJoint:
     """A joint: a pin, or a slide where it `slides`, on a line at an angle [rad] of the frame or through two joints of a link."""
@@ -46,7 +45,6 @@ class PlusJoint:
     line: tuple[str, str] | None = None
 
 
-@final
 @dataclass(frozen=True)
 class PlusLink:
     """A link by the keys of its joints; a block only holds the pin and the slide of one joint together."""

@@ -6,7 +6,6 @@ import re
 from dataclasses import dataclass
 from math import degrees, radians
 from string import ascii_uppercase
-from typing import final
 
 from ..errors import ensure
 from .found import FoundMachine, ensure_file
@@ -16,7 +15,6 @@ FRAME = ("ground", "gnd", "grnd", "grd")
 KINDS = ("R", "P", "RP", "G")
 
 
-@final
 @dataclass
 class PmksJoint:
     """A line of the text: the key of its point, its kind, links, place [units of the file], angle [rad], and whether it drives."""

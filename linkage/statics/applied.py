@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import TypeAlias, TypeVar, final
+from typing import TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -26,7 +26,6 @@ from .poses import AnyMotion
 Anywhere = TypeVar("Anywhere", bound=AnyMotion)
 
 
-@final
 @dataclass(frozen=True)
 class AppliedLoads:
     """All that acts on a motion in a situation: loads, members with a thrust of their own, friction; forces in the motion's shape.
@@ -50,7 +49,6 @@ class AppliedLoads:
         return {each.point for each in self.loads} | {end for each in self.thrusts for end in each.member.ends}
 
 
-@final
 @dataclass(frozen=True)
 class AppliedElement:
     """A force element that counts: in the gravity of a load case, with the factor of its loads."""
@@ -212,7 +210,6 @@ def elements_of(plan: Plan, loads: Loads) -> list[tuple[str, ForceElement]]:
     return [(name, each if isinstance(each, ForceElement) else LoadsAlone(each)) for name, each in zip(names, given, strict=True)]
 
 
-@final
 class LoadsAlone(ForceElement):
     """A force element made of anything that has loads."""
 

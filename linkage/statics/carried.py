@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from typing import Any, TypeAlias, cast, final
+from typing import Any, TypeAlias, cast
 
 import numpy as np
 
@@ -41,7 +41,6 @@ TRIED = 9
 """At how many poses it is seen whether conditions are affine in the load."""
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class LoadAt:
     """A load at a point that pulls against a direction of length one, beside the machine's own loads of a load case.
@@ -286,7 +285,6 @@ NARROWED, SAME = 60, 1e-13
 """How often a bracket of a load is narrowed at the most, and the share of itself to which it is."""
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class MemberLimit:
     """A member's own condition, pose by pose, in one situation that occurs: a value stays at or above a number, or at or below it."""

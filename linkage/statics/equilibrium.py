@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, reduce
-from typing import final
 
 import numpy as np
 
@@ -23,7 +22,6 @@ from .joints import FRAME, Contact, Structure, Strut, Wrench, follows_points, fo
 from .poses import FlatPoses, cross, over_zero, quarter_turned
 
 
-@final
 @dataclass(frozen=True)
 class UnitWrench:
     """A unit wrench that acts on one body from another: a column of the equations."""
@@ -32,7 +30,6 @@ class UnitWrench:
     wrench: Wrench
 
 
-@final
 @dataclass(frozen=True)
 class LinearForm:
     """A linear form of the unknowns and the frictions, shapes (n, columns), (n, frictions), (n,): row u + friction q + rest."""
@@ -54,7 +51,6 @@ class LinearForm:
         return np.asarray((self.row * u).sum(axis=1) + (self.friction * q).sum(axis=1) + self.rest)
 
 
-@final
 @dataclass(frozen=True)
 class System:
     """The equations of one structure at its poses. `length` is a scale [m], if given.
@@ -327,7 +323,6 @@ def pressing_rows(parts: Sequence[int]) -> tuple[FloatArray, FloatArray, FloatAr
     return first, first + counts - 1, np.where(counts == 2, 1.0, np.sqrt(0.5))[:, None]
 
 
-@final
 @dataclass(frozen=True)
 class PressingForces:
     """The forces that make the frictions: without any (rows, n), and by each friction of one unit (rows, frictions, n).
@@ -422,7 +417,6 @@ def newton(q: FloatArray, coefficient: FloatArray, pressing: list[tuple[FloatArr
 # The joints with friction: which way, at what rate, and the unit wrench of their friction.
 
 
-@final
 @dataclass(frozen=True)
 class JointFriction:
     """A joint with friction: the wrench of a friction of 1 N, its coefficient (n,), its rate by the stroke (n,), >= 0.
@@ -490,7 +484,6 @@ def friction_in(contact: Contact, friction: Friction, speeds: Speeds) -> JointFr
     return JointFriction(UnitWrench(contact, Wrench(place, -t * sign, none[0])), coefficient, np.abs(rate), -sign)
 
 
-@final
 class Speeds:
     """How bodies turn and points slide while strokes move."""
 

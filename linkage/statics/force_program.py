@@ -12,7 +12,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import final
 
 import numpy as np
 
@@ -45,7 +44,6 @@ def forces_at(poses: FlatPoses, applied: AppliedLoads, split: str = "refuse") ->
     return by_equations(poses, applied, split) if found is None else found
 
 
-@final
 @dataclass(frozen=True)
 class ForceProgram:
     """The kernels of all joint forces: of the frictions in contacts, and of everything.

@@ -6,7 +6,7 @@ from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from types import MappingProxyType
-from typing import cast, final
+from typing import cast
 
 import numpy as np
 
@@ -114,7 +114,6 @@ COMPONENTS: Mapping[str, Callable[[Scalar, Scalar], Scalar]] = MappingProxyType(
 """What can be asked of a force, from its parts."""
 
 
-@final
 @dataclass(frozen=True)
 class JointPart:
     """Which part of which joint's force is meant: at a point, on a body from another one, its size or its part along x or y."""

@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial, reduce
 from itertools import permutations, product
-from typing import Any, TypeVar, cast, final
+from typing import Any, TypeVar, cast
 
 import numpy as np
 
@@ -37,7 +37,6 @@ SLOWEST = 1e-9
 """A length that changes by less than this part of its end's way does not follow a stroke."""
 
 
-@final
 @dataclass(frozen=True)
 class PressureLine:
     """Cylinders that share one pressure, one or more, and the stroke that they take over."""
@@ -55,7 +54,6 @@ class PressureLine:
         return self.tie is None and len(self.cylinders) > 1 and any(each.works_both for each in self.cylinders)
 
 
-@final
 @dataclass(frozen=True)
 class Holders:
     """The lines that hold, in the order declared, and those with a closed volume or length, each with the input that changes it."""
@@ -317,7 +315,6 @@ def stroke_followed(plan: Plan, member: TwoPoint) -> str:
 # The levers: what a thrust does on a unit of each stroke that is taken over.
 
 
-@final
 @dataclass(frozen=True)
 class Levers:
     """The work of each line's first cylinder, plus the others of its line, on a unit of each stroke taken: (n, lines, strokes).

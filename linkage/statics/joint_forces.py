@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Unpack, final
+from typing import Unpack
 
 import numpy as np
 
@@ -99,7 +99,6 @@ def agreeing(found: PoseForces, split: str) -> PoseForces:
     return forces_at(poses.without(lost), found.applied, split)
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class PinForces(Shown):
     """All joint forces of a motion in one load case and one direction of motion.
@@ -354,7 +353,6 @@ class PinForces(Shown):
         return "\n".join([self._heading, *lines])
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class GlandForce:
     """The guiding forces of a cylinder's rod in its barrel: from the barrel on the rod, at the gland, the barrel's end.
@@ -372,7 +370,6 @@ class GlandForce:
         return f"{self.point}: lateral {range_text(self.lateral, 'kN')}, moment {range_text(self.moment, 'Nm')}"
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class JointForce:
     """The force of one joint: on the body `on` from the body `by`, shape (2, ...) [N], with a couple (...) [Nm].

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
-from typing import TypeAlias, final
+from typing import TypeAlias
 
 import numpy as np
 
@@ -34,7 +34,6 @@ FRAME = -1
 FRAME_NAME = "frame"
 
 
-@final
 @dataclass(frozen=True)
 class FreeBody:
     """One body that is held in equilibrium. `axis`: two points that turn with it; `slides`: a lone point guided without turning."""
@@ -46,7 +45,6 @@ class FreeBody:
     label: str = ""
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class SlidingPair:
     """A straight member of two bodies, the second of which slides in the first; see `Halves`."""
@@ -66,7 +64,6 @@ class SlidingPair:
         return lambda where: Line(where.at(point), (where.at(B) - where.at(A)) * (1.0 / where.link_length(A, B)))
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class Strut:
     """A straight two-point member P -> Q: a driven length, a cylinder that holds, or a member whose thrust a law gives.
@@ -265,7 +262,6 @@ def refuse_driven(plan: Plan, still: Iterable[tuple[Quantity, str]]) -> None:
 # The joints between bodies.
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class Contact:
     """A joint between two bodies: its force acts on the body `on` from the body `by` (indices, -1 the frame), at a point.
@@ -308,7 +304,6 @@ ORDER = {kind: place for place, kind in enumerate(("guide", "slider", "slot", "d
 """The order in which joints are listed, after the pins; other kinds come last."""
 
 
-@final
 class Structure:
     """Bodies, lone pins and contacts of a plan. An index -1 is the frame; lone pins come after the bodies."""
 
@@ -565,7 +560,6 @@ def follows_points(plan: Plan, quantity: Quantity) -> bool:
 # What a joint transmits at the poses: the columns of the equations of equilibrium.
 
 
-@final
 @dataclass(frozen=True)
 class Wrench:
     """A force [N] at a place [m] with a couple [Nm]: shapes (2, n), (2, n), (n,)."""

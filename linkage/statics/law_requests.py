@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
-from typing import Any, TypeAlias, TypeVar, cast, final
+from typing import Any, TypeAlias, TypeVar, cast
 from weakref import ref
 
 import numpy as np
@@ -37,7 +37,6 @@ Told: TypeAlias = tuple[set[str], set[str], dict[Node, str], dict[Node, str], di
 """What a law has read, gone through, assumed, switched at and left open."""
 
 
-@final
 class TracedMotion(OnePose):
     """One pose that stands for all of them. A number of it is Traced, a vector an array (2,) of such; both pass as arrays of floats.
 
@@ -323,7 +322,6 @@ TracedLaw: TypeAlias = tuple[TracedMotion, Node]
 """A formula on a program: the traced motion that it asked, and its node."""
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class LawInPlan:
     """A formula in a plan: its key, the members that it reads, and those it is differentiated through.
@@ -348,7 +346,6 @@ def law_in_plan(motion: TracedMotion, trace: Callable[[TracedMotion], TracedLaw]
     return LawInPlan(key, frozenset(motion.read), frozenset(motion.through), trace, sentence=sentence)
 
 
-@final
 @dataclass(frozen=True, eq=False, kw_only=True)
 class LawRequest(Request):
     """A formula over a motion's poses as a request: `formula(motion, acting)`, plain arithmetic on a motion; [SI], shape (...).

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Mapping
 from copy import copy
-from typing import Protocol, TypeVar, final
+from typing import Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -22,7 +22,6 @@ Made = TypeVar("Made")
 Own = TypeVar("Own", bound=Member)
 
 
-@final
 class FlatPoses:
     """The poses of a motion that are reached and not singular, flat; forces of the others are NaN.
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 from functools import partial, reduce
 from itertools import pairwise
 from types import MappingProxyType
-from typing import ClassVar, Unpack, cast, final
+from typing import ClassVar, Unpack, cast
 
 import numpy as np
 
@@ -28,7 +28,6 @@ from .poses import AnyMotion, motion_of_whole, plan_of
 from .work import closed_force
 
 
-@final
 class Rope(ForceElement, Tabled, HasVerdicts):
     """A rope, chain or belt over points: `chain = Rope(A, B, C, "D", length=2.4)`.
 

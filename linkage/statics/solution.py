@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import final
 
 import numpy as np
 
@@ -30,7 +29,6 @@ LEAST = 1e-200
 """N or Nm: less than this is no force; numbers next to the smallest there are have few digits."""
 
 
-@final
 @dataclass(frozen=True)
 class PoseForces:
     """All forces of a motion: each contact's force (2, ...) and couple (...), the drives' and the members' thrusts (...).
@@ -111,7 +109,6 @@ def system_with_friction(poses: FlatPoses, applied: AppliedLoads) -> System:
     return System(structure, poses, applied.loads, frictions)
 
 
-@final
 @dataclass(frozen=True)
 class Solution:
     """Joint forces u (n, columns) and frictions q (n, frictions) [N]; `locked` where friction leaves no bounded ones (n,)."""
@@ -164,7 +161,6 @@ def locked_words(found: PoseForces | Solution, direction: str) -> list[str]:
     return [text]
 
 
-@final
 @dataclass(frozen=True)
 class Equilibrium:
     """A system with the equations of its thrusts, and a column for each support that replaces a known drive force.
@@ -349,7 +345,6 @@ STILL = 1e-9
 """m or rad a unit of a stroke: slower than this nothing moves."""
 
 
-@final
 @dataclass(frozen=True)
 class Slip:
     """The slip of two bodies in a direction that their joint holds, beyond its drives, on a unit of a stroke.
@@ -448,7 +443,6 @@ def disagreeing(poses: FlatPoses, miss: FloatArray, limit: FloatArray | float, s
 # the second. Where it is not held every force is refused in these words, whatever method works it out; places are not.
 
 
-@final
 @dataclass(frozen=True)
 class Looseness:
     """The loose bodies while the drives are locked: their names and a sentence; empty where all are held."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from math import pi
-from typing import Any, Protocol, TypeAlias, cast, final, overload, runtime_checkable
+from typing import Any, Protocol, TypeAlias, cast, overload, runtime_checkable
 
 import numpy as np
 
@@ -24,7 +24,6 @@ Place: TypeAlias = tuple[np.intp | int, ...]
 """A pose among those of a motion, or a design among its designs, by its indices."""
 
 
-@final
 @dataclass(frozen=True)
 class PinLoad:
     """The largest force of one joint: its size [N], its direction in the body's own axes [rad], and where it occurs.

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Unpack, final
+from typing import Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -47,7 +47,6 @@ BEYOND = 1e-9
 """A resultant that lies beyond a support by less than this part of their distance lies above it."""
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class Standing:
     """How a vehicle stands on its supports; forces in N, shape (...), by the supports' names.
@@ -220,7 +219,6 @@ def is_rough(support: Support) -> bool:
 # The balance of the frame.
 
 
-@final
 @dataclass(frozen=True, eq=False)
 class Balance:
     """The outer loads of a vehicle without its supports, at the first of them: across the ground [N], about it [Nm], (n,) each.
@@ -456,7 +454,6 @@ def used_over(motion: AnyMotion, acting: Acting) -> FloatArray:
 # What a support under the frame shows and says.
 
 
-@final
 class AxleLoad(Tabled, HasVerdicts):
     """The table and verdicts of a support under the frame: its load, whether it lifts off, whether the vehicle slips."""
 

@@ -12,7 +12,7 @@ from collections.abc import Hashable, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import reduce
 from math import isclose, pi, remainder
-from typing import TypeAlias, final
+from typing import TypeAlias
 
 from ..quantities import Angle, Axes, CurveValue, Distance, Jointed, Length, Member, Reference, Stroke, Variable, name_of, of_kind
 from ..quantities.member import needed_behind, needs
@@ -31,7 +31,6 @@ Terms: TypeAlias = frozenset[tuple[Hashable, float]]
 """Multiples of what is told apart by name."""
 
 
-@final
 @dataclass(frozen=True)
 class Form:
     """A linear sum: multiples of terms with a key each, and a number [SI]."""
@@ -51,7 +50,6 @@ class Form:
         return self.terms == other.terms and isclose(self.number, other.number, rel_tol=SAME)
 
 
-@final
 @dataclass
 class TurningBody:
     """Points that keep their places against each other. `turns` is the part of its directions that moves.
@@ -77,7 +75,6 @@ def with_bodies(members: Mapping[str, Member], lengths: Mapping[frozenset[str], 
     return {name: member.renewed(keeps=found.kept[name]) if isinstance(member, Offset) else member for name, member in members.items()}
 
 
-@final
 class Construction:
     """The bodies, in the order in which the points are placed."""
 

@@ -9,14 +9,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Protocol, final
+from typing import Protocol
 
 from ..errors import ensure
 from ..frozen import immutable, refuses_changes
 from ..quantities import Operand, Quantity, joined_names, quantity, spelled
 
 
-@final
 @immutable
 class Spoken:
     """How the labels of a member of a part are spoken: by the points' names in the part, with the part's name in front."""

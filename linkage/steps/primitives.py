@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from types import MappingProxyType
-from typing import final
 
 import numpy as np
 
@@ -193,7 +192,6 @@ class CosineAngle(Quantity):
         return f"CosineAngle({', '.join(map(spelled, self.triangle))})"
 
 
-@final
 @immutable
 class OffsetLinks:
     """The constraints that an offset point keeps by construction; empty for a mere construction.

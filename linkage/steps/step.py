@@ -8,7 +8,7 @@ from copy import copy
 from dataclasses import dataclass, replace
 from math import pi
 from types import MappingProxyType
-from typing import ClassVar, Self, TypeAlias, final
+from typing import ClassVar, Self, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -22,7 +22,6 @@ from ..vectors import Scalar, Side, Vec
 from .labels import DimensionTable, Slot, Spoken, match, relabelled, written_labels
 
 
-@final
 class Unbound(Number):
     """The place of a dimension that a step has not been given. It takes no name from the classes it stands in."""
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from itertools import product
-from typing import Any, TypeGuard, final
+from typing import Any, TypeGuard
 
 import numpy as np
 
@@ -21,7 +21,6 @@ from .checks import check_mechanism, unit_of
 from .designs import DesignValues, check_once
 
 
-@final
 @immutable
 class Box:
     """Settings to look at: ranges of values, times choices.

@@ -16,7 +16,7 @@ from io import BytesIO
 from pathlib import Path
 from textwrap import dedent
 from types import CellType, FunctionType, MethodType
-from typing import Any, TypeAlias, final
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -33,7 +33,6 @@ Facts: TypeAlias = Mapping[str, object]
 """What makes a study the same, by name, as JSON holds it."""
 
 
-@final
 @dataclass(frozen=True)
 class Checkpoint:
     """A folder of batches: `designs-START-STOP-CHECK.npy`, an array with a field for each result.

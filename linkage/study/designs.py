@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 from hashlib import blake2b
 from math import prod
 from time import perf_counter, thread_time
-from typing import Any, Protocol, TypeAlias, final
+from typing import Any, Protocol, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -24,7 +24,6 @@ LOOKED_AT = 1 << 17
 """Designs that are checked at a time."""
 
 
-@final
 @immutable
 class Designs:
     """Dimensions that vary, by name: one array (m,), of a point two, of which one may be a number; `count` is m.
@@ -157,7 +156,6 @@ class StudyWork(Protocol):
         """Return the results of the designs from start to before stop, of each piece: arrays whose first axis is that of the designs."""
 
 
-@final
 @immutable
 class Task:
     """The work of a survey: `measure` is called for `piece` designs at a time."""
@@ -183,7 +181,6 @@ class Task:
         return done
 
 
-@final
 @immutable
 class Batch:
     """The results of the designs from start to before stop; their wall-clock and processor time [s]; whether from a folder."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import final
 
 import numpy as np
 
@@ -30,7 +29,6 @@ ALTERNATIVES = 6
 """Conditions that are looked at each for itself."""
 
 
-@final
 @dataclass(frozen=True)
 class Relaxation:
     """A condition that has to give way, by how much [SI], and the sentence that says so; `machine` is the design that it gives."""
@@ -119,7 +117,6 @@ def shown(problem: Problem, constraint: Constraint) -> str:
     return in_units(constraint, unit_of_constraint(problem.plan, constraint))
 
 
-@final
 @immutable
 class GivenWay:
     """A design whose conditions give way as little as possible: by how much in parts of their sizes, and their values then."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import final
 
 from ..checks import require_number, require_type
 from ..errors import DefinitionError, cited, known_name
@@ -24,7 +23,6 @@ FACTORS: Mapping[str, str] = MappingProxyType(
 """What a rule's numbers are shares of, in words."""
 
 
-@final
 @refuses_changes
 @dataclass(frozen=True)
 class LoadRule:

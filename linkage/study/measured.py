@@ -8,7 +8,7 @@ from dataclasses import field
 from functools import cached_property
 from itertools import pairwise
 from math import prod
-from typing import Any, TypeAlias, final
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -61,7 +61,6 @@ def measured_title(plan: Plan, quantity: object) -> str:
     return str(quantity) if isinstance(quantity, Measure) else words_of(quantity) if found is None else found.sentence
 
 
-@final
 @immutable
 class StudyPoses:
     """The poses that a study looks at, and quantities of many designs there: `base` is the motion of the machine as it is set.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from typing import TypeVar, final
+from typing import TypeVar
 
 import numpy as np
 
@@ -35,7 +35,6 @@ MEMORY = 1 << 28
 """Bytes of results that are kept at a time: of so many strokes as fit all designs are looked at together."""
 
 
-@final
 @immutable
 class Band:
     """A quantity over the strokes, of machines with tolerances; arrays have the shape (...) of the strokes.
@@ -67,7 +66,6 @@ class Band:
     high: FloatArray
 
 
-@final
 @immutable
 class MonteCarlo:
     """Machines with tolerances: a `Band` of each quantity, and the share of machines that are good.
@@ -264,7 +262,6 @@ def limits_listed(machine: Mechanism, given: object) -> tuple[Constraint, ...]:
 # The designs, block by block, and what is kept of them: of the results themselves nothing.
 
 
-@final
 class MonteCarloRun:
     """The designs of a Monte Carlo: `moments` of each quantity, `lost` and `kept` designs."""
 

@@ -10,7 +10,7 @@ from contextlib import suppress
 from dataclasses import replace
 from itertools import islice
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias, TypedDict, TypeVar, Unpack, final, overload
+from typing import TYPE_CHECKING, Any, TypeAlias, TypedDict, TypeVar, Unpack, overload
 
 import numpy as np
 
@@ -433,7 +433,6 @@ def with_leaf(measure: Measure, leaf: Leaf, other: Leaf) -> Measure:
 # What was found on the way, kept in a folder.
 
 
-@final
 class Journal:
     """The results of the local searches that are done, in a file of lines: the same call goes on from there."""
 
@@ -492,7 +491,6 @@ class Journal:
 # The search.
 
 
-@final
 class DesignSearch:
     """One search under way."""
 

@@ -11,7 +11,7 @@ from itertools import islice, product
 from math import prod
 from operator import itemgetter
 from types import MappingProxyType
-from typing import Any, final
+from typing import Any
 
 import numpy as np
 
@@ -58,7 +58,6 @@ MOST_STEPS, JUDGED, NEAR_KEPT = 1 << 14, 24, 1e-3
 """So many designs on steps are all looked at, so many of the best judged; what misses by no more at few poses may be kept."""
 
 
-@final
 @immutable
 class Kept:
     """A condition of a design: its two sides [SI], the spare (below zero: missing), and whether it is active.
@@ -92,7 +91,6 @@ class Kept:
         return f"{said}, active: {way} gains {100.0 * self.gain:.2g} %"
 
 
-@final
 @immutable
 class AtBound:
     """A variable at an end of its range, and the gain of the objective, as a part, `by` so much farther [SI]."""
@@ -113,7 +111,6 @@ class AtBound:
         return f"{self.variable.name} = {self.variable.show(self.value)} is at its {end} end: {self.change} gains {100.0 * self.gain:.2g} %"
 
 
-@final
 @immutable
 class Optimum(Shown):
     """The best design found, assembled over the whole stroke.
@@ -541,7 +538,6 @@ def on_steps(problem: Problem, found: SearchEnd) -> tuple[Problem, SearchEnd]:
     return best
 
 
-@final
 class StepSearch:
     """Designs on steps, by the numbers of their steps: `seen`, and the `best` of them."""
 
@@ -635,7 +631,6 @@ class StepSearch:
 # Drawing dimensions.
 
 
-@final
 @immutable
 class Rounded(Told):
     """A design on drawing dimensions: the machine, its objective [SI], the cost as a part, and its misses of the conditions."""
@@ -726,7 +721,6 @@ def in_units(constraint: Constraint, units: str) -> str:
     return f"{sides[0]} {constraint.symbol} {sides[1]}"
 
 
-@final
 @immutable
 class EvaluatedDesigns:
     """Designs of one combination of choices: unit coordinates (m, n), the objective (m,) [SI], and the part missing of a condition (m,).
@@ -804,7 +798,6 @@ ROUNDED_TO_NOTHING = 1e-9
 """Of a condition's size: less to spare than this is nothing."""
 
 
-@final
 @dataclass(frozen=True)
 class ResultRow:
     """A number before and after a search [SI], and the worth of more of it: `gain` is a part of the objective, `by` for how much less.

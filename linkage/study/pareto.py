@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from importlib.util import find_spec
-from typing import Any, final
+from typing import Any
 
 import numpy as np
 
@@ -31,7 +31,6 @@ POINTS = 15
 """Designs of a front."""
 
 
-@final
 @immutable
 class FrontPoint:
     """A design of a front: the machine, assembled over the whole stroke, and its objectives [SI]."""
@@ -40,7 +39,6 @@ class FrontPoint:
     values: tuple[float, ...]
 
 
-@final
 @immutable
 class Front(Shown):
     """The designs of which none is better in all objectives, in the order of the first: `front.points[0].machine`.

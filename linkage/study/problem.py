@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import prod
-from typing import Any, TypeAlias, final
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -99,7 +99,6 @@ def ranges_of(machine: Mechanism, over: object) -> dict[str, Range]:
     return found
 
 
-@final
 @dataclass(eq=False)
 class PoseSet:
     """Poses at which some quantities are looked at: the parts of each stroke's range (0 to 1) along the axes, or single poses.
@@ -144,7 +143,6 @@ class PoseSet:
         self.__dict__.pop("parts", None)
 
 
-@final
 @immutable
 class Rows:
     """A leaf at its poses: values (m, n), of one design derivatives (p, n), and of which designs (m,) it is lost: without a value."""
@@ -154,7 +152,6 @@ class Rows:
     lost: Mask
 
 
-@final
 @immutable
 class Evaluated:
     """One design or several looked at: the rows of each leaf, margins (m, r), whether all is reached (m,); of one also derivatives."""
@@ -198,7 +195,6 @@ class LimitReachedError(StudyError):
     """A search has looked at as many designs as it may."""
 
 
-@final
 @dataclass(eq=False)
 class Count:
     """How many designs a search and its parts have looked at, each look at one counted, and how many they may, None for any number."""
@@ -227,7 +223,6 @@ class Count:
             self.limit = kept
 
 
-@final
 class LeafNumbers(dict[Leaf, float]):
     """The leaves' numbers of one design; `lost` are those that have no value at a pose.
 
@@ -246,7 +241,6 @@ class LeafNumbers(dict[Leaf, float]):
             self.lost.add(leaf)
 
 
-@final
 class WatchedValues:
     """Quantities as one function of a motion, (k, ...), that notes which had no value where it is reached, or a divisor that passes zero.
 
@@ -281,7 +275,6 @@ class WatchedValues:
         return found
 
 
-@final
 class Problem:
     """An objective to minimise, under constraints, over the designs in a space."""
 

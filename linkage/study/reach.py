@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from itertools import pairwise
-from typing import TypeAlias, final
+from typing import TypeAlias
 
 import numpy as np
 
@@ -24,7 +24,6 @@ ROUNDS, HALVED, AT_END = 4, 20, 1e-5
 """How often a line is followed on with other strokes at their ends, how often the way to its end is halved, and what counts as an end."""
 
 
-@final
 @immutable
 class Reach:
     """The reach of a point: heights of level lines, ascending, and the parts of each that are reached, (line, left, right) [m]."""
@@ -77,7 +76,6 @@ def simpson(panel: tuple[float, float, float], known: dict[float, Spans]) -> tup
     return tall * (low + 4.0 * mid + high) / 6.0, tall * abs(low - 2.0 * mid + high) / 6.0
 
 
-@final
 class LevelLines:
     """Level lines of a point, and the parts of them that it reaches."""
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from typing import Any, final
+from typing import Any
 
 import numpy as np
 
@@ -28,7 +28,6 @@ DIFFERENCE = 6e-6
 """Of a variable's span: the step of a central difference, where nothing better is to be had."""
 
 
-@final
 @immutable
 class Samples:
     """Quantities at poses: `values` (k, m, n), the `margins` of the loops (r, m, n), and whether a pose is `reached` (m, n).
@@ -45,7 +44,6 @@ class Samples:
     margin_slopes: FloatArray | None = None
 
 
-@final
 @immutable
 class SampleProgram:
     """Requests and derivatives of some of them as one kernel, so that a look at a design is one call.
@@ -92,7 +90,6 @@ class SampleProgram:
         return values, grid.full(kernel(grid.flat, size=grid.size).values) if continued is None else continued
 
 
-@final
 class Sampling:
     """Some quantities of a plan, together, at poses of designs.
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
-from typing import Any, final, overload
+from typing import Any, overload
 
 import numpy as np
 
@@ -35,7 +35,6 @@ TOUCH, USUAL, POLES = 1e-9, (5.0, 95.0), 10.0
 many times that of the usual ones [%]."""
 
 
-@final
 @immutable
 class Settings(Told):
     """All values of a dimension that give a target.
@@ -231,7 +230,6 @@ def no_setting_words(words: Mapping[str, str], own: str, unit: str, at: FloatArr
     )  # fmt: skip
 
 
-@final
 @immutable
 class Solutions(Told):
     """All settings of several dimensions that give the targets, or the nearest one.
@@ -302,7 +300,6 @@ TOLD = 1e-3
 """Of a target's own units: a miss that is smaller is not told."""
 
 
-@final
 @immutable
 class Search:
     """A box of settings of a machine, and the goals: targets, their requests, and their poses.

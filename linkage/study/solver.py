@@ -9,7 +9,7 @@ the way, so that the solver turns back.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import NamedTuple, final
+from typing import NamedTuple
 
 import numpy as np
 
@@ -79,7 +79,6 @@ def graded(measure: Measure, of_leaf: Callable[[Leaf], Graded]) -> Graded:
                 return Graded(value, slope + value * float(np.log(a)) * by_b if by_b.any() else slope)
 
 
-@final
 @immutable
 class Row:
     """One line of the solver's problem: its constraint, None for one that every design keeps, and its scaled numbers.
@@ -94,7 +93,6 @@ class Row:
     is_reach: bool = False
 
 
-@final
 @immutable
 class SearchEnd:
     """The result of a local search: its combination of choices, unit coordinates, the objective, the largest miss.
@@ -127,7 +125,6 @@ class LeastSquares(NamedTuple):
     slopes: Callable[[FloatArray], FloatArray]
 
 
-@final
 class Local:
     """A problem with one combination of choices, as a solver sees it.
 
@@ -662,7 +659,6 @@ class NoProgressError(Exception):
     """A solver gets no further."""
 
 
-@final
 class Watch:
     """A local search's objective, which stops the solver where it has got no further for long, as at an edge of reach."""
 

@@ -8,7 +8,7 @@ from functools import cached_property
 from itertools import product
 from math import prod
 from statistics import median
-from typing import Any, final
+from typing import Any
 
 import numpy as np
 
@@ -40,7 +40,6 @@ APART = 200.0
 """Times the largest length of a machine: a range that ends so far away, and leaves out today's value, was given in another unit."""
 
 
-@final
 @dataclass(frozen=True)
 class Around:
     """So far up and down from a dimension's present value; of a point `round`, so far in any direction."""
@@ -83,7 +82,6 @@ TRIED = 1 << 15
 """Places of the box that are tried at the most for one inside a region."""
 
 
-@final
 @dataclass(frozen=True)
 class Varied:
     """A dimension that varies between two values [SI], in steps where `step` is given; `sign` that of its spelling."""
@@ -120,7 +118,6 @@ class Varied:
         return show(value, self.unit)
 
 
-@final
 @immutable
 class PointRegion:
     """The region of a point. Of a fixed point that varies `places` are its variables, x and y, None for one that does not vary.
@@ -206,7 +203,6 @@ def places_inside(title: str, each: PointRegion, variables: Sequence[Varied], co
     return found
 
 
-@final
 @immutable
 class Space:
     """The variables, and the choices: for each, the dimensions it sets and their rows; and the regions in which points may stand."""

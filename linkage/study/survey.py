@@ -16,7 +16,7 @@ from math import ceil
 from pickle import PicklingError
 from queue import SimpleQueue
 from time import perf_counter
-from typing import Any, Protocol, TypeAlias, final
+from typing import Any, Protocol, TypeAlias
 
 import numpy as np
 
@@ -42,7 +42,6 @@ class Executor(Protocol):
         """Return the future of a call."""
 
 
-@final
 class LocalExecutor:
     """An executor that runs everything at once, in this thread."""
 
@@ -56,7 +55,6 @@ class LocalExecutor:
         return future
 
 
-@final
 class SurveyRun:
     """The progress of a study: the batches done, under way, and left."""
 
@@ -183,7 +181,6 @@ MOST = 1 << 20
 """The numbers that the inputs of a batch are at most: 8 MB."""
 
 
-@final
 class OpenRanges:
     """The designs that are still to be given out: ranges from start to before stop, on the borders of pieces."""
 
@@ -212,7 +209,6 @@ class OpenRanges:
         return False
 
 
-@final
 class BatchSizes:
     """The executor's measured speed: how long a piece takes it, and how many batches keep all of its workers busy."""
 
@@ -281,7 +277,6 @@ def progress_told(progress: bool | Progress, title: str) -> Iterator[Progress]:
 SMALLEST, LARGEST, PARTS = 64, 2048, 64
 
 
-@final
 @immutable
 class Survey(Mapping[str, Array], Shown):
     """The measured values of many designs: `found["travel"]`, shape (m,), for each name that `measure` gave.

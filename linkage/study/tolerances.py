@@ -7,7 +7,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from math import exp, inf, pi, sqrt
 from types import SimpleNamespace
-from typing import Any, TypeAlias, final
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -34,7 +34,6 @@ WITHIN = 0.9973002039367398
 """The share of a normal law within three sigmas."""
 
 
-@final
 @refuses_changes
 @dataclass(frozen=True)
 class Tolerance:
@@ -295,7 +294,6 @@ def spread(
 POSES = 21
 
 
-@final
 @dataclass(frozen=True)
 class Effect:
     """The effect of one dimension on a quantity. `linear_low` and `linear_high` are the changes that the gradient tells.
@@ -337,7 +335,6 @@ class Effect:
         return float(np.fmax.reduce(np.abs([self.low, self.high, self.linear_low, self.linear_high])))
 
 
-@final
 @immutable
 class Tornado:
     """The effect of every tolerance by itself on a quantity at one pose.
@@ -455,7 +452,6 @@ def gradient_at(machine: Mechanism, poses: StudyPoses, quantity: Measured, toler
 # Shares of the variance.
 
 
-@final
 @immutable
 class SobolIndices:
     """The shares of a quantity's variance by dimension; arrays have the shape (...) of the strokes.

@@ -12,7 +12,7 @@ from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property, partial
 from itertools import combinations, product
-from typing import Any, TypeAlias, final
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -58,7 +58,6 @@ FEW, BEYOND = 6, 0.25
 """Steps of Newton from a pose near by, and how far past their ends strokes are followed there, in shares of their ranges."""
 
 
-@final
 @immutable
 class WorkingField:
     """The loads at a point over a grid of places; arrays have the shape (heights, radii).
@@ -279,7 +278,6 @@ GRID, ZOOMS, CLOSER = np.linspace(-1.0, 1.0, 9), 5, 0.3
 """Where the parabolas are looked at, in shares of the room, how often, and how much closer each time."""
 
 
-@final
 @immutable
 class Climb:
     """Poses whose spare strokes go to where most is carried; the first `solved` strokes of each are solved for.
@@ -475,7 +473,6 @@ def load_by_margin(margin: Any, motion: Motion, loads: LoadAt) -> FloatArray:
 # The search.
 
 
-@final
 @immutable
 class LoadsFound:
     """Poses that were found (n), and the load that each limiter leaves there, factors included (limiters, n)."""
@@ -499,7 +496,6 @@ class LoadsFound:
         return order[np.append(place[1:] != place[:-1], True)] if len(order) else order
 
 
-@final
 @immutable
 class FieldSearch:
     """A field to look for: the places, the poses, the loads."""

@@ -6,7 +6,7 @@ import warnings
 from collections.abc import Callable, Mapping
 from itertools import product
 from types import MappingProxyType
-from typing import Any, TypeAlias, final
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -30,7 +30,6 @@ MOST_RANGES = 8
 """Ranges of a zone: its grid has 3 points a side of so many, 6,561."""
 
 
-@final
 @immutable
 class Zone:
     """The band of a quantity over the strokes, over all settings that can be assembled.
@@ -172,7 +171,6 @@ def grid_of(k: int) -> FloatArray:
     return np.array(list(product(np.linspace(0.0, 1.0, SIDE[k]), repeat=k))).reshape(SIDE[k] ** k, k)
 
 
-@final
 class SettingsBox:
     """A function of settings in the unit box, as a search in boxes asks: less the function and the function, of each task and choice."""
 

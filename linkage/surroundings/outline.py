@@ -11,7 +11,7 @@ from dataclasses import replace
 from itertools import islice
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, ClassVar, Self, TypeAlias, final
+from typing import Any, ClassVar, Self, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -213,7 +213,6 @@ class Outline(Member):
         return outline_text("Outline", [f"[{', '.join(map(corner_text, self.points))}]"], self.on, self.options())
 
 
-@final
 class CircleOutline(Outline):
     """A circle [m] about a place, or about a point by its name: `wheel = Outline.circle(at=(0, 0.8), radius=R)`."""
 
@@ -258,7 +257,6 @@ class CircleOutline(Outline):
         return outline_text("Outline.circle", [f"at={place}", f"radius={spelled(self.radius)}"], self.on, options)
 
 
-@final
 class LineOutline(Outline):
     """An open line; `Outline.line` makes it."""
 
@@ -314,7 +312,6 @@ class PlacedFile(Outline):
         return at + ([] if is_nothing(self.angle) else [f"angle={spelled(self.angle, measures='angle')}"])
 
 
-@final
 class DxfOutline(PlacedFile):
     """The lines of a DXF drawing (extra `cad`), as `Outline.dxf` makes it: its origin stands `at` [m], turned by `angle` [rad].
 
@@ -345,7 +342,6 @@ class DxfOutline(PlacedFile):
         return outline_text("Outline.dxf", [repr(self.path), *self._placing(), *scale, *layers], self.on, options)
 
 
-@final
 class ImageOutline(PlacedFile):
     """A picture to lie under the mechanism, as `Outline.image` makes it: its lower left corner stands `at` [m].
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from itertools import combinations
 from math import pi
-from typing import TYPE_CHECKING, Any, TypeAlias, final
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
@@ -72,7 +72,6 @@ def assortment(form: Form) -> tuple[int, ...]:
     return tuple(joints[number] for number in range(2, max(joints) + 1))
 
 
-@final
 @dataclass(frozen=True)
 class PlanarChain(Shown):
     """A kinematic chain: its links are numbered from 1, those with the most joints first; `number` counts those of its link assortment."""
@@ -152,7 +151,6 @@ def is_stephenson(form: Form) -> bool:
     return not form[one] >> other & 1
 
 
-@final
 @dataclass(frozen=True)
 class Inversion(Shown):
     """A chain with one of its links as the `frame`."""
@@ -242,7 +240,6 @@ REGULAR = 0.25
 Places: TypeAlias = dict[str, tuple[float, float]]
 
 
-@final
 @immutable
 class Joints:
     """The joints of an inversion by name, each the pair of its links: O is the crank's on the frame, A the first of its others."""

@@ -8,7 +8,7 @@ curves J. R. McGarva, G. Mullineux, Harmonic representation of closed curves, Ap
 
 from __future__ import annotations
 
-from typing import Self, TypeAlias, final
+from typing import Self, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -31,7 +31,6 @@ SAME_POINT = 1e-9
 """Of a curve's size: points that are nearer to one another are one."""
 
 
-@final
 @immutable
 class ClosedCurves:
     """Closed curves by arc length: `middle` (m,) and `descriptors` (m, 2 h) of k = 1 ... h, -1 ... -h, complex numbers [m].
@@ -102,7 +101,6 @@ def ways(samples: ComplexArray) -> tuple[FloatArray, FloatArray]:
     return speed, np.clip(np.maximum.accumulate(along, axis=1), 0.0, 1.0)
 
 
-@final
 @immutable
 class Laying:
     """How curves (m,) lie best on another one: `factor` * z + `by`, complex [m], each begun at the part `start` of its way.

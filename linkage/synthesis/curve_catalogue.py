@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, final
+from typing import Any
 
 import numpy as np
 
@@ -65,7 +65,6 @@ SAME_PLACE = 1e-9
 WAY = RunOptions("numpy")
 
 
-@final
 @immutable
 class CurveClass:
     """A machine whose first two fixed points stand 1 m apart, with its variables: lengths, further fixed points, angles.
@@ -187,7 +186,6 @@ def curve_kernel(plan: Plan, of: str) -> Kernel:
     return plan.made(("closed curve", of), made)
 
 
-@final
 @dataclass(frozen=True)
 class CurveMeasure:
     """Measures designs: whether each runs its whole turn, and the amplitudes of its curve."""
@@ -239,7 +237,6 @@ def amplitude_names() -> list[str]:
     return [f"c{sign}{k}" for sign in ("+", "-") for k in range(1, HARMONICS + 1)]
 
 
-@final
 @immutable
 class CurveMatch(Shown):
     """A machine of a catalogue, laid onto a curve, and how far its own curve is off.
@@ -262,7 +259,6 @@ class CurveMatch(Shown):
         return said("curve {number}: {distance} off", number=self.number, distance=f"{self.distance:.3g}")
 
 
-@final
 @immutable
 class CurveCatalogue(Shown):
     """Closed curves of a point, of designs that run their whole turn: `catalogue.nearest(points)`.

@@ -10,7 +10,7 @@ from copy import copy
 from dataclasses import dataclass
 from functools import cached_property
 from math import acos, pi
-from typing import Any, TypeAlias, final
+from typing import Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -50,7 +50,6 @@ LEAST_LINK = 1e-9
 # -- how a pin that is driven comes round -----------------------------------------------------------------------
 
 
-@final
 @dataclass(frozen=True)
 class DrivenPiece:
     """The angles of a driven link at which the rest can be assembled: from `start` to `end` [rad]; all of them where it turns `fully`."""
@@ -98,7 +97,6 @@ REGISTERED = Plugins[type[Mechanism]](
 )
 
 
-@final
 @dataclass(frozen=True, eq=False, repr=False)
 class ExactMachine(Told, Shown):
     """A four-bar or slider-crank by exact algebra, judged: driven from the first to the last point, does it stay on one branch?
@@ -157,7 +155,6 @@ def exact_variant(name: str, side: int, members: Mapping[str, Member], dimension
     return class_like(base, {**text, **members}, reduce)(**dimensions)
 
 
-@final
 @dataclass(frozen=True, eq=False, repr=False)
 class ExactSynthesis(Told, Shown):
     """All real machines of a task that exact algebra gives, those that run first by their least transmission angle.
@@ -216,7 +213,6 @@ def exact_synthesis(title: str, found: Sequence[ExactMachine], complex_count: in
 # -- judged ---------------------------------------------------------------------------------------------------
 
 
-@final
 @dataclass(frozen=True)
 class Pivoted:
     """A pin that turns about a fixed one, or runs on a straight line: its places (n,), the `centre`, or NaN and a `direction` [rad]."""
@@ -244,7 +240,6 @@ class Pivoted:
         return float(np.ptp(abs(self.places - self.centre)))
 
 
-@final
 @dataclass(frozen=True)
 class CouplerTask:
     """The task of a machine beside its pins. It has the coupler point's places (n,), and the directions of its body, the driven angles and

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import combinations, product
-from typing import Any, TypeAlias, final
+from typing import Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -144,7 +144,6 @@ def both(one: ComplexArray, other: ComplexArray) -> ComplexArray:
 # -- continuation -------------------------------------------------------------------------------------------------
 
 
-@final
 @dataclass(frozen=True)
 class Paths:
     """A system that changes with time from 0 to 1, on which all solutions are followed together; `patch` (2, 6) norms their coordinates."""

@@ -11,7 +11,6 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations
 from math import pi
-from typing import final
 
 import numpy as np
 import numpy.typing as npt
@@ -124,7 +123,6 @@ def checked_poses(poses: object) -> FloatArray:
     return rows
 
 
-@final
 @dataclass(frozen=True, eq=False, repr=False)
 class GuidingLink(Told, Shown):
     """A link that can guide a body: its circle `point` (2,) in the first pose and its `centre` (2,) [m].
@@ -167,7 +165,6 @@ class GuidingLink(Told, Shown):
         return said("circle point ({x}, {y}) about centre point ({cx}, {cy}), {length} long", x=x, y=y, cx=cx, cy=cy, length=length)
 
 
-@final
 @dataclass(frozen=True, eq=False, repr=False)
 class Burmester(Told, Shown):
     """The links that guide a body through `poses` (n, 3), and the machines of all pairs of them.
@@ -267,7 +264,6 @@ class Burmester(Told, Shown):
 # -- the body and its poses -----------------------------------------------------------------------------------
 
 
-@final
 @immutable
 class PosedBody:
     """A body in its poses (n, 3), as complex numbers: z its places, `turned` its directions from those of the first pose."""
@@ -441,7 +437,6 @@ def exact_link(state: FloatArray, z: ComplexArray, T: ComplexArray) -> tuple[com
     return (w, m) if abs(state).max() < FARTHEST and np.ptp(far) < FIVE * 1e-3 * max(far.max(), 1.0) else None
 
 
-@final
 @immutable
 class CurveLoop:
     """A loop of the curves of four poses: the compatibility linkage driven along its `way`, on one `side` where it turns fully.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import replace
-from typing import Any, final
+from typing import Any
 
 import numpy as np
 
@@ -67,7 +67,6 @@ def goes_one_way(strokes: FloatArray, wide: float) -> bool:
     return bool((steps >= -1e-9 * wide).all() and abs(strokes[-1] - strokes[0]) <= (1.0 + 1e-9) * wide)
 
 
-@final
 @immutable
 class Timing:
     """The strokes of the points: `base` + `moves` @ (low + width * own), own unknowns (w,) from 0 to 1; `turn` that of a crank, else 0.
@@ -139,7 +138,6 @@ def fit_kernels(plan: Plan, requests: Sequence[Request], owners: tuple[str, ...]
     return Kernel(values), Kernel([*values, *shares])
 
 
-@final
 class Fit:
     """A task on the designs of a problem: misses and their derivatives by unit coordinates (m, n), then by the points' own unknowns."""
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 from itertools import combinations
-from typing import final
 
 import numpy as np
 
@@ -39,7 +38,6 @@ APART = 0.05
 """Starts are not nearer to one another than this part of the box's diagonal, while there are others."""
 
 
-@final
 @immutable
 class Likeness:
     """The dimensions that move, turn and scale a whole mechanism and keep the form of its paths.
@@ -160,7 +158,6 @@ def by_owner(fit: Fit, values: FloatArray) -> DesignValues:
     return dict(fit.problem.machine.dimensions) | dict(fit.space.chosen(fit.combination)) | own
 
 
-@final
 @immutable
 class Starts:
     """Where local searches of a fit start: unit coordinates with the points' own unknowns (m, n + w), and the strokes' base (m, n).

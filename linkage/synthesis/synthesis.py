@@ -6,7 +6,7 @@ import csv
 import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, final
+from typing import Any
 
 import numpy as np
 
@@ -56,7 +56,6 @@ CHANGE = 1e-3
 """Of a dimension: a change that shows whether a task depends on it."""
 
 
-@final
 @immutable
 class SynthesisedMachine(Told, Shown):
     """A machine that does a task over its whole stroke.
@@ -102,7 +101,6 @@ class SynthesisedMachine(Told, Shown):
     combination: tuple[int, ...] = field(repr=False)
 
 
-@final
 @immutable
 class Miss:
     """A machine near a task that is no answer: its `error` [SI^2], and `why`, where it is not assembled or misses a condition."""
@@ -115,7 +113,6 @@ class Miss:
         return self.why
 
 
-@final
 @immutable
 class RoundedMachine(Told):
     """A machine on drawing dimensions, its `error` [SI^2], its largest miss [SI], and the cost of rounding in words."""
@@ -126,7 +123,6 @@ class RoundedMachine(Told):
     sentence: str
 
 
-@final
 @dataclass(frozen=True, eq=False, repr=False)
 class Synthesis(Told, Shown):
     """All distinct machines that were found for a task, the best first, each assembled over its whole stroke.

@@ -6,7 +6,7 @@ import os
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
-from typing import Any, final
+from typing import Any
 
 import numpy as np
 
@@ -277,7 +277,6 @@ def check_timed(problem: Problem, timing: Timing, at: FloatArray) -> None:
         raise DefinitionError(f"{problem.plan.title}: {where}; give a stroke within it, or another over={{...}}.")
 
 
-@final
 @immutable
 class Ends:
     """The results of local searches of one combination of choices: designs (m, n + w), bases (m, n), errors, and which are good."""
@@ -289,7 +288,6 @@ class Ends:
     good: Mask
 
 
-@final
 @immutable
 class TaskSearch:
     """A task, and how machines for it are searched."""
@@ -620,7 +618,6 @@ class TaskSearch:
         )  # fmt: skip
 
 
-@final
 class Polishing:
     """Which ends of one combination are searched on from with all conditions: those that miss one or the order, the best first.
 

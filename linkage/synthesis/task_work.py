@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from itertools import groupby
-from typing import Any, ClassVar, Literal, TypeAlias, final
+from typing import Any, ClassVar, Literal, TypeAlias
 
 import numpy as np
 
@@ -111,7 +111,6 @@ class FitWork(ABC):
         return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
 
 
-@final
 @immutable
 class LookWork(FitWork):
     """Which designs are assembled over the whole stroke, and which somewhere."""
@@ -124,7 +123,6 @@ class LookWork(FitWork):
         return {"whole": np.asarray(reached.all(axis=1)), "somewhere": np.asarray(reached.any(axis=1))}
 
 
-@final
 @immutable
 class LayWork(FitWork):
     """Designs laid onto the task, by the likeness of their combination; of which combinations all of them run."""
@@ -140,7 +138,6 @@ class LayWork(FitWork):
         return {"at": at, "base": base, "error": fit.errors(at, base)}
 
 
-@final
 @immutable
 class DescentWork(FitWork):
     """Local searches, all of a piece together, `through` some designs. `most`: designs that each may look at, if any."""
@@ -180,7 +177,6 @@ class DescentWork(FitWork):
         return found
 
 
-@final
 @immutable
 class RaceWork(FitWork):
     """The first steps of local searches, for those that run then; with the `error` where each stands."""
@@ -201,7 +197,6 @@ class RaceWork(FitWork):
         return {"at": np.where(runs[:, None], raced, at), "error": np.where(runs, error, fit.errors(at, base))}
 
 
-@final
 @immutable
 class PolishWork(FitWork):
     """Local searches with all conditions, from where each stands, `at`, or else from `first`; which of them came to an end."""
@@ -226,7 +221,6 @@ class PolishWork(FitWork):
         return {"at": at[None], "ended": np.zeros(1, bool)}
 
 
-@final
 class Stages:
     """The stages of a search: each is given out to an executor, and kept in a folder where there is one."""
 

@@ -8,7 +8,7 @@ from copy import copy
 from dataclasses import dataclass
 from functools import cached_property, reduce
 from itertools import combinations
-from typing import Any, TypeAlias, TypeGuard, final
+from typing import Any, TypeAlias, TypeGuard
 
 import numpy as np
 
@@ -31,7 +31,6 @@ SAME_PLACE = 1e-9
 """Of a task's size: the last point is the first one again where it is so near to it."""
 
 
-@final
 @immutable
 class TaskRows:
     """The values wanted by a task: quantities, their values (r, n) [SI], NaN where none, the weight of each, and which count modulo a turn.
@@ -79,7 +78,6 @@ class TaskRows:
         return np.asarray(found * self.weights[:, None])
 
 
-@final
 @refuses_changes
 @dataclass(frozen=True, eq=False, init=False)
 class PathTask:
@@ -138,7 +136,6 @@ class PathTask:
         return TaskRows((x(of), y(of)), read_only(self.points.T), np.ones(2), np.zeros(2), True, self.closed)
 
 
-@final
 @refuses_changes
 @dataclass(frozen=True, eq=False, init=False)
 class FunctionTask:
@@ -199,7 +196,6 @@ class FunctionTask:
         return TaskRows(quantities, read_only(wanted), 1.0 / self.within, turns, False)
 
 
-@final
 @refuses_changes
 @dataclass(frozen=True, eq=False, init=False)
 class PoseTask:

@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from math import pi
 from types import MappingProxyType
-from typing import Any, NamedTuple, final
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -35,7 +35,6 @@ OPENS = ref("opens") * ratio("length", wrt="psi")
 """What the arm's drive gives while it opens the arm [N m], against M_l2."""
 
 
-@final
 @immutable
 class JudgedSize:
     """One cylinder of a series: bore and rod [m], the best drive with it, or in words why there is none.
@@ -61,7 +60,6 @@ class JudgedSize:
         return self.could < self.asked
 
 
-@final
 @immutable
 class DriveDesign:
     """All cylinders of a series judged for one drive, in the order of the series; `best` has the least objective.
@@ -273,7 +271,6 @@ STEP = 1e-6
 LEAST_TRANSMISSION = 25 * deg
 
 
-@final
 @dataclass(frozen=True)
 class ArmRules:
     """The conditions of an arm drive beside its moments, and the reading of the source's lost signs.

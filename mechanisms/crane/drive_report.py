@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import final
 
 import numpy as np
 
@@ -25,7 +24,6 @@ SHORT = 1e-6
 """Of the greatest moment asked for: what is missing by less is met to rounding."""
 
 
-@final
 @dataclass(frozen=True)
 class Movement:
     """One movement of a drive: its name, the moment it gives and the one asked of it [N m], both of a motion and not negative."""
@@ -83,7 +81,6 @@ def featured_drive(*movements: str) -> Featured:
     return Featured(f"{movements[0]}: over", (), {f"{name}: over": (0.0, said("too weak"), "below") for name in movements})
 
 
-@final
 @dataclass(frozen=True)
 class WorstMovement:
     """The places of a movement's least and greatest surplus of moment [N m], and the greatest required moment."""

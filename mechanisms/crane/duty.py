@@ -10,7 +10,6 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from math import pi
-from typing import final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -39,7 +38,6 @@ LONGEST_REACH = 40.0
 """m; a longer one was given in millimetres."""
 
 
-@final
 @dataclass(frozen=True)
 class Duty:
     """The duty of a forwarder's crane; by default the source's example.
@@ -215,7 +213,6 @@ def clipped(value: Operand, low: Operand | None, high: Operand | None = None) ->
     return found if low is None else Function("maximum", found, quantity(low))
 
 
-@final
 @dataclass(frozen=True)
 class DriveDuty:
     """The lengths, angles and moments that boom drive and arm drive are made for; by default those of the source's examples 2 and 3.
@@ -341,7 +338,6 @@ SIZES_MM = ((63, 36), (70, 40), (80, 45), (90, 50), (100, 56), (110, 63), (125, 
 """Bores and rods of the source's examples."""
 
 
-@final
 @dataclass(frozen=True)
 class DriveCylinders:
     """The cylinders that a drive is chosen from.

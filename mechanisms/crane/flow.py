@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
-from typing import Any, final
+from typing import Any
 
 from linkage import DefinitionError, least, optimise, ref
 from linkage.frozen import immutable
@@ -90,7 +90,6 @@ def design_skeleton(
     return found
 
 
-@final
 @immutable
 class CraneDesign:
     """A crane designed from its duty: the result of each stage, and the whole crane.

@@ -14,7 +14,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import product
 from math import inf
-from typing import Any, ClassVar, TypeAlias, final
+from typing import Any, ClassVar, TypeAlias
 
 import numpy as np
 
@@ -58,7 +58,6 @@ def assumed_moment(D: Quantity, arm: Quantity) -> Quantity:
     return (6000.0 + 40000.0 * D**2) * arm
 
 
-@final
 @refuses_changes
 @dataclass(frozen=True)
 class Duty:
@@ -231,7 +230,6 @@ ROOM = 2.0 * mm
 """How far beyond the OC that the grid shows the optimum is sought."""
 
 
-@final
 @refuses_changes
 @dataclass(frozen=True)
 class Combination:

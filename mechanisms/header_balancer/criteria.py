@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
-from typing import final
 
 import numpy as np
 
@@ -42,7 +41,6 @@ HEADERS: Mapping[int, Mapping[str, float]] = MappingProxyType(
 """Mass and charge pressure as published; the geometry is illustrative, such that criterion 2 gives these pressures."""
 
 
-@final
 @dataclass(frozen=True)
 class Way:
     """How hang-up is looked at.

@@ -2,23 +2,55 @@
 
 import gc
 import sys
+from collections import defaultdict
 from pathlib import Path
 
 import pytest
 from _pytest.doctest import DoctestModule
 from hypothesis import settings
 
+from linkage import mechanism
+from linkage.mobility import check
+
 settings.register_profile("steady", deadline=None, max_examples=25)
 settings.load_profile("steady")
 
 
+WAITING = defaultdict(list)
+"""By test file the plans of the machines that it brought along, whose mobility is checked before the first of its tests."""
+
+
 @pytest.hookimpl(wrapper=True)
 def pytest_collect_file(file_path, parent):
-    """Look for examples in sources of packages that have one: what else is read for them is imported, and each docstring looked through."""
+    """Look for examples in sources of packages that have one, and for tests in files of which some are asked for: other files are not read.
+
+    What is read for examples is imported, and each docstring looked through.
+    """
     found = yield
-    if file_path.is_relative_to(Path(__file__).parent) or ">>>" not in file_path.read_text(encoding="utf-8"):
+    if file_path.suffix != ".py":
+        return found
+    text = file_path.read_text(encoding="utf-8")
+    if "\npytestmark = pytest.mark.slow\n" in text and parent.config.option.markexpr == "not slow":
+        return []
+    if file_path.is_relative_to(Path(__file__).parent) or ">>>" not in text:
         return [each for each in found if not isinstance(each, DoctestModule)]
     return found
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_make_collect_report(collector):
+    """Put off the check of mobility of machines that a test file defines or imports: each process reads all files, and runs some."""
+    mechanism.check = WAITING[collector.path].append
+    try:
+        return (yield)
+    finally:
+        mechanism.check = check
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_runtest_setup(item):
+    for plan in WAITING.pop(item.path, ()):
+        check(plan)
 
 
 @pytest.hookimpl(wrapper=True)

@@ -4,8 +4,9 @@ import pytest
 
 from tests.benchmarks.bench_tolerances import TASKS, timed
 
+pytestmark = pytest.mark.slow
 
-@pytest.mark.slow
+
 @pytest.mark.parametrize("task", TASKS)
 def test_every_task_is_timed(task):
     found, clock, processor = timed(task, 2000, 2, "numpy")

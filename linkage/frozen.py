@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, NoReturn, TypeVar, dataclass_transform
+from typing import Any, NoReturn, TypeVar, cast, dataclass_transform
 
 import numpy as np
 import numpy.typing as npt
@@ -24,6 +24,11 @@ class FrozenDict(dict[Key, Value]):
     def is_of_floats(self) -> bool:
         """Whether all values are plain floats, as the dimensions of one design are."""
         return {float}.issuperset(map(type, self.values()))
+
+    @cached_property
+    def as_floats(self) -> tuple[float, ...]:
+        """All values as floats, in their order."""
+        return tuple(map(float, cast(Iterable[float], self.values())))
 
     def _refuse(self, *given: object, **named: object) -> NoReturn:
         raise DefinitionError("These values are what was worked out or declared, and do not change; take a copy of them, dict(...).")

@@ -49,7 +49,7 @@ def of_a_design(method: Method) -> Method:
 
     @wraps(method)
     def checked(*given: object, **options: object) -> object:
-        if not (given and isinstance(given[0], Mechanism)):
+        if not (given and isinstance(type(given[0]), MechanismType)):
             name = method.__name__
             said = f"{name}(...) is asked of a design, and this is the class, which is the structure; make one first"
             raise DefinitionError(f"{said}, FourBar().{name}(...) for a class FourBar.")

@@ -67,7 +67,7 @@ class BulkProgram:
 
     def is_clear(self, result: Result) -> bool:
         """Return whether no pose of a result has to be looked at closely."""
-        return bool((result.guards > 0.0).all()) and not (self.may_fail and not np.isfinite(result.values).all())
+        return result.is_clear and not (self.may_fail and not np.isfinite(result.values).all())
 
     @cached_property
     def row_count(self) -> int:
@@ -77,7 +77,7 @@ class BulkProgram:
 
 def require_rates(plan: Plan, kernel: Kernel, known: Container[str]) -> None:
     """Raise DefinitionError where a kernel asks how fast strokes move, and nothing says it: inputs that are not `known`."""
-    missing = [node.value for node in kernel.plan.pose_inputs if node.value not in known]
+    missing = [name for name in kernel.plan.input_names[1] if name not in known]
     if missing:
         what = f"{plan.title}: what is asked for follows {', '.join(missing)}, and nothing says how fast the strokes move"
         timed = next((f', over="{name}"' for name, over in plan.of_kind(Over).items() if over.time is not None), "")

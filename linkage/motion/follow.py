@@ -106,9 +106,9 @@ class Route:
         places, t, k = self.places, len(self.places.targets), len(self.places.free)
         kernel = places.program.together
         quick = kernel.floats.quick["pose"]
-        inputs = [places.designs[node.value] for node in kernel.plan.design_inputs]
+        inputs = [places.designs[name] for name in kernel.plan.input_names[0]]
         passed = [] if places.plan.solved else kernel.floats.design_values(inputs)
-        names = [node.value for node in kernel.plan.pose_inputs]
+        names = kernel.plan.input_names[1]
 
         def at(strokes: Sequence[float]) -> tuple[list[float], list[list[float]]] | None:
             if places.plan.solved:

@@ -11,6 +11,7 @@ import numpy as np
 
 from ..checks import require
 from ..errors import DefinitionError, SingularError, UntracedError, ensure, one_word
+from ..frozen import FrozenDict
 from ..plan import Plan, rate_name, require_kinds
 from ..program import LANGUAGES, NO_VALUE, QUICKEST, FloatArray, Kernel, RunOptions
 from ..quantities import numbers_in, real
@@ -26,7 +27,7 @@ from .strokes import at_values, float_array, known_strokes, rate_values
 
 def evaluate(
     plan: Plan,
-    designs: Mapping[str, Any],
+    designs: FrozenDict[str, Any],
     strokes: Mapping[str, Any],
     requests: Sequence[RequestLike],
     out: FloatArray | None,
@@ -157,11 +158,11 @@ FEW = 8192
 
 
 def at_few_poses(
-    plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, Any], requests: Sequence[RequestLike], way: RunOptions,
+    plan: Plan, designs: FrozenDict[str, Any], strokes: Mapping[str, Any], requests: Sequence[RequestLike], way: RunOptions,
     moving: Mapping[str, Any],
 ) -> list[FloatArray] | None:  # fmt: skip
     """Return the same of one design at arrays of strokes, shape (n,), within the declared ranges; None as `at_one_pose` does."""
-    if plan.solved or len(strokes) != len(plan.strokes) or not {*map(type, designs.values())} <= {float}:
+    if plan.solved or len(strokes) != len(plan.strokes) or not designs.is_of_floats:
         return None
     sizes = set()
     for name, stroke in plan.strokes.items():
@@ -169,7 +170,7 @@ def at_few_poses(
         if type(value) is not np.ndarray or value.dtype != np.float64 or value.ndim != 1 or not 0 < value.size <= FEW:
             return None
         low, high = (stroke.start, stroke.end) if stroke.start <= stroke.end else (stroke.end, stroke.start)
-        if not (low <= value.min() and value.max() <= high):  # what is not finite neither
+        if not (low <= value.item(value.argmin()) and value.item(value.argmax()) <= high):  # what is not finite neither
             return None
         sizes.add(value.size)
     sizes |= {each.size if type(each) is np.ndarray and each.ndim == 1 else 0 for each in moving.values() if type(each) is not float}
@@ -211,7 +212,7 @@ class PoseProgram:
         self.bulk, self._plan, self._requests, self._names = BulkProgram.for_requests(plan, requests), plan, requests, names
         require_rates(plan, self.bulk.kernel, names)
         self._tells_nearness = plan.trace.nearness(members_behind(plan, requests)).op != "constant"
-        self._order = [names.index(node.value) for node in self.bulk.kernel.plan.pose_inputs]
+        self._order = [names.index(name) for name in self.bulk.kernel.plan.input_names[1]]
         self._latest: tuple[Mapping[str, Any] | None, Pose | None] = None, None
 
     def design_function(self, designs: Mapping[str, object]) -> Pose | None:
@@ -227,7 +228,7 @@ class PoseProgram:
     def _pose(self, designs: Mapping[str, Any]) -> Pose:
         kernel, order, may_fail, many = self.bulk.kernel, self._order, self.bulk.may_fail, len(self._names)
         floats, count = kernel.floats, len(kernel.plan.outputs)
-        passed = floats.design_values([float(designs[node.value]) for node in kernel.plan.design_inputs])
+        passed = floats.design_values([float(designs[name]) for name in kernel.plan.input_names[0]])
         pose, is_ordered = floats.quick["pose"], order == list(range(many))
 
         def at(strokes: Sequence[float]) -> tuple[float, ...] | None:
@@ -333,7 +334,7 @@ def source_of(
     nodes = plan.made(
         ("source", tuple(each.key for each in bound)), lambda twin: [node for each in bound for node in true_nodes(twin, each)]
     )
-    read = {node.value for node in Kernel(nodes).plan.pose_inputs}
+    read = {*Kernel(nodes).plan.input_names[1]}
     if language == "javascript" and not read.isdisjoint(plan.solved) and read <= {*plan.strokes, *plan.solved}:
         return live_source(plan, bound, name, design)
     for group in plan.groups.values():  # what hangs on pins that are found by iteration, or on a followed angle, has no closed form

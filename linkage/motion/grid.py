@@ -68,17 +68,13 @@ class Grid:
             shape = value.shape
         self.stroke_shape = shape[len(self.design_shape) :] if per_design else shape
         self.shape = (*self.design_shape, *self.stroke_shape)
+        self.size = prod(self.design_shape), prod(self.stroke_shape)  # the number of designs and of poses of each
         self.joins_itself, self.joining = joining is None, joining or joined_by_stroke
         self._angles: dict[Kernel, FloatArray] = {}
         shaped = {name: np.broadcast_to(value, shape) for name, value in rate_inputs.items()}
         self.rate_inputs = FrozenDict({name: read_only(value) for name, value in shaped.items()})
         self._of_poses = FrozenDict({**self.strokes, **self.rate_inputs}) if rate_inputs else self.strokes
         self._is_pose = self._is_plain and not plan.solved and all(value.size == 1 for value in self.strokes.values())
-
-    @cached_property
-    def size(self) -> tuple[int, int]:
-        """The number of designs and of poses of each."""
-        return prod(self.design_shape), prod(self.stroke_shape)
 
     @cached_property
     def flat_strokes(self) -> dict[str, FloatArray]:
@@ -94,13 +90,14 @@ class Grid:
         """The dimensions as a kernel takes them: floats, or arrays (m,)."""
         shape = self.design_shape
         if self._is_plain:
-            return dict(self.designs)
+            return self.designs
         return {name: np.broadcast_to(value, shape).ravel() if varies(value) else float(value) for name, value in self.designs.items()}
 
     @cached_property
     def flat(self) -> dict[str, Any]:
         """The inputs as a kernel takes them: designs (m,), poses (n,) or (m, n)."""
-        return {**self.flat_designs, **self.flat_strokes, **self._flat_of(self.rate_inputs), **self.solved.inputs}
+        poses = self._flat_of(self._of_poses)
+        return {**self.flat_designs, **poses, **self.solved.inputs} if self.plan.solved or not self._is_plain else {**self.designs, **poses}
 
     @cached_property
     def solved(self) -> GroupSolution:
@@ -151,7 +148,7 @@ class Grid:
             values = np.array(row[:count])
             return values.reshape((count, *self.shape)) if self.shape else values, all(guard > 0.0 for guard in row[count:])
         result = kernel(self.flat, size=self.size)
-        return self.full(result.values), bool((result.guards > 0.0).all())
+        return self.full(result.values), result.is_clear
 
     def full(self, values: FloatArray) -> FloatArray:
         """Return a kernel's values in the grid's shape."""
@@ -194,7 +191,7 @@ class MotionLike(Poses, Protocol):
     _kept: dict[Hashable, Any]
 
     @property
-    def designs(self) -> Mapping[str, Numbers]: ...
+    def designs(self) -> FrozenDict[str, Any]: ...
     @property
     def strokes(self) -> Mapping[str, FloatArray]: ...
     @property
@@ -356,7 +353,7 @@ def recalled(motion: MotionLike, what: Hashable, make: Callable[[], Made]) -> Ma
     known: dict[Hashable, Any] = motion.plan.made("recent", lambda _: {})
     strokes = tuple((name, value.shape, blake2b(value.tobytes(), digest_size=16).digest()) for name, value in motion.strokes.items())
     timed = None if motion._instants is None else motion._instants.content_key  # the same strokes passed otherwise have other forces
-    key = what, tuple(motion.designs), tuple(map(float, motion.designs.values())), strokes, timed, motion._grid.per_design
+    key = what, tuple(motion.designs), motion.designs.as_floats, strokes, timed, motion._grid.per_design
     kept = known.get(key)  # another thread may throw it away meanwhile
     if kept is not None:
         return cast(Made, kept)

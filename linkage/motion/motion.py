@@ -125,7 +125,7 @@ class Motion(Shown):
             self._refuse_parted()
 
     @property
-    def designs(self) -> dict[str, Any]:
+    def designs(self) -> FrozenDict[str, Any]:
         """The design variables by name [SI]."""
         return self._grid.designs
 
@@ -237,6 +237,8 @@ class Motion(Shown):
 
         `motion[drive_force() * ratio("tilt")]` is what `driving_force(motion)` and `motion.ratio("tilt")` give, multiplied.
         """
+        if type(name) is str and name in self.plan.moving:
+            return self._place(name)
         if isinstance(name, Request):
             return name.of(self)
         member = self._member(name)

@@ -289,7 +289,11 @@ def identity_of(plan: Plan, request: RequestLike) -> Hashable:
 
 def identities_of(plan: Plan, requests: Sequence[RequestLike]) -> Hashable:
     """Return a key of a list of requests; None where one has none, or holds loads of its own, or it is no list."""
-    found = tuple([identity_of(plan, each) for each in requests]) if type(requests) in (list, tuple) else (None,)
+    if type(requests) not in (list, tuple):
+        return None
+    if {*map(type, requests)} == {str}:
+        return tuple(requests)
+    found = tuple([identity_of(plan, each) for each in requests])
     return None if None in found or holds_given(found) else found
 
 

@@ -355,9 +355,9 @@ def interruptions(motion: MotionLike) -> tuple[Interruption, ...]:
     A stretch where nothing does is kept, of the last designs that were asked for, so that poses in it are not looked at again.
     """
     ((name, values),) = motion.strokes.items()
-    low, high = float(values.min()), float(values.max())
+    low, high = values.item(values.argmin()), values.item(values.argmax())
     clear: dict[tuple[float, ...], tuple[float, float]] = motion.plan.made("clear", lambda _: {})
-    key = tuple(map(float, motion.designs.values()))
+    key = motion.designs.as_floats
     known = clear.get(key)
     if known is not None and known[0] <= low and high <= known[1]:
         return ()

@@ -53,7 +53,7 @@ def at_values(given: Mapping[str, object], plan: Plan, take: Callable[[Any], Flo
         raise DefinitionError(f"{title}: strokes are numbers or arrays of numbers (SI); given {dict(given)!r}.") from None
     for name, array in arrays.items():
         if array.size:
-            ends = (array.item(),) * 2 if array.size == 1 else (float(array.min()), float(array.max()))
+            ends = array.item(array.argmin()), array.item(array.argmax())
             ensure(isfinite(ends[0]) and isfinite(ends[1]), f"{title}: the stroke {name} holds a value that is not finite.")
             check_magnitude(name, ends, plan)
     if len(arrays) == 1:

@@ -46,6 +46,8 @@ class Nearness:
     node: Node
     exact: Node
     """What `node` is a lower bound of, where that costs less."""
+    above: tuple[Node, Node]
+    """Two nodes, the second above zero: `node` exceeds a number where the first exceeds so many times the second."""
 
 
 @dataclass(frozen=True)
@@ -141,14 +143,15 @@ class Trace(Reading):
         if node.level is Level.POSE:
             bound = size if most is None or self.graph.node(most).level is Level.POSE else most  # links that keep their lengths cost less
             inside = np.maximum(radicand, 0.0)
-            self._measure(*(inside / ((scale * scale + each) * REGULAR**2) for each in (bound, size)))
+            less, exact = ((scale * scale + each) * REGULAR**2 for each in (bound, size))
+            self._measure(inside / less, (radicand, less), inside / exact)
         else:
             self.guards.append(Guard(self.owner, node))
         return node
 
     def margin(self, sine: Scalar) -> Scalar:
         if isinstance(sine, Node):
-            self._measure(sine * sine * REGULAR**-2)
+            self._measure(sine * sine * REGULAR**-2, (sine * sine, REGULAR**2))
             if sine.level is Level.POSE:
                 self.loops.append(Loop(self.owner, "guides", (sine,)))
             self.noted[self.owner] = sine
@@ -166,7 +169,8 @@ class Trace(Reading):
         node = self.graph.node(square)
         if node.level is Level.POSE:
             if not self.is_sizing:  # which would ask for the size again
-                self._measure(node / (self.extent * REGULAR**2))
+                size = self.extent * REGULAR**2
+                self._measure(node / size, (node, size))
         else:
             self.guards.append(Guard(self.owner, node))
         return square
@@ -188,9 +192,9 @@ class Trace(Reading):
                 self.loops += [Loop(point, "length", (inside,))] if inside.level is Level.POSE else []
         return curve.value(at, order, self.graph.pick)
 
-    def _measure(self, node: Node, exact: Node | None = None) -> None:
-        found = Nearness(self.owner, node, node if exact is None else exact)
-        self.measures.setdefault(found)
+    def _measure(self, node: Scalar, above: tuple[Scalar, Scalar], exact: Scalar | None = None) -> None:
+        node, first, second = map(self.graph.node, (node, *above))
+        self.measures.setdefault(Nearness(self.owner, node, node if exact is None else self.graph.node(exact), (first, second)))
 
     def stays(self, value: Scalar) -> bool:
         return self.graph.node(value).level is not Level.POSE
@@ -217,8 +221,10 @@ class Trace(Reading):
 
     def watched(self, names: Container[str], near: float = NEAR**2) -> list[Node]:
         """Return the nodes that are above zero where some members can be worked out, far from every singular pose."""
-        nearness = self.nearness(names)
-        return [*self.placeable(names), *([] if nearness.op == "constant" else [nearness - near])]
+        parts = [measure.above for measure in self.measures if measure.member in names or not measure.member]
+        is_single = len(parts) == 1 and near > 0.0  # the bounds of 0 and 1 tell nothing of it
+        first, second = parts[0] if is_single else (self.nearness(names), self.graph.one)
+        return [*self.placeable(names), *([] if first.op == "constant" else [first - near * second])]
 
     def placeable(self, names: Container[str]) -> list[Node]:
         """Return the nodes that are above zero where some members can be worked out, with fixed points near enough to the origin."""

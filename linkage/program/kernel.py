@@ -37,7 +37,6 @@ class PlainFloats:
         self.plan = plan
         self._latest: tuple[bytes, tuple[float, ...]] = b"none", ()
         self._latest_of: tuple[Mapping[str, float], tuple[float, ...]] = {}, ()
-        self._strokes = tuple(node.value for node in plan.pose_inputs)
 
     @cached_property
     def quick(self) -> Mapping[str, Callable[..., tuple[float, ...]]]:
@@ -73,9 +72,9 @@ class PlainFloats:
         """
         known, passed = self._latest_of
         if known is not design:
-            passed = self.design_values([design[node.value] for node in self.plan.design_inputs])
+            passed = self.design_values([design[name] for name in self.plan.input_names[0]])
             self._latest_of = design, passed
-        row = [strokes[name].item() for name in self._strokes]
+        row = [strokes[name].item() for name in self.plan.input_names[1]]
         try:
             return self.quick["pose"](*passed, *row)
         except NO_VALUE:
@@ -151,6 +150,11 @@ class Result:
     values: FloatArray
     guards: FloatArray
 
+    @property
+    def is_clear(self) -> bool:
+        """Whether all guards are above zero at all poses."""
+        return all([guard > 0.0 for guard in self.guards.tolist()])
+
 
 @dataclass(frozen=True)
 class RunOptions:
@@ -160,8 +164,8 @@ class RunOptions:
     threads: int = 1
 
     def __post_init__(self) -> None:
-        is_known = isinstance(self.backend, str) and (self.backend in OWN or self.backend in ADDED)
-        if self.backend is not None and not is_known and ADDED.given(self.backend) is None:
+        is_known = self.backend is None or (isinstance(self.backend, str) and (self.backend in OWN or self.backend in ADDED))
+        if not is_known and ADDED.given(self.backend) is None:
             *others, last = map(quoted, [*OWN, *ADDED])
             raise DefinitionError(f"backend={self.backend!r}: say {', '.join(others)} or {last}, or nothing for the quickest.")
         require_whole("threads", self.threads, "a whole number of at least 1 is expected", least=1)
@@ -270,7 +274,8 @@ class Kernel:
 
 def split_inputs(plan: Schedule, inputs: Mapping[str, Numbers]) -> tuple[list[Numbers], list[Numbers]]:
     """Return the inputs that a schedule reads: of the design, and of the poses."""
-    return [inputs[node.value] for node in plan.design_inputs], [inputs[node.value] for node in plan.pose_inputs]
+    design, poses = plan.input_names
+    return [inputs[name] for name in design], [inputs[name] for name in poses]
 
 
 def sized(design: Sequence[Numbers], poses: Sequence[Numbers]) -> tuple[int, int]:

@@ -124,9 +124,9 @@ class C(Language):
 
 def inputs_text(plan: Schedule, design: Mapping[str, float]) -> str:
     """Return the order of the inputs, and the values of those of a design."""
-    names = [node.value for node in plan.design_inputs]
+    names = plan.input_names[0]
     given = ", ".join(f"{name} = {design[name]!r}" if name in design else name for name in names)
-    moved = ", ".join(node.value for node in plan.pose_inputs)
+    moved = ", ".join(plan.input_names[1])
     return f"d: {given or 'none'}; p: {moved or 'none'}; {len(plan.outputs)} outputs"
 
 

@@ -234,10 +234,10 @@ def block_code(plan: Schedule) -> tuple[str, int, Mapping[str, FloatArray]]:
             lines.append(f"{target}{'' if op == 'solve' else '[...]'} = {op}({given})")
         else:
             lines.append(f"{op}({given}, {'out=' if op in NAMED else ''}{target})")
-        lines += [f"g[{guard}] = least({target}, None)" for guard in watched.pop(node, ())]
+        lines += [f"g[{guard}] = least({target})" for guard in watched.pop(node, ())]
         if node not in last:
             registers.release((node,))
-    lines += [f"g[{guard}] = least({registers.read(node)}, None)" for node, places in watched.items() for guard in places]
+    lines += [f"g[{guard}] = least({registers.read(node)})" for node, places in watched.items() for guard in places]
     copied = [(place, node) for place, node in enumerate(plan.outputs) if registers.names.get(node) != f"o{place}"]
     lines += [f"o{place}[...] = {registers.read(node)}" for place, node in copied]
     sizes = (("c", len(plan.passed)), ("i", len(plan.pose_inputs)), ("r", registers.count), ("o", len(plan.outputs)))

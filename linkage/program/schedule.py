@@ -46,6 +46,11 @@ class Schedule:
         return tuple(node for node in self.inputs if node.level is Level.POSE)
 
     @cached_property
+    def input_names(self) -> tuple[list[str], list[str]]:
+        """The names of the dimensions, and of the strokes and coordinates."""
+        return [node.value for node in self.design_inputs], [node.value for node in self.pose_inputs]
+
+    @cached_property
     def economical(self) -> tuple[Node, ...]:
         """The nodes of a pose in an order in which few values are alive at a time: fewer arrays, which stay in the cache."""
         return tuple(few_alive(self.pose, frozenset(self.outputs)))

@@ -225,7 +225,7 @@ class LoadAt:
     def _run(self, kernel: Kernel, inputs: Mapping[str, Numbers], count: int) -> FloatArray | None:
         """Return the forces of the own loads and of one newton (2, elements, n); None where an assumption fails."""
         found = kernel(inputs, way=way_of(count), size=(1, count))
-        return found.values[:, 0].reshape(2, -1, count) if np.all(found.guards > 0.0) else None
+        return found.values[:, 0].reshape(2, -1, count) if found.is_clear else None
 
     def greatest_loads(self, motion: Motion) -> FloatArray:
         """Return the same at the poses of a motion, shape (elements, n)."""

@@ -160,7 +160,7 @@ def run_at(
     values = result.values.reshape(len(result.values), *motion.shape)
     good = poses.good & ~poses.mask(locked)
     whole = bool(good.all())
-    if not np.all(result.guards > 0.0) or not np.isfinite(values if whole else values[:, good]).all():
+    if not result.is_clear or not np.isfinite(values if whole else values[:, good]).all():
         return None
     if not whole:
         values = np.where(good, values, np.nan)
@@ -210,7 +210,7 @@ def frictions_of_piece(
         result = kernel(filled, size=(shape[0], shape[1]))
         rows = result.values.reshape(len(result.values), -1)
         rows = rows if whole else rows[:, good.ravel()]
-        if not (np.all(result.guards > 0.0) and np.isfinite(rows).all()):
+        if not (result.is_clear and np.isfinite(rows).all()):
             raise UntracedError("What the program takes for granted does not hold at some pose: the equations are solved on arrays.")
         return rows
 

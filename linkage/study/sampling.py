@@ -75,7 +75,7 @@ class SampleProgram:
     def __call__(self, grid: Grid) -> tuple[FloatArray, FloatArray]:
         """Return the requests (rows, ...) over a grid, NaN where they have no value, and the derivatives (shares, ...) of one design."""
         found = self.kernel(grid.flat, size=grid.size)
-        is_told = bool(np.all(found.guards > 0.0)) and not (self.may_fail and not np.isfinite(found.values[: self.rows]).all())
+        is_told = found.is_clear and not (self.may_fail and not np.isfinite(found.values[: self.rows]).all())
         if is_told and self.angles.angles:  # none goes on past half a turn
             angles = grid.full(self.angles.kernel(grid.flat, size=grid.size).values)
             is_told = bool(np.isfinite(angles).all()) and np.array_equal(grid.joining(grid, angles, self.angles.kernel), angles)

@@ -87,7 +87,7 @@ class CurveClass:
         ((stroke, one), *more) = plan.strokes.items()
         if more or abs(abs(one.end - one.start) - TURN) > 1e-9:
             raise DefinitionError(f"{title}: a catalogue is of machines that one crank moves over a turn, {stroke} = Stroke(0, 2 * pi).")
-        used = {str(node.value) for node in curve_kernel(plan, of).plan.design_inputs}
+        used = {*curve_kernel(plan, of).plan.input_names[0]}
         names = [*hold] if isinstance(hold, (tuple, list, set, frozenset)) else [hold]
         held = [plan.table.spellings[each][0] for each in names if isinstance(each, str) and each in plan.table.spellings]
         if len(held) < len(names) or any(entries[each].kind != "angle" for each in held):

@@ -21,7 +21,7 @@ from .evaluation import BulkProgram, Evaluation, keeps_digits, members_behind, o
 from .grid import Grid, varies
 from .live import live_source, true_nodes
 from .motion import Motion
-from .requests import Request, RequestLike, all_bound, as_they_run, identities_of, known_bound
+from .requests import Request, RequestLike, all_bound, as_they_run, holds_given, identities_of, known_bound
 from .strokes import at_values, float_array, known_strokes, rate_values
 
 
@@ -147,7 +147,9 @@ def at_one_pose(
     if identities is None:
         return None
     names = (*plan.strokes, *moving)
-    program = plan.made(("one pose", identities, names), lambda _: PoseProgram(plan, all_bound(plan, requests), names))
+    program = plan.made(
+        ("one pose", identities, names), lambda _: PoseProgram(plan, all_bound(plan, requests), names, not holds_given(identities))
+    )
     pose = program.design_function(designs)
     found = None if pose is None else pose(values)
     return None if found is None else program.bulk.split(np.array(found))
@@ -206,12 +208,16 @@ Pose: TypeAlias = Callable[[Sequence[float]], tuple[float, ...] | None]
 
 
 class PoseProgram:
-    """Some requests in floats. `of_design(designs)` is a function of strokes and rates, in the order of `names`."""
+    """Some requests in floats. `design_function(designs)` is a function of strokes and rates, in the order of `names`.
 
-    def __init__(self, plan: Plan, requests: tuple[Request, ...], names: Sequence[str]) -> None:
-        self.bulk, self._plan, self._requests, self._names = BulkProgram.for_requests(plan, requests), plan, requests, names
+    Near a singular pose it looks at the requests again, unless they are not to be `kept`, and their loads with them.
+    """
+
+    def __init__(self, plan: Plan, requests: tuple[Request, ...], names: Sequence[str], kept: bool = True) -> None:
+        self.bulk, self._plan, self._names = BulkProgram.for_requests(plan, requests), plan, names
+        self._requests = requests if kept else ()
         require_rates(plan, self.bulk.kernel, names)
-        self._tells_nearness = plan.trace.nearness(members_behind(plan, requests)).op != "constant"
+        self._tells_nearness = kept and plan.trace.nearness(members_behind(plan, requests)).op != "constant"
         self._order = [names.index(name) for name in self.bulk.kernel.plan.input_names[1]]
         self._latest: tuple[Mapping[str, Any] | None, Pose | None] = None, None
 

@@ -288,19 +288,19 @@ def identity_of(plan: Plan, request: RequestLike) -> Hashable:
 
 
 def identities_of(plan: Plan, requests: Sequence[RequestLike]) -> Hashable:
-    """Return a key of a list of requests; None where one has none, or holds loads of its own, or it is no list."""
+    """Return a key of a list of requests, as long as loads live that it holds; None where one has none, or it is no list."""
     if type(requests) not in (list, tuple):
         return None
     if {*map(type, requests)} == {str}:
         return tuple(requests)
     found = tuple([identity_of(plan, each) for each in requests])
-    return None if None in found or holds_given(found) else found
+    return None if None in found else found
 
 
 def known_bound(plan: Plan, requests: Sequence[RequestLike]) -> tuple[Request, ...]:
     """Return a list of requests bound to a plan, as they were bound before where they are the same; the errors of `all_bound`."""
     identities = identities_of(plan, requests)
-    if identities is None:
+    if identities is None or holds_given(identities):
         return all_bound(plan, requests)
     return plan.made(("all bound", identities), lambda _: all_bound(plan, requests))
 

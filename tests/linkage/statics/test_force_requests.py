@@ -288,6 +288,14 @@ def test_loads_are_found_by_what_they_are_and_not_traced_again():
     count = len(CALLS)
     again = [lever.evaluate([drive_force(), pin_force("O", "frame")], S=0.9) for _ in range(3)]
     assert len(CALLS) == count and len({tuple(each) for each in (*first, *again)}) == 1
+    for given in ([Counted("B")], Counted("B")):
+        at_once = lever.evaluate([drive_force(loads=given)], S=np.array([0.8, 0.9]))[0]
+        one_by_one = [lever.evaluate([drive_force(loads=given)], S=S)[0] for S in (0.8, 0.9)]
+        count = len(CALLS)
+        assert [lever.evaluate([drive_force(loads=given)], S=S)[0] for S in (0.8, 0.9)] == one_by_one
+        lever.evaluate([drive_force(loads=given)], S=np.array([0.8, 0.9]))
+        assert len(CALLS) == count
+        assert_allclose(one_by_one, at_once, rtol=1e-14)
     given = Weight("B", mass=10.0)
     one, other = (lever.evaluate([drive_force(loads=[load])], S=0.9)[0] for load in (given, Weight("B", mass=20.0)))
     assert_allclose(other, 2.0 * one, rtol=1e-14)
@@ -302,8 +310,8 @@ def test_loads_that_may_change_are_traced_again():
 
 def test_loads_that_were_given_are_not_kept_alive():
     lever, load = Lever(), Weight("B", mass=10.0)
-    for _ in range(2):
-        lever.evaluate([drive_force(loads=[load])], S=0.9)
+    for S in (0.9, 0.9, np.array([0.8, 0.9]), np.array([0.8, 0.9])):
+        lever.evaluate([drive_force(loads=[load])], S=S)
     there = weakref.ref(load)
     del load
     gc.collect()

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..assembly import ambiguous_angle
 from ..errors import DefinitionError, SingularError, SingularWarning, cited, one_word, unknown, unwarned, warn
-from ..frozen import read_only
+from ..frozen import FrozenDict, read_only
 from ..numeric import differences
 from ..plan import ArrayReading, Mask, Part, Plan, failures, negative, rate_name, require_kinds
 from ..program import FloatArray, Kernel

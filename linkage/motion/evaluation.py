@@ -245,8 +245,8 @@ def guard_masks(
 
 def grid_blocks(m: int, n: int, most: int = PIECE) -> Iterator[tuple[slice, slice]]:
     """Yield parts of a grid of at most so many poses."""
-    width = min(n, most)
-    height = max(1, most // max(width, 1))
+    width = max(1, min(n, most))
+    height = max(1, most // width)
     for top in range(0, m, height):
         for left in range(0, n, width):
             yield slice(top, min(top + height, m)), slice(left, min(left + width, n))

@@ -113,7 +113,7 @@ def evaluate_apart(
             found += evaluate_bound(Evaluation(grid, all_bound(grid.plan, [each]), way), None, unreachable)
         except UntracedError:
             found.append(motion[each])
-    rows = [np.reshape(each, (-1, *grid.shape)) for each in found]
+    rows = [each if each.ndim > len(grid.shape) else np.asarray(each)[None] for each in found]
     if out is not None:
         whole = checked_out(grid, sum(map(len, rows)), out)
         np.concatenate(rows, out=whole)

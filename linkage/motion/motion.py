@@ -33,7 +33,7 @@ from .over import Over, over_of
 from .poles import body_points, body_rates, pole_of, whole_body
 from .requests import Request, RequestLike, Value, as_they_run, bound, dimensions_of, natural_size, places_of, slope, stroke_of, switches_of
 from .stroke_search import Interruption
-from .strokes import checked_name, checked_rate, method_of, order_of, rate_values, rates_of
+from .strokes import check_any, checked_name, checked_rate, method_of, order_of, rate_values, rates_of
 
 Made = TypeVar("Made")
 Kind = TypeVar("Kind", bound=Member)
@@ -181,6 +181,7 @@ class Motion(Shown):
         if self._grid.per_design and self._design_shape:
             what = "in this motion each design has strokes of its own, and what is looked for between poses is looked for over the same"
             raise DefinitionError(f"{self.plan.title}: {what} strokes of all designs; take the designs one by one, or give one Over.")
+        check_any(self.strokes, self.plan)
         return over_of(self.strokes, self._grid.per_design)
 
     @property
@@ -743,7 +744,7 @@ class Motion(Shown):
         kernel, touched = plan.made(("switches", what.key, names), lambda plan: switches_of(plan, what, names))
         switches = self._grid.full(kernel(self._grid.flat).values) if touched else ()
         found = self._looked_at(slope(what, names), f"The gradient of {what.sentence}", what, zip(touched, switches, strict=True))
-        rows = found.reshape(-1, *self.shape) * signs.reshape(-1, *(1,) * len(self.shape))
+        rows = found.reshape(len(signs), *self.shape) * signs.reshape(-1, *(1,) * len(self.shape))
         return np.stack(np.split(rows, what.rows), axis=1) if what.rows > 1 else rows
 
     def _requested(self, request: Request) -> FloatArray:

@@ -196,7 +196,7 @@ class HoldingValve(OnLines, HasVerdicts):
 
     @takes_situation
     def load_pressure(self, motion: AnyMotion, loads: Loads = None, **situation: Unpack[ActingKeywords]) -> Array:
-        """Return the pressure of the load alone in the line at rest, shape (...) [Pa gauge]; 0 where it drives the other way.
+        """Return the pressure that acts on the valve at rest, shape (...) [Pa gauge]: the line's, and `ratio` times a tank's in the pilot.
 
         Parameters
         ----------
@@ -213,8 +213,16 @@ class HoldingValve(OnLines, HasVerdicts):
             The pressure [Pa gauge], shape (...).
         """
         acting = situation_of("load_pressure", loads=loads, **situation)
-        thrust, own, _ = self.works(held_in_case(motion, acting), acting.towards(None), False)
-        return np.asarray(np.maximum(thrust / own, 0.0))[()]
+        motion = held_in_case(motion, acting)
+        thrust, own, other = self.works(motion, acting.towards(None), False)
+        piloted = self.pilot_at_rest(motion)
+        return np.asarray(np.maximum((thrust - other * piloted) / own, 0.0) + self.at_designs(motion, "ratio") * piloted)[()]
+
+    def pilot_at_rest(self, motion: AnyMotion) -> Array | float:
+        """Return what a tank or gas keeps in the pilot line [Pa gauge]; 0 where that is on a pump."""
+        members = motion.plan.members
+        _, pilot = self.lines(members)
+        return pilot.line_pressure(motion, None) if pilot.kind_in(members) == "given" else 0.0
 
     def lowered(self, motion: AnyMotion, acting: Acting) -> tuple[Array, Array]:
         """Return the pressures of the line and of its pilot while the load is lowered [Pa gauge].
@@ -349,13 +357,17 @@ class HoldingValve(OnLines, HasVerdicts):
         """
         setting = one_design(self.at_designs(judge.motion, "setting"))
         found = judge.answer(most(valve_request("load_pressure", self.name, Acting())))
-        line, _ = self.lines(judge.plan.members)
+        line, pilot = self.lines(judge.plan.members)
         if not found.value > 0.0:
             text = said("the load presses nowhere on the side of {line}: the valve holds nothing.", line=line.name)
             return Verdict("setting", True, text, answer=found)
         pressure, share = show(found.value, "bar", 4), setting / float(found.value)
         by: dict[str, object] = {"setting": show(setting, "bar", 4), "share": share}
-        by["says"] = said("the load makes up to {pressure} in {line}, {where}", pressure=pressure, line=line.name, where=found.place)
+        says: dict[str, object] = {"pressure": pressure, "line": line.name, "pilot": pilot.name, "where": found.place}
+        if np.any(self.pilot_at_rest(judge.motion)):
+            by["says"] = said("load and the pressure in {pilot} act on the valve as up to {pressure} in {line}, {where}", **says)
+        else:
+            by["says"] = said("the load makes up to {pressure} in {line}, {where}", **says)
         by["advised"] = show(USUAL_SETTING * float(found.value), "bar", 4)
         text = said("{says}; the setting of {setting} is {share:.2f} times that.", **by)
         if found.value >= setting:
@@ -429,7 +441,7 @@ def pilot_pressure(valve: Reference, *, case: Case = None, acting: Acting | None
 
 
 def load_pressure(valve: Reference, *, case: Case = None, acting: Acting | None = None) -> LawRequest:
-    """Return the request for the pressure of the load alone in a HoldingValve's line [Pa gauge]: `valve.load_pressure(motion)`.
+    """Return the request for the pressure that acts on a HoldingValve at rest [Pa gauge]: `valve.load_pressure(motion)`.
 
     Parameters
     ----------

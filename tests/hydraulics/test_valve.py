@@ -43,6 +43,19 @@ def test_the_valve_opens_where_its_line_and_the_pilot_reach_the_setting():
     assert not verdicts(Press, "lowering")  # it goes back over the valve, not by itself
 
 
+def test_a_tank_with_pressure_presses_back_and_opens():
+    """By hand: 12 bar on the annulus press more into the line, and count by the ratio on the valve; the line has one pressure."""
+
+    class Loaded(Press):
+        tank = Tank(12 * bar)
+
+    motion, line = Loaded().sweep(2), (80 * kN + 12 * bar * ANNULUS) / PISTON
+    assert Loaded.valve.load_pressure(motion) == pytest.approx(np.full(2, line + 3 * 12 * bar), rel=1e-12)
+    assert f"holds up to {line / bar:.4g} bar" in str(*verdicts(Loaded, "holding"))
+    (setting,) = verdicts(Loaded, "setting")
+    assert setting.ok is False and "pressure in lowering act on the valve as up to 144 bar in lifting" in setting.sentence
+
+
 def test_where_the_load_opens_the_valve_and_where_the_pump_does_not():
     heavy = LoadCase("heavy", scale={"weight": 1.5})
 

@@ -252,6 +252,7 @@ class LiftLine(Circuit):
 
     def supply(self, motion: Poses) -> Array:
         """Return the highest pressure that lifts [Pa]: the pump's, as far as the relief valve lets it; DefinitionError for none."""
+        self.check_pump(motion.plan)
         pump = self._pressure_set(motion, "pressure")
         return np.minimum(pump, self._pressure_set(motion, "relief")) if self.relieves(motion.plan) else pump
 
@@ -264,9 +265,15 @@ class LiftLine(Circuit):
         what = f"{self.name or type(self).__name__}.{name}"
         return in_pascals(positive(self.number(motion, name), what), what)
 
+    def check_pump(self, plan: Declared) -> None:
+        """Raise DefinitionError unless a pump is on it."""
+        if self.says("mechanical_efficiency", plan.members) is None:
+            raise DefinitionError(f"{self.name}: no pump is on it, and it lifts nothing; name a line that has one, or put a Pump on it.")
+
     def efficiency(self, motion: Poses, kind: str) -> Array:
         """Return the "mechanical" or "hydraulic" efficiency; DefinitionError unless it is above 0 and not above 1."""
         one_word("kind", kind, ("mechanical", "hydraulic"))
+        self.check_pump(motion.plan)
         what = f"{self.name or type(self).__name__}.{kind}_efficiency"
         return efficient(self.number(motion, f"{kind}_efficiency"), what)
 
@@ -482,6 +489,7 @@ class LiftLine(Circuit):
     ) -> Array:  # fmt: skip
         """Return the same, NaN where nothing limits it; by one `limit` alone: the number of a member's condition, else the pump's."""
         require_poses(motion)
+        self.check_pump(motion.plan)
         proper_share(share)
         unit = pull_direction(along)
         unit = direction_at(unit, motion) if isinstance(motion, Motion) and not is_steady(unit) else unit

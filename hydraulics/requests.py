@@ -88,6 +88,8 @@ def circuit_with(plan: Plan, ram: Ram, circuit: Circuits, word: str) -> LiftLine
     if circuit and circuit not in feeding:
         raise DefinitionError(f"{plan.title}: {circuit} does not feed {ram.name}; that is on {', '.join(feeding) or 'none'}.")
     pumped = {name: each for name, each in feeding.items() if each.kind_open(plan.members) == "held"}
+    if word != "pressure" and feeding and not pumped:
+        feeding[circuit or next(iter(feeding))].check_pump(plan)
     feeding = pumped if pumped and not circuit else feeding  # a tank or gas on the other side lifts nothing
     if circuit or len(feeding) == 1:
         return feeding[circuit or next(iter(feeding))]
@@ -284,7 +286,7 @@ def reserve_request(cylinder: str | Ram, acting: Acting, circuit: Circuits = "",
 
     def use(motion: AnyMotion, ram: Ram, acting: Acting) -> Array:
         """Return one over the reserve of the side that drives a cylinder in a direction; below zero where the load drives."""
-        line, size = circuit_with(motion.plan, ram, circuit, "use"), ram.sized(motion, acting.direction)
+        line, size = circuit_with(motion.plan, ram, circuit, "reserve"), ram.sized(motion, acting.direction)
         k_m, thrust = line.efficiency(motion, "mechanical"), line_thrust(ram, line, motion, acting, with_tanks=False)
         drained = by_other_lines(ram, line, motion, None, True)
         sense = 1.0 if acting.direction == "extending" else -1.0
@@ -298,12 +300,15 @@ def reserve_request(cylinder: str | Ram, acting: Acting, circuit: Circuits = "",
         acting = request.situation
         if acting.direction not in cylinder_in(cylinder, plan).driven:
             return in_stages(cylinder, plan, SmoothPiece(request))
-        inverse = replace(circuit_request("use", cylinder, acting, circuit, use), cases_in=partial(moves_in, cylinder))
+        inverse = circuit_request("reserve", cylinder, acting, circuit, use, after=("its inverse",))
+        inverse = replace(inverse, cases_in=partial(moves_in, cylinder))
         judged = reserve_request(cylinder, acting, circuit, is_judged=True)
         return in_stages(cylinder, plan, SmoothPiece(judged, DRIVING.get(acting.direction or "", ""), inverse))
 
     return replace(
-        circuit_request("reserve", cylinder, acting, circuit, over_needed, after=("against the load" if is_judged else None,)),
+        circuit_request(
+            "reserve", cylinder, acting, circuit, over_needed, after=("against the load" if is_judged else None,), measures="number"
+        ),
         directions=directions, pieces_in=pieces, cases_in=partial(moves_in, cylinder),
         unlimited_in=partial(formula_of_cylinder, is_driven, cylinder),
     )  # fmt: skip

@@ -7,10 +7,11 @@ import pytest
 from numpy.testing import assert_allclose
 
 from hydraulics import Cylinder, LiftCircuit, buckling, capacity, pressure, reserve, thrust
-from linkage import DefinitionError, LoadCase, SingularError, bar, drive_force, mm, plot, ratio, y
+from linkage import DefinitionError, LoadCase, SingularError, bar, drive_force, least, mm, plot, ratio, y
 from linkage.errors import UntracedError
 from linkage.motion.requests import Trait
 from linkage.study import settings_for, zone
+from mechanisms.at_work.levelled import LevelledTelehandler
 from mechanisms.header_balancer.machine import HeaderBalancer
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch.machine import ThreePointHitch
@@ -175,6 +176,22 @@ def test_circuits_and_cases_are_named():
         machine.evaluate([thrust("lift", case="full")], S=S)
     with pytest.raises(DefinitionError, match=r"no LiftCircuit has it.*declare one, circuit = LiftCircuit\(lift"):
         Bare().evaluate([reserve("lift")], S=S)
+
+
+def test_what_no_pump_moves_has_no_reserve_by_any_door():
+    """A cylinder on a closed line, and one on a tank: its reserve and capacity are refused alike, its pressure is there."""
+    levelled = LevelledTelehandler()
+    motion, line, master = levelled.sweep(**dict.fromkeys(levelled.strokes, 2)), levelled.outward, "master"
+    point = list(levelled.plan.moving)[-1]
+    doors = [
+        lambda: motion[reserve(master)], lambda: motion[capacity(master, point)], lambda: motion[reserve(master, circuit="outward")],
+        lambda: levelled.answers([least(reserve(master))]), lambda: line.reserve(motion, cylinder=master),
+        lambda: line.largest(motion, cylinder=master), lambda: line.capacity(motion, point), lambda: line.supply(motion),
+    ]  # fmt: skip
+    for door in doors:
+        with pytest.raises(DefinitionError, match="outward: no pump is on it, and it lifts nothing; name a line that has one"):
+            door()
+    assert_allclose(motion[pressure(master, circuit="outward")], line.pressure(motion), rtol=1e-12)
 
 
 @for_all(

@@ -1167,7 +1167,7 @@ def buckling_request(cylinder: str | Ram, acting: Acting, *, below: bool = False
     def pieces(request: LawRequest, plan: Plan) -> tuple[SmoothPiece, ...]:
         return in_stages(cylinder, plan, SmoothPiece(request, below=buckling_request(cylinder, request.situation, below=True)))
 
-    found = cylinder_request("buckling", cylinder, acting, use, after=("below zero" if below else None,))
+    found = cylinder_request("buckling", cylinder, acting, use, after=("below zero" if below else None,), measures="number")
     return replace(found, pieces_in=pieces, directions=directions)
 
 

@@ -586,7 +586,7 @@ KINDS = {
     "length": (1.0, 0.0, 0.0, 0.0), "force": (0.0, 1.0, 0.0, 0.0), "angle": (0.0, 0.0, 1.0, 0.0), "pressure": (-2.0, 1.0, 0.0, 0.0),
     "moment": (1.0, 1.0, 0.0, 0.0), "stiffness": (-1.0, 1.0, 0.0, 0.0), "area": (2.0, 0.0, 0.0, 0.0), "volume": (3.0, 0.0, 0.0, 0.0),
     "angle per length": (-1.0, 0.0, 1.0, 0.0), "speed": (1.0, 0.0, 0.0, -1.0), "acceleration": (1.0, 0.0, 0.0, -2.0),
-    "power": (1.0, 1.0, 0.0, -1.0), "flow": (3.0, 0.0, 0.0, -1.0),
+    "power": (1.0, 1.0, 0.0, -1.0), "flow": (3.0, 0.0, 0.0, -1.0), "number": (0.0, 0.0, 0.0, 0.0),
 }  # fmt: skip
 """The powers of length, of force, of angle and of time in what is measured."""
 SHOWN = {
@@ -631,7 +631,7 @@ def measure_of(plan: Plan, quantity: object) -> str:
     known = stands_for(plan.members, quantity)
     found = known.measured(plan) if isinstance(known, Request) else known.measures if isinstance(known, Quantity) else ""
     if found:
-        return "" if found == "moment" else str(found)
+        return "" if found in ("moment", "number") else str(found)
     sign, every = operation(known)
     parts = [each for each in every if constant_part(each) is None]
     scaled = isinstance(known, Combined) and len(parts) == 1 and (sign == "multiply" or (sign == "divide" and parts[0] is every[0]))
@@ -754,14 +754,19 @@ def check_kinds(plan: Plan, measures: Iterable[Measure], constraints: Iterable[C
     for each in measures:
         kind_of_measure(plan, each)
     for constraint in constraints:
-        common_kind(plan, str(constraint), *(kind_of_measure(plan, side) for side in (constraint.left, constraint.right)))
+        kinds = [kind_of_measure(plan, side) for side in (constraint.left, constraint.right)]
+        common_kind(plan, str(constraint), *kinds)
+        for side, kind in zip((constraint.right, constraint.left), kinds, strict=True):
+            if isinstance(side, Given) and side.measures not in ("", "angle") and kind == kind_called("number"):
+                what = f"a plain number does not compare with {article(side.measures)} {side.measures}"
+                raise DefinitionError(f"{plan.title}: {constraint}: {what}; write the limit without a unit.")
 
 
 def check_condition(plan: Plan, condition: PoseCondition) -> None:
     """Raise DefinitionError where a condition on poses compares a quantity with an amount of another kind: `y("G") <= 20 * deg`."""
     for side, other in ((condition.left, condition.right), (condition.right, condition.left)):
         kind = kind_of_quantity(plan, side) if isinstance(other, Amount) else None
-        if kind is not None and kind.is_sure and kind.name:
+        if kind is not None and kind.is_sure and kind.name and (kind.name, getattr(other, "measures", "")) != ("number", "angle"):
             require_measure(other, kind.name, f"{plan.title}: {condition}: {words_of(side)}")
 
 

@@ -62,7 +62,7 @@ def plot_machine(
         own = {column.name: column for column in results(machine, motion, run.case)}
         shown = columns or columns_about(machine, [*own.values()])
         if is_listed(shown):
-            shown = [own.get(each, each) if isinstance(each, str) else each for each in shown]
+            shown = [own[known_name("Column", each, own, where=machine.plan.title)] if isinstance(each, str) else each for each in shown]
             if len(runs) > 1 and any(isinstance(each, Column) for each in columns):
                 raise DefinitionError(f"{machine.plan.title}: a Column has values of one motion, and it runs {len(runs)} ways; name it.")
             shown = [request_in_case(each, run.case) for each in shown]

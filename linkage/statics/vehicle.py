@@ -411,7 +411,9 @@ def slipping(*, case: Case = None, acting: Acting | None = None) -> LawRequest:
     """
     given = situation_of("slipping", acting, case=case)
     text = partial(request_text, "slipping", ())
-    return LawRequest(formula=used_over, text=text, known=("slipping",), acting=given, directions=AT_REST_ALONE, examine=rough_in)
+    return LawRequest(
+        formula=used_over, text=text, known=("slipping",), acting=given, measures="number", directions=AT_REST_ALONE, examine=rough_in
+    )
 
 
 def support_in(name: str, plan: Plan) -> None:

@@ -33,6 +33,7 @@ from linkage import (
     most,
     pin_force,
     pin_forces,
+    ratio,
     reachable,
     ref,
     worst,
@@ -453,10 +454,17 @@ def test_what_is_reached_is_told_in_words():
 
 
 @pytest.mark.parametrize(
-    "question", [least(y("C")) >= 3 * deg, most(reserve("lift")) * 0.0 + most(pin_force("O")) <= 1 * mm, least(angle("O", "C") + y("C"))]
+    "question",
+    [
+        *(most(reserve("lift")) <= limit for limit in (2 * bar, 3 * mm, 1 * kN)),
+        *(most(each) <= 3 * mm for each in (ratio(y("C"), wrt="S"), y("C") / y("B"))),
+        least(y("C")) >= 3 * deg,
+        most(reserve("lift")) * 0.0 + most(pin_force("O")) <= 1 * mm,
+        least(angle("O", "C") + y("C")),
+    ],
 )
 def test_what_neither_adds_nor_compares_is_refused(question):
-    with pytest.raises(DefinitionError, match="neither add nor compare"):
+    with pytest.raises(DefinitionError, match=r"neither add nor compare|a plain number does not compare with a"):
         Loader().answers([question])
 
 

@@ -14,7 +14,6 @@ from importlib.metadata import EntryPoint, PackageNotFoundError, version
 from typing import Any, NoReturn, TextIO, cast
 
 from .. import plugins
-from ..checks import is_class_of
 from ..disk import check_place, reason, spoken
 from ..errors import DefinitionError, FileError, LinkageError, SingularWarning, unknown
 from ..language import ENGLISH, language, languages
@@ -56,15 +55,11 @@ def commands_for(arguments: Sequence[str]) -> list[Command]:
 
 
 def load_command(entry: EntryPoint) -> Command:
-    """Return a command; DefinitionError where it cannot be loaded or is none. A subclass, as there were, is taken with a warning."""
+    """Return a command; DefinitionError where it cannot be loaded or is none."""
     title = f"The command {entry.name} ({entry.value})"
     found = plugins.guarded(entry.load, title)
-    if is_class_of(found, Command):
-        what = f"{title} is a subclass; write a function under @Command(name, help, *options)."
-        warnings.warn(what, FutureWarning, stacklevel=2)
-        found = found.__new__(found)
     if not isinstance(found, Command):
-        raise DefinitionError(f"{title} is no linkage.cli.Command.")
+        raise DefinitionError(f"{title} is no linkage.cli.Command; write a function under @Command(name, help, *options).")
     return found
 
 

@@ -22,13 +22,11 @@ from ..language import heading_of, said
 from ..loads import Acting
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, Over, columns_of, geometry_verdicts, judged_poses, limits_over
-from ..reports import Run, dagger_words, force_columns, is_loaded, rich_tables, run_words, text_table, write_csv
+from ..reports import Run, dagger_words, force_columns, is_loaded, run_words, text_table, write_csv
 from ..statics import PinForces, max_table, pin_forces, table_text
 from . import settings
 from .command import COLUMNS, CSV, EVERY, Command, machine_options, option, pose_options, progress_bar, repeatable
 from .settings import CHECK, FORCES, OVER
-
-RICH_ROWS = 500  # a longer table is printed plain, which takes no time
 
 
 @Command(
@@ -109,7 +107,7 @@ def write_tables(tables: Sequence[Table], file: str | None) -> None:
                 print()
             if heading:
                 print(f"{heading}\n")
-            print_table(columns, row_count(columns), outside)
+            print_table(columns, outside)
         if any(any(outside) for _, _, outside in tables):
             print(f"\n{dagger_words()}")
         return
@@ -132,7 +130,7 @@ def row_count(columns: Sequence[Column]) -> int:
 def write_table(columns: Sequence[Column], rows: int, file: str | None, labels: Sequence[str] = ()) -> None:
     """Print a table, or write it as CSV where a file is named, "-" being stdout; `labels` are the first field of each row there."""
     if file is None:
-        print_table(columns, rows)
+        print_table(columns)
         return
     if isinstance(sys.stdout, io.TextIOWrapper) and file == "-":
         sys.stdout.reconfigure(newline="")  # CR LF stays CR LF where the system would turn LF into that itself
@@ -142,17 +140,10 @@ def write_table(columns: Sequence[Column], rows: int, file: str | None, labels: 
         print(f"{file}: {rows} rows")
 
 
-def print_table(columns: Sequence[Column], rows: int, outside: Sequence[bool] = ()) -> None:
-    """Print a table: in blocks as wide as a terminal there, else whole and plain."""
+def print_table(columns: Sequence[Column], outside: Sequence[bool] = ()) -> None:
+    """Print a table: in blocks as wide as a terminal there, else whole."""
     width = get_terminal_size().columns if sys.stdout.isatty() else None
-    if width is None or rows > RICH_ROWS:
-        print(*text_table(columns, width, outside), sep="\n")
-        return
-    from rich.console import Console
-
-    console = Console(width=width)
-    for table in rich_tables(columns, width, outside):
-        console.print(table)
+    print(*text_table(columns, width, outside), sep="\n")
 
 
 def write_columns(columns: Sequence[Column], path: Path, labels: Sequence[str] = ()) -> None:

@@ -268,7 +268,7 @@ def column_grids(subject: ReportSubject, caption: str, columns: Sequence[Column]
     if len({*columns[0].shown.ravel().tolist()}) < len(ends):
         columns = [Column(said("No."), np.arange(1.0, len(ends) + 1.0), "", 0), *columns]
     texts = [cell_texts(subject, column, values) for column, values in zip(columns, flat(columns), strict=True)]
-    for number, block in enumerate(column_blocks(columns, texts, LETTERS, 2)):
+    for number, block in enumerate(column_blocks(columns, texts, LETTERS)):
         last = [f"{text}{end}" for text, end in zip(texts[block[-1]], ends, strict=True)]
         rows = tuple(zip(*(texts[place] for place in block[:-1]), last, strict=True))
         title = caption if not number else said("{caption}, continued", caption=caption)

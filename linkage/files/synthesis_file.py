@@ -30,7 +30,7 @@ from ..motion.measures import Condition, Measure, measure_of, words_of
 from ..program import FloatArray
 from ..quantities import is_number
 from ..study.optimise import METHODS as SEARCH_METHODS
-from ..study.optimise import SOLVERS, optimise
+from ..study.optimise import optimise
 from ..study.optimum import COARSEST
 from ..study.problem import is_still, ranges_of
 from ..study.space import point_regions, size_of_machine
@@ -187,7 +187,6 @@ SEARCH: Mapping[str, Read] = {
     "robust": study_file.tolerances_said("robust"),
     "sigmas": lambda head, given: amount_said(given, ""),
     "method": study_file.one_of(SEARCH_METHODS),
-    "solver": study_file.one_of(SOLVERS),
     "starts": study_file.count_from(1),
     "seed": study_file.count_from(0),
     "limit": study_file.count_from(1),

@@ -19,7 +19,7 @@ from .runs import (
     runs_of,
     stroke_middles,
 )
-from .table import dagger_words, rich_tables, text_table, write_csv
+from .table import dagger_words, text_table, write_csv
 from .values import design_rows, dimension_unit, stroke_rows
 
-__all__ = ["results", "rich_tables", "text_table", "write_csv"]
+__all__ = ["results", "text_table", "write_csv"]

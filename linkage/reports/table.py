@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Callable, Iterator, Sequence
-from typing import TYPE_CHECKING, TextIO
+from typing import TextIO
 
 import numpy as np
 
@@ -14,10 +14,6 @@ from ..language import said
 from ..motion import Column
 from ..program import FloatArray
 from ..quantities import is_whole
-
-if TYPE_CHECKING:
-    from rich.table import Table
-
 
 GAP = "  "
 NO_VALUE = "-"  # stands for NaN: not reached, or not limited
@@ -46,12 +42,12 @@ def checked_width(width: int | None) -> int | None:
     return width
 
 
-def column_blocks(columns: Sequence[Column], texts: Sequence[Sequence[str]], width: int | None, edge: int) -> Iterator[list[int]]:
+def column_blocks(columns: Sequence[Column], texts: Sequence[Sequence[str]], width: int | None) -> Iterator[list[int]]:
     """Yield the indices of the columns that stand beside each other in `width` characters; the first leads every block.
 
-    `edge` is the space that a column takes beside its own text. Without a width all stand beside each other.
+    Without a width all stand beside each other.
     """
-    sizes = [edge + max(map(len, (column.heading, *text))) for column, text in zip(columns, texts, strict=True)]
+    sizes = [len(GAP) + max(map(len, (column.heading, *text))) for column, text in zip(columns, texts, strict=True)]
     block = [0]
     for index in range(1, len(columns)):
         if width is not None and len(block) > 1 and sum(sizes[each] for each in (*block, index)) > width:
@@ -80,7 +76,8 @@ def text_table(columns: Sequence[Column], width: int | None = None, outside: Seq
     """
     ends = ["", *dagger_ends(outside)]
     texts = [column_texts(column, values) for column, values in zip(columns, flat(columns), strict=True)]
-    for number, block in enumerate(column_blocks(columns, texts, checked_width(width), len(GAP))):
+    room = checked_width(width)
+    for number, block in enumerate(column_blocks(columns, texts, None if room is None else room - len(DAGGER) * any(outside))):
         if number:
             yield ""
         listed = [(columns[index].heading, *texts[index]) for index in block]
@@ -102,45 +99,6 @@ def dagger_ends(outside: Sequence[bool]) -> list[str]:
 def dagger_words() -> str:
     """Return the explanation of a table's daggers, below it."""
     return said("† This pose is not among those that are judged.")
-
-
-# Results as tables for a terminal.
-
-PADDING = 3  # characters that rich puts between the texts of two columns
-
-
-def rich_tables(columns: Sequence[Column], width: int | None = None, outside: Sequence[bool] = ()) -> Iterator[Table]:
-    """Yield tables for rich's console; more than one where all columns do not fit.
-
-    Parameters
-    ----------
-    columns : sequence of Column
-        The columns.
-    width : int, optional
-        The width [characters].
-    outside : sequence of bool, optional
-        Which rows are outside of what is judged; they end with a dagger.
-
-    Yields
-    ------
-    Table
-        A table.
-    """
-    from rich.box import SIMPLE_HEAD
-    from rich.table import Table
-
-    texts = [column_texts(column, values) for column, values in zip(columns, flat(columns), strict=True)]
-    ends = dagger_ends(outside) if any(outside) else []
-    room = checked_width(width)
-    for block in column_blocks(columns, texts, None if room is None else room + 1, PADDING):
-        table = Table(box=SIMPLE_HEAD, header_style="bold", show_edge=False)
-        for index in block:
-            table.add_column(columns[index].heading, justify="right", no_wrap=True)
-        if ends:
-            table.add_column("")
-        for place, row in enumerate(zip(*(texts[index] for index in block), strict=True)):
-            table.add_row(*row, *(each.strip() for each in ends[place : place + 1]))
-        yield table
 
 
 # Results as CSV (RFC 4180).

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import warnings
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
@@ -55,8 +54,6 @@ if TYPE_CHECKING:
     from .pareto import Front
 
 METHODS = ("auto", "local", "multistart")
-SOLVERS = ("slsqp", "trust-constr")
-"""What `solver=` takes for one more release: the second is gone, and SLSQP searches in its place."""
 SCREENED = 256
 """Designs looked at for each combination before the local searches begin; fewer each where there are many combinations."""
 SCREENED_IN_ALL = 1 << 14
@@ -89,7 +86,6 @@ class SearchKeywords(TypedDict, total=False):
     robust: Mapping[str, object] | None
     sigmas: float
     method: str
-    solver: str | None
     starts: int | None
     seed: int
     limit: int | None
@@ -123,7 +119,6 @@ def optimise(
     robust: Mapping[str, Any] | None = None,
     sigmas: float = 3.0,
     method: str = "auto",
-    solver: str | None = None,
     starts: int | None = None,
     seed: int = 0,
     limit: int | None = None,
@@ -187,8 +182,6 @@ def optimise(
         The number of standard deviations.
     method : str
         "auto" or "local".
-    solver : str, optional
-        No longer used.
     starts : int, optional
         The number of local searches.
     seed : int
@@ -216,11 +209,7 @@ def optimise(
     """
     check_one_design(machine)
     title = machine.plan.title
-    ensure(method != "evolution", f"{title}: method='evolution' is no more: leave it out, and give more starts= where they are too few.")
     one_word("method", method, METHODS)
-    if solver is not None and one_word("solver", solver, SOLVERS) != "slsqp":
-        text = f'{title}: solver="{solver}" is gone and will be refused: SLSQP searches in its place. Leave solver= out.'
-        warnings.warn(text, FutureWarning, stacklevel=2)
     check_counts(title, starts, seed, limit)
     check_progress(progress)
     machine, vary, travels = fitted_rows(machine, vary)

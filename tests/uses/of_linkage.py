@@ -987,8 +987,6 @@ USES = [
         '[column], 0; [column], "a"; [column], 1.5; [column], True',
         ("a number of characters is expected, such as 80.",),
     ),
-    ("list(reports.rich_tables(@))", "None; 3; []; [3]", ("is no table; give a list of columns, such as machine.columns(motion).",)),
-    ("list(reports.rich_tables(@))", '[column], "a"', ("width='a': a number of characters is expected, such as 80.",)),
     ("reports.write_csv(@)", "3, None; [], None", ("is no table; give a list of columns, such as machine.columns(motion).",)),
     ("reports.write_csv(@)", '[column], "a.csv"; [column], None', ('is no open file; write into open("table.csv", "w", newline="").',)),
     ("list(reports.design_rows(@))", "None; 3", ("is no mechanism; give a design such as FourBar().",)),

@@ -93,10 +93,10 @@ JUNK = [
 
 OPTIONS = {
     "optimise": (
-        "minimise", "maximise", "vary", "subject_to", "case", "over", "robust", "sigmas", "method", "solver", "starts", "seed", "limit",
+        "minimise", "maximise", "vary", "subject_to", "case", "over", "robust", "sigmas", "method", "starts", "seed", "limit",
         "progress",
     ),
-    "pareto": ("minimise", "vary", "subject_to", "over", "limit", "seed", "solver"),
+    "pareto": ("minimise", "vary", "subject_to", "over", "limit", "seed"),
     "settings": ("name", "quantity", "target", "between", "unit", "S", "points"),
     "targets": ("name", "quantity", "points"),
     "zone": ("quantity", "over", "S"),

@@ -485,36 +485,22 @@ def weigh(options):
     return 3
 
 
-class Weigh(Command):
-    """The same as a subclass, as commands were."""
-
-    name = "old"
-    help = "the same of old"
-
-    def add(self, parser):
-        parser.add_argument("machine")
-
-    def run(self, options):
-        return weigh.run(options)
-
-
 @pytest.fixture
 def plugged(monkeypatch):
     """Let commands and machines be installed, one of each broken."""
     installed = {
-        plugins.COMMANDS: {"weigh": f"{__name__}:weigh", "burn": "no_package:Burn", "old": f"{__name__}:Weigh"},
+        plugins.COMMANDS: {"weigh": f"{__name__}:weigh", "burn": "no_package:Burn", "old": "linkage.cli.command:Command"},
         plugins.MACHINES: {"good": "mechanisms.mower_lift:MowerLift", "bad": "no_package:Bad"},
     }
     entries = {group: {name: EntryPoint(name, value, group) for name, value in each.items()} for group, each in installed.items()}
-    monkeypatch.setitem(sys.modules, __name__, sys.modules.get(__name__) or sys.modules[Weigh.__module__])
+    monkeypatch.setitem(sys.modules, __name__, sys.modules.get(__name__) or sys.modules[weigh.run.__module__])
     monkeypatch.setattr(plugins, "entry_points", lambda group: entries[group])
 
 
-@pytest.mark.filterwarnings("default::FutureWarning")
 def test_command_of_another_package(said, plugged):
     assert said("weigh", "it") == (3, "it weighs\n", "")
     code, out, err = said("old", "it")
-    assert (code, out) == (3, "it weighs\n") and "warning: The command old" in err and "under @Command" in err
+    assert (code, out) == (2, "") and "The command old" in err and "write a function under @Command" in err
     code, _, err = said("burn")
     assert code == 2 and "The command burn (no_package:Burn) cannot be loaded" in err
     code, out, err = said("--help")

@@ -124,22 +124,9 @@ def test_an_optimum_is_not_beaten_by_random_designs_and_holds_between_the_poses(
     assert np.max(fine[pin_force("O")]) <= 15 * kN * (1.0 + 1e-6)
 
 
-def test_a_second_solver_is_told_to_be_gone_and_the_first_one_searches():
-    ask = dict(maximise=least(ratio(distance("A", "B"))), vary={"A.x": (0.3, 1.2)}, starts=2)
-    best = optimise(Lever(), **ask)
-    assert_allclose(best.machine["A.x"], 1.2, rtol=1e-4)
-    with pytest.warns(FutureWarning, match=r'solver="trust-constr" is gone and will be refused: SLSQP .* Leave solver= out'):
-        assert optimise(Lever(), **ask, solver="trust-constr").value == best.value
-    with pytest.raises(DefinitionError, match="solver='cobyla': say"):
-        optimise(Lever(), **ask, solver="cobyla")
-
-
-def test_a_method_that_is_no_more_says_what_serves():
-    ask = dict(maximise=least(reserve("lift")), vary={"OB": (0.27, 0.33)})
-    with pytest.raises(DefinitionError, match="'evolution' is no more: leave it out, and give more starts="):
-        optimise(Boom(), **ask, method="evolution")
+def test_an_unknown_method_names_those_there_are():
     with pytest.raises(DefinitionError, match='say "auto" or "local" or "multistart"'):
-        optimise(Boom(), **ask, method="genetic")
+        optimise(Boom(), maximise=least(reserve("lift")), vary={"OB": (0.27, 0.33)}, method="evolution")
 
 
 def test_an_objective_that_nothing_moves_is_refused_in_words():

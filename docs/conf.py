@@ -25,6 +25,7 @@ autodoc_typehints = "none"  # the first lines say shapes and units; types are fo
 autodoc_preserve_defaults = True
 napoleon_google_docstring = False
 napoleon_use_rtype = False
+napoleon_use_ivar = True  # attributes that are properties too are described once
 python_maximum_signature_line_length = 88
 
 html_theme = "furo"

@@ -269,7 +269,7 @@ class AccumulatorBlock:
     def __str__(self) -> str:
         vessels = ", ".join(map(str, self.accumulators))
         unit = f", unit={self.unit!r}" if self.unit else ""
-        return f"AccumulatorBlock([{vessels}], gas={self.gas.spelled}, atmosphere={value_text(self.atmosphere)}{unit})"
+        return f"AccumulatorBlock([{vessels}], gas={self.gas.source_text}, atmosphere={value_text(self.atmosphere)}{unit})"
 
     def gas_volume(self, pressure: ArrayLike) -> Array:
         """Return the gas volume [m3] at a pressure, same shape. DefinitionError below zero absolute or outside the gas law.

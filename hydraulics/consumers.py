@@ -53,7 +53,7 @@ class Inlet:
     valve: OnLines | None
 
     @property
-    def way(self) -> str:
+    def direction(self) -> str:
         """The direction in which the cylinder moves."""
         return "extending" if self.sense > 0.0 else "retracting"
 
@@ -84,7 +84,7 @@ class Branch:
 
 
 @dataclass(frozen=True, eq=False)
-class Taken:
+class Consumption:
     """The flows of all consumers over some instants, each with its branches, and the lengths of the cylinders (rams, m) [m]."""
 
     branches: Sequence[Sequence[Branch]]
@@ -103,7 +103,7 @@ class Taken:
         low = np.full(self.lengths.shape[1], -np.inf)
         return [np.max([low, *(each.need for each in own if each.inlet.sides is not None)], axis=0) for own in self.branches]
 
-    def borders(self, like: Taken, at: int | None = None) -> Array:
+    def borders(self, like: Consumption, at: int | None = None) -> Array:
         """Return values above zero while all is as in the middle of a stretch, or `at` one of its places, (rows, m).
 
         Beyond it loads act the other way. Rows are over the sizes that they have in that stretch. What is zero at the place, to rounding,
@@ -198,14 +198,14 @@ class Consumers:
         )
         return np.array([np.broadcast_to(poses[each], strokes.shape[1:]) for each in self._asked])
 
-    def taken(self, strokes: Array, ways: Sequence[Array], rates: Array, like: Taken | None = None) -> Taken:
+    def consumption(self, strokes: Array, ways: Sequence[Array], rates: Array, like: Consumption | None = None) -> Consumption:
         """Return the flows of consumers whose movements are `ways`, rates of the strokes (n, m) each, while all move at `rates`.
 
         Cylinders move as in the middle of the instants, or as in others that it is `like`.
         """
-        return self.taken_of(self.rows(strokes, rates), ways, like)
+        return self.consumption_of(self.rows(strokes, rates), ways, like)
 
-    def taken_of(self, rows: Array, ways: Sequence[Array], like: Taken | None = None) -> Taken:
+    def consumption_of(self, rows: Array, ways: Sequence[Array], like: Consumption | None = None) -> Consumption:
         """Return the same from rows that the machine has given."""
         count, many = len(self.strokes), rows.shape[1]
         each_of = rows[: len(self.rams) * (count + 4)].reshape(len(self.rams), count + 4, many)
@@ -217,7 +217,7 @@ class Consumers:
         else:
             moving = [[each.inlet for each in own] for own in like.branches]
         found = [self._branches(each_of, speed, inlets, pilots) for speed, inlets in zip(speeds, moving, strict=True)]
-        return Taken(found, each_of[:, 1], slopes)
+        return Consumption(found, each_of[:, 1], slopes)
 
     def _moving(self, speeds: Array, way: Array) -> list[Inlet]:
         """Return the inlets of those cylinders that move, each in its sense in the middle of the instants."""
@@ -285,10 +285,10 @@ def pilot_request(inlet: Inlet, acting: Acting) -> LawRequest:
 
     def over(motion: AnyMotion, ram: Ram, acting: Acting) -> Array:
         assert inlet.valve is not None
-        found = inlet.valve.pressure_lowering(inlet.line, ram, motion, Acting(acting.loads, acting.case, inlet.way))
+        found = inlet.valve.pressure_lowering(inlet.line, ram, motion, Acting(acting.loads, acting.case, inlet.direction))
         return np.asarray(found)[()] + 0.0 * motion.distance(ram.A, ram.B)
 
-    return cylinder_request("pilot", inlet.ram.name, acting, over, (inlet.line.name, inlet.way), measures="pressure")
+    return cylinder_request("pilot", inlet.ram.name, acting, over, (inlet.line.name, inlet.direction), measures="pressure")
 
 
 def refuse_unpushed(branch: Branch, time: Array, pump: ForceElement) -> None:
@@ -298,7 +298,7 @@ def refuse_unpushed(branch: Branch, time: Array, pump: ForceElement) -> None:
     if len(at) and inlet.sides is None:
         ram, other = inlet.ram.name, "rod" if inlet.sense < 0.0 else "piston"
         instant = show(float(time[max(at[0] - 1, 0)]), "s", 4)
-        what = f"{ram} cannot go on {inlet.way} at {instant}: its load resists, and no pump fills its {other} side"
+        what = f"{ram} cannot go on {inlet.direction} at {instant}: its load resists, and no pump fills its {other} side"
         raise DefinitionError(f"{what}; put that on the pump, OilLine({ram}.{other}_side, {pump_name}), or demand nothing there.")
 
 

@@ -28,7 +28,7 @@ from linkage.quantities import name_of
 from linkage.units import show
 from linkage.verdict import Verdict
 
-from .consumers import AT_BORDER, Branch, Consumers, Taken, in_plan, lines_on, refuse_unpushed
+from .consumers import AT_BORDER, Branch, Consumers, Consumption, in_plan, lines_on, refuse_unpushed
 from .inputs import Array, number_set, one_design, positive
 from .sharing import LEAST_PRESSURE, PumpLimits
 
@@ -92,7 +92,7 @@ class Stretch:
     time: Array
     pressure: Array
     shares: Sequence[Array | float]
-    taken: Taken
+    consumption: Consumption
     blocked: tuple[int, ...] = ()
 
 
@@ -146,7 +146,7 @@ class PumpCycle:
         parts = {name: np.zeros(len(self.time)) for name in ("useful", "braked")}
         for number, each in enumerate(stretches):
             own = slice(number * (DEGREE + 1), (number + 1) * (DEGREE + 1))
-            for place, (part, branches) in enumerate(zip(each.shares, each.taken.branches, strict=True)):
+            for place, (part, branches) in enumerate(zip(each.shares, each.consumption.branches, strict=True)):
                 for branch in branches:
                     add_branch(branch, part, own, flow, need, parts, each.pressure if place in each.blocked else None)
                 if place < len(cylinders):
@@ -377,25 +377,25 @@ def given_stretches(consumers: Consumers, instants: Instants, limits: PumpLimits
         begin, end = left.pop()
         middle = 0.5 * (begin + end)
 
-        def taken_at(time: Array, like: Taken | None = None, middle: float = middle) -> Taken:
+        def consumption_at(time: Array, like: Consumption | None = None, middle: float = middle) -> Consumption:
             there = instants.at_times(time, np.full(len(time), middle))
             strokes, rates = (np.array([each[name] for name in consumers.strokes]) for each in (there.strokes, there.rates))
-            return consumers.taken(strokes, [rates], rates, like)
+            return consumers.consumption(strokes, [rates], rates, like)
 
         time = stretch_times(begin, end)
-        taken = taken_at(time)
-        border = first_border(time, taken, lambda at, taken=taken: taken_at(at, taken).borders(taken))  # type: ignore[misc]
-        need = np.maximum(taken.needs[0], 0.0)
-        smooth = is_smooth(taken.flows, limits.flow) and is_smooth([need], limits.cut_off) and is_smooth([*taken.lengths], 1.0)
+        consumption = consumption_at(time)
+        border = first_border(time, consumption, lambda at, like=consumption: consumption_at(at, like).borders(like))  # type: ignore[misc]
+        need = np.maximum(consumption.needs[0], 0.0)
+        smooth = is_smooth(consumption.flows, limits.flow) and is_smooth([need], limits.cut_off) and is_smooth([*consumption.lengths], 1.0)
         if border is None and end - begin > SHORTEST and not smooth:
             border = middle
         if border is not None:
             left += [(border, end), (begin, border)]
             continue
-        for branch in taken.branches[0]:
+        for branch in consumption.branches[0]:
             refuse_unpushed(branch, time, consumers.pump)
-        is_fed = taken.flows[0][len(time) // 2] > 0.0  # at its ends too: a flow that begins or ends there is fed up to there
-        found.append(Stretch(time, need + limits.margin * is_fed, [1.0], taken))
+        is_fed = consumption.flows[0][len(time) // 2] > 0.0  # at its ends too: a flow that begins or ends there is fed up to there
+        found.append(Stretch(time, need + limits.margin * is_fed, [1.0], consumption))
     return found
 
 
@@ -406,9 +406,9 @@ def stretch_times(begin: float, end: float) -> Array:
     return found
 
 
-def first_border(time: Array, taken: Taken, borders: Callable[[Array], Array]) -> float | None:
+def first_border(time: Array, consumption: Consumption, borders: Callable[[Array], Array]) -> float | None:
     """Return an instant of a border within a stretch, where a value above zero in its middle is below zero; None without one."""
-    rows = taken.borders(taken)
+    rows = consumption.borders(consumption)
     bad = np.any(rows < -AT_BORDER, axis=0)
     if not bad.any():
         return None

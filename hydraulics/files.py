@@ -32,8 +32,8 @@ def written_gas(gas: Gas) -> object:
 
 @written_gas.register
 def _(gas: Polytropic) -> object:
-    if gas.spelled in LAWS:
-        return gas.spelled
+    if gas.source_text in LAWS:
+        return gas.source_text
     return {"law": "polytropic", "n": gas_number(gas.n), **temperature(gas)}
 
 

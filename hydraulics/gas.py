@@ -40,7 +40,7 @@ class Gas(ABC):
     """K; the charges of accumulators are stated at it."""
 
     @property
-    def spelled(self) -> str:
+    def source_text(self) -> str:
         """The law as it is written in a class."""
         return repr(self)
 
@@ -218,7 +218,7 @@ class Polytropic(Gas):
         return "isothermal gas (p V = const)" if self.n == 1.0 else f"polytropic gas (p V^{self.n:.4g} = const)"
 
     @property
-    def spelled(self) -> str:
+    def source_text(self) -> str:
         if self.temperature != ROOM:
             return f"polytropic({plain(self.n)!r}, temperature={plain(self.temperature)!r})"
         known = {1.0: "isothermal", DIATOMIC: "adiabatic"}
@@ -311,7 +311,7 @@ class RealNitrogen(Gas):
         return f"real nitrogen at {self.temperature:.2f} K"
 
     @property
-    def spelled(self) -> str:
+    def source_text(self) -> str:
         return f"real_nitrogen({'' if self.temperature == ROOM else repr(plain(self.temperature))})"
 
     def specific(self, pressure: Array) -> Array:

@@ -362,10 +362,10 @@ class LiftingCylinder:
 
     def back(self, way: str, resistance: float = 0.0, tells: str = "push") -> LawRequest:
         """Return the pressure from the other side while it goes back one way, or the pressure of the load alone."""
-        return going_back_request(*self.asked, way, resistance, tells)
+        return going_back_request(*self.request_arguments, way, resistance, tells)
 
     @property
-    def asked(self) -> tuple[Ram, Acting, LiftLine]:
+    def request_arguments(self) -> tuple[Ram, Acting, LiftLine]:
         """The first arguments of its requests."""
         return self.ram, Acting(), self.circuit
 
@@ -374,7 +374,7 @@ class LiftingCylinder:
         ways = ("retracting", "extending") if self.ram.side == "both" else self.ram.ways_back(0.0, 0.0)
         going = [question for way in ways for question in (most(self.back(way)), least(self.back(way, tells="load")))]
         going += [most(self.back(way, tells="whole push")) for way in ways] if len(ways) > 1 else []
-        return [*self.thrusts, least(reserve_request(*self.asked)), *self.standing, *going]
+        return [*self.thrusts, least(reserve_request(*self.request_arguments)), *self.standing, *going]
 
     @property
     def standing(self) -> list[Question]:
@@ -384,7 +384,8 @@ class LiftingCylinder:
     def conditions(self) -> dict[str, Condition]:
         """Return its conditions: it lifts, holds on both sides, and goes back."""
         asked, name = (self.ram.name, Acting(), self.circuit.name), self.circuit.name
-        held, supply = (at(LawRequest(text=f"{name} {each.__name__}", formula=each)) for each in (self.circuit.held, self.circuit.supply))
+        laws = self.circuit.relief_pressure, self.circuit.supply
+        held, supply = (at(LawRequest(text=f"{name} {each.__name__}", formula=each)) for each in laws)
         back = [most(going_back_request(*asked, way)) for way in self.ways_back]
         sinks = AllOf(tuple(each <= supply if self.ram.side == "both" else each <= 0.0 for each in back))
         holding = most(pressure_request(self.ram.name, Acting(direction=FRICTIONLESS), self.circuit.name)) <= held
@@ -415,7 +416,7 @@ class LiftingCylinder:
 
     def lifting(self) -> Verdict:
         """Return whether the pump lifts wherever it runs; where not, the pressure needed and the standard bore that would do."""
-        question, pump = least(reserve_request(*self.asked)) >= 1.0, self.show(self.circuit.supply(self.judge.motion))
+        question, pump = least(reserve_request(*self.request_arguments)) >= 1.0, self.show(self.circuit.supply(self.judge.motion))
         found = self.judge.answer(question)
         if np.isnan(found.value) and found.ok is None:
             text = said("the load drives all the way: it is not limited by this cylinder{remedy}.", remedy=self.other_side())
@@ -452,11 +453,11 @@ class LiftingCylinder:
 
     def remedy(self, reserve: float) -> str:
         """Return the remedy for a reserve below 1: a pressure, or a standard bore with its reserve."""
-        found = self.judge.answer(most(pressure_request(*self.asked, is_needed=True)))
+        found = self.judge.answer(most(pressure_request(*self.request_arguments, is_needed=True)))
         if found.unbounded or not np.isfinite(found.value):
             return said("No pressure and no bore lifts there; keep away from that pose.")
         needed = show_enough(float(found.value), self.unit)
-        if self.circuit.relieves(self.judge.plan) and found.value > float(self.circuit.held(self.judge.motion)):
+        if self.circuit.relieves(self.judge.plan) and found.value > float(self.circuit.relief_pressure(self.judge.motion)):
             needed = said("{pressure}, at its relief valve as well", pressure=needed)
         if len(self.circuit.rams(self.judge.motion)) > 1:
             return said("It needs {needed}, or larger bores on this line.", needed=needed)
@@ -490,7 +491,7 @@ class LiftingCylinder:
 
     def holding(self) -> Verdict:
         """Return the pressures that the load makes with the pump off, and whether they stay below the relief valve's."""
-        circuit, limit = self.circuit, float(self.circuit.held(self.judge.motion))
+        circuit, limit = self.circuit, float(self.circuit.relief_pressure(self.judge.motion))
         pulled = self.ram.pulled(self.judge)
         if pulled is not None:
             return pulled
@@ -525,7 +526,7 @@ class LiftingCylinder:
         """Return the remedy for holding, in words: a larger size, for a single cylinder on a line with the pressure that it then holds."""
         if self.ram.is_single_acting:
             return said("take larger stages")
-        larger, limit = self.ram.larger(self.judge.motion), float(self.circuit.held(self.judge.motion))
+        larger, limit = self.ram.larger(self.judge.motion), float(self.circuit.relief_pressure(self.judge.motion))
         alone = len(self.circuit.rams(self.judge.motion)) == 1
         found = self.mended(larger, limit / float(worst.value), lambda ram: asked) if alone else None
         size = said("take a thicker rod") if self.ram.side == "regenerative" else said("take a larger bore")

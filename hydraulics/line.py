@@ -256,7 +256,7 @@ class LiftLine(Circuit):
         pump = self._pressure_set(motion, "pressure")
         return np.minimum(pump, self._pressure_set(motion, "relief")) if self.relieves(motion.plan) else pump
 
-    def held(self, motion: Poses) -> Array:
+    def relief_pressure(self, motion: Poses) -> Array:
         """Return the pressure at which the relief valve opens [Pa], the pump's where none is given."""
         require_poses(motion)
         return self._pressure_set(motion, "relief" if self.relieves(motion.plan) else "pressure")
@@ -364,7 +364,7 @@ class LiftLine(Circuit):
         return self.efficiency(motion, "mechanical") if self._pushes_out(cylinder, motion.plan.members) else 1.0
 
     def pressure_out(self, cylinder: Ram, motion: AnyMotion) -> Array | None:
-        return self.held(motion) if self._pushes_out(cylinder, motion.plan.members) else None
+        return self.relief_pressure(motion) if self._pushes_out(cylinder, motion.plan.members) else None
 
     def reserve_of(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array | None:
         is_held = self.kind_open(motion.plan.members) == "held"
@@ -408,7 +408,7 @@ class LiftLine(Circuit):
         others = by_other_lines(ram, self, motion, None, None if not lifting else False)  # type: ignore[arg-type]
         drained = by_other_lines(ram, self, motion, None, True)  # type: ignore[arg-type]
         if not lifting:
-            held = self.held(motion)
+            held = self.relief_pressure(motion)
             low, high = np.asarray(-held * size.inward_area), np.asarray(held * size.outward_area)
         else:
             k_m, nothing = self.efficiency(motion, "mechanical"), np.zeros(())

@@ -46,7 +46,7 @@ class PumpLimits:
 
 
 @dataclass(frozen=True, eq=False)
-class Wanted:
+class FlowDemands:
     """The demands of consumers: flows and needs, those at their ends, and the tiers in which they are served.
 
     Flows and needs are numbers, or arrays over instants at which all is decided alike. Needs of `level` are one, as these consumers go on
@@ -64,7 +64,7 @@ class Wanted:
 
 
 @dataclass(frozen=True, eq=False)
-class Fed:
+class FlowSupply:
     """The supply of consumers: `shares` of their demands, 0 to 1, and the pump's `pressure`.
 
     `limit` is "flow" or "power" where they get less than all, `group` those that share the `rest` then. `blocked` are those that stand
@@ -98,40 +98,40 @@ class Choices:
         return found  # type: ignore[return-value]
 
 
-def flow_shares(wanted: Wanted, limits: PumpLimits, choose: Choices) -> Fed:
+def flow_shares(demands: FlowDemands, limits: PumpLimits, choose: Choices) -> FlowSupply:
     """Return each consumer's share of one pump."""
-    count = len(wanted.flows)
+    count = len(demands.flows)
     same = SAME_NEED * limits.cut_off
-    driven = choose(lambda: tuple(each <= same for each in wanted.needs))
-    needs: list[Any] = [0.0 if driven[i] else wanted.needs[i] for i in range(count)]
-    common = sum(needs[i] for i in wanted.level) / max(len(wanted.level), 1)
-    needs = [common if i in wanted.level else needs[i] for i in range(count)]
+    driven = choose(lambda: tuple(each <= same for each in demands.needs))
+    needs: list[Any] = [0.0 if driven[i] else demands.needs[i] for i in range(count)]
+    common = sum(needs[i] for i in demands.level) / max(len(demands.level), 1)
+    needs = [common if i in demands.level else needs[i] for i in range(count)]
     most = limits.cut_off + same - limits.margin
-    over = choose(lambda: tuple(i not in wanted.creep and needs[i] > most for i in range(count)))
-    blocked = tuple(i for i in range(count) if wanted.stopped[i] or over[i] or i in wanted.creep)
-    groups = choose(serving_order, wanted, needs, limits, blocked)
+    over = choose(lambda: tuple(i not in demands.creep and needs[i] > most for i in range(count)))
+    blocked = tuple(i for i in range(count) if demands.stopped[i] or over[i] or i in demands.creep)
+    groups = choose(serving_order, demands, needs, limits, blocked)
     shares: list[Array | float] = [0.0] * count
-    given: Array | float = wanted.before
+    given: Array | float = demands.before
     pressure: Array | float = limits.cut_off if blocked else limits.margin if groups else 0.0
     top = -1
     for group in groups:
         top = choose(leading, needs, [*group, *((top,) if top >= 0 else ())], same)
         level = limits.cut_off if blocked else needs[top] + limits.margin
         by_power = choose(lt, limits.power, limits.flow * level)
-        total = sum(wanted.flows[i] for i in group)
+        total = sum(demands.flows[i] for i in group)
         whole = limits.power / level if by_power else limits.flow
         rest = whole - given
         outcome = choose(outcome_of, rest, total)
         if outcome == "none":  # the pump comes to the limit of its power before it comes to their need
             pressure = limits.power / given if by_power and not blocked else pressure
-            return Fed(shares, pressure, "power" if by_power else "flow", (), 0.0, blocked)
+            return FlowSupply(shares, pressure, "power" if by_power else "flow", (), 0.0, blocked)
         pressure = level
         for i in group:
             shares[i] = 1.0 + 0.0 * total if outcome == "all" else rest / total
         if outcome == "part":
-            return Fed(shares, pressure, "power" if by_power else "flow", group, rest, blocked)
+            return FlowSupply(shares, pressure, "power" if by_power else "flow", group, rest, blocked)
         given = given + total
-    return Fed(shares, pressure, "", (), 0.0, blocked)
+    return FlowSupply(shares, pressure, "", (), 0.0, blocked)
 
 
 def outcome_of(rest: float, total: float) -> str:
@@ -145,11 +145,11 @@ def leading(needs: Sequence[Any], among: Sequence[int], same: float) -> int:
     return min(i for i in among if needs[i] >= most - same)
 
 
-def serving_order(wanted: Wanted, needs: Sequence[Any], limits: PumpLimits, blocked: Sequence[int]) -> tuple[tuple[int, ...], ...]:
+def serving_order(demands: FlowDemands, needs: Sequence[Any], limits: PumpLimits, blocked: Sequence[int]) -> tuple[tuple[int, ...], ...]:
     """Return those that ask for something and are not blocked, in the groups and the order in which they are served."""
     found: list[tuple[int, ...]] = []
-    for tier in sorted({*wanted.tiers}):
-        own = [i for i, each in enumerate(wanted.tiers) if each == tier and i not in blocked and wanted.flows[i] > 0.0]
+    for tier in sorted({*demands.tiers}):
+        own = [i for i, each in enumerate(demands.tiers) if each == tier and i not in blocked and demands.flows[i] > 0.0]
         if not limits.least_first:
             found += [tuple(own)] if own else []
             continue

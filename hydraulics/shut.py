@@ -102,7 +102,7 @@ def shut_verdicts(line: Circuit, judge: Judge) -> list[Verdict]:
     bears = line if own else pump
     if not isinstance(bears, LiftLine):
         return [Verdict("shut", True, f"{says}.", answer=worst)]
-    limit = one_design(bears.held(judge.motion))
+    limit = one_design(bears.relief_pressure(judge.motion))
     by, bears_it = {"says": says, "limit": show(limit, "bar", 4), "line": line.name}, float(worst.value) <= limit * (1.0 + EMPTY)
     if bears_it:
         text = said("{says}, below {limit}.", **by)

@@ -28,7 +28,7 @@ from linkage.plan import Mask, Plan, require_kinds
 from linkage.quantities import Course, Reference, as_mapping, is_number, name_of
 from linkage.units import require_measure, show
 
-from .consumers import AT_BORDER, Consumers, Taken, cylinder_named, in_plan, refuse_unpushed
+from .consumers import AT_BORDER, Consumers, Consumption, cylinder_named, in_plan, refuse_unpushed
 from .cycle import (
     DEGREE,
     SHORTEST,
@@ -44,7 +44,7 @@ from .cycle import (
 )
 from .cylinders import LENGTHS, Ram
 from .inputs import Array, one_design
-from .sharing import BY_DEMAND, SAME_NEED, Choices, Fed, Wanted, flow_shares, level_shares
+from .sharing import BY_DEMAND, SAME_NEED, Choices, FlowDemands, FlowSupply, flow_shares, level_shares
 
 Demand: TypeAlias = "float | Course"
 """How fast a cylinder shall move [m/s], or a course of that over time."""
@@ -84,20 +84,20 @@ class Mode:
 
 
 @dataclass(frozen=True, eq=False)
-class Going:
+class FlowState:
     """The state over some instants: flows, each consumer's supply, and the rates of the strokes (n, m)."""
 
-    taken: Taken
-    fed: Fed
+    consumption: Consumption
+    supply: FlowSupply
     shares: Array
     rates: Array
     ways: Sequence[Array]
-    wanted: Wanted
+    flow_demands: FlowDemands
 
     @property
     def pump_pressure(self) -> Array:
         """The pressure of the pump (m,)."""
-        return np.broadcast_to(np.asarray(self.fed.pressure, float), self.shares.shape[1:])
+        return np.broadcast_to(np.asarray(self.supply.pressure, float), self.shares.shape[1:])
 
 
 class PumpedMachine:
@@ -114,7 +114,7 @@ class PumpedMachine:
         self.limits = limits_of(pump, self.consumers, there)
         self.has_relief = any(line.relieves(plan) for line in self.consumers.lines)
         self.at_relief = self.has_relief and self.limits.cut_off < one_design(pump.number(there, "pressure"))
-        self.asked = [cylinder_named(self.consumers, name) for name in demands]
+        self.ram_places = [cylinder_named(self.consumers, name) for name in demands]
         self.spans = np.array([sorted((plan.strokes[name].start, plan.strokes[name].end)) for name in self.consumers.strokes], float)
         self.own, self.moved = self._independent(np.array([[start[name]] for name in self.consumers.strokes]))
         names = [name_of(each) for each in pump.given("first")]
@@ -125,7 +125,7 @@ class PumpedMachine:
     @property
     def rams(self) -> list[Ram]:
         """The cylinders that are asked for."""
-        return [self.consumers.rams[place] for place in self.asked]
+        return [self.consumers.rams[place] for place in self.ram_places]
 
     def _lines(self, ram: Ram) -> list[Any]:
         return [inlet.line for inlet in self.consumers.inlets if inlet.ram is ram]
@@ -136,14 +136,14 @@ class PumpedMachine:
         DefinitionError for one that no stroke moves, and for two that are asked to move one.
         """
         with unwarned():
-            slopes = self.consumers.taken(strokes, [], 0.0 * strokes).slopes[:, :, 0]
+            slopes = self.consumers.consumption(strokes, [], 0.0 * strokes).slopes[:, :, 0]
         slopes = slopes * np.ptp(self.spans, axis=1)
         left, own, moved = slopes.copy(), list[int](), list[int]()
-        for place in [*self.asked, *(k for k in range(len(left)) if k not in self.asked)]:
+        for place in [*self.ram_places, *(k for k in range(len(left)) if k not in self.ram_places)]:
             row = left[place]
             best = int(np.argmax(np.abs(row)))
             if abs(row[best]) <= 1e-9 * max(float(np.abs(slopes[place]).max()), 1e-9):
-                if place in self.asked:
+                if place in self.ram_places:
                     ram = self.consumers.rams[place].name
                     others = [self.consumers.rams[k].name for k in own]
                     beside = f"it moves with {', '.join(others)}" if np.abs(slopes[place]).max() > 1e-9 else "no stroke moves it here"
@@ -171,7 +171,7 @@ class PumpedMachine:
         """Return the rates of all strokes (n, m) that go with each demand alone, where all other cylinders of the pump stand."""
         inner = slopes[self.own][:, self.moved].transpose(2, 0, 1)
         found = []
-        for number in range(len(self.asked)):
+        for number in range(len(self.ram_places)):
             alone = np.zeros((inner.shape[0], len(self.own), 1))
             alone[:, number, 0] = speeds[number]
             way = np.zeros((len(self.consumers.strokes), inner.shape[0]))
@@ -179,24 +179,24 @@ class PumpedMachine:
             found.append(way)
         return found
 
-    def wanted(self, time: Array, strokes: Array, rates: Array, like: Taken | None = None) -> tuple[Taken, list[Array]]:
+    def flow_demands(self, time: Array, strokes: Array, rates: Array, like: Consumption | None = None) -> tuple[Consumption, list[Array]]:
         """Return the demands at instants, and the matching ways of the strokes."""
         rows = self.consumers.rows(strokes, rates)
-        slopes = self.consumers.taken_of(rows, []).slopes
+        slopes = self.consumers.consumption_of(rows, []).slopes
         speeds = self.speeds(time)
         endless = np.isinf(speeds)
         ways = self.ways(slopes, np.where(endless, np.sign(speeds), speeds))
-        taken = self.consumers.taken_of(rows, ways, like)
+        consumption = self.consumers.consumption_of(rows, ways, like)
         if endless.any():
             for number in np.flatnonzero(endless.any(axis=1)).tolist():
-                self._refuse_endless(number, taken, time)
-                ways[number] = ways[number] * self.limits.flow / taken.flows[number]
-            taken = self.consumers.taken_of(rows, ways)
-        return taken, ways
+                self._refuse_endless(number, consumption, time)
+                ways[number] = ways[number] * self.limits.flow / consumption.flows[number]
+            consumption = self.consumers.consumption_of(rows, ways)
+        return consumption, ways
 
-    def _refuse_endless(self, number: int, taken: Taken, time: Array) -> None:
+    def _refuse_endless(self, number: int, consumption: Consumption, time: Array) -> None:
         """Raise DefinitionError for a demand without a bound that the pump cannot bound."""
-        name, need = self.rams[number].name, taken.needs[number]
+        name, need = self.rams[number].name, consumption.needs[number]
         what = f"{self.plan.title}: demands: {name} is asked to move without a bound"
         remedy = f"give a speed, such as {name}=0.1"
         ensure(not self.limits.least_first, f"{what}, as valves of open centre would let it, and not least pressure first; {remedy}.")
@@ -204,80 +204,80 @@ class PumpedMachine:
             at = show(float(time[np.argmin(need)]), "s", 4)
             raise DefinitionError(f"{what}, and at {at} its load drives it, which nothing would hold; {remedy}.")
 
-    def stopped(self, taken: Taken, ways: Sequence[Array], strokes: Array, at: int) -> tuple[bool, ...]:
+    def stopped(self, consumption: Consumption, ways: Sequence[Array], strokes: Array, at: int) -> tuple[bool, ...]:
         """Return which cylinders stand at an end of their own, or of the stroke that is theirs, and are asked beyond it."""
         found = []
-        for number, (place, way) in enumerate(zip(self.asked, ways, strict=True)):
-            growth = float(taken.slopes[place, :, at] @ way[:, at])
+        for number, (place, way) in enumerate(zip(self.ram_places, ways, strict=True)):
+            growth = float(consumption.slopes[place, :, at] @ way[:, at])
             low, high = self.lengths[number]
-            length = float(taken.lengths[place, at])
+            length = float(consumption.lengths[place, at])
             stroke = self.moved[self.own.index(place)]
             (least, most), value, rate = self.spans[stroke], float(strokes[stroke, at]), float(way[stroke, at])
             beyond = (growth > 0.0 and length >= high - AT_END) or (growth < 0.0 and length <= low + AT_END)
             found.append(bool(beyond or (rate > 0.0 and value >= most - AT_END) or (rate < 0.0 and value <= least + AT_END)))
         return tuple(found)
 
-    def asks(self, taken: Taken, mode: Mode, at: int | None = None) -> Wanted:
+    def asks(self, consumption: Consumption, mode: Mode, at: int | None = None) -> FlowDemands:
         """Return the demands on the pump at one of the instants, or at all."""
-        flows, needs = ([each if at is None else float(each[at]) for each in rows] for rows in (taken.flows, taken.needs))
-        return Wanted(flows, needs, mode.stopped, self.tiers, mode.level, mode.creep)
+        flows, needs = ([each if at is None else float(each[at]) for each in rows] for rows in (consumption.flows, consumption.needs))
+        return FlowDemands(flows, needs, mode.stopped, self.tiers, mode.level, mode.creep)
 
     # -- in a mode -----------------------------------------------------------------------------------------
 
-    def moment(self, time: Array, strokes: Array, rates: Array, mode: Mode, like: Taken | None = None) -> Going:
+    def moment(self, time: Array, strokes: Array, rates: Array, mode: Mode, like: Consumption | None = None) -> FlowState:
         """Return the state at instants in a mode; `rates` are those at which friction and dampers are evaluated."""
-        return self.going(strokes, mode, *self.wanted(time, strokes, rates, like))
+        return self.state_of(strokes, mode, *self.flow_demands(time, strokes, rates, like))
 
-    def going(self, strokes: Array, mode: Mode, taken: Taken, ways: Sequence[Array]) -> Going:
+    def state_of(self, strokes: Array, mode: Mode, consumption: Consumption, ways: Sequence[Array]) -> FlowState:
         """Return the state in a mode at strokes (n, m), from the demands there."""
         many = strokes.shape[1]
-        slopes = self._need_slopes(strokes, taken, ways) if mode.level or mode.creep else np.zeros(0)
-        wanted, idle = self.asks(taken, mode), [not flow[many // 2] > 0.0 for flow in taken.flows]
+        slopes = self._need_slopes(strokes, consumption, ways) if mode.level or mode.creep else np.zeros(0)
+        flow_demands, idle = self.asks(consumption, mode), [not flow[many // 2] > 0.0 for flow in consumption.flows]
         for _ in range(ROUNDS if mode.creep else 1):
-            fed = flow_shares(wanted, self.limits, Choices(mode.choices))
-            shares = np.array([np.broadcast_to(each, many) for each in fed.shares]).reshape(len(ways), many).copy()
+            supply = flow_shares(flow_demands, self.limits, Choices(mode.choices))
+            shares = np.array([np.broadcast_to(each, many) for each in supply.shares]).reshape(len(ways), many).copy()
             shares[idle] = 1.0  # nothing is asked of the pump: its load moves it, or it stands
             shares[[*mode.stopped]] = 0.0
-            self._levelled(slopes, taken, fed, mode, shares)
-            creeping = sum((shares[number] * taken.flows[number] for number in mode.creep), np.zeros(many))
-            if np.allclose(creeping, wanted.before, rtol=1e-14, atol=0.0):
+            self._levelled(slopes, consumption, supply, mode, shares)
+            creeping = sum((shares[number] * consumption.flows[number] for number in mode.creep), np.zeros(many))
+            if np.allclose(creeping, flow_demands.before, rtol=1e-14, atol=0.0):
                 break
-            wanted = replace(wanted, before=creeping)
+            flow_demands = replace(flow_demands, before=creeping)
         moving = sum((share * way for share, way in zip(shares, ways, strict=True)), np.zeros_like(strokes))
-        return Going(taken, fed, shares, moving, ways, wanted)
+        return FlowState(consumption, supply, shares, moving, ways, flow_demands)
 
-    def _need_slopes(self, strokes: Array, taken: Taken, ways: Sequence[Array]) -> Array:
+    def _need_slopes(self, strokes: Array, consumption: Consumption, ways: Sequence[Array]) -> Array:
         """Return how fast the need of each consumer grows with the share of each (c, c, m) [Pa/s], by differences along its way."""
         whole, found = sum(ways, np.zeros_like(strokes)), []
         step = 3e-3 * np.ptp(self.spans, axis=1).max()
         for way in ways:
             far = step / np.maximum(np.abs(way).max(axis=0), 1e-300)
-            around = (self.consumers.taken(strokes + place * far * way, ways, whole, taken).needs for place, _ in DIFFERENCES)
+            around = (self.consumers.consumption(strokes + place * far * way, ways, whole, consumption).needs for place, _ in DIFFERENCES)
             found.append(sum(factor * np.array(each) for (_, factor), each in zip(DIFFERENCES, around, strict=True)) / far)
         return np.stack(found, axis=1)
 
     @staticmethod
-    def _levelled(slopes: Array, taken: Taken, fed: Fed, mode: Mode, shares: Array) -> None:
+    def _levelled(slopes: Array, consumption: Consumption, supply: FlowSupply, mode: Mode, shares: Array) -> None:
         """Put in the shares of those that go on level, or creep at the cut-off."""
-        for own, rest in ((sorted(mode.creep), None), (sorted(mode.level), fed.rest)):
+        for own, rest in ((sorted(mode.creep), None), (sorted(mode.level), supply.rest)):
             for at in range(shares.shape[1]) if own else ():
                 known = shares[:, at].copy()
                 known[own] = 0.0
-                flows = np.array([each[at] for each in taken.flows])
+                flows = np.array([each[at] for each in consumption.flows])
                 left = None if rest is None else float(np.broadcast_to(rest, shares.shape[1:])[at])
                 found = level_shares(slopes[:, :, at], own, slopes[:, :, at] @ known, flows, left)
                 if found is not None:
                     shares[own, at] = found
 
-    def decided(self, time: float, strokes: Array, rates: Array, like: Mode) -> tuple[Mode, Going]:
+    def decided(self, time: float, strokes: Array, rates: Array, like: Mode) -> tuple[Mode, FlowState]:
         """Return the mode that is due at an instant, strokes and rates (n, 1), and its state; level or creeping stay as `like`."""
         at, moving, late = np.array([time]), rates, list[Mode]()
         for number in range(ROUNDS):
-            taken, ways = self.wanted(at, strokes, moving)
-            mode, choose = replace(like, stopped=self.stopped(taken, ways, strokes, 0)), Choices()
-            flow_shares(self.asks(taken, mode, 0), self.limits, choose)
+            consumption, ways = self.flow_demands(at, strokes, moving)
+            mode, choose = replace(like, stopped=self.stopped(consumption, ways, strokes, 0)), Choices()
+            flow_shares(self.asks(consumption, mode, 0), self.limits, choose)
             mode = replace(mode, choices=choose.made)
-            found = self.going(strokes, mode, taken, ways)
+            found = self.state_of(strokes, mode, consumption, ways)
             slow = self.pace(found)
             if not self.consumers.follows_rates or np.allclose(slow, moving, rtol=1e-13, atol=1e-15):
                 break
@@ -290,32 +290,32 @@ class PumpedMachine:
         return mode, found
 
     @staticmethod
-    def pace(moment: Going) -> Array:
+    def pace(moment: FlowState) -> Array:
         """Return the rates (n, m) at which friction and dampers are taken: those that wait are just about to move."""
         zero = np.zeros_like(moment.rates)
         return sum((np.maximum(share, IDLING) * way for share, way in zip(moment.shares, moment.ways, strict=True)), zero)
 
-    def holds(self, mode: Mode, moment: Going, strokes: Array, at: int) -> bool:
+    def holds(self, mode: Mode, moment: FlowState, strokes: Array, at: int) -> bool:
         """Return whether a mode is the one that is due at one of some instants."""
-        if self.stopped(moment.taken, moment.ways, strokes, at) != mode.stopped:
+        if self.stopped(moment.consumption, moment.ways, strokes, at) != mode.stopped:
             return False
-        own, fed, choose = sorted(mode.level | mode.creep), moment.fed, Choices()
-        if np.any((moment.shares[own, at] < 0.0) | (moment.shares[own, at] > 1.0)) or (mode.level and not mode.level <= {*fed.group}):
+        own, supply, choose = sorted(mode.level | mode.creep), moment.supply, Choices()
+        if np.any((moment.shares[own, at] < 0.0) | (moment.shares[own, at] > 1.0)) or (mode.level and not mode.level <= {*supply.group}):
             return False
-        if mode.creep and fed.group and self.limits.least_first:
+        if mode.creep and supply.group and self.limits.least_first:
             return False
-        before = np.broadcast_to(moment.wanted.before, moment.shares.shape[1:])[at]
-        flow_shares(replace(self.asks(moment.taken, mode, at), before=float(before)), self.limits, choose)
+        before = np.broadcast_to(moment.flow_demands.before, moment.shares.shape[1:])[at]
+        flow_shares(replace(self.asks(moment.consumption, mode, at), before=float(before)), self.limits, choose)
         return choose.made == mode.choices
 
-    def settled(self, time: float, strokes: Array, rates: Array) -> tuple[Mode, Going]:
+    def settled(self, time: float, strokes: Array, rates: Array) -> tuple[Mode, FlowState]:
         """Return the mode and state after an instant: the mode that is still due a small step ahead.
 
         Where two modes each lead to the other those that differ go on level, or creep at the cut-off.
         """
         time += AHEAD  # a demand may change its sense just there
         mode, moment = self.decided(time, strokes, rates, Mode((), ()))
-        seen = list[tuple[Mode, Going]]()
+        seen = list[tuple[Mode, FlowState]]()
         for _ in range(ROUNDS):
             ahead, _ = self.decided(time + AHEAD, strokes + AHEAD * moment.rates, self.pace(moment), mode)
             if ahead == mode:
@@ -327,9 +327,9 @@ class PumpedMachine:
             mode, moment = ahead, self.moment(np.array([time]), strokes, self.pace(moment), ahead)
         return mode, moment
 
-    def _between(self, time: float, strokes: Array, seen: Sequence[tuple[Mode, Going]]) -> tuple[Mode, Going]:
+    def _between(self, time: float, strokes: Array, seen: Sequence[tuple[Mode, FlowState]]) -> tuple[Mode, FlowState]:
         """Return the mode between some of which each leads to the next; the first of them where none is settled."""
-        blocked: list[set[int]] = [{*each.fed.blocked} for _, each in seen]
+        blocked: list[set[int]] = [{*each.supply.blocked} for _, each in seen]
         creep = frozenset(set[int]().union(*blocked) - blocked[0].intersection(*blocked))
         shares = np.array([each.shares[:, 0] for _, each in seen])
         level = frozenset() if creep else frozenset(np.flatnonzero(np.ptp(shares, axis=0) > 1e-9).tolist())
@@ -354,7 +354,7 @@ class PumpedMachine:
                     found.add(float(ends[0]))
         return sorted(found)
 
-    def integrated(self, begin: float, end: float, strokes: Array, mode: Mode, moment: Going) -> tuple[Array, Going] | None:
+    def integrated(self, begin: float, end: float, strokes: Array, mode: Mode, moment: FlowState) -> tuple[Array, FlowState] | None:
         """Return the strokes (n, places) over a stretch in one mode, and the state; None where it is too long for one polynomial."""
         time, width = stretch_times(begin, end), end - begin
         passed, pace = strokes + moment.rates * (time - begin), np.repeat(self.pace(moment), DEGREE + 1, axis=1)
@@ -373,17 +373,17 @@ class PumpedMachine:
             if not np.isfinite(moved) or moved > 1e3:
                 return None
             if moved <= 2e-14 and steady:
-                needs = [each for each in found.taken.needs if np.all(np.isfinite(each))]
+                needs = [each for each in found.consumption.needs if np.all(np.isfinite(each))]
                 smooth = is_smooth([*found.rates / size], 1.0) and is_smooth([*needs, found.pump_pressure], self.limits.cut_off)
                 return (passed, found) if width <= 10.0 * SHORTEST or smooth else None
         return None
 
-    def broken(self, time: Array, strokes: Array, mode: Mode, moment: Going) -> int | None:
+    def broken(self, time: Array, strokes: Array, mode: Mode, moment: FlowState) -> int | None:
         """Return the first place of a stretch at which another mode is due, or a load acts the other way; None where there is none.
 
         Its end is looked at just before, as a demand may change its sense there.
         """
-        bad = np.any(moment.taken.borders(moment.taken, 0) < -AT_BORDER, axis=0)
+        bad = np.any(moment.consumption.borders(moment.consumption, 0) < -AT_BORDER, axis=0)
         inner = np.flatnonzero((time > time[0] + 2.0 * AHEAD) & (time < time[-1])).tolist()
         found = next((at for at in inner if bad[at] or not self.holds(mode, moment, strokes, at)), None)
         late = np.array([time[-1] - 2.0 * AHEAD])
@@ -391,17 +391,17 @@ class PumpedMachine:
             return len(time) - 1
         return found
 
-    def due(self, at: Array, time: Array, strokes: Array, mode: Mode, moment: Going) -> Mask:
+    def due(self, at: Array, time: Array, strokes: Array, mode: Mode, moment: FlowState) -> Mask:
         """Return at which instants (k,) of a stretch its mode is due."""
         there, paces = (
             chebyshev.chebval(2.0 * (at - time[0]) / (time[-1] - time[0]) - 1.0, (rows @ TO_COEFFICIENTS.T).T)
             for rows in (strokes, self.pace(moment))
         )
-        found = self.moment(at, there, paces, mode, moment.taken)
-        bad = np.any(found.taken.borders(moment.taken, 0) < -1e-3 * AT_BORDER, axis=0)
+        found = self.moment(at, there, paces, mode, moment.consumption)
+        bad = np.any(found.consumption.borders(moment.consumption, 0) < -1e-3 * AT_BORDER, axis=0)
         return np.array([not bad[k] and self.holds(mode, found, there, k) for k in range(len(at))])
 
-    def border(self, time: Array, strokes: Array, mode: Mode, moment: Going, place: int) -> float:
+    def border(self, time: Array, strokes: Array, mode: Mode, moment: FlowState, place: int) -> float:
         """Return the first instant of a stretch at which its mode is due no longer, before one of its places."""
         low = max(time[place - 1], time[0])
         close = CLOSE * max(1.0, abs(time[0]))
@@ -514,10 +514,10 @@ def run_through(work: PumpedMachine, begin: float, end: float, strokes: Array) -
                 found = work.integrated(time, last, strokes, mode, moment) or found
             passed, gone = found
             instants = stretch_times(time, last)
-            going = (own for own, stands in zip(gone.taken.branches, mode.stopped, strict=True) if not stands)
+            going = (own for own, stands in zip(gone.consumption.branches, mode.stopped, strict=True) if not stands)
             for branch in (each for own in going for each in own):
                 refuse_unpushed(branch, instants, work.pump)
-            stretches.append(Stretch(instants, gone.pump_pressure, list(gone.shares), gone.taken, gone.fed.blocked))
+            stretches.append(Stretch(instants, gone.pump_pressure, list(gone.shares), gone.consumption, gone.supply.blocked))
             coefficients.append(powers(strokes, gone.rates, last - time))
             width, time, strokes = 2.0 * (last - time) if place is None else max(width, last - time), last, passed[:, -1:]
             settled = None
@@ -555,16 +555,16 @@ class Events:
         self._limit, self._waiting, self._creeping = "", frozenset[int](), frozenset[int]()
         self._stopped, self._blocked, self._level = frozenset[int](), frozenset[int](), frozenset[int]()
 
-    def note(self, time: float, settled: tuple[Mode, Going], *, is_corner: bool) -> None:
+    def note(self, time: float, settled: tuple[Mode, FlowState], *, is_corner: bool) -> None:
         """Note the changes at an instant; DefinitionError where nothing more can move and no relief valve opens."""
         (mode, moment), work = settled, self.work
         names = [ram.name for ram in work.rams]
         asked = [number for number, way in enumerate(moment.ways) if np.any(way != 0.0)]
         stopped = frozenset(number for number in asked if mode.stopped[number])
         creeping = frozenset(number for number in mode.creep if moment.shares[number, 0] > 1e-9)
-        blocked = frozenset(number for number in asked if number in moment.fed.blocked) - stopped - creeping
+        blocked = frozenset(number for number in asked if number in moment.supply.blocked) - stopped - creeping
         starved = frozenset(number for number in asked if moment.shares[number, 0] < 1.0 - 1e-9)
-        waiting = (starved | {*moment.fed.group}) - stopped - blocked - creeping
+        waiting = (starved | {*moment.supply.group}) - stopped - blocked - creeping
         cut_off = show(work.limits.cut_off, "bar", 4)
         if asked and len(stopped | blocked) == len(asked) and not work.has_relief:
             all_of = ", ".join(names[number] for number in asked)
@@ -586,23 +586,23 @@ class Events:
         freed = (self._stopped | self._blocked | self._creeping) - stopped - blocked - creeping
         for number in sorted(freed & {*asked}):
             self._add(time, "freed", names[number], said("{cylinder} is free again", cylinder=names[number]))
-        if (moment.fed.limit, waiting) != (self._limit, self._waiting):
+        if (moment.supply.limit, waiting) != (self._limit, self._waiting):
             who = with_and(names[number] for number in sorted(waiting))
-            most = show(work.limits.flow, "l/min", 4) if moment.fed.limit == "flow" else show(work.limits.power, "kW", 4)
-            if not moment.fed.limit:
+            most = show(work.limits.flow, "l/min", 4) if moment.supply.limit == "flow" else show(work.limits.power, "kW", 4)
+            if not moment.supply.limit:
                 text = said("all get what they ask for")
-            elif moment.fed.limit == self._limit:
+            elif moment.supply.limit == self._limit:
                 text = said("{cylinders} waits", cylinders=who) if len(waiting) == 1 else said("{cylinders} wait", cylinders=who)
-            elif moment.fed.limit == "flow":
+            elif moment.supply.limit == "flow":
                 text = said("the pump gives its whole flow, {most}; {cylinders} must wait", most=most, cylinders=who)
             else:
                 text = said("the pump gives its whole power, {most}; {cylinders} must wait", most=most, cylinders=who)
-            if (moment.fed.limit and waiting) or (self._limit and blocked | stopped != {*asked}):
-                self._add(time, {"": "free", self._limit: "waits"}.get(moment.fed.limit, moment.fed.limit), work.pump.name, text)
+            if (moment.supply.limit and waiting) or (self._limit and blocked | stopped != {*asked}):
+                self._add(time, {"": "free", self._limit: "waits"}.get(moment.supply.limit, moment.supply.limit), work.pump.name, text)
         if mode.level - self._level:
             who = with_and(names[number] for number in sorted(mode.level))
             self._add(time, "level", work.pump.name, said("{cylinders} go on at one pressure", cylinders=who))
-        self._limit, self._waiting, self._creeping, self._level = moment.fed.limit, waiting, creeping, mode.level
+        self._limit, self._waiting, self._creeping, self._level = moment.supply.limit, waiting, creeping, mode.level
         self._stopped, self._blocked = stopped, blocked
 
     def _add(self, time: float, kind: str, of: str, sentence: str) -> None:

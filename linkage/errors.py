@@ -146,7 +146,7 @@ def warned_once(make: Callable[[], Result]) -> Result:
 
 
 @contextmanager
-def told(what: str) -> Iterator[None]:
+def errors_of(what: str) -> Iterator[None]:
     """Turn any error in a user's own function into a DefinitionError with its name and the line."""
     try:
         yield

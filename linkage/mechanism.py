@@ -17,7 +17,7 @@ import numpy.typing as npt
 
 from .assembly import Assembly, assembled, assemblies, width_words
 from .checks import is_class_of, is_listed, require, require_one_design, require_type
-from .errors import DefinitionError, cited, ensure, is_yes, known_name, told, unknown
+from .errors import DefinitionError, cited, ensure, errors_of, is_yes, known_name, unknown
 from .frozen import FrozenDict
 from .loads import PLAIN_CASE, Acting, ForceElement, LoadCase, check_together
 from .loads.element import Formulas
@@ -64,7 +64,7 @@ def of_own_motion(method: Callable[[Mechanism, Motion], Result]) -> Callable[[Me
     @wraps(method)
     def checked(machine: Mechanism, motion: Motion) -> Result:
         check_motion(machine, motion, method.__name__)
-        with told(f"{machine.plan.title}.{method.__name__}(motion)"):
+        with errors_of(f"{machine.plan.title}.{method.__name__}(motion)"):
             return method(machine, motion)
 
     return checked

@@ -30,7 +30,7 @@ class Shown:
         return None if load_writer is None else load_writer()(self)
 
 
-class Told:
+class HasSentence:
     """The base of objects that print as their `sentence`; a dataclass with `repr=False` is shown as that too."""
 
     __slots__ = ()

@@ -71,11 +71,11 @@ def calculation_blocks(found: FilledEquations, pose_words: str, is_timed: bool) 
         "cosine rule, arg the direction of a vector from the x axis."
     )
     yield from (Equality(0, tuple(each.split(" = ", 1))) for each in listing.definitions)
-    if listing.together:
+    if listing.iterated_pins:
         yield said(
             "The pins {pins} are found together, by iteration: they form a group that has no closed form. Their equations are "
             "the conditions that they keep.",
-            pins=", ".join(listing.together),
+            pins=", ".join(listing.iterated_pins),
         )
     if found.why_no_forces:
         yield said("The forces of this machine have no equations that are written out: {why}", why=found.why_no_forces)

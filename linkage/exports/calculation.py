@@ -275,7 +275,7 @@ class LiveResult:
 
     column: Column
     expr: Any = None
-    kept: tuple[str, ...] = ()
+    unchanged: tuple[str, ...] = ()
 
 
 def live_results(calculation: Calculation) -> list[LiveResult]:

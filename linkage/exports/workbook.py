@@ -167,7 +167,7 @@ class Sheets:
     def _note(self, name: str, where: str) -> str:
         read = {str(symbol) for result in self.results if result.expr is not None for symbol in result.expr.free_symbols}
         symbols = {str(symbol) for symbol, owner in self.calculation.dimension_symbols.items() if owner == name}
-        kept = any(name in result.kept for result in self.results)
+        kept = any(name in result.unchanged for result in self.results)
         if name not in self.calculation.used and not symbols & read and not kept:
             return f"{where}; no formula here reads it" if where else "no formula here reads it"
         return where
@@ -325,7 +325,7 @@ class Sheets:
         sheet.set_column(0, max(len(self.results) - 1, 0), 14)
         for column, result in enumerate(self.results):
             dead = result.expr is None
-            kept = ", ".join(f"{name} = {self.design.dimensions[name]:g}" for name in result.kept)
+            kept = ", ".join(f"{name} = {self.design.dimensions[name]:g}" for name in result.unchanged)
             says = "a number, not a formula" if dead else f"while {kept}" if kept else ""
             for row, text in enumerate((result.column.name, result.column.unit, says)):
                 sheet.write_string(row, column, text, (self.dead_wrapped if dead else self.wrapped) if row == 2 else self.head)
@@ -344,9 +344,9 @@ class Sheets:
             return None
         body = text[1:] if result.expr.is_Symbol else f"({text[1:]})"
         shown = f"{body}{from_si(result.column.unit)}"
-        if not result.kept:
+        if not result.unchanged:
             return f"={shown}"
-        tests = ",".join(f"{self.defined_names[name]}={self.design.dimensions[name]:g}" for name in result.kept)
+        tests = ",".join(f"{self.defined_names[name]}={self.design.dimensions[name]:g}" for name in result.unchanged)
         return f"=IF(AND({tests}),{shown},NA())"
 
     def _chart(self, sheet: Worksheet) -> None:

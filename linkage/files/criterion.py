@@ -21,7 +21,18 @@ from .. import plugins
 from ..errors import DefinitionError, ensure, unknown
 from ..mechanism import Mechanism
 from ..motion import Condition, Measure, Request, at, condition, gap, integral, least, most, ratio, reachable, transmission, worst
-from ..motion.measures import KINDS, Given, MeasureKind, Worst, as_measure, common_kind, kind_of_quantity, strokes_behind, traced, words_of
+from ..motion.measures import (
+    KINDS,
+    FixedNumber,
+    MeasureKind,
+    Worst,
+    as_measure,
+    common_kind,
+    kind_of_quantity,
+    strokes_behind,
+    traced,
+    words_of,
+)
 from ..motion.requests import Combined
 from ..plugins import Plugins
 from ..quantities import Number, Quantity, angle, distance, is_number, x, y
@@ -87,7 +98,7 @@ def measure_said(text: object, machine: Mechanism, over: Mapping[str, object] | 
     """
     found = criterion_of(text, machine)
     ensure(not isinstance(found, Condition), f"{text!r} is a condition; a measure is expected, such as least(...), with no <=, >= or ==.")
-    if is_number(found) or isinstance(found, Given):
+    if is_number(found) or isinstance(found, FixedNumber):
         raise DefinitionError(f"{text!r} is the same for every design; write a measure of the machine, such as least(...), or an output.")
     measure = measure_or_constant(found, machine)
     Problem(machine, [measure], [], NOWHERE, over=over)  # which refuses what a machine has not: an unknown point, no such stroke
@@ -122,7 +133,7 @@ def criterion_of(text: object, machine: Mechanism) -> Any:
     """Return the number, quantity, measure or condition of a machine that a text says; DefinitionError for anything else."""
     if not isinstance(text, str) or not text.strip():
         raise DefinitionError(f'{text!r:.60} is no text in quotes, such as "least(tilt)".')
-    return CriterionParser(text, machine).whole()
+    return CriterionParser(text, machine).criterion()
 
 
 class CriterionParser(Grammar):
@@ -135,7 +146,7 @@ class CriterionParser(Grammar):
         super().__init__(text)
         self.machine, self.plan = machine, machine.plan
 
-    def whole(self) -> Any:
+    def criterion(self) -> Any:
         """Return the meaning of the whole text: a number, a quantity, a measure or a condition."""
         try:
             return self.compared(self.tree) if isinstance(self.tree, ast.Compare) else self.meaning(self.tree)

@@ -13,7 +13,7 @@ from inspect import Parameter, ismethod, signature
 from typing import Any
 
 from ..checks import is_listed
-from ..errors import DefinitionError, ensure, told
+from ..errors import DefinitionError, ensure, errors_of
 from ..frozen import immutable
 from ..loads import ForceElement
 from ..quantities import Member
@@ -293,7 +293,7 @@ class FileEntry:
         options = made_of(found, self.arguments) | labels
         if not self.path:
             return self.make(*parents, **options)
-        with told(f"{self.describes.__name__}(...)"):
+        with errors_of(f"{self.describes.__name__}(...)"):
             return self.make(*parents, **options)
 
     def _labels(self, given: Iterable[Any]) -> Keywords:

@@ -29,7 +29,7 @@ from ..frozen import immutable
 from ..loads import Acting
 from ..mechanism import Mechanism
 from ..motion import Column, Request, stroke_display_unit, stroke_measure
-from ..motion.measures import At, Condition, Constraint, Given, Integral, Leaf, Measure, in_case, measure_of
+from ..motion.measures import At, Condition, Constraint, FixedNumber, Integral, Leaf, Measure, in_case, measure_of
 from ..plan import Mask, Plan
 from ..program import FloatArray
 from ..quantities import is_number
@@ -80,7 +80,7 @@ class TextMeasures:
         numbers, count = look.numbers, max(np.size(value) for value in machine.dimensions.values())
 
         def sound(leaves: Iterable[Leaf]) -> Mask:
-            return np.asarray(look.whole & ~np.any([np.zeros(count, bool), *(look.rows[leaf].lost for leaf in leaves)], axis=0))
+            return np.asarray(look.is_assembled & ~np.any([np.zeros(count, bool), *(look.rows[leaf].lost for leaf in leaves)], axis=0))
 
         found = {name: np.where(sound(each.leaves), design_values(each, numbers, count), np.nan) for name, each in measures.items()}
         for name, kept in conditions.items():
@@ -261,7 +261,7 @@ def targets_said(head: StudyHead, given: object) -> list[Target]:
         condition = condition_said(text, head.machine)
         if isinstance(condition, Constraint) and condition.symbol == "==":
             for one, other in ((condition.left, condition.right), (condition.right, condition.left)):
-                if isinstance(one, At) and isinstance(other, Given):
+                if isinstance(one, At) and isinstance(other, FixedNumber):
                     quantity: Any = one.quantity
                     return Target(quantity, other.value, unit=unit_of_quantity(head.plan, quantity), **one.strokes)
         raise DefinitionError(f"{condition} is no target; write at(tilt, S=100 mm) == 0 deg.")

@@ -176,7 +176,7 @@ class Pulled:
 
     point: str
     symbol: sympy.Symbol | sympy.MatrixSymbol
-    way: int
+    sign: int
 
 
 class ForceLines:
@@ -344,7 +344,7 @@ class ForceLines:
             across = across + size * inner(pushes[name], pushes[first])
             moment = moment + size * self._lever(start, supports[name].point, pushes[name])
         for each in (each for name, found in acting.items() if name not in supports for each in found):
-            force = np.array([0.0, each.way * Term(each.symbol)] if each.way else [Term(each.symbol[k, 0]) for k in (0, 1)], object)
+            force = np.array([0.0, each.sign * Term(each.symbol)] if each.sign else [Term(each.symbol[k, 0]) for k in (0, 1)], object)
             across, moment = across + inner(force, pushes[first]), moment + self._lever(start, each.point, force, each)
         held = self._write(f"R_{second}", -moment / self._lever(start, supports[second].point, pushes[second]), "kN")
         self._write(f"R_{first}", -across - held * inner(pushes[second], pushes[first]), "kN")
@@ -353,7 +353,7 @@ class ForceLines:
         """Return the moment of a force at a point about a support; of a load that is a vector as the product of both."""
         if name_of(point) == name_of(start.point):
             return Term(sympy.S.Zero)
-        if load is not None and not load.way:
+        if load is not None and not load.sign:
             return Term(Cross(self.listing.between(name_of(start.point), name_of(point)), load.symbol))
         arm = self.between(start.point, point)
         return arm[0] * force[1] - arm[1] * force[0]
@@ -511,7 +511,7 @@ class Chain:
         self.points = {name: rates.known[symbol] for name, symbol in points.items() if symbol in rates.known}
         self.points |= {name: given_rate(forces, name, stroke, self.symbol) for name, symbol in points.items() if symbol not in free}
         is_only = len(forces.plan.strokes) == 1
-        self._vertical = dict.fromkeys(each.point for each in pulled if is_only and each.way and each.point in self.points)
+        self._vertical = dict.fromkeys(each.point for each in pulled if is_only and each.sign and each.point in self.points)
         self.lines += [ListingLine(names.ratio(name), self.points[name][1, 0], self._unit(name)) for name in self._vertical]
 
     def _unit(self, point: str) -> Unit:
@@ -528,7 +528,7 @@ class Chain:
         for each in pulled:
             if each.point not in self.points:
                 continue
-            total -= each.way * each.symbol * self.rates_of(each.point)[1] if each.way else Dot(each.symbol, self.points[each.point])
+            total -= each.sign * each.symbol * self.rates_of(each.point)[1] if each.sign else Dot(each.symbol, self.points[each.point])
         for member, thrust in self._acting:
             total -= thrust.expr * self.growths[member.ends]
         return Term(total)

@@ -464,7 +464,7 @@ class Equations(Sequence[Equation], Shown):
         return [replace(each, heading=headings[each.number]) if each.number in headings else each for each in sheet]
 
     @property
-    def together(self) -> tuple[str, ...]:
+    def iterated_pins(self) -> tuple[str, ...]:
         """The pins that are found together, by iteration: they have no closed form, and the equations are their constraints."""
         return tuple(self._listing.unknowns)
 

@@ -15,7 +15,7 @@ from typing import Any, ClassVar, Literal, TypeAlias, cast, get_args
 import numpy as np
 
 from ..checks import can_be_called
-from ..errors import DefinitionError, cited, told
+from ..errors import DefinitionError, cited, errors_of
 from ..frozen import immutable
 from ..quantities import Distance, Joint, Member, Reference, name_of, pinned
 from .element import AT_REST, Array, ForceElement, Formulas, Glyph, Load, Parameter, Poses, Push, Rate, Rates
@@ -116,7 +116,7 @@ class TwoPoint(ForceElement):
         length = motion.distance(self.A, self.B)
         rate = self.growth(motion, rates if rates.is_timed else AT_REST)
         opening = self.name or type(self).__name__
-        with told(f"{opening}: its law of length and rate"):
+        with errors_of(f"{opening}: its law of length and rate"):
             thrust: object = self.push(motion, length, rate)
         if isinstance(thrust, (np.ndarray, float, int)):
             axes = zip(np.shape(thrust)[::-1], motion.shape[::-1], strict=False)

@@ -2,7 +2,7 @@
 
 from ..numeric import highest, last_holding
 from ..star import declare_public
-from .answer import Answer, Lost
+from .answer import Answer, LostPlaces
 from .follow import follow_path
 from .functions import PoseFunction, evaluate, evaluate_grid, source_of
 from .gaps import gap, nearest_places

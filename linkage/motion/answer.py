@@ -23,7 +23,7 @@ LOST_SHARE = "lost share"
 
 
 @dataclass(frozen=True, eq=False)
-class Lost:
+class LostPlaces:
     """Places without a value: their share, the deepest of them [m or rad], and the missing length there.
 
     `time` is the instant of the deepest [s] over a path in time, else NaN.
@@ -43,7 +43,7 @@ class Lost:
         return self.share > 0.0 or bool(self.sentence)
 
 
-NONE_LOST = Lost()
+NONE_LOST = LostPlaces()
 
 
 PerDesign: TypeAlias = Any
@@ -98,7 +98,7 @@ class Answer:
     drive: PerDesign = ""
     side: PerDesign = ""
     over: PerDesign = ""
-    lost: Lost = NONE_LOST
+    lost: LostPlaces = NONE_LOST
     unlimited: float = 0.0
     outside: float = 0.0
     width: Mapping[str, float] = field(default_factory=dict)

@@ -127,7 +127,7 @@ class Evaluation:
 
     grid: Grid
     requests: tuple[Request, ...]
-    way: RunOptions = QUICKEST
+    options: RunOptions = QUICKEST
 
     @cached_property
     def program(self) -> BulkProgram:
@@ -141,14 +141,14 @@ class Evaluation:
         """
         grid, program = self.grid, self.program
         require_rates(grid.plan, program.kernel, grid.flat)
-        result = program.kernel(grid.flat, out, self.way, grid.size)
+        result = program.kernel(grid.flat, out, self.options, grid.size)
         look = None if program.is_clear(result) else self._settle(result.values, among)
         found = grid.full(result.values)
         if program.angles and (grid.stroke_shape or not grid.joins_itself):
             # angles go on along the stroke
             for rows, angles in self.program.angles:
                 reached = np.isfinite(found[rows])
-                continued = angles.continued(self.grid, np.asarray(reached.any(axis=0)), self.way)
+                continued = angles.continued(self.grid, np.asarray(reached.any(axis=0)), self.options)
                 if continued is not None:
                     found[rows] = np.where(reached, continued, np.nan)
         return program.split(found), look
@@ -164,7 +164,7 @@ class Evaluation:
             inputs = {name: part_of_input(value, band, part, name in plan.table.entries) for name, value in self.grid.flat.items()}
             block, here = place[:, band, part], look.in_block(band, part)
             _, height, width = block.shape
-            unlike, unplaced, near, here.empty[...] = guard_masks(plan, self.requests, inputs, (height, width), self.way)
+            unlike, unplaced, near, here.empty[...] = guard_masks(plan, self.requests, inputs, (height, width), self.options)
             for number, rows in self._starts():
                 block[rows, here.empty[number]] = 0.0
             bad = unlike | unplaced | near.any(axis=0) | ~np.isfinite(block).all(axis=0)

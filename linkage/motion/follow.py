@@ -104,7 +104,7 @@ class Route:
     def pose_at(self) -> Pose:
         """The targets and their slopes in floats, next to dead points too, where they are rough."""
         places, t, k = self.places, len(self.places.targets), len(self.places.free)
-        kernel = places.program.together
+        kernel = places.program.values_and_slopes
         quick = kernel.floats.quick["pose"]
         inputs = [places.designs[name] for name in kernel.plan.input_names[0]]
         passed = [] if places.plan.solved else kernel.floats.design_values(inputs)

@@ -17,7 +17,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from ..checks import is_listed, require_type
-from ..errors import DefinitionError, cited, known_name, told, unwarned, warned_once
+from ..errors import DefinitionError, cited, errors_of, known_name, unwarned, warned_once
 from ..language import said
 from ..loads import AS_IT_RUNS, FRICTIONLESS, PLAIN, PLAIN_CASE, Acting, ForceElement, LoadCase
 from ..numeric.box import values_a_stroke
@@ -28,7 +28,7 @@ from ..program import FloatArray, Kernel
 from ..quantities import PoseCondition, Quantity, is_whole, keywords
 from ..quantities.quantity import stands_for
 from ..vectors import Numbers
-from .answer import LOST, LOST_SHARE, NONE_LOST, NOTHING_LEFT, OF_VALUE, PER_DESIGN, UNBOUNDED, Answer, Lost, PerDesign
+from .answer import LOST, LOST_SHARE, NONE_LOST, NOTHING_LEFT, OF_VALUE, PER_DESIGN, UNBOUNDED, Answer, LostPlaces, PerDesign
 from .evaluation import Evaluation
 from .functions import evaluate_bound
 from .grid import Grid, recalled
@@ -96,7 +96,7 @@ class Situation:
 
 
 @dataclass(frozen=True, eq=False)
-class Sought:
+class SearchRow:
     """A piece of a leaf in a situation, as something to look for: `sense` is 1.0 where its greatest value is the worst."""
 
     leaf: Leaf
@@ -141,7 +141,7 @@ class Sought:
 class WorstPiece:
     """The worst of a row over one `Over`: its value and strokes, arrays over the designs; shares of the places asked for."""
 
-    row: Sought
+    row: SearchRow
     value: FloatArray
     strokes: Mapping[str, FloatArray]
     unbounded: Mask
@@ -304,7 +304,7 @@ class Domain:
             raise DefinitionError(f"{what}, where there are {', '.join(occurring)}.")
         return [name]
 
-    def extremes(self, rows: Sequence[Sought]) -> tuple[list[WorstPiece], Coverage]:
+    def extremes(self, rows: Sequence[SearchRow]) -> tuple[list[WorstPiece], Coverage]:
         """Return the worst of every row, and the coverage of the search; equal designs are searched once."""
         identities = [row.search_key(self.plan) for row in rows]
         if self.over.only or None in identities:
@@ -312,9 +312,9 @@ class Domain:
         found, seen = recalled(self.motion, ("extremes", self.over.shape, *identities), lambda: self.searched(rows))
         return [replace(each, row=row) for each, row in zip(found, rows, strict=True)], replace(seen)
 
-    def searched(self, rows: Sequence[Sought]) -> tuple[list[WorstPiece], Coverage]:
+    def searched(self, rows: Sequence[SearchRow]) -> tuple[list[WorstPiece], Coverage]:
         """Return the same, looked for."""
-        asked, shape = Asked(self, rows), (len(rows), *self.motion._design_shape)
+        asked, shape = RowFunction(self, rows), (len(rows), *self.motion._design_shape)
         time = np.full(shape, np.nan)
         if self.over.shape == "poses" or not self.motion.strokes:  # nothing between the poses
             with np.errstate(all="ignore"):
@@ -344,9 +344,9 @@ class Domain:
         if self.over.shape == "poses" or not self.motion.strokes:
             return []
         with unwarned():
-            return least_margins(self.motion, self.over.kept if self.over.only else None)
+            return least_margins(self.motion, self.over.condition_mask if self.over.only else None)
 
-    def lost(self, seen: Coverage) -> Lost:
+    def lost(self, seen: Coverage) -> LostPlaces:
         """Return the lost places of one design: those on the grid, and holes between its places."""
 
         def of_design(value: PerDesign) -> float:
@@ -361,16 +361,16 @@ class Domain:
         if self.motion._design_shape:
             deepest, time = (seen.deepest, seen.time) if seen.deepest else holes[0]
             refused = "" if seen.lost_share else said("some poses are refused")
-            return Lost(seen.lost_share, deepest, refused, not self.plan.groups, time)
+            return LostPlaces(seen.lost_share, deepest, refused, not self.plan.groups, time)
         with unwarned():
             places = holes + ([(dict(seen.deepest), float(seen.time))] if seen.deepest and seen.lost_share else [])
             errors = [(assembly_error_at(self.motion, *place), *place) for place in places]
         known = [(error, place, time) for error, place, time in errors if error is not None]
         if not known:
-            return Lost(seen.lost_share, seen.deepest, said("some poses are refused"), not self.plan.groups, seen.time)
+            return LostPlaces(seen.lost_share, seen.deepest, said("some poses are refused"), not self.plan.groups, seen.time)
         error, place, time = max(known, key=lambda each: each[0].shortfall or 0.0)
         strokes = {name: float(value) for name, value in place.items()}
-        return Lost(seen.lost_share, strokes, " ".join(str(error).split()), not self.plan.groups, time)
+        return LostPlaces(seen.lost_share, strokes, " ".join(str(error).split()), not self.plan.groups, time)
 
 
 def rubs(plan: Plan, motion: Motion, acting: Acting) -> bool:
@@ -421,14 +421,14 @@ class Coverage:
         time = float(np.broadcast_to(self.time, np.shape(self.lost_share))[design])
         return replace(self, lost_share=lost, outside=outside, deepest=deepest if lost else {}, time=time, design=design)
 
-class Asked:
+class RowFunction:
     """Rows as one function of a motion: each times its sense, shape (rows, ...); NaN where a place is not asked for or has no value."""
 
-    def __init__(self, place: Domain, rows: Sequence[Sought]) -> None:
+    def __init__(self, place: Domain, rows: Sequence[SearchRow]) -> None:
         self.place, self.rows, self.seen = place, rows, Coverage()
         self.plan = place.plan
         self._bound: dict[int, Request] = {}
-        self._rows: dict[int, Asked] = {}
+        self._rows: dict[int, RowFunction] = {}
         for k, row in enumerate(rows):
             bound = traced(self.plan, place.as_it_runs(row.request))
             if bound is not None:
@@ -436,12 +436,12 @@ class Asked:
 
     def asks_for(self, motion: Motion) -> Mask:
         """Return the mask of poses that are asked for."""
-        return self.place.over.kept(motion)
+        return self.place.over.condition_mask(motion)
 
-    def row(self, function: int) -> Asked:
+    def row(self, function: int) -> RowFunction:
         """Return one row as a function of its own; its looks are counted with the others."""
         if function not in self._rows:
-            self._rows[function] = Asked(self.place, [self.rows[function]])
+            self._rows[function] = RowFunction(self.place, [self.rows[function]])
             self._rows[function].seen = self.seen
         return self._rows[function]
 
@@ -532,7 +532,7 @@ def values_over(motion: Motion, quantity: Any) -> FloatArray:
     if isinstance(quantity, Worst):
         return worst_at(motion, quantity)
     if not is_quantity(quantity):
-        with told(f"{motion.plan.title}: {words_of(quantity)}"):
+        with errors_of(f"{motion.plan.title}: {words_of(quantity)}"):
             found = np.asarray(quantity(motion), float)
     else:
         found = np.asarray(motion[quantity], float)
@@ -611,7 +611,7 @@ class Judge:
         self.places = tuple(Domain(plan, designs, over) for over in overs)
         self._found: list[dict[Any, tuple[Leaf, list[WorstPiece]]]] = [{} for _ in self.places]
         self._seen: list[Coverage] = [Coverage() for _ in self.places]
-        self._lost: dict[Any, Lost] = {}
+        self._lost: dict[Any, LostPlaces] = {}
 
     def lost_allowed(self) -> Judge:
         """Return this judge with lost places taken as part of the machine; both share all known results."""
@@ -645,7 +645,7 @@ class Judge:
 
     def parts_below(self, request: Request) -> tuple[Span, ...]:
         """Return the parts of its one way on which a request is below zero; DefinitionError for a batch of designs."""
-        asked = Asked(self.places[0], [Sought(Least(request), SmoothPiece(request), Situation(), -1.0)])
+        asked = RowFunction(self.places[0], [SearchRow(Least(request), SmoothPiece(request), Situation(), -1.0)])
         way, key = self.places[0].motion, plain_identity(self.plan, request)
 
         def found() -> tuple[Span, ...]:
@@ -727,7 +727,7 @@ class Judge:
         rows = {key: self.search_rows(leaf, self.anywhere if isinstance(leaf, At) else place) for key, leaf in asked.items()}
         sought = [row for key, each in rows.items() if not isinstance(asked[key], (At, Integral)) for row in each]
         if sought or not self._seen[number].count:
-            each_of, seen = place.extremes(sought or [Sought(Least(zeros_over), SmoothPiece(zeros_over), Situation(), -1.0)])
+            each_of, seen = place.extremes(sought or [SearchRow(Least(zeros_over), SmoothPiece(zeros_over), Situation(), -1.0)])
             known_seen = self._seen[number]
             self._seen[number] = replace(known_seen, count=known_seen.count + seen.count) if known_seen.count else seen
             found = dict(zip(map(id, sought), each_of, strict=False))
@@ -739,12 +739,12 @@ class Judge:
             else:
                 known[key] = leaf, [found[id(row)] for row in rows[key]]
 
-    def search_rows(self, leaf: Leaf, place: Domain) -> list[Sought]:
+    def search_rows(self, leaf: Leaf, place: Domain) -> list[SearchRow]:
         """Return the pieces of a leaf over one `Over`, each once."""
         quantity = leaf.quantity
         request = quantity.under(self.acting) if isinstance(quantity, Request) else quantity
         sense = -1.0 if isinstance(leaf, Least) else 1.0
-        found: dict[Any, Sought] = {}
+        found: dict[Any, SearchRow] = {}
         for situation in place.situations(request, self.acting):
             situated = request.under(situation.acting, keep=True) if isinstance(request, Request) else request
             pieces: Sequence[SmoothPiece] = (SmoothPiece(situated),)
@@ -753,7 +753,7 @@ class Judge:
             for piece in pieces:
                 key = key_of(self.plan, piece.request)
                 if key not in found:
-                    found[key] = Sought(leaf, piece, situation, sense)
+                    found[key] = SearchRow(leaf, piece, situation, sense)
                 else:  # a piece that is the same in two situations is named by what these have in common
                     one, names = found[key].situation, ("case", "direction", "drive")
                     common = {name: getattr(one, name) for name in names if getattr(one, name) == getattr(situation, name)}
@@ -774,7 +774,7 @@ class Judge:
             return [constraint]
         return [replace(constraint, left=replace(leaf, quantity=row.piece.request)) for row in rows]
 
-    def at_pose(self, row: Sought, place: Domain) -> WorstPiece:
+    def at_pose(self, row: SearchRow, place: Domain) -> WorstPiece:
         """Return the value of a row at the one pose that its leaf says."""
         leaf = row.leaf
         assert isinstance(leaf, At)
@@ -789,7 +789,7 @@ class Judge:
         if not behind and not motion.reached.all():  # it is the same wherever the machine stands
             motion = self.sample_pose or motion
         with np.errstate(all="ignore"):
-            values, unlimited = Asked(place, [row]).row_values(motion)
+            values, unlimited = RowFunction(place, [row]).row_values(motion)
         value = np.asarray(values[0])
         where = {name: np.broadcast_to(np.asarray(each), value.shape) for name, each in strokes.items()} if behind else {}
         return WorstPiece(row, value, where, np.isinf(value), 1.0 * (np.isnan(value) & ~unlimited[0]), 1.0 * unlimited[0])
@@ -816,7 +816,7 @@ class Judge:
             made.append(Candidate(value, margin, where, unbounded, situation, side, place, seen, lawless, unlimited, time, undefined))
         return made
 
-    def lost(self, candidate: Candidate) -> Lost:
+    def lost(self, candidate: Candidate) -> LostPlaces:
         """Return the lost places of a candidate of one design."""
         seen = candidate.seen
         if seen is not None:
@@ -829,7 +829,7 @@ class Judge:
         strokes = {name: float(value) for name, value in candidate.strokes.items()}
         with unwarned():
             error = assembly_error_at(self.motion, strokes) if strokes and not self.motion._design_shape else None
-        return Lost(1.0, strokes, " ".join(str(error).split()) if error is not None else "")
+        return LostPlaces(1.0, strokes, " ".join(str(error).split()) if error is not None else "")
 
     def worst(self, question: object, constraints: Sequence[object]) -> Answer:
         """Return the answer to a question: its worst in every situation over every `Over`, for a batch per design."""
@@ -874,9 +874,9 @@ class Judge:
         }  # fmt: skip
         named = frozenset(name for name, each in kinds.items() if len(each) > 1)
         if not lost and any(each.undefined for each in candidates):
-            lost = Lost(1.0, {}, said("its measures have values, what is calculated from them has none"))
+            lost = LostPlaces(1.0, {}, said("its measures have values, what is calculated from them has none"))
         if not lost and worst.lawless:
-            lost = Lost(float(worst.lawless), {}, said("it has no value at places that were looked at"), False)
+            lost = LostPlaces(float(worst.lawless), {}, said("it has no value at places that were looked at"), False)
         units = {name: stroke_unit(self.plan, name) for name in strokes}
         count = sum(each.count for each in {id(one.seen): one.seen for one in candidates}.values() if each is not None)
         outside = float(worst.seen.outside) if worst.seen is not None else 0.0
@@ -1027,7 +1027,7 @@ def measures_of(plan: Plan, question: object) -> str:
     return str(getattr(known, "measures", "")) if isinstance(known, (Quantity, Request)) else ""
 
 
-def integrated(row: Sought, place: Domain) -> WorstPiece:
+def integrated(row: SearchRow, place: Domain) -> WorstPiece:
     """Return the integral of a row over the one stroke that runs."""
     plan, leaf = place.plan, row.leaf
     assert isinstance(leaf, Integral)
@@ -1042,7 +1042,7 @@ def integrated(row: Sought, place: Domain) -> WorstPiece:
         order = np.argsort(parts)
         strokes = {each: np.full(parts.shape, value) for each, value in held.items()} | {name: low + span * parts[order]}
         with np.errstate(all="ignore"):
-            found, _ = Asked(place, [row]).row_values(Motion(plan, place.designs, strokes, "nan"))
+            found, _ = RowFunction(place, [row]).row_values(Motion(plan, place.designs, strokes, "nan"))
         return np.asarray(found[0][..., np.argsort(order)])
 
     total = quadrature(values).value * span

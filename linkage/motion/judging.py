@@ -441,7 +441,7 @@ def judged_poses(judge: Judge, motion: Motion) -> Mask:
     """
     found = np.zeros(require_motion(motion).shape, bool)
     for place in judge.places:
-        found |= covered(place, motion) & place.over.kept(motion)
+        found |= covered(place, motion) & place.over.condition_mask(motion)
     return found
 
 
@@ -485,7 +485,7 @@ def pose_sentence(motion: Motion) -> str:
     """
     plan, designs = require_motion(motion).plan, motion.designs
     judge = Judge(plan, designs, [*plan.of_kind(Over).values()] or [Over()])
-    near = [place for place in judge.places if (covered(place, motion) & place.over.kept(motion)).all()]
+    near = [place for place in judge.places if (covered(place, motion) & place.over.condition_mask(motion)).all()]
     occurring = dict.fromkeys(place.over.cases for place in near or judge.places)
     found, unknown = answers_at(Judge(plan, designs, [over_pose(motion, cases) for cases in occurring]))
     if not found and not unknown:

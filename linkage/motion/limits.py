@@ -31,7 +31,7 @@ class StrokeLimits:
     intervals: tuple[Interval, ...]
     change_points: tuple[tuple[float, str], ...]
     transmission: tuple[Extreme, ...] = ()
-    held: tuple[Held, ...] = ()
+    held: tuple[HeldStroke, ...] = ()
     open_turn: Open | None = None
     cylinder_dead_points: tuple[tuple[float, str], ...] = ()
     """Where the length of a cylinder that hangs beside the drive stands still, so that its thrust moves nothing: (stroke, cylinder)."""
@@ -188,7 +188,7 @@ class Extreme:
 
 @refuses_changes
 @dataclass(frozen=True)
-class Held:
+class HeldStroke:
     """A stroke that is held, and where [m or rad, which its unit says]."""
 
     stroke: str

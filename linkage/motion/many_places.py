@@ -104,7 +104,7 @@ class ManyPlaces:
 
     def seen(self, unit: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the values of the targets (n, t) and their derivatives (n, t, k) by unit coordinates (n, k); NaN out of reach."""
-        found, t = self.places.kernel_values(self.places.program.together, unit), len(self.places.targets)
+        found, t = self.places.kernel_values(self.places.program.values_and_slopes, unit), len(self.places.targets)
         return found[:t].T, self.places.by_unit(found[t:])
 
     # -- the first look ----------------------------------------------------------------------------------

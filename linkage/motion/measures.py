@@ -73,7 +73,7 @@ class Measure(Arithmetic):
     def applied(self, function: str, *operands: Any) -> Measure:
         """Apply an operation to measures and numbers; DefinitionError for any other of NumPy's functions."""
         if function == "negative":
-            return CombinedMeasure("*", Given(-1.0), self)
+            return CombinedMeasure("*", FixedNumber(-1.0), self)
         if function not in SYMBOLS:
             raise DefinitionError(f"{self}: measures take + - * / **; take np.{function} of the quantity in it.")
         left, right = map(as_measure, operands)
@@ -111,14 +111,14 @@ def as_measure(given: object) -> Measure:
     if isinstance(given, Measure):
         return given
     if is_number(given):
-        return Given(float(given), getattr(given, "measures", ""))
+        return FixedNumber(float(given), getattr(given, "measures", ""))
     if is_quantity(given) or isinstance(given, Worst):
         raise DefinitionError(f"{words_of(given)} has a value at every pose: say which is meant, least(...), most(...), at(..., S=...).")
     raise DefinitionError(f"{cited(given)} is no measure and no number; write one such as least(...) or 35 * kN.")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Given(Measure):
+class FixedNumber(Measure):
     """A number [SI]; `measures` is its kind, "length", where it was written with a unit."""
 
     value: float
@@ -524,7 +524,7 @@ def in_duty(leaf: Leaf, case: object) -> Measure:
 
 def mean_in_cases(measure: Measure, shares: Spectrum) -> Measure:
     """Return the mean of a measure over load cases, by shares that sum to one; itself where no load case changes it."""
-    parts = [CombinedMeasure("*", Given(share), in_case(measure, name)) for name, share in shares.items()]
+    parts = [CombinedMeasure("*", FixedNumber(share), in_case(measure, name)) for name, share in shares.items()]
     if len(parts) == 1 or all(part.right is measure for part in parts):
         return parts[0].right
     return reduce(partial(CombinedMeasure, "+"), parts)
@@ -644,7 +644,7 @@ CHOOSING = ("absolute", "minimum", "maximum")
 
 def kind_of_measure(plan: Plan, measure: Measure) -> MeasureKind | None:
     """Return the kind of a measure; None where it is not known, and of a number. DefinitionError where parts are added that differ."""
-    if isinstance(measure, Given):
+    if isinstance(measure, FixedNumber):
         return kind_called(measure.measures)
     if isinstance(measure, Integral):
         by = measure.by or (next(iter(plan.strokes)) if len(plan.strokes) == 1 else "")
@@ -659,7 +659,7 @@ def kind_of_measure(plan: Plan, measure: Measure) -> MeasureKind | None:
     if measure.symbol in ("+", "-"):
         return common_kind(plan, str(measure), left, right)
     if measure.symbol == "**":
-        power = measure.right.value if isinstance(measure.right, Given) else None
+        power = measure.right.value if isinstance(measure.right, FixedNumber) else None
         return None if left is None or power is None else left.to_the(power)
     return product_of(measure.symbol == "/", (left, unitless_number(measure.left)), (right, unitless_number(measure.right)))
 
@@ -703,7 +703,7 @@ def kind_of_stroke(plan: Plan, name: str) -> MeasureKind:
 
 def unitless_number(measure: Measure) -> float | None:
     """Return a number without a unit; None for any other measure."""
-    return measure.value if isinstance(measure, Given) and not measure.measures else None
+    return measure.value if isinstance(measure, FixedNumber) and not measure.measures else None
 
 
 def constant_part(part: object) -> float | None:

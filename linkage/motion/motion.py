@@ -299,9 +299,9 @@ class Motion(Shown):
         return whole, found
 
     @property
-    def _whole(self) -> Motion:
+    def _machine_motion(self) -> Motion:
         """The motion whose forces these are: that of the whole, where this one is read as a part has it, else itself."""
-        return self if self._held is None else self._held[0]._whole
+        return self if self._held is None else self._held[0]._machine_motion
 
     def x(self, point: Reference) -> FloatArray:
         """Return a point's x coordinate [m].

@@ -340,7 +340,7 @@ class Over(Member):
             raise DefinitionError(f"{what}; give a quantity of the design.")
         return number(followed)
 
-    def kept(self, motion: MotionLike) -> Mask:
+    def condition_mask(self, motion: MotionLike) -> Mask:
         """Return the mask of poses that are asked for: those that keep all conditions, and those of which nothing says that they do not.
 
         A condition without a value is not kept where the machine stands; where it cannot be assembled, it leaves nothing out.

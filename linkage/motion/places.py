@@ -82,7 +82,7 @@ class PlaceProgram:
 
     values: Kernel
     slopes: Kernel
-    together: Kernel
+    values_and_slopes: Kernel
     size: Kernel
     follows: Mask
 
@@ -369,31 +369,31 @@ def check_independent(places: Places, condition: FloatArray) -> None:
 
 
 @dataclass(frozen=True, eq=False)
-class Found:
+class FoundPlaces:
     """Unit coordinates (n, k) that were found, and by how much the targets are missed there (n, t) [SI]."""
 
     unit: FloatArray
     off: FloatArray
 
-    def select(self, rows: Any) -> Found:
+    def select(self, rows: Any) -> FoundPlaces:
         """Return some of them."""
-        return Found(self.unit[rows], self.off[rows])
+        return FoundPlaces(self.unit[rows], self.off[rows])
 
 
-def beyond(places: Places, wanted: FloatArray) -> Found:
+def beyond(places: Places, wanted: FloatArray) -> FoundPlaces:
     """Return the unit coordinates outside the ranges that meet the wanted values, the least far out first.
 
     It is looked one range beyond either end, a crank over a whole turn.
     """
     out = np.where(places.turning, np.maximum(0.5 * TURN / places.span - 0.5, 0.0), 1.0)
     if not out.any():
-        return Found(np.empty((0, len(out))), np.empty((0, len(places.targets))))
+        return FoundPlaces(np.empty((0, len(out))), np.empty((0, len(places.targets))))
     found = BranchSearch(places, wanted, out).branches()
     away = np.maximum(np.maximum(-found.unit, found.unit - 1.0), 0.0).max(axis=1)
     return found.select(np.argsort(away, kind="stable"))
 
 
-def unmet_words(places: Places, wanted: FloatArray, near: Found) -> str:
+def unmet_words(places: Places, wanted: FloatArray, near: FoundPlaces) -> str:
     """Return why no strokes in their ranges meet the targets: the pose beyond them, and how far off the nearest one is."""
     past = beyond(places, wanted)
     if not len(near.unit) and not len(past.unit):
@@ -450,7 +450,7 @@ class BranchSearch:
     def _to_unit(self, box: FloatArray) -> FloatArray:
         return np.asarray(box * (1.0 + 2.0 * self.out) - self.out)
 
-    def descend(self, unit: FloatArray, steps: int, scale: FloatArray) -> Found:
+    def descend(self, unit: FloatArray, steps: int, scale: FloatArray) -> FoundPlaces:
         """Return where misses over a scale (t,) are least near each start (n, k)."""
         places, sides = self.places, 1.0 + 2.0 * self.out
 
@@ -462,7 +462,7 @@ class BranchSearch:
 
         enough = ROUNDING * float(np.min(places.sizes / scale))
         box, off = descended(misses, slopes, (unit + self.out) / sides, steps, enough=enough, begin=DAMPING)
-        return Found(self._to_unit(box), off * scale)
+        return FoundPlaces(self._to_unit(box), off * scale)
 
     # -- where it begins ---------------------------------------------------------------------------------
 
@@ -523,12 +523,12 @@ class BranchSearch:
     # -- what is found -----------------------------------------------------------------------------------
 
     @np.errstate(all="ignore")
-    def branches(self) -> Found:
+    def branches(self) -> FoundPlaces:
         """Return all that meets the targets, ascending; of infinitely many some."""
         places = self.places
         scale = self.changes
         starts = np.concatenate([self.starts(), self.border_starts()])
-        none = Found(np.empty((0, len(self.axes))), np.empty((0, len(scale))))
+        none = FoundPlaces(np.empty((0, len(self.axes))), np.empty((0, len(scale))))
         if not len(starts):
             return none
         found = self.descend(starts, STEPS, scale)
@@ -545,11 +545,11 @@ class BranchSearch:
             return none
         return found.select(places.is_assembled(found.unit))
 
-    def _met(self, found: Found) -> Mask:
+    def _met(self, found: FoundPlaces) -> Mask:
         """Return which meet all targets."""
         return np.asarray((np.abs(found.off) <= MET * self.places.sizes).all(axis=1))
 
-    def _beside(self, found: Found, scale: FloatArray) -> Found:
+    def _beside(self, found: FoundPlaces, scale: FloatArray) -> FoundPlaces:
         """Return the twins of branches that have another one close by, where the slopes lose a rank between them.
 
         It is as far beyond the place where the least singular value would be zero, by how it changes along its own direction.
@@ -571,13 +571,13 @@ class BranchSearch:
         again = self.descend(starts, STEPS, scale)
         return again.select(self._met(again))
 
-    def _joined(self, one: Found, other: Found) -> Found:
+    def _joined(self, one: FoundPlaces, other: FoundPlaces) -> FoundPlaces:
         """Return the places of two lots, each once, ascending by the first coordinate, then by the next ones."""
         unit, off = np.concatenate([one.unit, other.unit]), np.concatenate([one.off, other.off])
         order = np.argsort(np.abs(off / self.places.sizes).max(axis=1), kind="stable")
         kept = without_repeats(order, lambda known, each: self._is_same(unit[known], unit[each]), MOST)
         kept.sort(key=lambda each: tuple(np.round(unit[each], 9)))
-        return Found(unit[kept], off[kept])
+        return FoundPlaces(unit[kept], off[kept])
 
     def _is_same(self, one: FloatArray, other: FloatArray) -> bool:
         """Return whether two places are one: to rounding, a whole turn apart, or one solution that is met twice."""
@@ -587,11 +587,11 @@ class BranchSearch:
         apart = np.where(whole, apart - turn * np.round(apart / turn), apart)
         middle = (other + 0.5 * apart)[None]
         return is_one_solution(
-            apart, SAME, lambda: bool(self._met(Found(middle, self.places.off(self.places.target_values(middle), self.wanted)))[0])
+            apart, SAME, lambda: bool(self._met(FoundPlaces(middle, self.places.off(self.places.target_values(middle), self.wanted)))[0])
         )
 
     @np.errstate(all="ignore")
-    def nearest(self) -> Found:
+    def nearest(self) -> FoundPlaces:
         """Return the place with the least difference, in units of the targets' tolerances; none where nothing can be assembled.
 
         It starts where least is missed on the grid: from the best, and those that no neighbour improves on.
@@ -849,12 +849,12 @@ def positions_for(plan: Plan, designs: Mapping[str, object], targets: object, ho
     return Positions(rows, condition, False, near.off, nearest_row, words[0].upper() + words[1:])
 
 
-def rows_of_branches(places: Places, found: Found) -> StrokeRows:
+def rows_of_branches(places: Places, found: FoundPlaces) -> StrokeRows:
     """Return all strokes of some branches, those that are held included."""
     return StrokeRows(np.stack([*places.strokes_at(found.unit).values()], axis=1), places.plan.strokes)
 
 
-def met_words(places: Places, found: Found, condition: FloatArray, wanted: FloatArray) -> str:
+def met_words(places: Places, found: FoundPlaces, condition: FloatArray, wanted: FloatArray) -> str:
     """Return the strokes that meet the targets, in words; warn of those next to a dead point."""
     strokes = [places.stroke_words(each) for each in places.low + found.unit * places.span]
     parts = {"wanted": places.shown(wanted), "strokes": said(" or with ").join(strokes[:TOLD])}

@@ -17,7 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..checks import can_be_called
-from ..errors import AssemblyError, DefinitionError, cited, ensure, told, unwarned
+from ..errors import AssemblyError, DefinitionError, cited, ensure, errors_of, unwarned
 from ..language import said
 from ..numeric.box import highest_in, values_a_stroke, weights_of
 from ..numeric.line import CLOSE, SAMPLES, Index, bisected, highest, missing_lowest, peaks, samples, stretches, zoomed
@@ -309,7 +309,7 @@ def values_of(f: Function, motion: Motion, *, everywhere: bool = False) -> Float
 
     Nearness to a dead point is not reported.
     """
-    with unwarned(), np.errstate(all="ignore"), told(f"{motion.plan.title}: a function of a motion"):
+    with unwarned(), np.errstate(all="ignore"), errors_of(f"{motion.plan.title}: a function of a motion"):
         found = np.asarray(f(motion), float)
     axes = len(motion.shape)
     if found.ndim < axes or found.shape[found.ndim - axes :] != motion.shape:

@@ -18,7 +18,7 @@ from ..errors import DefinitionError, cited, known_name
 from ..language import noted, said, translated
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, Request, RequestLike, columns_of
-from ..motion.measures import Constraint, Given, Leaf, Least, Most
+from ..motion.measures import Constraint, FixedNumber, Leaf, Least, Most
 from ..motion.requests import may_be_unlimited
 from ..program import FloatArray
 from ..quantities import Quantity, is_number
@@ -191,7 +191,7 @@ def leaf_bound(constraint: Constraint, is_shown: Callable[[Leaf], bool]) -> tupl
     """Return the leaf, the number [SI] and the sign of a condition that holds a quantity against a number; None for any other."""
     left, right, turned = constraint.left, constraint.right, {"<=": ">=", ">=": "<=", "==": "=="}[constraint.symbol]
     for one, other, sign in ((left, right, constraint.symbol), (right, left, turned)):
-        if isinstance(one, Leaf) and isinstance(other, Given) and is_shown(one):
+        if isinstance(one, Leaf) and isinstance(other, FixedNumber) and is_shown(one):
             return one, other.value, sign
     return None
 

@@ -18,7 +18,7 @@ from ..program import FloatArray
 from ..reports import Run, at_its_rates, case_shown, request_in_case
 from ..statics import AnyMotion, JointForce, LawRequest, TracedMotion, applied_loads, ground_loads, pin_force, pin_forces, rates_in
 
-Asked = TypeVar("Asked")
+AnyRequest = TypeVar("AnyRequest")
 
 
 @dataclass(frozen=True)
@@ -28,10 +28,10 @@ class PageSituation:
     case: Case
     motion: Motion | None = None
 
-    def asked(self, request: Asked) -> Asked:
+    def in_situation(self, request: AnyRequest) -> AnyRequest:
         """Return a request in this situation; over a path in time its program takes rates and accelerations."""
         found = request_in_case(request, self.case)
-        return found if self.motion is None else cast(Asked, at_its_rates(self.motion, cast(Any, found)))
+        return found if self.motion is None else cast(AnyRequest, at_its_rates(self.motion, cast(Any, found)))
 
 
 def page_situations(machine: Mechanism, judge: Judge, run: Run) -> tuple[list[PageSituation], list[int]]:
@@ -43,9 +43,9 @@ def page_situations(machine: Mechanism, judge: Judge, run: Run) -> tuple[list[Pa
     return found, [found.index(each) for each in of_places]
 
 
-def situated_requests(name: str, request: Asked, situations: Sequence[PageSituation]) -> dict[str, Asked]:
+def situated_requests(name: str, request: AnyRequest, situations: Sequence[PageSituation]) -> dict[str, AnyRequest]:
     """Return a request in each situation, by its name and number; once where it is the same as in the first."""
-    asked = [each.asked(request) for each in situations]
+    asked = [each.in_situation(request) for each in situations]
     return {f"{name} {k}": each for k, each in enumerate(asked) if not k or each is not asked[0]}
 
 

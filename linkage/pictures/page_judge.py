@@ -15,9 +15,9 @@ from ..language import heading_of, language, translated
 from ..loads import FRICTIONLESS, PLAIN_CASE, Acting
 from ..mechanism import Mechanism
 from ..motion import Column, Condition, HasVerdicts, Instants, LiveText, PageWords, Request, RequestLike, least, most, speakers
-from ..motion.judge import Domain, Judge, Sought, leaf_key, measures_of
+from ..motion.judge import Domain, Judge, SearchRow, leaf_key, measures_of
 from ..motion.judging import NEAR, verdict_questions
-from ..motion.measures import At, CombinedMeasure, Constraint, Given, Integral, Leaf, Measure, conditions_of, dimension_value
+from ..motion.measures import At, CombinedMeasure, Constraint, FixedNumber, Integral, Leaf, Measure, conditions_of, dimension_value
 from ..motion.over import ALLOWED
 from ..motion.requests import NodeRequest, bound, is_of_force
 from ..plan import Plan
@@ -28,7 +28,7 @@ from ..units import display_unit, factor, shown_in
 from .curves import Limit, limit_of, typeset
 from .page_file import PageData
 
-Piece: TypeAlias = tuple[int, Sought, str]
+Piece: TypeAlias = tuple[int, SearchRow, str]
 """The place of an `Over` among those of the judge, what is sought over it, and the name of its row."""
 PLAIN_WORDS = PageWords("")
 """Of a condition that is said by its own number."""
@@ -222,7 +222,7 @@ class LiveQuestions:
             ],
         }
 
-    def piece_data(self, live: LiveText, number: int, row: Sought, name: str) -> PageData:
+    def piece_data(self, live: LiveText, number: int, row: SearchRow, name: str) -> PageData:
         """Return a piece as data: its `Over`, its rows, behind those of the program the delivered ones, its situation."""
         situation, place = row.situation, self.judge.places[number]
         if name in self.delivered:
@@ -280,7 +280,7 @@ def unit_data(unit: str) -> PageData:
 
 def tree(measure: Measure, places: Mapping[Leaf, int]) -> object:
     """Return a measure as data: a number, the place of a leaf, or an operator with its two sides."""
-    if isinstance(measure, Given):
+    if isinstance(measure, FixedNumber):
         return measure.value
     if isinstance(measure, CombinedMeasure):
         return [measure.symbol, tree(measure.left, places), tree(measure.right, places)]

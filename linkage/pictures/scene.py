@@ -362,15 +362,15 @@ class Scene:
         return tuple(placed)
 
     @cached_property
-    def _whole(self) -> Scene:
+    def _widest(self) -> Scene:
         """The scene of the motion that goes furthest, whose bounds hold for any poses shown."""
         return self if self.over is None else Scene(self.over)
 
     def _lies_along(self, member: TwoForceMember, points: tuple[str, ...]) -> bool:
         """Return whether two points of another body stand on a member's line at all poses, and a good part of it between them."""
-        if {member.P, member.Q} <= set(points) or not self._whole.reached:
+        if {member.P, member.Q} <= set(points) or not self._widest.reached:
             return False
-        for at in self._whole.some(5):
+        for at in self._widest.some(5):
             P, along = at[member.P], at[member.Q] - at[member.P]
             length = float(np.hypot(*along))
             if not length > 0.0:
@@ -491,7 +491,7 @@ class Scene:
         glyphs = [glyph for _, glyph in self.glyphs]
         kinds = dict.fromkeys((each.drawn_as, each.points, each.way) for each in glyphs if each.drawn_as in shapes.MARKS)
         found = [(points, shapes.MARKS[kind](self.size, way)) for kind, points, way in kinds]
-        shown = self._whole.some(3)
+        shown = self._widest.some(3)
         on_bodies = dict.fromkeys((each.drawn_as, each.points, each.away) for each in glyphs if each.drawn_as in shapes.ON_BODIES)
         for kind, points, away in on_bodies:
             frames = [(at, *DrawnMark(points[0], points[:2], ()).axes(at)[:2]) for at in shown] if len(points) > 1 else []
@@ -589,8 +589,8 @@ class Scene:
     def rims(self) -> Places:
         """The two ends of every track at every pose, shape (2, n) each [m]."""
         found, pad = dict[str, FloatArray](), MARGIN * self.size
-        for track, other in zip(self.tracks, self._whole.tracks, strict=True):
-            lows, highs = zip(track.travel(self.places), other.travel(self._whole.places), strict=True)
+        for track, other in zip(self.tracks, self._widest.tracks, strict=True):
+            lows, highs = zip(track.travel(self.places), other.travel(self._widest.places), strict=True)
             low, high = (min(lows), max(highs)) if min(lows) <= max(highs) else (0.0, 0.0)
             start, end = track.ends
             found |= {start: track.origin + (low - pad) * track.along, end: track.origin + (high + pad) * track.along}

@@ -64,7 +64,7 @@ class Loop:
 
 
 class Trace(Reading):
-    """A reading whose scalars are the nodes of one graph; `kept` caches results of others, by their keys."""
+    """A reading whose scalars are the nodes of one graph; `cache` caches results of others, by their keys."""
 
     def __init__(self, members: Mapping[str, Member], lengths: Mapping[frozenset[str], Quantity], levels: Mapping[str, Level]) -> None:
         self.graph = Graph()
@@ -75,7 +75,7 @@ class Trace(Reading):
         self.loops: list[Loop] = []
         self.noted: dict[str, Node] = {}
         self.angles: list[Node] = []
-        self.kept: dict[object, object] = {}
+        self.cache: dict[object, object] = {}
         self.is_sizing = False
         self._tangents: dict[Hashable, Tangent] = {}
 
@@ -109,7 +109,7 @@ class Trace(Reading):
         """Return this trace on a forked graph: new nodes do not change this one, and its own are known there."""
         fork = self.view()
         fork.graph = self.graph.fork()
-        fork.kept, fork._tangents = {}, {}
+        fork.cache, fork._tangents = {}, {}
         for name in ("guards", "measures", "loops", "angles", "positions", "noted", "directions", "inputs", "_values", "extent"):
             if name in vars(self):
                 vars(fork)[name] = in_fork(vars(self)[name], fork.graph.nodes)
@@ -118,7 +118,7 @@ class Trace(Reading):
     def view(self) -> Trace:
         """Return a view of this trace for more readings; they add nothing here but nodes."""
         view = self.copied()
-        view.kept, view._tangents, view.placing = self.kept, self._tangents, []
+        view.cache, view._tangents, view.placing = self.cache, self._tangents, []
         return view
 
     def alone(self, member: Member | None) -> Trace:

@@ -19,7 +19,7 @@ from ..motion import Column, Motion, Request, Tabled, columns_of, require_motion
 from ..program import FloatArray
 from ..statics import drive_force, driving_force, held_fault
 
-Asked = TypeVar("Asked")
+AnyRequest = TypeVar("AnyRequest")
 
 
 def results(machine: Mechanism, motion: Motion, case: Case = None) -> list[Column]:
@@ -75,9 +75,9 @@ def column_in_case(motion: Motion, column: Column, case: Case) -> Column:
     return column if own is None or own is column.request else replace(column, values=motion[own])
 
 
-def request_in_case(request: Asked, case: Case) -> Asked:
+def request_in_case(request: AnyRequest, case: Case) -> AnyRequest:
     """Return a request in a load case."""
-    return cast(Asked, request.under(Acting(case=case), keep=True)) if isinstance(request, Request) and case is not None else request
+    return cast(AnyRequest, request.under(Acting(case=case), keep=True)) if isinstance(request, Request) and case is not None else request
 
 
 def columns_about(machine: Mechanism, found: Sequence[Column]) -> list[str]:

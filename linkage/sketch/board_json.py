@@ -33,13 +33,13 @@ def read_board(found: FoundMachine, data: Mapping[str, Any]) -> None:
     """Read a file of the board: its sketch as it is, and its points and links for drives that are asked for."""
     ensure_file(data["board"] == BOARD, f"{found.file}: it is of another board, {shortened(data['board'])}; bring hydrolinkage up to date.")
     try:
-        found.whole = BoardReader(found, data).sketch()
+        found.board_sketch = BoardReader(found, data).sketch()
     except DefinitionError as error:
         raise FileError(f"{found.file}: {error}") from None
     found.unit = 1.0
-    for name, (x, y) in found.whole.points.items():
-        found.add_point(name, name, x, y, name in found.whole.fixed)
-    found.links = [(name, [*points]) for name, points in found.whole.links.items()]
+    for name, (x, y) in found.board_sketch.points.items():
+        found.add_point(name, name, x, y, name in found.board_sketch.fixed)
+    found.links = [(name, [*points]) for name, points in found.board_sketch.links.items()]
 
 
 class BoardReader:

@@ -70,7 +70,7 @@ class FoundMachine:
     left_out: list[str] = field(default_factory=list)
     line: int = 0
     """The line that is read, where the file has lines."""
-    whole: MachineSketch | None = None
+    board_sketch: MachineSketch | None = None
     """The sketch, where the file holds it as it is: points and links above are its own."""
 
     @property

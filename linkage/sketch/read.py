@@ -67,7 +67,7 @@ def read_sketch(
     is_drawing = str(file).lower().endswith(".dxf")
     ensure(is_drawing or not layers, f"{found.file}: --layer {', '.join(layers)}: only a drawing, .dxf, has layers; leave it out.")
     if scale is not None:
-        ensure(found.whole is None, f"{found.file}: a drawing of the board is in metres; leave out the scale.")
+        ensure(found.board_sketch is None, f"{found.file}: a drawing of the board is in metres; leave out the scale.")
         ensure(isfinite(scale) and scale > 0.0, f"{found.file}: the scale is {scale!r}; say what 1 of the file is, such as 1mm.")
         found.unit = scale
     asked = [*(("crank", *ends) for ends in drives), *(("cylinder", *ends) for ends in cylinders)]
@@ -75,8 +75,8 @@ def read_sketch(
         found.drives = []
         for kind, *ends in asked:
             add_drive(found, kind, *(point_key(found, name) for name in ends))
-    if found.whole is not None:
-        return found.driven_anew(found.whole) if asked else found.whole
+    if found.board_sketch is not None:
+        return found.driven_anew(found.board_sketch) if asked else found.board_sketch
     return found.sketch(title)
 
 
@@ -104,7 +104,7 @@ def content_of(file: Place, layers: Mapping[str, Sequence[str]]) -> tuple[FoundM
     if is_address(text):
         found = FoundMachine("the address")
         read_address(found, text)
-        return found, found.whole.name if found.whole else "Shared"
+        return found, found.board_sketch.name if found.board_sketch else "Shared"
     path = Path(file)
     suffix = path.suffix.lower()
     if suffix not in SUFFIXES:
@@ -119,7 +119,7 @@ def content_of(file: Place, layers: Mapping[str, Sequence[str]]) -> tuple[FoundM
     raw = read(path, FILE_BYTES + 1)
     if suffix == ".json":
         read_json(found, decoded(path.name, raw, True).data)
-        return found, found.whole.name if found.whole else title
+        return found, found.board_sketch.name if found.board_sketch else title
     ensure_file(len(raw) <= FILE_BYTES, f"{path.name}: the file is larger than {FILE_BYTES / 1e6:g} MB; a machine is a few kB.")
     content = text_of_bytes(raw)
     ensure_file(content.strip(), f"{path.name}: the file is empty.")

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..checks import is_listed
-from ..errors import DefinitionError, SingularError, cited, known_name, told, unknown
+from ..errors import DefinitionError, SingularError, cited, errors_of, known_name, unknown
 from ..loads import AS_IT_RUNS, FRICTIONLESS, PLAIN_CASE, Acting, Case, Damper, HasLoads, LoadCase, Loads
 from ..loads.acting import check_factor, shut_members
 from ..loads.element import AT_REST, SENSES, ForceElement, Friction, Load, Poses, Push, Rate, Rates, TwoPinned, check_together
@@ -93,7 +93,7 @@ def element_parts(motion: Poses, fit: Callable[[ArrayLike, int, str, str], Float
         thrusts.append(Push(push.member, fit(push.thrust, 0, name, "thrust") * each.factor, title))
     if thrusts:
         return [], thrusts
-    with told(f"{motion.plan.title}: loads(motion) of {name}"):
+    with errors_of(f"{motion.plan.title}: loads(motion) of {name}"):
         found = element.moving(motion, rates) if rates else element.loads(motion)
     if not is_listed(found) or not all(isinstance(load, Load) for load in found):
         raise DefinitionError(f"{motion.plan.title}: {name}: loads(motion) gives {found!r}; a list of Load(point, force) is expected.")

@@ -54,7 +54,7 @@ class ForceProgram:
     """
 
     friction: tuple[Kernel, Kernel, Kernel] | None
-    whole: Kernel
+    kernel: Kernel
     rows: tuple[tuple[int, int], ...]
 
 
@@ -156,7 +156,7 @@ def run_at(
             return None
         couples = poses.full(np.where(locked, 0.0, q) * np.stack([each.lever for each in frictions])).reshape(len(frictions), *size)
         inputs |= {input_name("friction", place): np.nan_to_num(each) for place, each in enumerate(couples)}
-    result = program.whole(inputs, size=size)
+    result = program.kernel(inputs, size=size)
     values = result.values.reshape(len(result.values), *motion.shape)
     good = poses.good & ~poses.mask(locked)
     whole = bool(good.all())

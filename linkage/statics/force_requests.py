@@ -153,7 +153,7 @@ class JointPart:
 
     def traced_part(self, acting: Acting, shared: Hashable, motion: TracedMotion) -> tuple[TracedMotion, Node]:
         """Return it on a program, on which all joint forces are traced once for all that are asked for: they are kept as `shared`."""
-        kept = motion.plan.trace.kept
+        kept = motion.plan.trace.cache
         if shared not in kept:  # the notes say that the joints hold what they are said to
             motion = held_in_case(motion, acting)
             applied = applied_loads(motion, acting, rates_in(motion, acting))
@@ -172,7 +172,7 @@ def structure_in_plan(motion: TracedMotion, acting: Acting) -> tuple[Structure, 
 
     Of the machine's own loads it is worked out once for all joints; given loads are not kept alive.
     """
-    kept, key = motion._reading.kept, ("acts", situation_identity(acting))
+    kept, key = motion._reading.cache, ("acts", situation_identity(acting))
     if key in kept:
         return cast("tuple[Structure, tuple[Hashable, ...]]", kept[key])
     motion = held_in_case(motion, acting)

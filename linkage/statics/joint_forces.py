@@ -71,7 +71,7 @@ def pin_forces(
 
 def joint_forces(motion: Motion, acting: Acting, split: str = "refuse") -> PinForces:
     """Return every joint force at every pose in a situation: `split` as `pin_forces` has it."""
-    motion = held_in_case(require_motion(motion)._whole, acting)
+    motion = held_in_case(require_motion(motion)._machine_motion, acting)
     rates = rates_in(motion, acting)
     if acting.drive is not None:
         stroke_of(motion.plan, acting.drive, "drive")

@@ -62,7 +62,7 @@ class TracedMotion(OnePose):
 
     def _once(self, key: Hashable, make: Callable[[], Made]) -> Made:
         """Return numbers that several laws of a program share, traced once; their readings and assumptions count for each of the laws."""
-        kept, notes, key = self._reading.kept, self.notes, ("shared", self.plan, key)
+        kept, notes, key = self._reading.cache, self.notes, ("shared", self.plan, key)
         if key not in kept:
             before, owner = self._told, notes.owner
             self._told, notes.owner = (set(), set(), {}, {}, {}), ""
@@ -485,7 +485,7 @@ class LawRequest(Request):
 
     def _traced(self, plan: Plan) -> TracedLaw:
         """Return the formula on a plan's program, traced there once."""
-        kept = cast(dict[Hashable, TracedLaw], plan.trace.kept)
+        kept = cast(dict[Hashable, TracedLaw], plan.trace.cache)
         if self.key not in kept:
             kept[self.key] = self._in(plan).trace(TracedMotion(plan, plan.trace))
         return kept[self.key]

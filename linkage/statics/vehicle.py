@@ -86,7 +86,7 @@ def standing(motion: Motion, loads: Loads = None, **situation: Unpack[ActingKeyw
     Standing
         The loads of the supports, the margins, and the slip.
     """
-    motion, acting = require_motion(motion)._whole, situation_of("standing", loads=loads, **situation)
+    motion, acting = require_motion(motion)._machine_motion, situation_of("standing", loads=loads, **situation)
     return standing_of(motion, acting, vehicle_of(motion.plan, acting))
 
 
@@ -441,7 +441,7 @@ def load_over(name: str, motion: AnyMotion, acting: Acting) -> FloatArray:
 
 def used_over(motion: AnyMotion, acting: Acting) -> FloatArray:
     """Return the use of the friction over a motion's poses, shape (...); infinite where nothing presses and something pushes."""
-    motion = motion._whole if isinstance(motion, Motion) else motion
+    motion = motion._machine_motion if isinstance(motion, Motion) else motion
     found = standing_under(motion, acting)
     if found.friction is None:
         rough_in(motion.plan)

@@ -191,7 +191,7 @@ def member_thrust_on(motion: AnyMotion, member: TwoPoint, acting: Acting) -> Flo
     if line is not None and isinstance(motion, TracedMotion) and not is_written:
         raise UntracedError(f"{count} lines of cylinders hold together, and a program is written for {MOST_WRITTEN} at the most.")
     rates = member_rates(motion, member, acting, line if line in holders.lines else None)
-    applied = kept(motion, acting, rates, "applied", lambda: applied_on(motion, acting, rates))
+    applied = shared_by_cylinders(motion, acting, rates, "applied", lambda: applied_on(motion, acting, rates))
     laws = [each.thrust for each in applied.thrusts if same(each.member, member)]
     if line is None:
         if not laws:
@@ -231,7 +231,7 @@ def closed_force(motion: AnyMotion, element: ForceElement, acting: Acting) -> Fl
     if line is None:
         return None
     rates = rates_in(motion, acting)
-    applied = kept(motion, acting, rates, "applied", lambda: applied_on(motion, acting, rates))
+    applied = shared_by_cylinders(motion, acting, rates, "applied", lambda: applied_on(motion, acting, rates))
     what = f"The force of {element.name}"
     found = with_friction(motion, applied, what)
     if found is not None:
@@ -276,10 +276,10 @@ def frictionless(
         need = np.stack(found, axis=-1) if found else np.zeros((poses.count, 0))
         return need, [by_work(poses, applied, line.stroke) for line in holders.closed]
 
-    return poses, levers, kept(motion, acting, rates, ("needs", holders.every_line, poses.good.tobytes()), needed)
+    return poses, levers, shared_by_cylinders(motion, acting, rates, ("needs", holders.every_line, poses.good.tobytes()), needed)
 
 
-def kept(motion: AnyMotion, acting: Acting, rates: Rates, what: Hashable, make: Callable[[], Made]) -> Made:
+def shared_by_cylinders(motion: AnyMotion, acting: Acting, rates: Rates, what: Hashable, make: Callable[[], Made]) -> Made:
     """Return a shared result of all cylinders for the same loads on a motion, cached; made each time where its movement depends on one."""
     return once_in(motion, acting, ("held", what), make) if rates is AT_REST or rates.is_timed else make()
 

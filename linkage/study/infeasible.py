@@ -76,7 +76,7 @@ def infeasible_error(
 
     `ended` are the ends of local searches, `looked` the unit coordinates (m, n) of designs of each combination that were looked at.
     """
-    reached = sorted((each for each in ended if each.whole), key=lambda each: each.missing)
+    reached = sorted((each for each in ended if each.is_assembled), key=lambda each: each.missing)
     title = problem.plan.title
     if not reached:
         return StudyError(f"{title}: no search came to a design that can be assembled over the whole stroke; widen vary=.")
@@ -184,7 +184,7 @@ def alternatives_to(problem: Problem, best: GivenWay, looked: FloatArray | None)
             near = int(np.lexsort((missing[row], others))[0])
             short, is_whole = float(missing[:, near].max()), bool(np.isfinite(others[near]))
             starts.insert(0, SearchEnd(best.found.combination, looked[near], np.nan, short, is_whole))
-        ends = [given_way(problem, start, [each]) for start in starts if start.whole]
+        ends = [given_way(problem, start, [each]) for start in starts if start.is_assembled]
         alone = [end for end in ends if end is not None and [one.condition for one in end.relaxations] == [each]]
         if alone:
             least = min(alone, key=lambda end: end.total)

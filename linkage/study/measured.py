@@ -12,7 +12,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..errors import AssemblyError, DefinitionError, UntracedError, cited, ensure, told, unwarned
+from ..errors import AssemblyError, DefinitionError, UntracedError, cited, ensure, errors_of, unwarned
 from ..frozen import immutable
 from ..mechanism import Mechanism
 from ..motion import Grid, Motion, Request, at_values, each_at_its_stroke, evaluate_grid, stroke_display_unit
@@ -214,7 +214,7 @@ class StudyPoses:
 def function_value(quantity: Callable[[Motion], Any], motion: Motion) -> Any:
     """Return the value of a function of a motion; DefinitionError, with the line, for any error in it."""
     name = getattr(quantity, "__name__", cited(quantity))
-    with told(f"{motion.plan.title}: the function {name} of a motion of many settings"):
+    with errors_of(f"{motion.plan.title}: the function {name} of a motion of many settings"):
         return quantity(motion)
 
 

@@ -267,7 +267,7 @@ class MonteCarloRun:
 
     def __init__(self, poses: StudyPoses, designs: Mechanism, count: int, way: RunOptions, order: Sequence[float]) -> None:
         self.poses, self.designs, self.count, self.order = poses, designs, count, order
-        self.threads, self.way = way.threads, RunOptions(way.backend)
+        self.threads, self.options = way.threads, RunOptions(way.backend)
         self.moments: dict[str, FloatArray] = {}
         self.lost = np.zeros(count, bool)
         self.kept: list[Mask] = []
@@ -317,7 +317,7 @@ class MonteCarloRun:
 
         def fill(block: slice) -> None:
             with np.errstate(all="ignore"):
-                for row, found in zip(place, self.poses.of_requests(self._block(block), traced, self.way, part), strict=True):
+                for row, found in zip(place, self.poses.of_requests(self._block(block), traced, self.options, part), strict=True):
                     row[:, block] = found.T
 
         self._on_threads(fill, blocks(self.count, part.stop - part.start))
@@ -327,7 +327,7 @@ class MonteCarloRun:
         """Return a quantity at its own pose, or an integral over the row of strokes, shape (designs,)."""
         poses = self.poses.integral_poses(leaf)[0] if isinstance(leaf, Integral) else self.poses.at(leaf)
         parts = blocks(self.count, poses.pose_count)
-        found = np.concatenate([self.poses.of_leaf(self._block(block), leaf, self.way) for block in parts])
+        found = np.concatenate([self.poses.of_leaf(self._block(block), leaf, self.options) for block in parts])
         free = np.zeros(self.count, bool) if isinstance(leaf, Integral) else self._free(poses, leaf.quantity, found[None])[0]
         self._unlimited[leaf] = free.astype(int)
         self.lost |= np.isnan(found) & ~free

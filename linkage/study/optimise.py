@@ -343,7 +343,7 @@ def check_objectives_move(problem: Problem) -> None:
 
 # Load cases.
 
-Asked = TypeVar("Asked", Measure, Constraint)
+AnyRequest = TypeVar("AnyRequest", Measure, Constraint)
 
 
 def constraint_in_case(constraint: Constraint, case: Case) -> Constraint:
@@ -356,8 +356,8 @@ def constraint_in_case(constraint: Constraint, case: Case) -> Constraint:
 
 
 def each_in_cases(
-    asked: Sequence[Asked], cases: Sequence[Case], machine: Mechanism, put: Callable[[Asked, Case], Asked]
-) -> tuple[Asked, ...]:
+    asked: Sequence[AnyRequest], cases: Sequence[Case], machine: Mechanism, put: Callable[[AnyRequest, Case], AnyRequest]
+) -> tuple[AnyRequest, ...]:
     """Return measures or constraints as a judge is to look at them: in the load cases of a search, themselves where these are all."""
     if {*cases} == {None, *machine.plan.of_kind(LoadCase)}:
         return tuple(asked)
@@ -456,7 +456,7 @@ class Journal:
         try:
             entry = self.known[task]
             unit = np.array(entry["unit"], float)
-            found = SearchEnd(combination, unit, float(entry["value"]), float(entry["missing"]), bool(entry["whole"]))
+            found = SearchEnd(combination, unit, float(entry["value"]), float(entry["missing"]), bool(entry["is_assembled"]))
             looked_at = int(entry["looked_at"])
             if unit.shape != (len(problem.space.variables),):
                 return None

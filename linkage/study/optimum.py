@@ -20,11 +20,11 @@ from ..disk import Place, replacing_text
 from ..errors import AssemblyError, DefinitionError, LinkageError, ensure
 from ..frozen import immutable
 from ..mechanism import Mechanism
-from ..motion.measures import Constraint, Given, Integral, Leaf, Measure, measure_of, measure_unit
+from ..motion.measures import Constraint, FixedNumber, Integral, Leaf, Measure, measure_of, measure_unit
 from ..numeric.line import Index
 from ..plan import Mask, Plan
 from ..program import FloatArray
-from ..shown import Shown, Told, text_columns
+from ..shown import HasSentence, Shown, text_columns
 from ..units import deg, display_unit, factor, mm, require_measure, show, shown_in
 from .box import unit_points
 from .checks import unit_of
@@ -59,7 +59,7 @@ MOST_STEPS, JUDGED, NEAR_KEPT = 1 << 14, 24, 1e-3
 
 
 @immutable
-class Kept:
+class ConditionSpare:
     """A condition of a design: its two sides [SI], the spare (below zero: missing), and whether it is active.
 
     `gain` is by what part the objective would be better if the condition gave way `by` so much [SI]: by 1 % of its limit, of a limit
@@ -82,7 +82,7 @@ class Kept:
     def __str__(self) -> str:
         value, limit = (show(0.0 if abs(each) < NOISE else each, self.units) for each in (self.left, self.right))
         said = f"{in_units(self.constraint, self.units)}: {value}"
-        if not isinstance(self.constraint.right, Given):
+        if not isinstance(self.constraint.right, FixedNumber):
             said += f" against {limit}"
         if not self.active:
             return said
@@ -156,7 +156,7 @@ class Optimum(Shown):
     value: float
     start_value: float
     start_missing: float
-    conditions: tuple[Kept, ...]
+    conditions: tuple[ConditionSpare, ...]
     bounds: tuple[AtBound, ...]
     variables: Mapping[str, float]
     agreed: int
@@ -179,7 +179,7 @@ class Optimum(Shown):
         return float(-self.problem.sense * (self.value - self.start_value) / abs(self.start_value))
 
     @property
-    def active(self) -> tuple[Kept, ...]:
+    def active(self) -> tuple[ConditionSpare, ...]:
         """The conditions that limit it."""
         return tuple(each for each in self.conditions if each.active)
 
@@ -380,7 +380,7 @@ def described(problem: Problem, found: SearchEnd, ended: Sequence[SearchEnd], se
     of_constraints, of_bounds, ways = multipliers(local, found.unit)
     part = local.size / (abs(value) or 1.0)
     conditions = tuple(
-        as_kept(problem, each, now, part * price / scale, scale)
+        condition_spare(problem, each, now, part * price / scale, scale)
         for each, price, scale in zip(problem.constraints, of_constraints, local.scales, strict=True)
     )
     values = problem.space.values(found.unit)
@@ -401,7 +401,7 @@ def described(problem: Problem, found: SearchEnd, ended: Sequence[SearchEnd], se
     return replace(best, edges=tuple(edges(problem, found, ways, part)))
 
 
-def as_kept(problem: Problem, constraint: Constraint, now: Mapping[Leaf, float], price: float, scale: float) -> Kept:
+def condition_spare(problem: Problem, constraint: Constraint, now: Mapping[Leaf, float], price: float, scale: float) -> ConditionSpare:
     """Return how a design keeps a constraint, from its leaves' numbers and the objective's gain for one [SI] less of it.
 
     `scale` is the size of what is compared [SI].
@@ -410,7 +410,8 @@ def as_kept(problem: Problem, constraint: Constraint, now: Mapping[Leaf, float],
     spare = -constraint.short(left, right)
     size = max((abs(side) for side in (left, right) if np.isfinite(side)), default=0.0)
     by = 0.01 * (size if size > 1e-6 * scale else scale)
-    return Kept(constraint, left, right, spare, by, price * by if price * by > SHOWN else 0.0, unit_of_constraint(problem.plan, constraint))
+    gain = price * by if price * by > SHOWN else 0.0
+    return ConditionSpare(constraint, left, right, spare, by, gain, unit_of_constraint(problem.plan, constraint))
 
 
 def numbers_judged(problem: Problem, machine: Mechanism) -> tuple[LeafNumbers | None, float]:
@@ -499,7 +500,7 @@ def stopped_by(problem: Problem, combination: Sequence[int], unit: FloatArray) -
         look = problem.evaluated(machine.dimensions)
     except LinkageError as error:
         return what_of(str(error))
-    if not bool(look.whole[0]):
+    if not bool(look.is_assembled[0]):
         return what_of(problem.refusal or "it cannot be assembled over the whole stroke")
     return next((no_value(problem.plan, leaf) for leaf in problem.leaves if look.lost(leaf)[0]), "")
 
@@ -632,7 +633,7 @@ class StepSearch:
 
 
 @immutable
-class Rounded(Told):
+class Rounded(HasSentence):
     """A design on drawing dimensions: the machine, its objective [SI], the cost as a part, and its misses of the conditions."""
 
     machine: Mechanism
@@ -717,7 +718,7 @@ def unit_of_leaf(plan: Plan, leaf: Leaf) -> str:
 
 def in_units(constraint: Constraint, units: str) -> str:
     """Return a constraint as text, its number in a unit."""
-    sides = [show(side.value, units) if isinstance(side, Given) else str(side) for side in constraint.compared]
+    sides = [show(side.value, units) if isinstance(side, FixedNumber) else str(side) for side in constraint.compared]
     return f"{sides[0]} {constraint.symbol} {sides[1]}"
 
 
@@ -742,7 +743,7 @@ class EvaluatedDesigns:
     @classmethod
     def of_end(cls, problem: Problem, end: SearchEnd) -> EvaluatedDesigns:
         """Return the one design that a local search came to."""
-        value, missing, reached = (np.array([float(each)]) for each in (end.value, end.missing, end.whole))
+        value, missing, reached = (np.array([float(each)]) for each in (end.value, end.missing, end.is_assembled))
         return cls("searched", problem.space, end.combination, end.unit[None], value, missing, reached, problem.sense)
 
     @property

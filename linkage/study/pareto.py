@@ -16,7 +16,7 @@ import numpy as np
 from ..errors import LinkageError, ensure
 from ..frozen import immutable
 from ..mechanism import Mechanism
-from ..motion.measures import CombinedMeasure, Constraint, Given, Measure
+from ..motion.measures import CombinedMeasure, Constraint, FixedNumber, Measure
 from ..program import FloatArray
 from ..shown import Shown
 from ..units import show
@@ -103,7 +103,7 @@ def front(problem: Problem, seed: int, tell: Progress) -> Front:
     measures, signs = [], []
     for each in problem.objectives:
         parts = (each.left, each.right) if isinstance(each, CombinedMeasure) and each.symbol == "*" else (None, each)
-        is_turned = isinstance(parts[0], Given) and parts[0].value == -1.0
+        is_turned = isinstance(parts[0], FixedNumber) and parts[0].value == -1.0
         measures.append(parts[1] if is_turned else each)
         signs.append(-1.0 if is_turned else 1.0)
     points = [FrontPoint(found[at][1], tuple(sign * value for sign, value in zip(signs, found[at][0], strict=True))) for at in best]
@@ -160,7 +160,8 @@ def on_front(
 ) -> tuple[tuple[float, ...], Mechanism] | None:
     """Return a design with one objective as good as it can be, the others no worse than held; None where it cannot be built."""
     objectives = problem.objectives
-    limits = [] if held is None else [Constraint(each, "<=", Given(float(limit))) for each, limit in zip(objectives, held, strict=True)]
+    pairs = () if held is None else zip(objectives, held, strict=True)
+    limits = [Constraint(each, "<=", FixedNumber(float(limit))) for each, limit in pairs]
     own = [*problem.constraints, *(each for number, each in enumerate(limits) if number != place)]
     one = problem.changed(objectives=[objectives[place]], constraints=own)
     try:

@@ -83,7 +83,7 @@ def values_at(problem: Problem, units: FloatArray, combination: Sequence[int]) -
             found[f"divisor {number}"] = each.of(numbers.__getitem__) + nothing
         spare = [each.margin.of(numbers.__getitem__) + nothing for each in problem.constraints]
     kept = np.all([margin >= -MET for margin in spare], axis=0) if spare else np.ones(len(units), bool)
-    whole = np.broadcast_to(np.asarray(look.whole, bool), (len(units),))
+    whole = np.broadcast_to(np.asarray(look.is_assembled, bool), (len(units),))
     return {name: np.where(whole & kept, value, np.nan) for name, value in found.items()}
 
 

@@ -22,7 +22,7 @@ from ..frozen import FrozenDict, immutable
 from ..mechanism import Mechanism
 from ..motion import Constraint, Grid, Leaf, Measure, Motion, Request, greatest
 from ..motion.grid import JoinedTo, joined_in_order, varies
-from ..motion.measures import At, CombinedMeasure, Given, Integral, Least, Most, Worst, check_kinds, strokes_behind, traced, words_of
+from ..motion.measures import At, CombinedMeasure, FixedNumber, Integral, Least, Most, Worst, check_kinds, strokes_behind, traced, words_of
 from ..motion.strokes import check_magnitude
 from ..numeric.quadrature import PANELS, Quadrature, gauss, quadrature
 from ..plan import Mask, Plan, require_kind
@@ -159,7 +159,7 @@ class Evaluated:
     rows: Mapping[Leaf, Rows]
     margins: FloatArray
     margin_slopes: FloatArray
-    whole: Mask
+    is_assembled: Mask
     reached: FloatArray
 
     @cached_property
@@ -303,7 +303,7 @@ class Problem:
         for leaf in self.leaves:
             poses, single = self._poses(leaf, moving)
             self._of_leaf[leaf] = poses, poses.place(leaf.bare_quantity), single
-        self.whole = self._set(moving)
+        self.full_stroke = self._set(moving)
         self.owners = tuple(dict.fromkeys(each.owner for each in space.variables))
         self._samplings: dict[PoseSet, Sampling] = {}
         self._sizes: list[float] | None = None
@@ -433,12 +433,13 @@ class Problem:
                 raise
             self.refusal = str(error)
             if m == 1:
-                return self._nothing(slopes=slopes)
+                return self._refused(slopes=slopes)
         self.count.designs -= m
         with self.count.without_limit():
             each_of = [{name: float(np.ravel(value)[k]) if np.ndim(value) else value for name, value in designs.items()} for k in range(m)]
             parts = [self.evaluated(design) for design in each_of]
-        margins, whole, reached = (np.concatenate([getattr(each, name) for each in parts]) for name in ("margins", "whole", "reached"))
+        names = "margins", "is_assembled", "reached"
+        margins, whole, reached = (np.concatenate([getattr(each, name) for each in parts]) for name in names)
         rows = {}
         for leaf in self.leaves:
             values, lost = (np.concatenate([getattr(each.rows[leaf], name) for each in parts]) for name in ("values", "lost"))
@@ -454,7 +455,7 @@ class Problem:
             return False
         return True
 
-    def _nothing(self, *, slopes: bool) -> Evaluated:
+    def _refused(self, *, slopes: bool) -> Evaluated:
         """Return the empty values of a design that is refused."""
         n = len(self.space.variables) if slopes else 0
         rows = {}
@@ -470,7 +471,7 @@ class Problem:
         whole, reached, margins, margin_slopes = np.ones(m, bool), np.ones(m), np.zeros((m, 0)), np.zeros((0, 0))
         found: dict[PoseSet, Samples] = {}
         for poses in self.sets:
-            judged = slopes and poses is self.whole
+            judged = slopes and poses is self.full_stroke
             samples = found[poses] = self._sampling(poses).at(self._grid(poses, designs, ends), margins=judged, slopes=slopes)
             whole &= samples.reached.all(axis=1)
             reached = np.minimum(reached, samples.reached.mean(axis=1))
@@ -591,12 +592,12 @@ class Problem:
             values = np.array([np.broadcast_to(np.asarray(each.of(numbers.__getitem__), float), shape) for each in self.objectives])
         missing = self._missing(look).max(axis=0, initial=0.0)
         values = np.where(np.array([look.lost(each) for each in self.objectives]).reshape(len(values), -1), np.nan, values)
-        return np.where(look.whole, values, np.nan), np.where(look.whole, missing, np.nan), look.reached
+        return np.where(look.is_assembled, values, np.nan), np.where(look.is_assembled, missing, np.nan), look.reached
 
     def missing_of_each(self, combination: Sequence[int], unit: FloatArray) -> FloatArray:
         """Return by how much of its size designs (m, n) miss each condition, shape (conditions, m); infinite out of reach."""
         look = self.evaluated(self.dimensions_at(unit, combination))
-        return np.where(look.whole, self._missing(look), np.inf)
+        return np.where(look.is_assembled, self._missing(look), np.inf)
 
     def _missing(self, look: Evaluated) -> FloatArray:
         """Return by how much of its size each condition is missed, zero where it is kept, shape (conditions, m).
@@ -823,7 +824,7 @@ def scale_among(constraint: Constraint, sizes: Mapping[Leaf, float], values: Map
     """
     terms = [terms_size(side, sizes, values) for side in constraint.compared]
     size = max([each for each in terms if np.isfinite(each)] + [change])
-    given = max((abs(side.value) for side in constraint.compared if isinstance(side, Given)), default=0.0)
+    given = max((abs(side.value) for side in constraint.compared if isinstance(side, FixedNumber)), default=0.0)
     return (max(given, EXACT * size) if given > 0.0 else size) or 1.0
 
 

@@ -22,7 +22,7 @@ from ..numeric.descent import NEAR, descended, is_one_solution, without_repeats
 from ..numeric.line import Curve, Index, highest_between, sign_changes
 from ..plan import Mask, require_kind
 from ..program import FloatArray, RunOptions
-from ..shown import Told
+from ..shown import HasSentence
 from ..units import show, unit_or_none
 from .box import Box, range_of, setting_words, unit_points
 from .checks import check_one_design, unit_of, why_not_assembled
@@ -36,7 +36,7 @@ many times that of the usual ones [%]."""
 
 
 @immutable
-class Settings(Told):
+class Settings(HasSentence):
     """All values of a dimension that give a target.
 
     Attributes
@@ -231,7 +231,7 @@ def no_setting_words(words: Mapping[str, str], own: str, unit: str, at: FloatArr
 
 
 @immutable
-class Solutions(Told):
+class Solutions(HasSentence):
     """All settings of several dimensions that give the targets, or the nearest one.
 
     Attributes

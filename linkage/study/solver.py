@@ -15,7 +15,7 @@ import numpy as np
 
 from ..errors import StudyError, ensure
 from ..frozen import immutable
-from ..motion.measures import CombinedMeasure, Constraint, Given, Integral, Leaf, Measure
+from ..motion.measures import CombinedMeasure, Constraint, FixedNumber, Integral, Leaf, Measure
 from ..program import FloatArray
 from .problem import Evaluated, LeafNumbers, LimitReachedError, Problem, Rows, missed, scale_among
 from .sampling import no_value
@@ -97,19 +97,19 @@ class Row:
 class SearchEnd:
     """The result of a local search: its combination of choices, unit coordinates, the objective, the largest miss.
 
-    `whole` says whether it is assembled throughout.
+    `is_assembled` says whether it is assembled throughout.
     """
 
     combination: tuple[int, ...]
     unit: FloatArray
     value: float
     missing: float
-    whole: bool
+    is_assembled: bool
 
     @property
     def feasible(self) -> bool:
         """Whether all conditions are met."""
-        return self.whole and self.missing <= MET and bool(np.isfinite(self.value))
+        return self.is_assembled and self.missing <= MET and bool(np.isfinite(self.value))
 
 
 class LeastSquares(NamedTuple):
@@ -156,7 +156,7 @@ class Local:
         self._watch: Watch | None = None
         self._needed = {leaf for each in (*problem.objectives, *equations) for leaf in each.leaves}
         first = self.evaluated_at(start)
-        ensure(bool(first.whole[0]), "A local search starts from a design that can be assembled.")
+        ensure(bool(first.is_assembled[0]), "A local search starts from a design that can be assembled.")
         if not self._usable(first):
             lost = [leaf for leaf in self.problem.leaves if leaf in self._needed and first.rows[leaf].lost[0]]
             why = " and ".join(no_value(self.problem.plan, leaf) for leaf in lost) or "the objective has no value"
@@ -209,7 +209,7 @@ class Local:
             if len(self._looks) > 4:
                 self._looks.pop(next(iter(self._looks)))
             look = self.problem.evaluated(self.problem.dimensions_at(np.clip(unit, 0.0, 1.0), self.combination), slopes=True)
-            found = self._looks[key] = look, bool(look.whole[0]) and self._usable(look)
+            found = self._looks[key] = look, bool(look.is_assembled[0]) and self._usable(look)
         if found[1]:
             self._good = np.array(unit, float), found[0]
         return found
@@ -503,7 +503,7 @@ class Local:
         unit = np.clip(self.solve(self.start)[: self.n], 0.0, 1.0)
         with self.problem.count.without_limit():
             look = self.evaluated_at(unit)
-        if not bool(look.whole[0]) or not self._usable(look):
+        if not bool(look.is_assembled[0]) or not self._usable(look):
             return None
         values = self.numbers(unit)
         return self._end(unit, values)
@@ -565,7 +565,7 @@ class Local:
         """Return the result between the samples too, and whether it is worse than known; its poses become samples."""
         problem, design = self.problem, self.problem.dimensions_at(unit, self.combination)
         look = self.evaluated_at(unit)
-        if not bool(look.whole[0]):
+        if not bool(look.is_assembled[0]):
             return SearchEnd(self.combination, unit, np.nan, np.inf, False), False
         known, truths, worse = look.of_one, problem.truths(design, quick=True), False
         for leaf, value in truths.items():
@@ -632,7 +632,7 @@ def divisors(expressions: Sequence[Measure]) -> list[Measure]:
             found += divisors((each.left, each.right))
             if each.symbol == "/" and each.right.leaves:
                 found.append(each.right)
-            elif each.symbol == "**" and each.left.leaves and isinstance(each.right, Given) and each.right.value < 0.0:
+            elif each.symbol == "**" and each.left.leaves and isinstance(each.right, FixedNumber) and each.right.value < 0.0:
                 found.append(each.left)
     return found
 
@@ -719,7 +719,7 @@ def single_extreme(constraint: Constraint) -> tuple[Leaf, float, float] | None:
     """Return a single extreme, its sign and the number it is held against, where a condition gains from its being so; else None."""
     left, right = constraint.left, constraint.right
     for one, other, sign in ((left, right, 1.0), (right, left, -1.0)):
-        if isinstance(one, Leaf) and isinstance(other, Given):
+        if isinstance(one, Leaf) and isinstance(other, FixedNumber):
             sign = sign if constraint.symbol == ">=" else -sign
             if sign * one.sense < 0.0:
                 return one, sign, other.value

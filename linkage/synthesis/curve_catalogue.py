@@ -18,7 +18,7 @@ from ..frozen import immutable
 from ..language import said
 from ..mechanism import Mechanism
 from ..motion import Grid
-from ..motion.measures import Given
+from ..motion.measures import FixedNumber
 from ..numeric.line import Index
 from ..plan import Mask, Plan
 from ..program import FloatArray, Kernel, Level, RunOptions
@@ -387,7 +387,7 @@ class CurveCatalogue(Shown):
         kind, space = self.kind, Space(self.variables, (), ())
         fixed = np.tile([*kind.fixed.values()], (len(numbers), 1))
         values = np.concatenate([fixed, kind.values(self.units[numbers])], axis=1)
-        problem = Problem(kind.machine, [Given(0.0)], [], space)
+        problem = Problem(kind.machine, [FixedNumber(0.0)], [], space)
         rows = PathTask(points, of=kind.of, closed=True).rows(kind.machine)
         fit = Fit(problem, rows, Timing.of(problem, kind.stroke, False, len(points)))
         likeness = Likeness.of(fit, values[:3], timed=False)

@@ -27,7 +27,7 @@ from ..numeric.descent import refined
 from ..plugins import Plugins
 from ..program import FloatArray
 from ..quantities import Dimension, Member, Stroke, angle, ref
-from ..shown import Shown, ShownList, Told
+from ..shown import HasSentence, Shown, ShownList
 from ..steps import Guide
 from ..study.checks import check_one_design
 from ..study.variants import class_like, variant
@@ -98,7 +98,7 @@ REGISTERED = Plugins[type[Mechanism]](
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class ExactMachine(Told, Shown):
+class ExactMachine(HasSentence, Shown):
     """A four-bar or slider-crank by exact algebra, judged: driven from the first to the last point, does it stay on one branch?
 
     `strokes` (n,) [rad] are those at which it comes to the points, NaN on another branch. `error` is what its links are off in length at
@@ -156,7 +156,7 @@ def exact_variant(name: str, side: int, members: Mapping[str, Member], dimension
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class ExactSynthesis(Told, Shown):
+class ExactSynthesis(HasSentence, Shown):
     """All real machines of a task that exact algebra gives, those that run first by their least transmission angle.
 
     `solutions` run through all points on one branch; `misses` are the others, each with `why`. `complex_count` is how many solutions the

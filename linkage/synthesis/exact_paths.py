@@ -174,10 +174,10 @@ class Paths:
         """Return where a step leads, by Runge and Kutta and then Newton, and which of them may be taken."""
         with np.errstate(all="ignore"):
             half, whole = 0.5 * h[:, None], h[:, None]
-            first = self.way(z, time)
-            second = self.way(z + half * first, time + 0.5 * h)
-            third = self.way(z + half * second, time + 0.5 * h)
-            fourth = self.way(z + whole * third, time + h)
+            first = self.slope(z, time)
+            second = self.slope(z + half * first, time + 0.5 * h)
+            third = self.slope(z + half * second, time + 0.5 * h)
+            fourth = self.slope(z + whole * third, time + h)
             new = z + whole / 6.0 * (first + 2.0 * second + 2.0 * third + fourth)
             far = []
             for _ in range(3):
@@ -195,7 +195,7 @@ class Paths:
         values = np.concatenate([values / size, z @ self.patch.T - 1.0], axis=1)
         return values, np.concatenate([slopes / size[:, :, None], patch], axis=1), size
 
-    def way(self, z: ComplexArray, time: FloatArray) -> ComplexArray:
+    def slope(self, z: ComplexArray, time: FloatArray) -> ComplexArray:
         """Return dz/dt (m, 6)."""
         _, slopes, size = self.normed(z, time)
         change = (self.system(z, time + 1e-6)[0] - self.system(z, time - 1e-6)[0]) / 2e-6 / size

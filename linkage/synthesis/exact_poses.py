@@ -23,7 +23,7 @@ from ..mechanism import Mechanism
 from ..motion.regions import Disc, Region, region_of
 from ..numeric.descent import refined
 from ..program import FloatArray
-from ..shown import Shown, Told
+from ..shown import HasSentence, Shown
 from ..units import show
 from .exact import (
     TURN,
@@ -124,7 +124,7 @@ def checked_poses(poses: object) -> FloatArray:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class GuidingLink(Told, Shown):
+class GuidingLink(HasSentence, Shown):
     """A link that can guide a body: its circle `point` (2,) in the first pose and its `centre` (2,) [m].
 
     One that slides has no centre, NaN, and a `direction` [rad] instead. `places` (n, 2) are those of the point in all poses, `length` is
@@ -166,7 +166,7 @@ class GuidingLink(Told, Shown):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Burmester(Told, Shown):
+class Burmester(HasSentence, Shown):
     """The links that guide a body through `poses` (n, 3), and the machines of all pairs of them.
 
     `circle_curve` and `centre_curve` are the branches of the two cubics of four poses, (2, m) each [m], points of the same place belong
@@ -439,23 +439,23 @@ def exact_link(state: FloatArray, z: ComplexArray, T: ComplexArray) -> tuple[com
 
 @immutable
 class CurveLoop:
-    """A loop of the curves of four poses: the compatibility linkage driven along its `way`, on one `side` where it turns fully.
+    """A loop of the curves of four poses: the compatibility linkage driven along its `piece`, on one `side` where it turns fully.
 
     Its points are those of the first pose of the body as it is `seen`, whose poses may stand in another order.
     """
 
     body: PosedBody
     seen: PosedBody
-    way: DrivenPiece
+    piece: DrivenPiece
     side: float
 
     def at(self, s: FloatArray) -> tuple[ComplexArray, ComplexArray]:
         """Return circle and centre points (m,) at places s [rad] of the loop, which closes after a turn."""
         minors, order = self.body.minors_in_order()
-        if self.way.fully:
+        if self.piece.fully:
             driven, side = s, np.full(np.shape(s), self.side)
         else:
-            middle, half = 0.5 * (self.way.start + self.way.end), 0.5 * (self.way.end - self.way.start)
+            middle, half = 0.5 * (self.piece.start + self.piece.end), 0.5 * (self.piece.end - self.piece.start)
             driven, side = middle - half * np.cos(s), np.where(np.sin(s) < 0.0, -1.0, 1.0)
         left = minors.sum() - minors[0] * np.exp(1j * driven)
         two, three, far = abs(minors[1]), abs(minors[2]), abs(left)

@@ -197,13 +197,13 @@ class Fit:
             found[:, ~reached] = np.nan
         return found
 
-    def whole(self, unit: FloatArray) -> Mask:
+    def assembled(self, unit: FloatArray) -> Mask:
         """Return which designs (m, n) are assembled at all poses of the stroke that are looked at, (m,)."""
         return np.asarray(self.swept(unit)[1].all(axis=1))
 
     def keeping(self, unit: FloatArray) -> Mask:
         """Return which designs (m, n) are assembled over the whole stroke and keep the conditions at the poses that are looked at, (m,)."""
-        found = self.whole(unit)
+        found = self.assembled(unit)
         if self.problem.constraints and found.any():
             short = self.problem.missing_of_each(self.combination, unit[found][:, : self.n]).max(axis=0, initial=0.0)
             found[found] = short <= MET

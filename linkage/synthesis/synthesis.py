@@ -21,7 +21,7 @@ from ..motion.judging import transmissions
 from ..motion.measures import Measure, measure_of
 from ..plan import Mask
 from ..program import FloatArray
-from ..shown import Shown, Told, text_columns
+from ..shown import HasSentence, Shown, text_columns
 from ..study.checks import check_one_design, unit_of
 from ..study.optimise import check_counts
 from ..study.optimum import heading_with_unit, rounded_values, tried_names
@@ -57,7 +57,7 @@ CHANGE = 1e-3
 
 
 @immutable
-class SynthesisedMachine(Told, Shown):
+class SynthesisedMachine(HasSentence, Shown):
     """A machine that does a task over its whole stroke.
 
     Attributes
@@ -114,7 +114,7 @@ class Miss:
 
 
 @immutable
-class RoundedMachine(Told):
+class RoundedMachine(HasSentence):
     """A machine on drawing dimensions, its `error` [SI^2], its largest miss [SI], and the cost of rounding in words."""
 
     machine: Mechanism
@@ -124,7 +124,7 @@ class RoundedMachine(Told):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Synthesis(Told, Shown):
+class Synthesis(HasSentence, Shown):
     """All distinct machines that were found for a task, the best first, each assembled over its whole stroke.
 
     Where several classes were searched, `table` compares them; `start`, `task` and `problem` are then those of the best class.
@@ -714,7 +714,7 @@ def rounded_machine(found: Synthesis, answer: SynthesisedMachine, to: float, ang
         base = np.tile(answer.base, (len(rows), 1))
         at, error = fit.descend(at, base, 20, held=range(fit.n))
         short = fit.problem.missing_of_each(fit.combination, at[:, : fit.n]).max(axis=0, initial=0.0)
-        error = np.where(fit.whole(at) & (short <= 1e-7), error, np.inf)
+        error = np.where(fit.assembled(at) & (short <= 1e-7), error, np.inf)
         place = int(np.argmin(error))
         if not np.isfinite(error[place]):
             raise StudyError(f"{problem.plan.title}: no design on these steps runs and keeps all; take finer ones.")

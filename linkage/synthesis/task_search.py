@@ -16,7 +16,7 @@ from ..frozen import frozen, immutable
 from ..language import said
 from ..mechanism import Mechanism
 from ..motion import stroke_display_unit
-from ..motion.measures import Constraint, Given, Measure, conditions_of, in_case, mean_in_cases, measure_of, reachable, words_of
+from ..motion.measures import Constraint, FixedNumber, Measure, conditions_of, in_case, mean_in_cases, measure_of, reachable, words_of
 from ..plan import Mask
 from ..program import FloatArray, fixed_backend
 from ..study.box import unit_points
@@ -191,7 +191,7 @@ def synthesise(
     ranks = () if rank is None else (mean_in_cases(rank, shares),) if shares else each_in_cases([rank], cases, machine, in_case)
     held = each_in_cases(asked, cases, machine, constraint_in_case)
     constraints = pieces_in_cases(asked, cases, machine.judge(over))
-    problem = Problem(machine, [Given(0.0)], constraints, space, 1.0, over)
+    problem = Problem(machine, [FixedNumber(0.0)], constraints, space, 1.0, over)
     problem.count.limit = limit
     timing = Timing.of(problem, searched_stroke(problem, rows), timed, rows.count)
     if timing.stroke not in travels and timed is True and task.at is not None:  # rows of cylinders have ranges of their own
@@ -477,10 +477,10 @@ class TaskSearch:
         """
         good = self.good_in_order(ends)
         with self.problem.count.without_limit():
-            away = np.flatnonzero(~first.fit.whole(ends.at)) if len(ends.at) else np.zeros(0, int)
+            away = np.flatnonzero(~first.fit.assembled(ends.at)) if len(ends.at) else np.zeros(0, int)
             if int(good.sum()) >= ENOUGH_GOOD:
                 away = away[ends.error[away] < ends.error[good].min()]
-            away = away[first.fit.whole(first.at[away])] if len(away) else away
+            away = away[first.fit.assembled(first.at[away])] if len(away) else away
         return Starts(first.fit, first.at[away], first.base[away])
 
     def descended(self, stages: Stages, through: Through, first: Sequence[Starts], told: int = 0, *, name: str = "") -> list[Ends]:

@@ -86,7 +86,7 @@ class FitWork(ABC):
         return f"{type(self).__name__} {self.piece}"
 
     @property
-    def nothing(self) -> dict[str, Array]:
+    def empty(self) -> dict[str, Array]:
         """The empty result."""
         at, base = np.zeros((0, len(self.problem.space.variables) + self.timing.width)), np.zeros((0, self.rows.count))
         return {"at": at, "base": base, "error": np.zeros(0), "ended": np.zeros(0, bool)}
@@ -153,7 +153,7 @@ class DescentWork(FitWork):
     def found(self, fit: Fit, rows: DesignValues) -> dict[str, Array]:
         at, base = np.array(rows["at"]), rows["base"]
         error, going = fit.errors(at, base), np.arange(len(at))
-        through = {"free": None, "running": fit.whole, "keeping": fit.keeping}[self.through]
+        through = {"free": None, "running": fit.assembled, "keeping": fit.keeping}[self.through]
         for turn in range(TURNS + FARTHER):
             if turn >= TURNS:
                 going = going[np.isin(going, np.argsort(error, kind="stable")[:LONGER]) & (error[going] > exact_error(self.rows))]
@@ -193,7 +193,7 @@ class RaceWork(FitWork):
     def found(self, fit: Fit, rows: DesignValues) -> dict[str, Array]:
         at, base = rows["at"], rows["base"]
         raced, error = fit.descend(at, base, RACE)
-        runs = fit.whole(raced) & np.isfinite(error)
+        runs = fit.assembled(raced) & np.isfinite(error)
         return {"at": np.where(runs[:, None], raced, at), "error": np.where(runs, error, fit.errors(at, base))}
 
 
@@ -232,7 +232,7 @@ class Stages:
     def carried_out(self, name: str, work: FitWork, parts: Sequence[Part], *, told: int = 0) -> list[dict[str, Array]]:
         """Return the results of the designs of each part, arrays (m, ...) by name; in the progress it counts as so many designs."""
         rows = joined_rows(parts)
-        found = self._found(name, work, rows, told) if rows.count else work.nothing
+        found = self._found(name, work, rows, told) if rows.count else work.empty
         ends = np.cumsum([len(next(iter(columns.values()))) for _, columns in parts])
         return [{key: column[begin:end] for key, column in found.items()} for begin, end in zip([0, *ends], ends, strict=False)]
 

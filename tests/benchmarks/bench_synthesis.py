@@ -17,7 +17,7 @@ import numpy as np
 from linkage import PathTask, distance, mm, synthesise
 from linkage import least as lowest
 from linkage import most as highest
-from linkage.motion.measures import Given
+from linkage.motion.measures import FixedNumber
 from linkage.study.problem import Problem
 from linkage.study.space import Space
 from linkage.synthesis.fit import Fit, Timing
@@ -81,7 +81,7 @@ def jansen(seed, limit=900):
 def million():
     """Return the processor time of a million four-bars at 64 poses each [s], and how many of them turn fully."""
     bar, space = Bar(), Space.of(Bar(), box(50 * mm))
-    problem = Problem(bar, [Given(0.0)], [], space)
+    problem = Problem(bar, [FixedNumber(0.0)], [], space)
     rows = PathTask([(0.0, 0.0), (0.01, 0.0)], of="P").rows(bar)
     fit = Fit(problem, rows, Timing.of(problem, "phi", False, 2))
     unit = np.random.default_rng(0).random((1_000_000, fit.n))

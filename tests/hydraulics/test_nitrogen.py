@@ -189,5 +189,5 @@ def test_charge_of_the_own_temperature_is_itself():
 
 
 def test_it_is_spelled_as_it_is_written():
-    assert real_nitrogen().spelled == "real_nitrogen()"
-    assert eval(real_nitrogen(280.0).spelled, {"real_nitrogen": real_nitrogen}).temperature == 280.0
+    assert real_nitrogen().source_text == "real_nitrogen()"
+    assert eval(real_nitrogen(280.0).source_text, {"real_nitrogen": real_nitrogen}).temperature == 280.0

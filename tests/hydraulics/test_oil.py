@@ -299,7 +299,7 @@ def test_halves_on_one_line_and_joined_lines_of_one_pressure_change_nothing(seed
 def test_what_several_laws_read_of_a_closed_line_is_traced_once_and_counts_for_each(monkeypatch):
     """In either order, alone or together the values are the same, and each law keeps what it rests on."""
     counted = []
-    known = work.kept
+    known = work.shared_by_cylinders
 
     def counting(motion, acting, rates, what, make):
         def made():
@@ -308,7 +308,7 @@ def test_what_several_laws_read_of_a_closed_line_is_traced_once_and_counts_for_e
 
         return known(motion, acting, rates, what, made)
 
-    monkeypatch.setattr(work, "kept", counting)
+    monkeypatch.setattr(work, "shared_by_cylinders", counting)
 
     def asked(*names):
         class Fresh(Levelled):

@@ -8,7 +8,7 @@ from linkage import Course, Over, driving_force, most, pin_forces, ramp
 from linkage.cli.listing import registered
 from linkage.cli.machines import find
 from linkage.loads import Acting
-from linkage.motion.judge import Asked, leaves_of
+from linkage.motion.judge import RowFunction, leaves_of
 from linkage.motion.judging import HasVerdicts, speakers
 from linkage.motion.measures import At
 from tests.for_all import for_all
@@ -107,7 +107,8 @@ def check_programs(machine, over, questions):
     listed = questions or [each for member in speakers(machine.plan, HasVerdicts).values() for each in member.questions(judge)]
     leaves = [leaf for leaf in dict.fromkeys(leaf for each in listed for leaf in leaves_of(each)) if not isinstance(leaf, At)]
     rows = [row for leaf in leaves for row in judge.search_rows(leaf, place)]
-    motion, (traced, plain) = place.timed(place.instants.shares(np.linspace(0.0, 1.0, 41)), "nan"), (Asked(place, rows) for _ in range(2))
+    motion = place.timed(place.instants.shares(np.linspace(0.0, 1.0, 41)), "nan")
+    traced, plain = (RowFunction(place, rows) for _ in range(2))
     count = len(traced._bound)
     plain._bound.clear()
     for row, *own in zip(rows, *traced.row_values(motion), *plain.row_values(motion), strict=True):

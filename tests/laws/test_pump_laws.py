@@ -6,7 +6,7 @@ import numpy as np
 from numpy.testing import assert_allclose
 
 from hydraulics import LiftCircuit, Pump
-from hydraulics.sharing import Choices, PumpLimits, Wanted, flow_shares
+from hydraulics.sharing import Choices, FlowDemands, PumpLimits, flow_shares
 from linkage import Course, Mechanism, Over, Part, Stroke
 from linkage.units import bar, litre, minute
 from mechanisms.at_work.one_pump import PumpedExcavator
@@ -21,7 +21,7 @@ def random_wanted(rng):
     flows = rng.uniform(0.1, 1.0, count) * 1e-3
     power = np.inf if rng.random() < 0.3 else 10 ** rng.uniform(2.5, 4.5)
     limits = PumpLimits(10 ** rng.uniform(-4, -2.5), power, rng.choice([0.0, 1.5e6]), 2.2e7, bool(rng.random() < 0.5))
-    return Wanted([*flows], [*needs], [*(rng.random(count) < 0.15)], [*rng.integers(0, 2, count)]), limits
+    return FlowDemands([*flows], [*needs], [*(rng.random(count) < 0.15)], [*rng.integers(0, 2, count)]), limits
 
 
 @for_all("seed", range(200))
@@ -49,7 +49,7 @@ def test_what_one_pump_gives_is_shared_whole_and_in_no_order(seed):
     again = flow_shares(wanted, limits, Choices(choose.made))
     assert_allclose(again.shares, fed.shares, rtol=0)
     for order in [*permutations(range(len(flows)))][:: max(1, len(flows))][:8]:
-        turned = Wanted(*([each[i] for i in order] for each in (wanted.flows, wanted.needs, wanted.stopped, wanted.tiers)))
+        turned = FlowDemands(*([each[i] for i in order] for each in (wanted.flows, wanted.needs, wanted.stopped, wanted.tiers)))
         found = flow_shares(turned, limits, Choices())
         assert_allclose(found.shares, shares[[*order]], rtol=1e-12, atol=1e-15)
         assert_allclose(found.pressure, fed.pressure, rtol=1e-12)

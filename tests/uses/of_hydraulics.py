@@ -251,7 +251,7 @@ USES = [
     ("lift.offers(@)", "1e4, 1e7, [0.8, 0.9]", ("Length between the ends = [0.8, 0.9]: one number is expected, in SI units.",)),
     ("lift.offers(@)", "1e4, 1e7, 800", ("Length between the ends = 800 m is", "write 800 * mm if these are millimetres.")),
     ("circuit.supply(@)", "3; None; Lift", ("is no motion; give machine.sweep(...) or machine.at(...).",)),
-    ("circuit.held(@)", "3; None; Lift", ("is no motion; give machine.sweep(...) or machine.at(...).",)),
+    ("circuit.relief_pressure(@)", "3; None; Lift", ("is no motion; give machine.sweep(...) or machine.at(...).",)),
     ("circuit.back(@)", "3; None; Lift", ("is no motion; give machine.sweep(...) or machine.at(...).",)),
     ("circuit.oil(@)", "3; None; Lift", ("is no motion; give machine.sweep(...) or machine.at(...).",)),
     ("circuit.time(@)", "3; None; Lift", ("is no motion; give machine.sweep(...) or machine.at(...).",)),

@@ -278,7 +278,7 @@ def test_pins_found_by_iteration_warn_when_a_dimension_changes(recalculated):
 
 def test_a_friction_that_no_equation_has_is_a_condition():
     calculation = Calculation(HeaderBalancer(), run_of(HeaderBalancer()), 5)
-    kept = {each.column.name: each.kept for each in live_results(calculation)}
+    kept = {each.column.name: each.unchanged for each in live_results(calculation)}
     assert "pin_O.coefficient" in kept["F_R up"] and "pin_O.coefficient" not in kept["F_R free"] and kept["R_y"] == ()
     rubbing = HeaderBalancer(**{"pin_O.coefficient": 0.15})
     found = {each.column.name: each.expr for each in live_results(Calculation(rubbing, run_of(rubbing), 5))}

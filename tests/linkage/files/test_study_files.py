@@ -467,7 +467,7 @@ def test_what_a_folder_holds_is_checked(here, said):
     head, *tasks = journal.read_text().splitlines()
     for spoiled in (
         '{"task": "[] 0"}',
-        '{"task": "[] 0", "unit": "x", "value": 0, "missing": 0, "whole": true, "looked_at": 1}',
+        '{"task": "[] 0", "unit": "x", "value": 0, "missing": 0, "is_assembled": true, "looked_at": 1}',
         "\0\0",
         "[]",
     ):

@@ -235,7 +235,7 @@ def test_the_program_of_a_long_chain_grows_with_its_length():
         check(machine().sweep(11))
         kernels = [each for each in machine.plan._kernels.values() if isinstance(each, ForceProgram)]
         assert len(kernels) == 1
-        sizes.append(len(kernels[0].whole.plan.pose))
+        sizes.append(len(kernels[0].kernel.plan.pose))
     assert sizes[2] - sizes[1] < 2.1 * (sizes[1] - sizes[0])
 
 

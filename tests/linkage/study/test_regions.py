@@ -23,7 +23,7 @@ from linkage import (
     x,
     y,
 )
-from linkage.motion.measures import Given
+from linkage.motion.measures import FixedNumber
 from linkage.study.problem import Problem
 from linkage.study.solver import Local
 from linkage.study.space import Space
@@ -193,4 +193,4 @@ def test_a_region_is_a_condition_of_the_problem():
     space = Space.of(Wheeled(), {"C": around(60 * mm)}, {"C": [L_SHAPE]})
     (condition,) = space.conditions
     assert str(condition).startswith("least(inside(C, [(0.06, -0.03)")
-    assert isinstance(Problem(Wheeled(), [Given(0.0)], space.conditions, space).constraints[0].right, Given)
+    assert isinstance(Problem(Wheeled(), [FixedNumber(0.0)], space.conditions, space).constraints[0].right, FixedNumber)

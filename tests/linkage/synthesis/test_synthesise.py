@@ -29,7 +29,7 @@ from linkage import (
     transmission,
     y,
 )
-from linkage.motion.measures import Given
+from linkage.motion.measures import FixedNumber
 from linkage.study.problem import Problem
 from linkage.study.solver import Local
 from linkage.study.space import Space
@@ -136,7 +136,7 @@ def test_derivatives_are_those_of_the_misses(kind, timed):
         "poses": PoseTask(*pose["A"], pose.angle("A", "B"), of="A B"),
     }[kind]
     space = Space.of(bar, {"OA": (0.03, 0.05), "C": around(20 * mm), "BAP": (0.2, 0.8), "AB": (0.1, 0.14)})
-    problem = Problem(bar, [Given(0.0)], [], space)
+    problem = Problem(bar, [FixedNumber(0.0)], [], space)
     fit = Fit(problem, task.rows(bar), Timing.of(problem, "phi", timed, 4), (), at)
     random = np.random.default_rng(3)
     unit = random.uniform(0.2, 0.8, (5, fit.n + fit.width))
@@ -153,13 +153,13 @@ def test_strokes_are_polished_of_a_design_without_variables():
     """Choices alone: the points' own strokes are still to miss least, in order, among conditions."""
     bar, at = FourBar(), np.array([0.4, 1.0, 1.9, 3.0])
     space = Space.of(bar, {"OA": [0.04, 0.05]})
-    problem = Problem(bar, [Given(0.0)], [], space)
+    problem = Problem(bar, [FixedNumber(0.0)], [], space)
     rows = PathTask(bar.at(phi=at)["P"].T, of="P").rows(bar)
     fit, base = Fit(problem, rows, Timing.of(problem, "phi", False, 4), (0,)), np.zeros(4)
     start = fit.timing.unknowns_at(at + np.array([0.1, -0.1, 0.05, 0.0]))
     local = Local(problem, (0,), start[: fit.n], squares=fit_squares(fit, start, base, in_order=True))
     end = local.run()
-    assert fit.n == 0 and end.whole
+    assert fit.n == 0 and end.is_assembled
     assert_allclose(fit.misses(local.own[None], base[None]), 0.0, rtol=0, atol=1e-9)
 
 

@@ -8,7 +8,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from linkage import FunctionTask, PathTask, PoseTask, Stroke, deg, mm, synthesise
-from linkage.motion.measures import Given
+from linkage.motion.measures import FixedNumber
 from linkage.study.problem import Problem
 from linkage.study.space import Space
 from linkage.synthesis.defects import connected_parts, in_order, lost_stretches, point_ranges, points_on_circuits
@@ -206,7 +206,7 @@ def test_strokes_that_differ_by_whole_turns_or_rounding_are_in_one_order():
         at = np.roll(at[:: 1 if seed % 3 else -1], int(random.integers(count)))
         at = np.append(at, at[0]) if seed % 2 else np.repeat(at, 2)
         space = Space.of(known, LENGTHS)
-        problem = Problem(known, [Given(0.0)], [], space)
+        problem = Problem(known, [FixedNumber(0.0)], [], space)
         rows = PathTask(known.at(phi=at)["P"].T, of="P").rows(known)
         fit = Fit(problem, rows, Timing.of(problem, "phi", False, len(at)))
         noise = 1e-11 * random.standard_normal(len(at))

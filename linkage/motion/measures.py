@@ -757,7 +757,7 @@ def check_kinds(plan: Plan, measures: Iterable[Measure], constraints: Iterable[C
         kinds = [kind_of_measure(plan, side) for side in (constraint.left, constraint.right)]
         common_kind(plan, str(constraint), *kinds)
         for side, kind in zip((constraint.right, constraint.left), kinds, strict=True):
-            if isinstance(side, Given) and side.measures not in ("", "angle") and kind == kind_called("number"):
+            if isinstance(side, FixedNumber) and side.measures not in ("", "angle") and kind == kind_called("number"):
                 what = f"a plain number does not compare with {article(side.measures)} {side.measures}"
                 raise DefinitionError(f"{plan.title}: {constraint}: {what}; write the limit without a unit.")
 

@@ -1,5 +1,7 @@
 """Laws of the gap of outlines: where the pair stands, how it is turned, mirrored, exchanged and written down changes nothing."""
 
+from functools import cache
+
 import numpy as np
 from numpy.testing import assert_allclose
 
@@ -64,11 +66,18 @@ def same(found, wanted):
     assert_allclose(found, wanted, rtol=0.0, atol=1e-12 * SIZE)
 
 
+@cache
+def alone(seed):
+    """Return the outlines that a seed draws, the machine that has them, and its gaps."""
+    one, other = drawn_pair(seed)
+    machine = pair_machine(one, other)
+    return one, other, machine, gaps(machine)
+
+
 @SEEDS
 def test_where_the_pair_stands_changes_nothing(seed):
-    one, other = drawn_pair(seed)
+    one, other, _, wanted = alone(seed)
     rng = np.random.default_rng(seed)
-    wanted = gaps(pair_machine(one, other))
     moved = pair_machine(one, other, turn=rng.uniform(-3.0, 3.0), shift=rng.uniform(-2.0, 2.0, 2), mirrored=bool(seed % 2))
     for found, own in zip(gaps(moved), wanted, strict=True):
         same(found, own)
@@ -77,8 +86,7 @@ def test_where_the_pair_stands_changes_nothing(seed):
 @SEEDS
 def test_how_the_pair_is_written_changes_nothing(seed):
     """Exchanged in the request and in the class; the corners counted from another one, and the other way round."""
-    one, other = drawn_pair(seed)
-    wanted = gaps(pair_machine(one, other))
+    one, other, _, wanted = alone(seed)
     again = gaps(pair_machine(one[::-1], np.roll(other, 2, axis=0), swapped=True), "other", "one")
     same(again[0], wanted[0])
     same(again[1], wanted[1])
@@ -87,12 +95,11 @@ def test_how_the_pair_is_written_changes_nothing(seed):
 @SEEDS
 def test_the_outlines_of_a_part_keep_their_gap(seed):
     """A part that is placed, turned, mirrored: the gap of its outlines is that of the machine alone, also against the whole's."""
-    one, other = drawn_pair(seed)
-    alone, rng = pair_machine(one, other), np.random.default_rng(seed)
-    wanted, _ = gaps(alone)
+    _, _, machine, (wanted, _) = alone(seed)
+    rng = np.random.default_rng(seed)
     s = Stroke(0.0, 1.4)
     at, angle = tuple(map(float, rng.uniform(-2.0, 2.0, 2))), float(rng.uniform(-3.0, 3.0))
-    whole = type("Whole", (Mechanism,), {"s": s, "own": Part(alone, s="s", at=at, angle=angle, mirrored=seed % 2 == 0, planes=None)})
+    whole = type("Whole", (Mechanism,), {"s": s, "own": Part(machine, s="s", at=at, angle=angle, mirrored=seed % 2 == 0, planes=None)})
     same(whole().at(**STROKES)[gap("own.one", "own.other")], wanted)
 
 

@@ -27,11 +27,18 @@ from linkage import (
 )
 from mechanisms.classics.front_loader import FrontLoader
 from mechanisms.three_point_hitch import ThreePointHitch
-from tests.laws.test_statics_laws import over_all, random_machines
+from tests.for_all import for_all
+from tests.laws.test_statics_laws import daily, random_machines, shipped
 from tests.linkage.assembly.test_groups import Platform
 from tests.linkage.motion.test_gradient import mid
 
-ALL = over_all(lambda: [*random_machines()[::2], Platform], later=lambda: random_machines()[1::2])
+
+def few():
+    """Return the machines of every day: those that are not large."""
+    return [each for each in [*daily(), *random_machines()[::4], Platform] if len(each.plan.points) <= 10]
+
+
+ALL = for_all("machine", few, slow=lambda: [each for each in [*shipped(), *random_machines()] if each not in few()])
 STEPS = np.array([1.0, 2.0, 4.0])
 ALONE = {"n", "atmosphere", "line1.exponent", "line2.exponent", "charge3"}
 """Of the header balancers: exponents are 1 or more, the atmosphere is one for all, and header 3 is charged to where a pair joins."""

@@ -42,9 +42,9 @@ def spawned():
 
 @pytest.fixture(scope="module")
 def client(tmp_path_factory):
-    """Two processes of dask on this machine. Their linear algebra has as many threads as this one's: NumPy 1 rounds by their number."""
+    """A process of dask on this machine. Its linear algebra has as many threads as this one's: NumPy 1 rounds by their number."""
     dask, distributed = pytest.importorskip("dask"), pytest.importorskip("distributed")
-    options = {"n_workers": 2, "threads_per_worker": 1, "processes": True, "dashboard_address": None, "silence_logs": 50}
+    options = {"n_workers": 1, "threads_per_worker": 1, "processes": True, "dashboard_address": None, "silence_logs": 50}
     folder = tmp_path_factory.mktemp("dask")
     alike = dask.config.set({"distributed.nanny.pre-spawn-environ": {}})
     with alike, distributed.LocalCluster(local_directory=str(folder), **options) as cluster, distributed.Client(cluster) as client:
@@ -230,7 +230,7 @@ def test_dask_goes_on_when_a_worker_is_killed(small, client, tmp_path):
     starts = sorted(int(np.flatnonzero(over["OB"] == first)[0]) for first in read(log))
     assert set(starts) == set(range(0, 1280, 64)) and len(starts) <= 20 + 4, "only what the killed one had at hand is done again"
     same(found, survey(hitch, over, travel))
-    client.wait_for_workers(2)
+    client.wait_for_workers(1)
     assert set(client.run(os.getpid).values()) != before
 
 

@@ -186,7 +186,7 @@ def report_document(
     block: TitleBlock | None = None,
 ) -> Document:
     """Return the contents of a report, before it is written as a file; each number in its own unit unless a system of units is named."""
-    subject = ReportSubject.at(machine, at, count, over, situation_of("report", acting, case=case))
+    subject = ReportSubject.of(machine, at, count, over, situation_of("report", acting, case=case))
     fits = isinstance(title_block, Mapping) and all(isinstance(each, str) for pair in title_block.items() for each in pair)
     require(fits, "title_block", title_block, 'rows of text are expected, title_block={"Checked by": "N. N."}')
     with speaking(language, units):
@@ -479,7 +479,7 @@ def used(answer: Answer) -> float:
     question = answer.question
     if not isinstance(question, Constraint) or question.right.leaves:
         return 0.0
-    value, limit = float(answer.value), float(question.right.of(nothing_asked))
+    value, limit = float(answer.value), float(question.right.from_leaves(nothing_asked))
     if limit == 0.0:
         return np.inf if answer.ok is False else 0.0
     of, by = map(abs, (value, limit) if question.symbol == "<=" else (limit, value))

@@ -55,7 +55,7 @@ class ReportSubject:
     judge: Judge
 
     @classmethod
-    def at(cls, machine: Mechanism, at: At | Motion, count: int, over: object = None, acting: Acting | None = None) -> ReportSubject:
+    def of(cls, machine: Mechanism, at: At | Motion, count: int, over: object = None, acting: Acting | None = None) -> ReportSubject:
         """Return the subject of a report; DefinitionError for a batch, a wrong count, an unknown case; AssemblyError out of reach."""
         require_mechanism(machine)
         title = machine.plan.title

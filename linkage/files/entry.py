@@ -127,7 +127,7 @@ def read_table(given: Mapping[Any, object], names: Names, arguments: Iterable[Ar
         if isinstance(each.kind, Within):
             found[each.name] = read_table(given, names, each.kind.arguments, mistakes)
         elif each.key in given:
-            with mistakes.at(each.key):
+            with mistakes.at_key(each.key):
                 is_nothing = given[each.key] is None and each.default is None
                 found[each.name] = None if is_nothing else each.kind.read(given[each.key], names)
         elif each.needed:
@@ -275,7 +275,7 @@ class FileEntry:
         labels = self._labels(given)
         parents: Iterable[Any] = ()
         if self.word:
-            with mistakes.at(self.word):
+            with mistakes.at_key(self.word):
                 if len(self.built_from) == 1:
                     parents = self.built_from[0].kind.read(given[self.word], names)
                     parents = parents if self.built_from[0].name == self.spread else (parents,)
@@ -285,7 +285,7 @@ class FileEntry:
             under_keys = read_table(given, names, self.built_from, mistakes)
             parents = under_keys.pop(self.spread, under_keys.values())
         for label in labels:
-            with mistakes.at(label):
+            with mistakes.at_key(label):
                 labels[label] = quantity_of(given[label], names)
         found = read_table(given, names, self.arguments, mistakes)
         check_keys(given, [*self.keys, *labels], mistakes)

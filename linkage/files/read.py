@@ -116,14 +116,14 @@ def built(
     names = Names(found, kinds, machines=held, load_beside=beside(folder, load_part), folder=folder)
     for name, entry in sections.get("parts", {}).items():
         if isinstance(entry, Mapping) and "machine" in entry:
-            with faults.at("parts", name, "machine"):
+            with faults.at_key("parts", name, "machine"):
                 machine = machine_named(entry["machine"], names)
                 names.kinds.update(dotted_kinds(name, machine))
                 said = dict(by_whole_names(entry))
                 names.of_parts.extend(f"{name}.{each}" for each in machine.plan.strokes if each not in said)
     for name in ordered(data, names, faults):
         section = names.sections[name]
-        with faults.at(section, name), np.errstate(all="ignore"):
+        with faults.at_key(section, name), np.errstate(all="ignore"):
             names.built[name] = member_read(name, section, sections[section][name], names, title, trust)
     faults.check()
     return class_made(title, doc, featured, names, faults)
@@ -150,12 +150,12 @@ def sections_of(data: object, faults: Faults) -> dict[str, FileTable]:
 def head_read(data: FileTable, faults: Faults) -> tuple[str, str | None, Featured]:
     """Return the class's name, its docstring and its features; anything else is noted."""
     title, doc, featured, given = data.get("name"), data.get("doc"), Featured(), data.get("featured", {})
-    with faults.at("name"):
+    with faults.at_key("name"):
         ensure(title is not None, 'the name of the mechanism is missing; begin with name = "ThreePointHitch".')
         member_name(title)
     if doc is not None and not (isinstance(doc, str) and all(each.isprintable() or each in "\n\t" for each in doc)):
         faults.add(("doc",), f"{shortened(doc)} is not a text of printable characters.")
-    with faults.at("featured"):
+    with faults.at_key("featured"):
         if not isinstance(given, Mapping) or not {"column", "path", "limits", "coupler"} >= given.keys():
             raise DefinitionError('a table is expected, column = "tilt", path = ["G"], limits = { tilt = [0.1, "most"] }.')
         featured = Featured(**given)
@@ -184,7 +184,7 @@ def machines_read(
     for name in order:
         tables = {"name": name, **{key: value for key, value in given[name].items() if key != "machines"}}
         own = Faults(source=f"{faults.source}, machines.{name}")
-        with faults.at("machines", name):
+        with faults.at_key("machines", name):
             found[name] = built(tables, own, trust, folder, depth + 1, found)
     return found
 
@@ -201,7 +201,7 @@ def names_of(sections: Mapping[str, Mapping[str, object]], faults: Faults) -> di
     found: dict[str, str] = {}
     for section, entries in sections.items():
         for name in entries:
-            with faults.at(section, str(name)):
+            with faults.at_key(section, str(name)):
                 member_name(name)
                 taken = f"stands in [{found[name]}] too" if name in found else "is a word of the framework"
                 ensure(name not in found and name not in vars(Mechanism), f"{name} {taken}; give it another name.")

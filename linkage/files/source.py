@@ -236,7 +236,7 @@ class Mistakes:
         self.found.append((key, message))
 
     @contextmanager
-    def at(self, *key: str) -> Iterator[None]:
+    def at_key(self, *key: str) -> Iterator[None]:
         """Note errors inside under a key, and continue behind."""
         try:
             yield
@@ -255,7 +255,7 @@ def each_of(given: Iterable[tuple[object, object]], read: Callable[[Any, Any], A
     """Return the results of reading each key and value; SeveralError with all mistakes, each under its key."""
     found, mistakes = [], Mistakes()
     for key, value in given:
-        with mistakes.at(str(key)):
+        with mistakes.at_key(str(key)):
             found.append(read(key, value))
     mistakes.check()
     return found

@@ -89,13 +89,13 @@ class StudyHead:
         machines: list[Mechanism] = []
         for text in texts:
             kind = None
-            with faults.at("machine"):
+            with faults.at_key("machine"):
                 if not isinstance(text, str) or not text:
                     what = "the machine is missing" if text is None else f"{shortened(text)} is no name in quotes"
                     raise DefinitionError(f'{what}; begin with machine = "three_point_hitch", a name of `hydrolinkage list` or a file.')
                 kind = find(text, base)
             if kind is not None:
-                with faults.at("set"):
+                with faults.at_key("set"):
                     machines.append(kind(**settings_said(kind.plan, data.get("set", {}), faults)).replaced(**settings(kind)))
         faults.check()
         return cls(data, faults, machines[0], base, dict(zip(texts, machines, strict=True)) if isinstance(given, list) else {})
@@ -129,7 +129,7 @@ def keywords_read(
     head = replace(head, found=head.found | defaults)
     for name, (read, *example) in known.items():
         if name in given or (name in parameters and name not in defaults):
-            with mistakes.at(name):
+            with mistakes.at_key(name):
                 if name not in given and example:
                     raise DefinitionError(f"{name} is missing; write {example[0]}.")
                 head.found[name] = read(head, given.get(name, {}))
@@ -159,7 +159,7 @@ def settings_said(plan: Plan, given: object, faults: Faults) -> Keywords:
     found: Keywords = {}
 
     def read(name: str, value: object) -> None:
-        with faults.at("set", name):
+        with faults.at_key("set", name):
             found[name] = value_said(plan, name, value)
 
     by_dimensions(given, "set", read)
@@ -383,7 +383,7 @@ def outputs_said(head: StudyHead, kinds: Mapping[str, Sequence[str]]) -> dict[st
         return name, paths
 
     found: dict[str, tuple[Path, ...]] = {}
-    with head.faults.at("outputs"):
+    with head.faults.at_key("outputs"):
         given = head.data.get("outputs", {})
         given = entry_as(given, Mapping, f"a table is expected, such as [outputs] {next(iter(kinds))} = ..")
         found = dict(each_of(given.items(), checked))

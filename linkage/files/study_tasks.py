@@ -114,7 +114,7 @@ class TextMeasures:
 def design_values(measure: Measure, numbers: Mapping[Leaf, FloatArray], count: int) -> FloatArray:
     """Return a measure of designs, shape (count,), from the numbers of its leaves."""
     with np.errstate(all="ignore"):
-        return np.broadcast_to(np.asarray(measure.of(lambda leaf: numbers[leaf]), float), (count,))
+        return np.broadcast_to(np.asarray(measure.from_leaves(lambda leaf: numbers[leaf]), float), (count,))
 
 
 def keeps(constraints: Sequence[Constraint], numbers: Mapping[Leaf, FloatArray], count: int) -> Mask:
@@ -453,14 +453,14 @@ def read_study(path: str | os.PathLike[str], find: FindMachine, settings: Settin
     asked = [section for section in TASKS if head.data.get(section) is not None]
     tasks: dict[str, Keywords] = {}
     for section in asked:
-        with head.faults.at(section):
+        with head.faults.at_key(section):
             given = entry_as(head.data[section], Mapping, f"a table is expected, [{section}]")
             tasks[section] = study_file.keywords_read(head, TASKS[section], given)
     if not asked:
         head.faults.add((), f"there is no study; begin one with {' or '.join(f'[{each}]' for each in TASKS)}.")
     folder = None
     if "folder" in head.data:
-        with head.faults.at("folder"):
+        with head.faults.at_key("folder"):
             folder = study_file.file_path(head, head.data["folder"])
     outputs = study_file.outputs_said(head, TASK_OUTPUTS)
     for name in outputs:

@@ -93,7 +93,7 @@ def read_search(path: str | os.PathLike[str], find: FindMachine, settings: Setti
     head = StudyHead.of(path, (*SEARCH, "outputs"), find, settings)
     data, faults = head.data, head.faults
     arguments: Keywords = {}
-    with faults.at():
+    with faults.at_key():
         arguments = study_file.keywords_read(head, optimise, {key: data[key] for key in data if key in SEARCH}, SEARCH)
     count = sum(len(each) if isinstance(each, list) else 1 for each in (data.get("minimise"), data.get("maximise")) if each)
     if not count:
@@ -210,7 +210,7 @@ def read_synthesis(path: str | os.PathLike[str], find: FindMachine, settings: Se
     head = replace(StudyHead.of(path, (SECTION, "outputs"), find, settings, several=True), section=SECTION)
     faults, given = head.faults, head.data.get(SECTION)
     arguments: Keywords = {}
-    with faults.at(SECTION):
+    with faults.at_key(SECTION):
         if not isinstance(given, Mapping):
             raise DefinitionError('a table is expected, [synthesis] with path = { of = "P", points = "points.csv" } and vary = { ... }.')
         named = [name for name in SYNTHESIS_TASKS if name in given]
@@ -240,7 +240,7 @@ def by_class(read: Read, *, is_of_points: bool = False) -> Read:
         is_table = isinstance(given, Mapping) and not (is_of_points and not set(given) <= set(head.machines))
         found, mistakes = {}, Mistakes()
         for name, said in (given if is_table else dict.fromkeys(head.machines, given)).items():
-            with mistakes.at():
+            with mistakes.at_key():
                 machine = head.machines[known_name("Machine", name, head.machines)]
                 found[type(machine)] = read(replace(head, machine=machine), said)
         mistakes.check()

@@ -53,7 +53,7 @@ class LineDerivatives:
         """Return the derivative of each line that follows the stroke."""
         for line in written:
             self._line = line
-            rate = self.of(line.rhs) if line.rhs.is_Matrix else self.number(line.rhs, line.lhs)
+            rate = self.derivative(line.rhs) if line.rhs.is_Matrix else self.number(line.rhs, line.lhs)
             if rate in (sympy.S.Zero, STILL) or getattr(rate, "is_zero_matrix", False):
                 continue
             self.known[line.lhs] = self.names.derivative(line.lhs, self.stroke)
@@ -86,19 +86,19 @@ class LineDerivatives:
             case Tcos():
                 return self._cosine_rule(word, word)
             case MatrixElement():
-                rate = self.of(word.parent)
+                rate = self.derivative(word.parent)
                 return sympy.S.Zero if rate == STILL else rate[word.i, 0]
             case Norm():
                 return self._stretching(word.args[0])
             case Direction():
                 return self._turning(word.args[0])
         a, b = word.args  # the factors of a scalar or vector product
-        da, db = self.of(a), self.of(b)
+        da, db = self.derivative(a), self.derivative(b)
         return sympy.Add(*(type(word)(*pair) for pair, rate in (((da, b), da), ((a, db), db)) if rate != STILL))
 
     def _turning(self, vector: sympy.MatrixExpr) -> sympy.Expr:
         """Return the rate at which a vector turns."""
-        rate = self.of(vector)
+        rate = self.derivative(vector)
         return sympy.S.Zero if rate == STILL else Cross(vector, rate) / Norm(vector) ** 2
 
     def _stretching(self, vector: sympy.MatrixExpr) -> sympy.Expr:
@@ -106,7 +106,7 @@ class LineDerivatives:
         if isinstance(vector, TurnV):  # written where it is used
             base, _, *length = vector.args
             return self.number(length[0]) if length else self._stretching(base)
-        rate = self.of(vector)
+        rate = self.derivative(vector)
         if rate == STILL:
             return sympy.S.Zero
         if not isinstance(vector, MatrixSymbol):
@@ -118,16 +118,16 @@ class LineDerivatives:
 
     # -- vectors ---------------------------------------------------------------------------------------
 
-    def of(self, vector: sympy.MatrixExpr) -> sympy.MatrixExpr:
+    def derivative(self, vector: sympy.MatrixExpr) -> sympy.MatrixExpr:
         """Return the derivative of a vector; STILL where it does not follow the stroke."""
         match vector:
             case MatrixSymbol():
                 return self.known.get(vector, STILL)
             case MatAdd():
-                return summed([rate for rate in map(self.of, vector.args) if rate != STILL])
+                return summed([rate for rate in map(self.derivative, vector.args) if rate != STILL])
             case MatMul():
                 factor, (rest,) = vector.as_coeff_matrices()
-                rate, scaled = self.of(rest), self.number(factor)
+                rate, scaled = self.derivative(rest), self.number(factor)
                 turned = [] if rate == STILL else [MatMul(factor, rate)]
                 return summed(turned + ([] if scaled == 0 else [MatMul(scaled, rest)]))
             case TurnV():

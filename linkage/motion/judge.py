@@ -1009,9 +1009,9 @@ def situation_found(chosen: Sequence[WorstPiece]) -> Situation:
 def valued(question: Any, number: Callable[[Leaf], FloatArray]) -> tuple[FloatArray, FloatArray]:
     """Return a question's value, and its margin: below zero where it is not kept; for a bare measure, greatest at the best value."""
     if isinstance(question, Measure):
-        value = np.asarray(question.of(number), float)
+        value = np.asarray(question.from_leaves(number), float)
         return value, value if isinstance(question, Least) else -value
-    left, right = (np.asarray(each.of(number), float) for each in (question.left, question.right))
+    left, right = (np.asarray(each.from_leaves(number), float) for each in (question.left, question.right))
     size = MET * np.maximum(np.abs(np.where(np.isfinite(left), left, 0.0)), np.abs(np.where(np.isfinite(right), right, 0.0)))
     apart = {">=": left - right, "<=": right - left}.get(question.symbol)
     margin = 1e3 * size - np.abs(left - right) if apart is None else apart

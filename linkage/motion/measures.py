@@ -57,7 +57,7 @@ class Measure(Arithmetic):
         """The leaves over the stroke in this measure, each once."""
 
     @abstractmethod
-    def of(self, value: Callable[[Leaf], Any]) -> Any:
+    def from_leaves(self, value: Callable[[Leaf], Any]) -> Any:
         """Return the number that the values of its leaves make; of anything that adds and multiplies."""
 
     @property
@@ -130,7 +130,7 @@ class FixedNumber(Measure):
     def numbers(self) -> tuple[float, ...]:
         return (self.value,)
 
-    def of(self, value: Callable[[Leaf], Any]) -> Any:
+    def from_leaves(self, value: Callable[[Leaf], Any]) -> Any:
         return self.value
 
     def __str__(self) -> str:
@@ -153,8 +153,8 @@ class CombinedMeasure(Measure):
     def numbers(self) -> tuple[float, ...]:
         return (*self.left.numbers, *self.right.numbers)
 
-    def of(self, value: Callable[[Leaf], Any]) -> Any:
-        left, right = self.left.of(value), self.right.of(value)
+    def from_leaves(self, value: Callable[[Leaf], Any]) -> Any:
+        left, right = self.left.from_leaves(value), self.right.from_leaves(value)
         if isinstance(left, float) and isinstance(right, float):  # by NumPy's rules, where nothing is raised
             with np.errstate(all="ignore"):
                 return float(OPERATIONS[self.symbol](np.float64(left), np.float64(right)))
@@ -192,7 +192,7 @@ class Leaf(Measure):
     def leaves(self) -> tuple[Leaf, ...]:
         return (self,)
 
-    def of(self, value: Callable[[Leaf], Any]) -> Any:
+    def from_leaves(self, value: Callable[[Leaf], Any]) -> Any:
         return value(self)
 
     def __str__(self) -> str:

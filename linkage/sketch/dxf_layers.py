@@ -45,7 +45,7 @@ class DrawingReader:
         self.pins: dict[str, tuple[Place, float]] = {}
         """Each pin's centre and radius."""
 
-    def of(self, kinds: Sequence[str], *roles: str) -> Iterator[Any]:
+    def entities_on(self, kinds: Sequence[str], *roles: str) -> Iterator[Any]:
         """Yield the entities of some kinds on the layers of some roles; "" is any other layer."""
         for each in self.entities:
             if each.dxftype() in kinds and self.role.get(str(each.dxf.layer).lower(), "") in roles:
@@ -53,10 +53,10 @@ class DrawingReader:
 
     def read(self) -> None:
         """Enter pins, links, slides and drives."""
-        circles = [*self.of(("CIRCLE",), "pins")] or [*self.of(("CIRCLE",), "", "links")]
-        ground = [*self.of(("CIRCLE",), "ground")]
-        hatches = [corners_of(each) for each in self.of(("HATCH",), *ROLES, "")]
-        words = [(text_of(each), (each.dxf.insert.x, each.dxf.insert.y)) for each in self.of(("TEXT", "MTEXT"), *ROLES, "")]
+        circles = [*self.entities_on(("CIRCLE",), "pins")] or [*self.entities_on(("CIRCLE",), "", "links")]
+        ground = [*self.entities_on(("CIRCLE",), "ground")]
+        hatches = [corners_of(each) for each in self.entities_on(("HATCH",), *ROLES, "")]
+        words = [(text_of(each), (each.dxf.insert.x, each.dxf.insert.y)) for each in self.entities_on(("TEXT", "MTEXT"), *ROLES, "")]
         for circle in (*circles, *ground):
             place, radius = (float(circle.dxf.center.x), float(circle.dxf.center.y)), float(circle.dxf.radius)
             if any(dist(place, centre) <= radius for centre, _ in self.pins.values()):
@@ -69,12 +69,12 @@ class DrawingReader:
             self.pins[key] = place, radius
         ensure_file(self.pins, f"{self.found.file}: there is no circle on the layers of pins; a circle is a pin, see --layer pins=NAME.")
         lines = ("LINE", "LWPOLYLINE", "POLYLINE")
-        for each in [*self.of(lines, "links")] or [*self.of(lines, "")]:
+        for each in [*self.entities_on(lines, "links")] or [*self.entities_on(lines, "")]:
             self.read_link(each)
-        for each in self.of(("LINE",), "slides"):
+        for each in self.entities_on(("LINE",), "slides"):
             self.slide(each)
         for role in ("crank", "cylinder"):
-            for each in self.of(("LINE",), role):
+            for each in self.entities_on(("LINE",), role):
                 keys = self.met(corners_of(each))
                 if len(keys) == 2:
                     self.drive(role, keys[0], keys[1])

@@ -301,7 +301,7 @@ class MemberLimit:
 
     def bounds(self, motion: Motion) -> tuple[FloatArray, FloatArray]:
         """Return between which two values it is kept, to rounding."""
-        right: FloatArray = np.asarray(self.right.of(lambda leaf: motion[cast(RequestLike, leaf.quantity)]), np.float64)
+        right: FloatArray = np.asarray(self.right.from_leaves(lambda leaf: motion[cast(RequestLike, leaf.quantity)]), np.float64)
         return (right - KEPT, np.asarray(np.inf)) if self.is_least else (np.asarray(-np.inf), right + KEPT)
 
     def spare(self, motion: Motion, acting: Acting) -> FloatArray:

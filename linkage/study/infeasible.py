@@ -149,7 +149,7 @@ def given_way(problem: Problem, start: SearchEnd, elastic: Sequence[Constraint])
     relaxations, pulling, total = [], [], 0.0
     scales = scales_of(problem, problem.evaluated(machine.dimensions, slopes=True))
     for each, price, scale in zip(problem.constraints, prices, scales, strict=True):
-        left, right = (float(side.of(lambda leaf: values[leaf])) for side in each.compared)
+        left, right = (float(side.from_leaves(lambda leaf: values[leaf])) for side in each.compared)
         short = each.short(left, right)
         if values.lost.intersection(each.margin.leaves):
             return None

@@ -190,7 +190,7 @@ class StudyPoses:
         """Return a quantity of m designs at the poses, shape (m, n), or (m, 1) of one number for each design."""
         with unwarned(), np.errstate(all="ignore"):
             if isinstance(quantity, Measure):  # over the poses that are looked at
-                found = quantity.of(lambda leaf: self.of_leaf(machine, leaf, way))
+                found = quantity.from_leaves(lambda leaf: self.of_leaf(machine, leaf, way))
                 shape = np.broadcast_shapes(*map(np.shape, machine.dimensions.values()))
                 return np.array(np.broadcast_to(found, prod(shape))).reshape(-1, 1)
             if number_bound(self.base.plan, quantity) is not None:

@@ -301,7 +301,7 @@ class MonteCarloRun:
         self.kept = [self._keeps(each) for each in conditions]
         for title, each in asked.items():
             if isinstance(each, Measure):
-                column = np.array(np.broadcast_to(each.of(self._leaves.__getitem__), (self.count,)), float)
+                column = np.array(np.broadcast_to(each.from_leaves(self._leaves.__getitem__), (self.count,)), float)
                 self.moments[title] = np.array([self._moments(column)]).T
             else:
                 self.moments[title] = np.concatenate(found[self._key(each)], axis=1)
@@ -335,7 +335,7 @@ class MonteCarloRun:
 
     def _keeps(self, condition: Constraint) -> Mask:
         """Return which designs keep a condition; one says nothing of those at which a quantity of it is limited nowhere."""
-        kept = np.asarray(condition.margin.of(self._leaves.__getitem__) >= 0.0) & np.ones(self.count, bool)
+        kept = np.asarray(condition.margin.from_leaves(self._leaves.__getitem__) >= 0.0) & np.ones(self.count, bool)
         for leaf in condition.margin.leaves:
             if leaf in self._unlimited:
                 kept |= np.isnan(self._leaves[leaf]) & (self._unlimited[leaf] > 0)

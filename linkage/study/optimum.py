@@ -277,7 +277,7 @@ class Optimum(Shown):
             known = [numbers_judged(problem, each)[0] for each in machines]
         for kept in self.conditions:
             side = kept.constraint.left
-            before, after, last = [*(nan if each is None else float(side.of(each.__getitem__)) for each in known), nan][:3]
+            before, after, last = [*(nan if each is None else float(side.from_leaves(each.__getitem__)) for each in known), nan][:3]
             name, gain = f"{side} {kept.constraint.symbol}", kept.gain
             rows.append(ResultRow("condition", name, kept.units, before, after, last, kept.right, kept.spare, gain, "1 % less strict"))
         return tuple(rows)
@@ -406,7 +406,7 @@ def condition_spare(problem: Problem, constraint: Constraint, now: Mapping[Leaf,
 
     `scale` is the size of what is compared [SI].
     """
-    left, right = (float(side.of(lambda leaf: now[leaf])) for side in constraint.compared)
+    left, right = (float(side.from_leaves(lambda leaf: now[leaf])) for side in constraint.compared)
     spare = -constraint.short(left, right)
     size = max((abs(side) for side in (left, right) if np.isfinite(side)), default=0.0)
     by = 0.01 * (size if size > 1e-6 * scale else scale)

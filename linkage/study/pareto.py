@@ -175,7 +175,7 @@ def on_front(
         return None
     if values is None or missing > MET:
         return None
-    found = tuple(float(each.of(values.__getitem__)) for each in objectives)
+    found = tuple(float(each.from_leaves(values.__getitem__)) for each in objectives)
     return (found, machine) if np.isfinite(found).all() and not values.lost else None
 
 

@@ -36,7 +36,7 @@ def check_bounded(problem: Problem, now: LeafNumbers, best: SearchEnd) -> None:
     looks = [problem.evaluated(problem.dimensions_at(np.full(n, part), combination)).leaf_sizes for part in parts]
     sizes = {leaf: max(look[leaf] for look in looks) for leaf in problem.leaves} if asked else {}
     for each in asked:
-        small = abs(float(each.of(lambda leaf: now[leaf])))
+        small = abs(float(each.from_leaves(lambda leaf: now[leaf])))
         if small <= NEXT_TO_NOTHING * terms_size(each, sizes, now):
             raise boundless_error(named, each, "subject_to=[{} >= ...]")
     units = np.concatenate([unit[None], unit_points(SPREAD, n, "sobol", 0)])
@@ -80,8 +80,8 @@ def values_at(problem: Problem, units: FloatArray, combination: Sequence[int]) -
                 start = {name: stroke.start for name, stroke in problem.plan.strokes.items()} | dict(each.strokes)
                 motion = Motion(problem.plan, designs, {name: np.asarray(value, float) for name, value in start.items()}, "nan")
                 numbers[each] = np.ravel(np.asarray(motion.value(cast(Any, each.quantity)), float))
-            found[f"divisor {number}"] = each.of(numbers.__getitem__) + nothing
-        spare = [each.margin.of(numbers.__getitem__) + nothing for each in problem.constraints]
+            found[f"divisor {number}"] = each.from_leaves(numbers.__getitem__) + nothing
+        spare = [each.margin.from_leaves(numbers.__getitem__) + nothing for each in problem.constraints]
     kept = np.all([margin >= -MET for margin in spare], axis=0) if spare else np.ones(len(units), bool)
     whole = np.broadcast_to(np.asarray(look.is_assembled, bool), (len(units),))
     return {name: np.where(whole & kept, value, np.nan) for name, value in found.items()}

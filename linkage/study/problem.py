@@ -354,7 +354,7 @@ class Problem:
 
     def value(self, numbers: Callable[[Leaf], Any]) -> Any:
         """Return the objective from the leaves' numbers: of several the worst."""
-        found = [each.of(numbers) for each in self.objectives]
+        found = [each.from_leaves(numbers) for each in self.objectives]
         return found[0] if len(found) == 1 else (np.maximum if self.sense > 0.0 else np.minimum).reduce(found)
 
     # -- the poses ---------------------------------------------------------------------------------------
@@ -589,7 +589,8 @@ class Problem:
         look = self.evaluated(self.dimensions_at(unit, combination))
         shape, numbers = look.reached.shape, look.numbers
         with np.errstate(all="ignore"):
-            values = np.array([np.broadcast_to(np.asarray(each.of(numbers.__getitem__), float), shape) for each in self.objectives])
+            found = (np.asarray(each.from_leaves(numbers.__getitem__), float) for each in self.objectives)
+            values = np.array([np.broadcast_to(each, shape) for each in found])
         missing = self._missing(look).max(axis=0, initial=0.0)
         values = np.where(np.array([look.lost(each) for each in self.objectives]).reshape(len(values), -1), np.nan, values)
         return np.where(look.is_assembled, values, np.nan), np.where(look.is_assembled, missing, np.nan), look.reached
@@ -629,7 +630,7 @@ class Problem:
             ends = each.sign * each.low, each.sign * each.high
             inputs[each.owner] = Enclosure(min(ends), max(ends))
         found = dict(zip(measure.leaves, enclosures(nodes, inputs), strict=True))
-        return Enclosure.from_number(measure.of(lambda leaf: found[leaf]))
+        return Enclosure.from_number(measure.from_leaves(lambda leaf: found[leaf]))
 
     # -- machines ----------------------------------------------------------------------------------------
 
@@ -806,14 +807,14 @@ def terms_size(measure: Measure, sizes: Mapping[Leaf, float], values: Mapping[Le
     if isinstance(measure, Leaf):
         return sizes[measure]
     if not isinstance(measure, CombinedMeasure):
-        return abs(float(measure.of(lambda leaf: values[leaf])))
+        return abs(float(measure.from_leaves(lambda leaf: values[leaf])))
     left, right = (terms_size(side, sizes, values) for side in (measure.left, measure.right))
     if measure.symbol in ("+", "-"):
         return max(left, right)
     if measure.symbol == "*":
         return left * right
     with np.errstate(all="ignore"):
-        other = abs(float(measure.right.of(lambda leaf: values[leaf])))
+        other = abs(float(measure.right.from_leaves(lambda leaf: values[leaf])))
         return float(np.divide(left, other) if measure.symbol == "/" else np.power(left, other))
 
 
@@ -833,7 +834,7 @@ def missed(constraint: Constraint, numbers: Mapping[Leaf, Any], size: float | No
 
     Without a size it is the larger of the two sides, of each design.
     """
-    left, right = (np.asarray(side.of(lambda leaf: numbers[leaf]), float) for side in constraint.compared)
+    left, right = (np.asarray(side.from_leaves(lambda leaf: numbers[leaf]), float) for side in constraint.compared)
     measured = np.maximum(np.maximum(np.abs(left), np.abs(right)), 1e-300) if size is None else size
     short = constraint.short(left, right) / measured
     says_nothing = np.any([np.isnan(numbers[leaf]) for leaf in constraint.margin.leaves], axis=0)

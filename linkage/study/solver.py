@@ -60,7 +60,7 @@ def graded(measure: Measure, of_leaf: Callable[[Leaf], Graded]) -> Graded:
     if isinstance(measure, Leaf):
         return of_leaf(measure)
     if not isinstance(measure, CombinedMeasure):
-        return Graded(float(measure.of(of_leaf)), np.zeros(1))
+        return Graded(float(measure.from_leaves(of_leaf)), np.zeros(1))
     (a, by_a), (b, by_b) = graded(measure.left, of_leaf), graded(measure.right, of_leaf)
     with np.errstate(all="ignore"):
         match measure.symbol:
@@ -222,7 +222,7 @@ class Local:
     def _divisor_signs(self, look: Evaluated) -> tuple[float, ...]:
         """Return the signs of the numbers of a design that another number of it is divided by."""
         with np.errstate(all="ignore"):
-            return tuple(float(np.sign(each.of(lambda leaf: look.numbers[leaf][0]))) for each in self._divisors)
+            return tuple(float(np.sign(each.from_leaves(lambda leaf: look.numbers[leaf][0]))) for each in self._divisors)
 
     def _usable(self, look: Evaluated) -> bool:
         """Return whether the objectives and equations have values; an inequality without one says nothing.

@@ -136,7 +136,7 @@ class PointRegion:
         """Whether the point is one that a search places."""
         return self.places != (None, None)
 
-    def of(self, values: FloatArray) -> FloatArray:
+    def positions(self, values: FloatArray) -> FloatArray:
         """Return where the point stands (m, 2) by the variables' values (m, n)."""
         columns = [
             np.full(len(values), fixed) if place is None else sign * values[:, place]
@@ -269,7 +269,7 @@ class Space:
             return unit
         found = np.array(self.values(unit))
         for number, each in enumerate(self.regions):
-            out = np.flatnonzero(each.region.depths(each.of(found)) < 0.0) if each.varies else np.zeros(0, int)
+            out = np.flatnonzero(each.region.depths(each.positions(found)) < 0.0) if each.varies else np.zeros(0, int)
             if len(out):
                 places = places_inside(title, each, self.variables, len(out), seed + number)
                 each.put(found, out, places[np.arange(len(out)) % len(places)])
@@ -280,7 +280,7 @@ class Space:
         found = np.array(values)
         for each in self.regions:
             if each.varies:
-                each.put(found, slice(None), each.region.nearest(each.of(found)))
+                each.put(found, slice(None), each.region.nearest(each.positions(found)))
         return self.unit(found)
 
     @property

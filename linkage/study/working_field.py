@@ -478,16 +478,16 @@ class LoadsFound:
     """Poses that were found (n), and the load that each limiter leaves there, factors included (limiters, n)."""
 
     poses: PlacePoses
-    of: FloatArray
+    loads: FloatArray
 
     @cached_property
     def load(self) -> FloatArray:
         """The load (n,)."""
-        return np.asarray(np.min(self.of, axis=0, initial=np.inf))
+        return np.asarray(np.min(self.loads, axis=0, initial=np.inf))
 
     def select(self, rows: Any) -> LoadsFound:
         """Return some of them."""
-        return LoadsFound(self.poses.select(rows), self.of[:, rows])
+        return LoadsFound(self.poses.select(rows), self.loads[:, rows])
 
     def best(self) -> Index:
         """Return the row of each place at which most is carried, by place ascending; of equal ones that with the least first stroke."""
@@ -702,7 +702,7 @@ class FieldSearch:
         found, met = many.settled(start, self.goals, np.full(width, BEYOND), damped=False, iterations=FEW, order=every)
         of, unit = np.full((len(self.limiter_names), len(guess)), np.nan), np.empty_like(guess)
         np.put_along_axis(unit, every, found.unit, axis=1)
-        of[:, met] = self.carried(PlacePoses(found.place[met], unit[met])).of
+        of[:, met] = self.carried(PlacePoses(found.place[met], unit[met])).loads
         return found.unit.reshape(len(to), n, width), of.reshape(-1, len(to), n)
 
     def field(self) -> WorkingField:
@@ -724,7 +724,7 @@ class FieldSearch:
 
     def gathered(self, found: LoadsFound) -> WorkingField:
         """Return the field of one pose a place."""
-        poses, of, load, count = found.poses, found.of, found.load, self.x.size * self.y.size
+        poses, of, load, count = found.poses, found.loads, found.load, self.x.size * self.y.size
 
         def full(values: FloatArray) -> FloatArray:
             spread = np.full(count, np.nan)

@@ -204,7 +204,7 @@ class OnWheels(OfPaths):
 
 
 def test_a_report_looks_at_forces_and_limits_where_the_machine_is_judged():
-    subject = ReportSubject.at(OnWheels(), {}, 5)
+    subject = ReportSubject.of(OnWheels(), {}, 5)
     assert {(one.case, round(float(np.max(one.motion.strokes["T"])), 3)) for one in subject.forces} == {("heavy", 0.12), ("empty", 0.08)}
     verdicts = {verdict.heading: verdict for verdict in OnWheels().verdicts()}
     nearest = PLACED.findall(next(verdict.sentence for verdict in verdicts.values() if verdict.rule == "dead points"))

@@ -100,9 +100,9 @@ def judged(machine, objective, constraints, over, count):
 
     with np.errstate(all="ignore"), warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        found, missing = np.asarray(objective.of(value), float), 0.0
+        found, missing = np.asarray(objective.from_leaves(value), float), 0.0
         for each in constraints:
-            left, right = each.left.of(value), each.right.of(value)
+            left, right = each.left.from_leaves(value), each.right.from_leaves(value)
             short = {"<=": left - right, ">=": right - left, "==": np.abs(left - right)}[each.symbol]
             size = np.maximum(np.maximum(np.abs(left), np.abs(right)), max(np.max(np.abs(known[leaf])) for leaf in each.margin.leaves))
             missing = np.maximum(missing, short / size)

@@ -531,7 +531,7 @@ def test_a_column_of_the_table_may_be_chosen():
     document = report_document(Lifter(), columns=["B_y"])
     (grid,) = grids(document, "S, m")
     assert grid.headings == ("S, m", "B_y, m")
-    looked = ReportSubject.at(Lifter(), {}, 11, None)
+    looked = ReportSubject.of(Lifter(), {}, 11, None)
     assert [row[1] for row in grid.rows] == [f"{value:.4f}" for value in Column("B_y", looked.table.y("B"), "m").shown]
 
 

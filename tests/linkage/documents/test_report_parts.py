@@ -302,7 +302,7 @@ def test_every_load_case_has_its_pins():
 def test_at_the_relief_pressure_a_stop_takes_what_the_load_leaves():
     """Against the same by a force at G that is looked for until the cylinder has the relief valve's thrust."""
     machine = Loader()
-    subject = ReportSubject.at(machine, {}, 5)
+    subject = ReportSubject.of(machine, {}, 5)
     held = blocked_cylinders(subject)
     piston, annulus = 2 * np.pi / 4 * 0.08**2, 2 * np.pi / 4 * (0.08**2 - 0.045**2)
     assert held["lift"] == pytest.approx((-21e6 * annulus, 21e6 * piston), rel=1e-12)
@@ -326,7 +326,7 @@ def test_at_the_relief_pressure_a_stop_takes_what_the_load_leaves():
 
 def test_a_stop_pushes_until_the_first_relief_valve_opens():
     """No cylinder of the crane carries more than its valve lets through, and one of them carries just that."""
-    subject = ReportSubject.at(Crane(), {}, 5)
+    subject = ReportSubject.of(Crane(), {}, 5)
     motion = subject.judge.places[0].sampled
     stop = Stop.of(motion.moved(motion.strokes), "T", blocked_cylinders(subject), Acting())
     assert set(stop.bounds) == {"extend", "lift", "fold"}

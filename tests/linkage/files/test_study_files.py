@@ -148,7 +148,7 @@ def test_a_text_measures_what_python_does(text, measure):
     assert str(said) == str(measure)
     found = TextMeasures({"it": text}, 401)(BOOM)["it"]
     motion = BOOM.sweep(401)
-    truth = measure.of(lambda leaf: by_hand(motion, leaf))
+    truth = measure.from_leaves(lambda leaf: by_hand(motion, leaf))
     assert found == pytest.approx(truth, rel=1e-4)
 
 

@@ -569,6 +569,14 @@ class Wrench:
     couple: FloatArray
 
 
+@dataclass(frozen=True)
+class UnitWrench:
+    """A unit wrench that acts on one body from another: a column of the equations."""
+
+    contact: Contact
+    wrench: Wrench
+
+
 def wrenches(contact: Contact, poses: FlatPoses, scale: float) -> list[Wrench]:
     """Return the unit wrenches of a contact's unknowns; all unknowns are in N, a couple is `scale` [m] times its own."""
     none = np.zeros((2, poses.count))

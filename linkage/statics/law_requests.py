@@ -24,7 +24,8 @@ from ..quantities import Angle, Distance, Member, Quantity, Reference, name_of
 from ..steps import Arrow, Point
 from ..vectors import Scalar
 from .applied import AppliedElement, AppliedLoads, Parts, element_parts, motion_in_case, plan_in_case, refuse_direction
-from .equilibrium import JointFriction, System
+from .equilibrium import System
+from .friction import JointFriction
 from .holding import Levers
 from .joints import Structure
 from .poses import AnyMotion, FlatPoses

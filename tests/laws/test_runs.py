@@ -12,8 +12,9 @@ from linkage import LEFT, Acting, Dyad, Featured, Ground, LoadCase, Mechanism, O
 from linkage.cli.entry import main
 from linkage.documents.content import TableBlock
 from linkage.documents.outcome import limits_section
-from linkage.documents.reporting import report_document, rule_share
+from linkage.documents.reporting import report_document
 from linkage.documents.run import ReportSubject
+from linkage.documents.worst_places import rule_share
 from linkage.motion import Request
 from linkage.pictures.page_forces import page_situations
 from linkage.pictures.strokes import playback

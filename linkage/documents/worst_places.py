@@ -1,0 +1,150 @@
+"""The verdicts of a report, and the worst place of each: its value, its share of the limit, and where it is."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from ..errors import LinkageError, unwarned
+from ..language import heading_of, said, said_of
+from ..loads import PLAIN_CASE
+from ..mechanism import verdicts_of
+from ..motion import Answer, Column, HasVerdicts, MotionFunction, Request, places_text, speakers
+from ..motion.measures import Constraint, Leaf, least, measure_of, most
+from ..pictures.curves import limit_of
+from ..reports import is_column
+from ..units import display_unit, show, unit_sign
+from ..verdict import Verdict
+from .content import Mark, Section, TableBlock
+from .outcome import amount_text
+from .run import ReportSubject
+
+
+def verdict_section(subject: ReportSubject, limits: Mapping[str, Sequence[object]]) -> tuple[Section, Mark, Sequence[Verdict]]:
+    """Return the section of a machine's verdicts over all that it runs, with its worst places, how many rules are kept, and all of them."""
+    title = said("Verdicts")
+    try:
+        with unwarned():
+            found = verdicts_of(subject.machine, subject.verdict_judge)
+            limited = limit_answers(subject, limits)
+    except LinkageError as error:
+        return (
+            Section(title, (said("The machine cannot be judged over all that it runs: {why}", why=str(error)),)),
+            Mark(False, said("not judged")),
+            (),
+        )
+    if not found:
+        return Section(title, (said("This machine declares no rules of its own."),)), Mark(None, said("no rules declared")), ()
+    judged = [each for each in found if each.is_rule]
+    domain = said("Judged over {domain}, in all load cases and directions of motion that occur there.", domain=subject.domain)
+    heads = (said("rule"), said("result"), said("what was found"))
+    rows = tuple((each.heading, verdict_mark(each.ok) if each.is_rule else Mark(None, "–"), each.sentence) for each in found)
+    table = TableBlock(said("Rules, over all that the machine runs"), heads, rows, "llm")
+    places = [(each.heading, each.ok, each.answer, None, rule_share(subject, each)) for each in judged if isinstance(each.answer, Answer)]
+    return Section(title, (domain, table, *worst_places(subject, [*places, *limited]))), rules_mark(judged), found
+
+
+def rules_mark(judged: Sequence[Verdict]) -> Mark:
+    """Return how many rules are kept, and how many say nothing."""
+    if not judged:
+        return Mark(None, said("no rules declared"))
+    kept, silent = (sum(each.ok is ok for each in judged) for ok in (True, None))
+    word = said("{kept} of {all} rules kept", kept=kept, all=len(judged))
+    if silent:
+        word = said_of(silent, "{rules}, {n} says nothing", "{rules}, {n} say nothing", rules=word)
+    return Mark(False if kept + silent < len(judged) else None if silent else True, word)
+
+
+def verdict_mark(ok: bool | None) -> Mark:
+    """Return the mark of a verdict."""
+    return Mark.kept(ok, said("says nothing"))
+
+
+# The worst places of all rules.
+
+MOST_PLACES = 10
+"""Rows of the table of the worst places."""
+
+
+JudgedRow: TypeAlias = tuple[str, "bool | None", Answer, "Column | None", float]
+"""A rule by its name, whether it is kept, its answer, the column that it bounds, and how far its limit is used."""
+
+
+def limit_answers(subject: ReportSubject, limits: Mapping[str, Sequence[Any]]) -> list[JudgedRow]:
+    """Return the judge's answers to the limits of columns, by their headings, where the columns have requests."""
+    columns = subject.columns_along(replace(subject.run, case=None), subject.curve)
+    asked, quantities = {}, subject.quantities(limits)
+    for name, given in limits.items():
+        quantity, limit = quantities.get(name), limit_of(given)
+        if quantity is not None:
+            asked[name] = least(quantity) >= limit.value if limit.fails == "below" else most(quantity) <= limit.value
+    own = [name for name in asked if is_column(quantities[name])]
+    plain = [place.over for place in subject.judge.places if PLAIN_CASE in place.cases(subject.judge.acting)]
+    answers = dict(zip(asked, subject.judge.answers([*asked.values()]), strict=True))
+    if own and plain and len(plain) < len(subject.judge.places):  # a table's own column is under the machine's own loads
+        judge = subject.machine.judge(plain, subject.judge.acting).lost_allowed()
+        answers |= zip(own, judge.answers([asked[name] for name in own]), strict=True)
+    return [(heading_of(name), each.ok, each, columns.get(name), used(each)) for name, each in answers.items()]
+
+
+def worst_places(subject: ReportSubject, answers: Sequence[JudgedRow]) -> Iterator[TableBlock]:
+    """Yield the table of the worst places of some rules, if there are any: those not kept first, then by how far the limit is used.
+
+    A rule that is kept and says of no limit how far it is used has no worst place.
+    """
+    known = [each for each in answers if each[2].strokes and not np.isnan(each[2].value)]
+    near = [each for each in known if each[1] is False or 0.0 < each[4] < np.inf]
+    ranked = sorted(near, key=lambda each: (each[1] is not False, -each[4]))
+    rows = []
+    for rule, ok, each, column, of_limit in ranked[:MOST_PLACES]:
+        share = f"{100.0 * of_limit:.0f} %" if 0.0 < of_limit < np.inf else "–"
+        places = each.situation or "–", places_text(each.strokes, each.units)
+        rows.append((rule, verdict_mark(ok), value_cell(subject, each, column), share, *places))
+    heads = (said("rule"), said("result"), said("value"), said("limit used"), said("situation"), said("strokes"))
+    if rows:
+        yield TableBlock(said("The worst places"), heads, tuple(rows), "llrrmm")
+
+
+def value_cell(subject: ReportSubject, answer: Answer, column: Column | None) -> str:
+    """Return an answer's value with its unit, of a limit as its column has it; a dash where its kind is unknown."""
+    if column is not None:
+        return f"{amount_text(subject, answer, column)} {unit_sign(column.unit)}".strip()
+    measure = answer.question.left if isinstance(answer.question, Constraint) else answer.question
+    kind, quantity = answer.measures or measure_of(subject.machine.plan, measure), getattr(measure, "quantity", None)
+    if answer.unbounded:
+        return answer.amount
+    if not kind and not (isinstance(quantity, Request) and not isinstance(quantity, MotionFunction)):
+        return "–"
+    return show(float(answer.value), display_unit(kind, "mm"), 4)
+
+
+def rule_share(subject: ReportSubject, verdict: Verdict) -> float:
+    """Return how far the limit of a rule is used, as on a page. A length that fits uses nothing."""
+    member, answer = speakers(subject.machine.plan, HasVerdicts).get(verdict.member), verdict.answer
+    words = {} if member is None else member.page_words(subject.judge)
+    own = next((each.share for rule, each in words.items() if verdict.rule in (rule, f"{rule} {verdict.member}")), None)
+    if own is not None:
+        return float(subject.judge.answer(own).value)
+    question = answer.question.left if isinstance(answer.question, Constraint) else answer.question
+    is_fitting = verdict.ok and (answer.measures or measure_of(subject.machine.plan, question)) == "length"
+    return 0.0 if is_fitting else used(answer)
+
+
+def used(answer: Answer) -> float:
+    """Return how far a limit is used, 1.0 where it is met exactly; 0.0 where no plain limit tells, infinite where nothing bounds it."""
+    question = answer.question
+    if not isinstance(question, Constraint) or question.right.leaves:
+        return 0.0
+    value, limit = float(answer.value), float(question.right.from_leaves(nothing_asked))
+    if limit == 0.0:
+        return np.inf if answer.ok is False else 0.0
+    of, by = map(abs, (value, limit) if question.symbol == "<=" else (limit, value))
+    return np.inf if of > 0.0 and by == 0.0 else of / by if np.isfinite(by) else 0.0
+
+
+def nothing_asked(leaf: Leaf) -> float:
+    """Return nothing: a limit is a number, which has no leaves."""
+    raise AssertionError(leaf)

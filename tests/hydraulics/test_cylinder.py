@@ -73,6 +73,10 @@ def test_the_size_for_a_thrust():
     assert PUSH.sized_for(250 * kN, 160 * bar).bore == 100 * mm  # 251.3 kN
     assert PUSH.sized_for(252 * kN, 160 * bar).bore == 110 * mm
     assert PUSH.sized_for(1.0, 160 * bar).bore == 63 * mm  # larger than the rod
+    both, area = CylinderSize(100 * mm, 60 * mm, works="both"), pi / 4 * np.array([63 * mm, 100 * mm]) ** 2
+    assert both.sized_for(0.5, 0.51 / area[0]).bore == 63 * mm < both.sized_for(-0.5, 0.51 / area[0]).bore  # half a newton pushes
+    offers = Cylinder("A", "B", bore=100 * mm, rod=60 * mm, works="both").offers(0.5, 0.51 / area[1])
+    assert tuple(each.rod for each in offers) == standard_rods(100 * mm)
     found = PULL.sized_for(-250 * kN, 160 * bar)
     assert found.area * 160 * bar >= 250 * kN > CylinderSize(110 * mm, 60 * mm, 2, "rod").area * 160 * bar
 

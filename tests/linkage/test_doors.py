@@ -39,10 +39,16 @@ def test_doors_are_functions_whatever_is_imported(lines):
     assert printed("import linkage", *lines, SAY) == f"{['function'] * 5} {['function'] * 5}"
 
 
-def test_star_import_loads_no_library_behind_the_doors():
-    loaded = printed(STAR, "import sys", "print(*sys.modules)").split()
-    assert "linkage.mechanism" in loaded
-    assert not [name for name in loaded if name.startswith((*HEAVY, *OPTIONAL, "linkage.pictures", "linkage.formulas"))]
+def test_no_library_is_loaded_before_it_is_asked_for():
+    """None behind the doors by a star, no graphs by the mobility, and pydantic by no room."""
+    told, four_bar = "print(*sys.modules)", "from mechanisms.classics.four_bar import FourBar"
+    rooms = "import linkage.cli, linkage.files, hydraulics"
+    text = printed(STAR, "import sys", told, four_bar, "FourBar().mobility", told, "FourBar().graph", told, rooms, told)
+    star, moved, drawn, last = (each.split() for each in text.splitlines())
+    assert "linkage.mechanism" in star
+    behind = *HEAVY, *OPTIONAL, "linkage.pictures", "linkage.formulas", "linkage.notebook"
+    assert not [name for name in star if name.startswith(behind)]
+    assert "networkx" not in moved and "networkx" in drawn and "pydantic" not in last
 
 
 def test_what_is_loaded_late_says_what_it_takes():

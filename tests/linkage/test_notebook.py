@@ -2,8 +2,6 @@
 
 import pickle
 import re
-import subprocess
-import sys
 from html import unescape
 from io import BytesIO
 from xml.etree import ElementTree
@@ -154,8 +152,3 @@ def test_a_figure_shows_itself(figure):
     picture, size = figure()._repr_png_()
     high, wide, _ = imread(BytesIO(picture)).shape
     assert (wide, high) == pytest.approx((2 * size["width"], 2 * size["height"]), abs=2)
-
-
-def test_nothing_heavy_is_loaded_until_something_is_shown():
-    program = "import sys, linkage; linkage.Mechanism; print('matplotlib' in sys.modules, 'linkage.notebook' in sys.modules)"
-    assert subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout.split() == ["False", "False"]

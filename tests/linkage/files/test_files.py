@@ -1,7 +1,5 @@
 """Mechanisms as files: every kind of member there and back, exact to the last bit; mistakes with key and line."""
 
-import subprocess
-import sys
 from importlib.metadata import EntryPoint
 from math import pi
 from pathlib import Path
@@ -225,11 +223,6 @@ def test_command_says_every_mistake_in_a_line(capsys):
     assert len(err.splitlines()) == 12
     assert main(["show", str(DATA / "nowhere.toml")]) == 2
     assert "nowhere.toml: there is no such file" in capsys.readouterr().err
-
-
-def test_no_room_loads_pydantic():
-    code = "import sys, linkage.cli, linkage.files, hydraulics; assert 'pydantic' not in sys.modules"
-    assert subprocess.run([sys.executable, "-c", code], check=False, cwd=Path(__file__).parents[3]).returncode == 0
 
 
 # -- kinds of other packages -------------------------------------------------------------------------------

@@ -33,6 +33,7 @@ from linkage.motion.gaps import nearest_places, triangles
 from linkage.motion.planes import pairs_of
 from linkage.numeric import convex_pieces, crosses_itself
 from linkage.vectors import Vec, pick
+from mechanisms.classics.four_bar import FourBar
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.for_all import for_all
 
@@ -276,9 +277,9 @@ def test_planes_keep_bodies_apart_and_pins_pass_through_them():
 
 
 def test_no_planes_no_verdict():
-    assert not any("clearance" in each for each in ThreePointHitch().verdicts())
+    assert not any("clearance" in each for each in FourBar().verdicts())
     with pytest.raises(DefinitionError, match=r"clearance\(\): it does not say which bodies lie in one plane; declare one"):
-        ThreePointHitch().answers([least(clearance())])
+        FourBar().answers([least(clearance())])
 
 
 def test_bodies_that_share_a_pin_by_their_outlines():

@@ -148,8 +148,7 @@ def test_every_reader_takes_a_swept_motion(tmp_path):
         cycle = Over.path(S=[0.0, 0.2, 0.0], turn=[0.0, 0.5, 0.0])
 
     motion = Arm().sweep(9, over="cycle")
-    assert animate(motion, tmp_path / "a.gif", count=4).exists()
-    assert animate(motion, tmp_path / "a.html", count=4).exists()
+    assert all(animate(motion, tmp_path / name, count=2).exists() for name in ("a.gif", "a.html"))
     assert page(motion, tmp_path / "p.html").exists()
     text = report(motion, tmp_path / "r.md", count=3).read_text(encoding="utf-8")
     assert "| Run | S = 0, 200 to 0 mm, turn = 0, 28.6479 to 0 deg, 3 poses in tables |" in text

@@ -1,7 +1,5 @@
 """The kinematic chain as a graph: what its nodes and edges say, and its picture."""
 
-import subprocess
-import sys
 from itertools import combinations
 from math import sqrt
 
@@ -176,10 +174,3 @@ def test_the_picture_says_its_count_and_its_strokes():
 def test_what_is_no_graph_of_a_machine_is_refused(graph, options):
     with pytest.raises(DefinitionError, match=r"draw\((machine\.)?graph\)"):
         draw(graph, **options)
-
-
-def test_networkx_is_loaded_when_a_graph_is_asked_for():
-    lines = "import sys; from linkage import *; from mechanisms.classics.four_bar import FourBar; print('networkx' in sys.modules); "
-    lines += "FourBar().mobility; print('networkx' in sys.modules); FourBar().graph; print('networkx' in sys.modules)"
-    found = subprocess.run([sys.executable, "-c", lines], capture_output=True, text=True, check=True)
-    assert found.stdout.split() == ["False", "False", "True"]

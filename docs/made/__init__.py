@@ -5,6 +5,7 @@ All of it goes into docs/_generated, which is not kept; `made` is also the Sphin
 
 from __future__ import annotations
 
+import gc
 import json
 import os
 import shutil
@@ -45,7 +46,8 @@ def make_all(folder: Path) -> None:
     api.make(folder / "api")
     pages = written_pages()
     searches.make(pages, folder)
-    with ProcessPoolExecutor(os.cpu_count(), mp_context=get_context("spawn")) as pool:
+    rarely = {"initializer": gc.set_threshold, "initargs": (100_000,)}  # traced programs are many small objects, looked through in vain
+    with ProcessPoolExecutor(os.cpu_count(), mp_context=get_context("spawn"), **rarely) as pool:
         waiting = [pool.submit(drawn.draw_all, name, folder / "images") for name in drawn.MAKERS]
         waiting.append(pool.submit(notebook.make, HERE / "notebook.ipynb", folder / "notebook.md"))
         tiles = {name: pool.submit(machines.make, name, folder) for name in machines.registered()}

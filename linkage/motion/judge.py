@@ -685,8 +685,10 @@ class Judge:
 
     def there(self, answer: Answer) -> Motion:
         """Return the pose of an answer of one design, of a path in time at its instant."""
-        timed = (each.motion for each in self.places if each.over.name == answer.over and each.instants is not None)
-        return next(timed, self.motion)._there({name: np.asarray(value) for name, value in answer.strokes.items()}, answer.time)
+        way = next((each.motion for each in self.places if each.over.name == answer.over and each.instants is not None), self.motion)
+        strokes = {name: np.asarray(value) for name, value in answer.strokes.items()}
+        key = "there", *strokes, np.array([*strokes.values(), answer.time], float).tobytes()
+        return way._once(key, lambda: way._there(strokes, answer.time))
 
     @property
     def is_reached(self) -> bool:

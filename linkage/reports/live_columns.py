@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Container, Sequence
+from collections.abc import Container, Hashable, Iterable, Mapping, Sequence
+from contextlib import suppress
 from functools import partial
 from typing import TypeAlias
 
@@ -13,7 +14,8 @@ from ..errors import LinkageError, UntracedError
 from ..loads import PLAIN_CASE, Case
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, Request, RequestLike, require_motion
-from ..motion.requests import as_they_run
+from ..motion.evaluation import Evaluation
+from ..motion.requests import as_they_run, bound
 from ..program import FloatArray
 from ..quantities import Dimension, Quantity, Stroke, x, y
 from ..statics import AnyMotion, LawRequest, TracedMotion
@@ -55,7 +57,9 @@ def column_requests(
     plain = points | outputs | {name: name for name in plan.strokes}  # what the columns ask for that every machine has
     found: dict[str, LiveColumn] = {}
     acting = {} if case is None else {column.name: column for column in results(machine, motion, case)}
-    for place, plainly in enumerate(results(machine, motion, PLAIN_CASE) if columns is None else columns):
+    shown = results(machine, motion, PLAIN_CASE) if columns is None else columns
+    known_values = values_together(motion, [request_in_case(each.request, case) for each in shown if isinstance(each.request, Request)])
+    for place, plainly in enumerate(shown):
         column = acting.get(plainly.name, plainly)
         names[column.name] += 1
         name = column.name if names[column.name] == 1 else f"{column.name} ({names[column.name]})"
@@ -66,7 +70,7 @@ def column_requests(
         reasons = list[str]()
         for request in (plain.get(name), plainly.request, own):
             if request is not None:
-                reasons.append(not_followed(motion, request_in_case(request, case), column))
+                reasons.append(not_followed(motion, request_in_case(request, case), column, known_values))
                 found[name] = column, request, reasons[0] if reasons[-1] else ""
                 if not reasons[-1]:
                     break
@@ -78,11 +82,22 @@ def at_its_rates(motion: Motion, request: RequestLike) -> RequestLike:
     return request if motion.time is None else as_they_run([request], motion._rate_jump is None, True)[0]
 
 
-def not_followed(motion: Motion, request: RequestLike, column: Column) -> str:
+def values_together(motion: Motion, requests: Iterable[RequestLike]) -> dict[Hashable, FloatArray]:
+    """Return the values of requests by their keys, from one program; empty where a pose has to be looked at closely."""
+    with suppress(LinkageError):
+        asked = [bound(motion.plan, each) for each in (at_its_rates(motion, one) for one in requests) if isinstance(each, Request)]
+        values, look = Evaluation(motion._grid, tuple(asked)).evaluate()
+        return {each.key: own for each, own in zip(asked, values, strict=True)} if look is None else {}
+    return {}
+
+
+def not_followed(motion: Motion, request: RequestLike, column: Column, known: Mapping[Hashable, FloatArray]) -> str:
     """Return why a program's values differ from a column's, NaN at the same poses, in words; empty where they agree."""
     own, request = np.broadcast_to(np.asarray(column.values, float), motion.shape), at_its_rates(motion, request)
     try:
-        found = motion._requested(request) if isinstance(request, Request) else motion[request]
+        is_request = isinstance(request, Request)
+        found = known.get(bound(motion.plan, request).key) if is_request else motion[request]
+        found = motion._requested(request) if found is None else found
     except LinkageError as error:
         return str(error)
     close = CLOSE * float(np.nanmax(np.abs(own), initial=0.0))

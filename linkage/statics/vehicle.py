@@ -503,7 +503,8 @@ class AxleLoad(Tabled, HasVerdicts):
     def verdicts(self, judge: Judge) -> list[Verdict]:
         """Return how much of its load the support keeps, and whether the vehicle slips."""
         try:
-            bare, found = bare_loads(judge.motion, vehicle_of(judge.plan)).get(self.support.name, 0.0), []
+            bare_of = judge.motion._once("bare loads", lambda: bare_loads(judge.motion, vehicle_of(judge.plan)))
+            bare, found = bare_of.get(self.support.name, 0.0), []
             for rule, condition in self.conditions(judge).items():
                 answer = judge.answer(condition)
                 words = load_sentence(answer, bare) if rule == "axle load" else slipping_sentence(answer)

@@ -582,12 +582,15 @@ class Candidate:
 
     def of_design(self, place: tuple[int, ...], shape: tuple[int, ...]) -> Candidate:
         """Return that of one design of a batch of some shape, by its place in it."""
+        seen = None if self.seen is None else self.seen.of_design(place)
+        if not shape:  # it is the only one
+            return replace(self, seen=seen)
         own = {
             name: np.broadcast_to(getattr(self, name), shape)[place]
             for name in ("value", "margin", "unbounded", "lawless", "unlimited", "time", "undefined")
         }
         strokes = {name: np.broadcast_to(value, shape)[place] for name, value in self.strokes.items()}
-        return replace(self, strokes=strokes, seen=None if self.seen is None else self.seen.of_design(place), **own)
+        return replace(self, strokes=strokes, seen=seen, **own)
 
 
 class Judge:

@@ -26,6 +26,7 @@ from ..quantities import is_number, joined_names
 from ..reports import LiveColumn, column_requests, is_changing, request_in_case, results
 from ..reports.runs import NOTHING, At, motion_over, reached_motion, run_along, run_of
 from ..units import SYSTEMS, UNITS, deg, display_unit, factor, shown_in, unit_system
+from ..verdict import Verdict
 from .curves import WHOLE, Limit, as_curve, check_poses, limit_of, typeset
 from .influence import influences
 from .labels import offsets
@@ -627,46 +628,46 @@ MARKS = {True: 1, False: 0, None: 2}
 """How verdicts are told: those that are kept, those that are not, and what is only said."""
 
 
-def verdict_data(machine: Mechanism, judge: Judge, along: Motion | None) -> list[list[Any]]:
-    """Return the machine's verdicts over all that a judge looks at, as they stand for the design that is delivered.
+def verdict_data(machine: Mechanism, judge: Judge, along: Motion | None) -> tuple[list[list[Any]], list[Verdict] | None]:
+    """Return the machine's verdicts over all that a judge looks at, as they stand for the design that is delivered, and as data.
 
     Each is 1 where it is kept, 0 where it is not, 2 where it is only said, 3 where it says nothing; its heading and its sentence, then
-    what differs in Russian.
+    what differs in Russian. Where verdicts are refused there are none, and the error's words as data.
     """
     said: dict[str, list[tuple[int, str, str]]] = {}
+    found: list[Verdict] | None = None
     for name in ("en", "ru"):
         with language(name), unwarned():
             try:
                 found = verdicts_of(machine, judge, along)
                 said[name] = [(3 if each.is_rule and each.ok is None else MARKS[each.ok], each.heading, each.sentence) for each in found]
             except LinkageError as error:
-                said[name] = [(MARKS[None], "", str(error))]
+                found, said[name] = None, [(MARKS[None], "", str(error))]
     pairs = zip(said["en"], said["ru"], strict=True) if len(said["en"]) == len(said["ru"]) else [(each, each) for each in said["en"]]
-    return [
+    rows: list[list[Any]] = [
         [*english, *(() if russian == english else (russian[1],) if russian[2] == english[2] else russian[1:])]
         for english, russian in pairs
     ]
+    return rows, found
 
 
 def verdicts_shown(requests: PageRequests) -> PageData:
     """Return the verdicts of the page, and their words in each system of units, in English and Russian; 0 where they are as delivered."""
     machine, judge, along = requests.machine, requests.judge, requests.along
-    plain, found = verdict_data(machine, judge, along), {}
+    (plain, verdicts), found = verdict_data(machine, judge, along), {}
     for name in SYSTEMS:
         with unit_system(name):
-            told = verdict_data(machine, judge, along)
+            told, _ = verdict_data(machine, judge, along)
         pairs = zip(told, plain, strict=True) if len(told) == len(plain) else ((each, each) for each in plain)
         found[name] = [0 if each[2:] == other[2:] else [each[2], *each[4:]] for each, other in pairs]
-    return {"verdicts": plain, "verdictsIn": found} | verdict_facts(machine, judge, along)
+    return {"verdicts": plain, "verdictsIn": found} | verdict_facts(machine.plan, verdicts)
 
 
-def verdict_facts(machine: Mechanism, judge: Judge, along: Motion | None) -> PageData:
+def verdict_facts(plan: Plan, found: Sequence[Verdict] | None) -> PageData:
     """Return of each verdict the member that says it and whether it is of poses, and how members are headed, in English and Russian."""
-    try:
-        found = verdicts_of(machine, judge, along)
-    except LinkageError:
+    if found is None:
         return {"facts": [["", "", 0]], "groups": {}}
-    members, groups = speakers(machine.plan, HasVerdicts), dict[str, list[str]]()
+    members, groups = speakers(plan, HasVerdicts), dict[str, list[str]]()
     for name in dict.fromkeys((*(each.member for each in found if each.member), *members)):
         with language("ru"):
             russian = translated(members[name].headed)

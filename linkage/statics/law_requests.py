@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any, TypeAlias, TypeVar, cast
 from weakref import ref
 
@@ -162,7 +162,13 @@ class TracedMotion(OnePose):
         return self._array(array) if vector else self.number(array[()])
 
     def parts_of(self, each: AppliedElement, rates: Rates) -> Parts:
-        """Return the loads and the thrusts of one element, as nodes: its own `loads` is called once, on traced numbers."""
+        """Return the loads and the thrusts of one element, as nodes; at rest those of a member are traced once for all laws."""
+        if not rates and each.in_case is self.plan.members.get(each.name):
+            return self._once(("parts", each.name, each.factor), partial(self._parts_of, each, rates))
+        return self._parts_of(each, rates)
+
+    def _parts_of(self, each: AppliedElement, rates: Rates) -> Parts:
+        """Return the same, its `loads` called on traced numbers."""
         self.notes.owner, self.notes.tests = each.name, 0
         try:
             return element_parts(self, self.fit, each, rates)

@@ -118,30 +118,37 @@ class StrokeLine:
 
     def ranges_among(self, at: FloatArray, reached: Mask) -> list[Interval]:
         """Return the reachable ranges among samples, with their ends."""
-        found: list[Interval] = []
-        for first, last in stretches(reached):
-            low, low_stop = (at[first], "") if first == 0 else self.end_of_reach(at[first], at[first - 1])
-            high, high_stop = (at[last], "") if last == len(at) - 1 else self.end_of_reach(at[last], at[last + 1])
-            found.append(Interval(float(low), float(high), low_stop, high_stop))
-        return found
+        places = [(end, end + step) for first, last in stretches(reached) for end, step in ((first, -1), (last, 1))]
+        within = [(inside, outside) for inside, outside in places if 0 <= outside < len(at)]
+        ends = dict(zip(within, self.ends_of_reach([(float(at[inside]), float(at[outside])) for inside, outside in within]), strict=True))
+        found = [ends.get(place, (float(at[place[0]]), "")) for place in places]
+        return [Interval(low, high, low_stop, high_stop) for (low, low_stop), (high, high_stop) in zip(found[::2], found[1::2], strict=True)]
 
-    def end_of_reach(self, inside: float, outside: float) -> tuple[float, str]:
-        """Return the last stroke reached between one inside and one outside, and the step that fails beyond it.
+    def ends_of_reach(self, pairs: Sequence[tuple[float, float]]) -> list[tuple[float, str]]:
+        """Return the last strokes reached between one inside and one outside each, and the steps that fail beyond them.
 
-        Ends of groups are known already, found on the way.
+        Ends of groups are known already, found on the way. The others are looked for together.
         """
-        at = np.linspace(inside, outside, 65)
-        seen = self.motion_at(at)
-        known = [stop for stop in seen._grid.solved.stops if min(inside, outside) <= stop <= max(inside, outside)]
-        if not known and np.all(seen.reached):
-            return inside, ""
-        if known:
-            last, beyond = known[0], at[int(np.argmin(seen.reached))]
-        else:
-            last, beyond = map(float, last_holding(lambda at: np.array(self.motion_at(at).reached), inside, outside))
+        found = np.array(pairs, float).reshape(-1, 2)
+        sought = np.zeros(len(found), bool)
+        for k, (inside, outside) in enumerate(pairs):
+            at = np.linspace(inside, outside, 65)
+            seen = self.motion_at(at)
+            known = [stop for stop in seen._grid.solved.stops if min(inside, outside) <= stop <= max(inside, outside)]
+            sought[k] = not known and not np.all(seen.reached)
+            found[k] = (known[0], at[int(np.argmin(seen.reached))]) if known else (inside, outside if sought[k] else np.nan)
+        if sought.any():
+            found[sought] = np.transpose(last_holding(self.is_reached, *found[sought].T))
+        return [(float(last), "" if np.isnan(beyond) else self.failing_at(beyond)) for last, beyond in found]
+
+    def is_reached(self, at: FloatArray) -> Mask:
+        """Return the mask of strokes that are reached, of any shape."""
+        return np.reshape(self.motion_at(np.ravel(at)).reached, np.shape(at))
+
+    def failing_at(self, beyond: float) -> str:
+        """Return the step that fails first at a stroke out of reach."""
         there, plan = self.motion_at(np.array([beyond])), self.plan
-        failing = (name_or_pins(plan, name) for name, mask in failures(plan, there._reading, there.shape) if mask.any())
-        return float(last), next(failing, "")
+        return next((name_or_pins(plan, name) for name, mask in failures(plan, there._reading, there.shape) if mask.any()), "")
 
     # -- the least transmission angles: of every dyad whose angle changes with the stroke ------------------
 

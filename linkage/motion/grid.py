@@ -133,7 +133,10 @@ class Grid:
         """The inputs shaped to broadcast against results: designs first, strokes last."""
         tail = (1,) * len(self.stroke_shape)
         designs = self.designs.items()
-        shaped = {name: np.reshape(value, np.shape(value) + tail) if varies(value) else np.float64(value) for name, value in designs}
+        shaped = {
+            name: np.float64(value) if type(value) is float or not varies(value) else np.reshape(value, np.shape(value) + tail)
+            for name, value in designs
+        }
         solved = {name: self.full(value[None])[0] for name, value in self.solved.inputs.items()}
         found = {**shaped, **self._of_poses, **solved}
         return FrozenDict({name: read_only(value) if isinstance(value, np.ndarray) else value for name, value in found.items()})

@@ -122,7 +122,7 @@ class StrokeLine:
         within = [(inside, outside) for inside, outside in places if 0 <= outside < len(at)]
         ends = dict(zip(within, self.ends_of_reach([(float(at[inside]), float(at[outside])) for inside, outside in within]), strict=True))
         found = [ends.get(place, (float(at[place[0]]), "")) for place in places]
-        return [Interval(low, high, low_stop, high_stop) for (low, low_stop), (high, high_stop) in zip(found[::2], found[1::2], strict=True)]
+        return [Interval(low[0], high[0], low[1], high[1]) for low, high in zip(found[::2], found[1::2], strict=True)]
 
     def ends_of_reach(self, pairs: Sequence[tuple[float, float]]) -> list[tuple[float, str]]:
         """Return the last strokes reached between one inside and one outside each, and the steps that fail beyond them.

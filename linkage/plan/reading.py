@@ -30,7 +30,7 @@ class Reading(Where):
 
     def at(self, point: Reference) -> Vec:
         """Return a point's position [m]."""
-        name = name_of(point)
+        name = point if type(point) is str else name_of(point)
         if name not in self.positions:
             step = self.members.get(name)
             if not isinstance(step, Point):
@@ -68,12 +68,13 @@ class Reading(Where):
         member = reference if isinstance(reference, Member) and not named else self.members[named]
         if not hasattr(member, rule):
             raise DefinitionError(f"{named} = {member} stands where a {kind} is expected.")
-        key = (kind, member.name or id(member))
+        name = member.name
+        key = (kind, name or id(member))
         if key not in self._values:
-            if member.name:
-                self.placing.append(member.name)
+            if name:
+                self.placing.append(name)
             self._values[key] = (getattr(member, rule)(self), member)
-            if member.name:
+            if name:
                 self.placing.pop()
         return self._values[key][0]
 

@@ -162,7 +162,7 @@ def shaken(outputs: Sequence[Node], given: Mapping[str, Numbers]) -> list[Number
                 # within half a turn of the first run
                 found = angle if angle.ndim < 2 else angle - 2.0 * np.pi * np.round((angle - angle[:1]) / (2.0 * np.pi))
             # a product with a power of two rounds nothing
-            doubles = node.op == "multiply" and any(arg.op == "constant" and abs(frexp(arg.value)[0]) == 0.5 for arg in node.args)
+            doubles = node.op == "multiply" and any([arg.op == "constant" and abs(frexp(arg.value)[0]) == 0.5 for arg in node.args])
             values[node] = found if node.op in EXACT or doubles else found + found * changes[node.number % PERIOD]
     return [values[node.origin] for node in outputs]
 

@@ -62,7 +62,7 @@ class NumpyBlocks:
         single = as_floats(design)
         if single is not None:
             return list(floats(*single))
-        return list(arrays(*(np.asarray(value, float) for value in design)))
+        return list(arrays(*[np.asarray(value, float) for value in design]))
 
     def _constants(self, design: Sequence[Numbers]) -> list[FloatArray]:
         """Return the design part as a block holds it; that of the last single design is kept."""
@@ -159,8 +159,10 @@ def as_floats(values: Sequence[Numbers]) -> tuple[float, ...] | None:
 
 def in_block(value: Numbers, axis: int) -> FloatArray:
     """Return a value as a block holds it: a number without dimensions, or an array that varies along one axis or both."""
+    if type(value) is float:
+        return np.array(value)
     if not has_many(value):
-        return np.array(value if type(value) is float else float(np.ravel(value)[0]))
+        return np.array(float(np.ravel(value)[0]))
     array = np.ascontiguousarray(value, float)
     return array if array.ndim == 2 else array[None, :] if axis == 1 else array[:, None]
 

@@ -7,6 +7,7 @@ from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from heapq import heapify, heappop, heappush
+from operator import attrgetter
 
 from .node import Level, Node
 
@@ -20,7 +21,7 @@ def ancestors(nodes: Iterable[Node], known: Container[Node] = ()) -> list[Node]:
         if node not in found:
             found.add(node)
             stack.extend(node.args if node not in known else ())
-    return sorted(found, key=lambda node: node.number)
+    return sorted(found, key=attrgetter("number"))
 
 
 @dataclass(frozen=True)

@@ -115,7 +115,7 @@ class Axes:
     def place(self, where: Where, given: Vec) -> Vec:
         """Return where a place of the part is in the frame [m]."""
         found = self._turned(where, given)
-        x, y = (part if is_nothing(way) else where.value(way) + part for way, part in zip(self.at, (found.x, found.y), strict=True))
+        x, y = [part if is_nothing(way) else where.value(way) + part for way, part in zip(self.at, (found.x, found.y), strict=True)]
         if not self.carrier:
             return Vec(x, y)
         start, along = self._base(where)

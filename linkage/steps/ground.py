@@ -46,7 +46,7 @@ class Ground(Point):
         return self.renewed(x=x, y=y)
 
     def place(self, where: Where) -> Vec:
-        own = (where.input(name) if value.is_constant else where.value(value) for name, value in self.coordinates())
+        own = [where.input(name) if value.is_constant else where.value(value) for name, value in self.coordinates()]
         return self.axes.place(where, Vec(*own))
 
     def in_axes(self, axes: Axes) -> Any:

@@ -74,7 +74,7 @@ class Grid:
         shaped = {name: np.broadcast_to(value, shape) for name, value in rate_inputs.items()}
         self.rate_inputs = FrozenDict({name: read_only(value) for name, value in shaped.items()})
         self._of_poses = FrozenDict({**self.strokes, **self.rate_inputs}) if rate_inputs else self.strokes
-        self._is_pose = self._is_plain and not plan.solved and all(value.size == 1 for value in self.strokes.values())
+        self._is_pose = self._is_plain and not plan.solved and all([value.size == 1 for value in self.strokes.values()])
 
     @cached_property
     def flat_strokes(self) -> dict[str, FloatArray]:
@@ -149,7 +149,7 @@ class Grid:
         if self._is_pose:
             row, count = kernel.floats.pose_values(self.designs, self._of_poses), len(kernel.plan.outputs)
             values = np.array(row[:count])
-            return values.reshape((count, *self.shape)) if self.shape else values, all(guard > 0.0 for guard in row[count:])
+            return values.reshape((count, *self.shape)) if self.shape else values, all([guard > 0.0 for guard in row[count:]])
         result = kernel(self.flat, size=self.size)
         return self.full(result.values), result.is_clear
 

@@ -1,5 +1,6 @@
 """The bulk call: the numbers, refusals and masks of a motion, and nothing worked out that is not asked for."""
 
+import sys
 import warnings
 
 import numpy as np
@@ -17,9 +18,11 @@ from linkage import (
     Mechanism,
     SingularError,
     Stroke,
+    Weight,
     angle,
     deg,
     distance,
+    drive_force,
     ratio,
     x,
 )
@@ -41,6 +44,39 @@ def of_motion(motion, request):
     if not hasattr(request, "order"):
         return motion[request] if isinstance(request, str) else motion.value(request)
     return motion.ratio(request.target, wrt=request.along[0], order=request.order)
+
+
+def functions_called(run):
+    """Return how many functions written in Python a call goes through."""
+    count = 0
+
+    def note(frame, event, _):
+        nonlocal count
+        count += event == "call"
+
+    before = sys.getprofile()
+    sys.setprofile(note)
+    try:
+        run()
+    finally:
+        sys.setprofile(before)
+    return count
+
+
+def test_a_call_that_was_made_before_goes_through_few_functions_and_makes_nothing_anew():
+    hitch, load, many = ThreePointHitch(), Weight("G", mass=100.0), np.linspace(0.0, 0.25, 1000)
+    runs = {
+        "evaluate": (lambda: hitch.evaluate(["G", "K"], S=many, backend="numpy"), 60),
+        "at": (lambda: hitch.at(S=many)["G"], 90),
+        "at, one pose": (lambda: hitch.at(S=0.1).ratio("G"), 100),
+        "evaluate, one pose": (lambda: hitch.evaluate(["G", ratio("G")], S=0.1), 60),
+        "own loads": (lambda: hitch.evaluate([drive_force(loads=load)], S=0.1), 140),
+    }
+    for what, (run, most) in runs.items():
+        run()
+        made = list(hitch.plan._kernels)
+        assert functions_called(run) <= most, what
+        assert list(hitch.plan._kernels) == made, what
 
 
 @pytest.mark.parametrize("designs", [{}, {"OB": np.linspace(0.28, 0.32, 5)}, {"OB": np.full((3, 1), 0.3), "M": (np.full(2, 0.22), 1.05)}])

@@ -23,7 +23,7 @@ from typing import Any, ClassVar, TypeAlias, Unpack, cast
 import numpy as np
 
 from linkage.checks import require_type
-from linkage.errors import DefinitionError, cited, unknown
+from linkage.errors import DefinitionError, cited, ensure, unknown
 from linkage.frozen import FrozenDict, immutable
 from linkage.language import said
 from linkage.loads import Acting, ActingKeywords, Declared, ForceElement, Loads, Parameter, Poses, Tie, situation_of, takes_situation
@@ -490,8 +490,7 @@ class OilLine(PumpLine, GasLine):
             if lost is not None:
                 raise unknown("Stroke", lost, strokes, where=f"{self.name}, at")
             return {name: one_number(value, f"{self.name}, at: {name}") for name, value in self.at.items()}
-        if len(strokes) != 1:
-            raise DefinitionError(f"{self.name} = {self}: the machine has {len(strokes)} strokes; say at=dict({', '.join(strokes)}=...).")
+        ensure(len(strokes) == 1, f"{self.name} = {self}: the machine has {len(strokes)} strokes; say at=dict({', '.join(strokes)}=...).")
         return {strokes[0]: one_number(self.at, f"{self.name}, at")}
 
     def length_filled(self, ram: Ram, members: NamedMembers) -> Quantity:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from math import ceil, floor, inf, log10
 from typing import TypeAlias, TypeVar
 
-from linkage.errors import DefinitionError, LinkageError, unwarned
+from linkage.errors import DefinitionError, LinkageError, ensure, unwarned
 from linkage.language import said
 from linkage.loads import ForceElement
 from linkage.motion import Answer, Judge, Question
@@ -33,8 +33,7 @@ def resized(judge: Judge, element: Element, sizes: Sizes) -> tuple[Judge, Elemen
     for name, value in sizes.items():
         given = element.given(name)
         called = (given if isinstance(given, str) else given.name) if follows(given) else f"{element.name}.{name}"
-        if called not in plan.table.spellings:
-            raise DefinitionError(f"{plan.title}: {element.name}.{name} follows an expression and cannot be set alone.")
+        ensure(called in plan.table.spellings, f"{plan.title}: {element.name}.{name} follows an expression and cannot be set alone.")
         owner, sign = plan.table.spellings[called]
         designs[owner] = sign * value
     return Judge(plan, designs, [place.over for place in judge.places], judge.acting), element

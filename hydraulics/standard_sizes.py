@@ -34,7 +34,7 @@ from typing import Literal, NamedTuple, TypeAlias, get_args
 import numpy as np
 from numpy.typing import ArrayLike
 
-from linkage.errors import DefinitionError, cited, known_name
+from linkage.errors import DefinitionError, cited, ensure, known_name
 from linkage.frozen import keep_own, refuses_changes
 from linkage.language import said, with_and
 from linkage.units import inch, mm, show, shown_in, shown_number, unit_sign
@@ -344,8 +344,7 @@ class CylinderSize(RamSize):
             rods, bores = f"Rod {show(rod[thick][0], 'mm')}", f"bore {show(bore[thick][0], 'mm')}"
             raise DefinitionError(f"{rods} is not smaller than {bores}; exchange them or take a thinner rod.")
         count = one_number(self.count, "Count of cylinders")
-        if not (1.0 <= count <= MOST and count == int(count)):
-            raise DefinitionError(f"Count of cylinders = {cited(self.count)}; give a whole number from 1 on.")
+        ensure(1.0 <= count <= MOST and count == int(count), f"Count of cylinders = {cited(self.count)}; give a whole number from 1 on.")
         known_name("Side", self.works, get_args(Works), where="works")
 
     def __str__(self) -> str:
@@ -542,7 +541,6 @@ def series_values(given: Sequence[float] | None, standard: Sequence[float], what
     if given is None:
         return [*standard]
     sizes = positive(given, what)
-    if sizes.ndim != 1:
-        raise DefinitionError(f"{what} = {cited(given)}: a list is expected, such as [{standard[-4] / mm:.6g} * mm].")
+    ensure(sizes.ndim == 1, f"{what} = {cited(given)}: a list is expected, such as [{standard[-4] / mm:.6g} * mm].")
     in_metres(sizes, what) if what != "Stroke" else stroke_in_metres(sizes, what)
     return sorted({float(each) for each in sizes})

@@ -8,7 +8,7 @@ from typing import Any, TypeGuard, TypeVar, cast
 
 import numpy as np
 
-from .errors import DefinitionError, cited
+from .errors import DefinitionError, cited, ensure
 from .vectors import Scalar
 
 Kind = TypeVar("Kind")
@@ -69,8 +69,7 @@ def require(holds: object, what: str, value: object, expected: str) -> None:
 
 def require_one_design(designs: Mapping[str, object], said: str) -> None:
     """Refuse a batch of designs by their dimensions: `Crane: a figure shows one design, this is a batch; choose one of them.`"""
-    if any(np.ndim(cast(float, value)) for value in designs.values()):
-        raise DefinitionError(f"{said}, this is a batch; choose one of them.")
+    ensure(not any(np.ndim(cast(float, value)) for value in designs.values()), f"{said}, this is a batch; choose one of them.")
 
 
 def require_number(

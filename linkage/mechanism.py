@@ -75,8 +75,7 @@ def played_along(motion: Motion, at: object) -> tuple[Mechanism, Motion]:
 
     DefinitionError where `at` says another way, or the class of the motion is not there any more.
     """
-    if at:
-        raise DefinitionError(f"{motion.plan.title}: a motion has its own way; at={cited(at)} goes with a machine.")
+    ensure(not at, f"{motion.plan.title}: a motion has its own way; at={cited(at)} goes with a machine.")
     classes: list[type[Mechanism]] = [Mechanism]
     for each in classes:
         if each.plan is motion.plan:
@@ -344,10 +343,8 @@ class Mechanism(Shown, metaclass=MechanismType):
             A change point lies on the way.
         """
         if over is not None:
-            if strokes:
-                raise DefinitionError(f"{self.plan.title}: sweep(over=...) says where all strokes are; leave out {keywords(strokes)}.")
-            if is_listed(over):
-                raise DefinitionError(f"{self.plan.title}: over={cited(over)}: a motion runs over one Over; give that one.")
+            ensure(not strokes, f"{self.plan.title}: sweep(over=...) says where all strokes are; leave out {keywords(strokes)}.")
+            ensure(not is_listed(over), f"{self.plan.title}: over={cited(over)}: a motion runs over one Over; give that one.")
             return self.judge((over,)).places[0].swept(count, unreachable)
         return Motion(self.plan, self._values, sweep_values(count, strokes, self.plan), unreachable)
 

@@ -5,16 +5,14 @@ from __future__ import annotations
 from argparse import Namespace
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import fields
-from functools import partial
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from hydraulics.inputs import not_negative, one_number, positive
 from linkage import Mechanism, Motion
 from linkage.checks import require_one_design
 from linkage.cli.command import CSV, Option, option, picture_option, pose_options
-from linkage.cli.machines import find_like
 from linkage.cli.settings import CHECK, OVER, machine_of, pair, si_value
-from linkage.errors import known_name
+from linkage.errors import DefinitionError, known_name
 from linkage.motion import Answer, Judge, Question
 
 if TYPE_CHECKING:
@@ -30,10 +28,12 @@ def figure_options(figures: Sequence[str], default: str) -> tuple[Option, ...]:
     return CSV, picture_option("the figure"), figure, *pose_options(11), OVER, CHECK
 
 
-def machine_like(options: Namespace, base: type[Machine], what: str, **instead: Any) -> Machine:
-    """Return the machine that the options mean, with their settings; DefinitionError unless it is one of a kind, or has all that it has."""
-    machine = machine_of(options, partial(find_like, base=base, what=what, **instead))
-    assert isinstance(machine, base)
+def machine_like(options: Namespace, base: type[Machine], what: str) -> Machine:
+    """Return the machine that the options mean, with their settings; DefinitionError unless it is one of a kind."""
+    machine = machine_of(options)
+    remedy = f"take a {base.__name__}, a subclass of it, or a file of a design, with `machine` and `[set]`"
+    if not isinstance(machine, base):
+        raise DefinitionError(f"{options.machine} is no {what}; {remedy}.")
     return machine
 
 

@@ -106,8 +106,7 @@ def new_command(options: Namespace) -> int:
     path = own if options.output is None else Path(options.output)
     if given.suffix and not is_file:
         raise DefinitionError(f"{given}: a machine's file ends in one of {', '.join(TEMPLATES)}, which chooses the form.")
-    if path.suffix.lower() not in TEMPLATES:
-        raise DefinitionError(f"-o {path}: the file's name ends in one of {', '.join(TEMPLATES)}, which chooses the form.")
+    ensure(path.suffix.lower() in TEMPLATES, f"-o {path}: the file's name ends in one of {', '.join(TEMPLATES)}, which chooses the form.")
     check_place(path)
     if path.exists():
         raise FileError(f"{path} is there already and stays as it is; choose another name, -o FILE.")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from importlib import import_module
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
@@ -13,15 +13,11 @@ from typing import Any, TypeVar
 from ..checks import is_class_of
 from ..disk import read
 from ..errors import DefinitionError, ensure, unknown
-from ..loads import ForceElement
-from ..mechanism import Mechanism, declared
+from ..mechanism import Mechanism
 from ..plugins import guarded
-from ..surroundings import Outline
 from .listing import OWN, registered
 
 Kind = TypeVar("Kind", bound=Mechanism)
-
-SHOWN = 5
 
 
 def find(text: str) -> type[Mechanism]:
@@ -49,11 +45,10 @@ def find(text: str) -> type[Mechanism]:
     raise DefinitionError(f"{unknown('Machine', text, entries)} {OWN}")
 
 
-def design_of_file(file: str, own: str | None, found: Callable[[str], type[Mechanism]]) -> Mechanism | None:
+def design_of_file(file: str, own: str | None) -> Mechanism | None:
     """Return the design that a file holds, by `machine` and `[set]`; None for any other text, and for a file that holds a machine itself.
 
-    `own` is a class that stands for the one the file names; what is code is run only where it is said so. `found` finds a class
-    by its text.
+    `own` is a class that stands for the one the file names; what is code is run only where it is said so.
     """
     if not file.endswith((".toml", ".json")):
         return None
@@ -67,43 +62,11 @@ def design_of_file(file: str, own: str | None, found: Callable[[str], type[Mecha
     def kind(text: str, base: Path) -> type[Mechanism]:
         place, name = split(text)
         if text in registered() or own:
-            return found(own or text)
+            return find(own or text)
         ensure(not (place.endswith(".py") or name), f"{file}: {text} is code, and a file runs none unasked; say --machine {text}.")
-        return found(str(base / text))
+        return find(str(base / text))
 
     return StudyHead.of(file, (), kind, lambda _: {}).machine
-
-
-def find_like(text: str, base: type[Kind], what: str, **instead: object) -> type[Kind]:
-    """Return the machine that a text names as one of a kind: a subclass, or a variant of the kind with all the members of a file.
-
-    A file holds the linkage, not the functions of a class: they are the kind's. `instead` are attributes in the place of those
-    that a file does not hold either. DefinitionError, with what is missing, for any other machine.
-    """
-    found = find(text)
-    if issubclass(found, base):
-        return found
-    missing = lacking(found, base)
-    if missing:
-        more = f" and {len(missing) - SHOWN} more" if len(missing) > SHOWN else ""
-        takes = f"take a {base.__name__}, a subclass of it, or a file that has all of its members and dimensions"
-        raise DefinitionError(f"{text} is no {what}: it has no {', '.join(missing[:SHOWN])}{more}; {takes}.")
-    made: type[Kind] = type(found.__name__, (base,), {"__doc__": found.__doc__, **declared(found), **instead})
-    return made
-
-
-def lacking(found: type[Mechanism], base: type[Mechanism]) -> list[str]:
-    """Return the members and the dimensions of a class that another one does not have.
-
-    A member stands for another of its kind, a force element for one of its class; what is only drawn may be missing.
-    """
-    missing = []
-    for name, member in declared(base).items():
-        own = declared(found).get(name)
-        fits = own is not None and own.kind == member.kind and (type(own) is type(member) or not isinstance(member, ForceElement))
-        if member.kind != Outline.kind and not fits:
-            missing.append(name)
-    return missing + [name for name in base.plan.defaults if name not in found.plan.defaults and name not in missing]
 
 
 def split(text: str) -> tuple[str, str]:
@@ -145,7 +108,6 @@ def is_machine(found: object) -> bool:
 
 def machine(found: Any, what: str) -> type[Mechanism]:
     """Return it as a class of mechanism; DefinitionError where it is none."""
-    if not is_machine(found):
-        raise DefinitionError(f"{what} is not a class of Mechanism. {OWN}")
+    ensure(is_machine(found), f"{what} is not a class of Mechanism. {OWN}")
     ensure(found.plan.points, f"{what}: {found.__name__} declares no points; begin with A = Ground(0, 0) and a step such as Crank or Dyad.")
     return found  # type: ignore[no-any-return]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from argparse import Namespace
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from inspect import signature
 from typing import Any
@@ -52,13 +52,13 @@ LIMIT = repeatable(
 )
 
 
-def machine_of(options: Namespace, like: Callable[[str], type[Mechanism]] | None = None) -> Mechanism:
-    """Return the machine that a command is on, with its settings; `like` finds its class, else `find`. DefinitionError as both raise it."""
-    found, own = like or find, getattr(options, "own", None)
-    held = design_of_file(options.machine, own, found)
+def machine_of(options: Namespace) -> Mechanism:
+    """Return the machine that a command is on, with its settings; DefinitionError as `find` raises it."""
+    own = getattr(options, "own", None)
+    held = design_of_file(options.machine, own)
     if held is None:
         ensure(not own, f"--machine {own}: {options.machine} is no file of a design, with `machine` and `[set]`.")
-        return design_from(found(options.machine), options.settings)
+        return design_from(find(options.machine), options.settings)
     changed = held.replaced(**dict(parsed_setting(held.plan, text) for text in options.settings))
     return design_with(type(held), changed.dimensions) if options.settings else held  # made anew, as a class may have checks of its own
 

@@ -15,7 +15,7 @@ from typing import Any, ClassVar, Literal, TypeAlias, cast, get_args
 import numpy as np
 
 from ..checks import can_be_called
-from ..errors import DefinitionError, cited, errors_of
+from ..errors import DefinitionError, cited, ensure, errors_of
 from ..frozen import immutable
 from ..quantities import Distance, Joint, Member, Reference, name_of, pinned
 from .element import AT_REST, Array, ForceElement, Formulas, Glyph, Load, Parameter, Poses, Push, Rate, Rates
@@ -50,8 +50,7 @@ class TwoPoint(ForceElement):
 
     def __init_subclass__(cls, **options: object) -> None:
         super().__init_subclass__(**options)
-        if cls.drawn_as not in get_args(DrawnAs):
-            raise DefinitionError(f"{cls.__name__}: drawn_as={cls.drawn_as!r} is none of {', '.join(get_args(DrawnAs))}.")
+        ensure(cls.drawn_as in get_args(DrawnAs), f"{cls.__name__}: drawn_as={cls.drawn_as!r} is none of {', '.join(get_args(DrawnAs))}.")
 
     @abstractmethod
     def push(self, motion: Poses, length: Array, rate: Array) -> Array:
@@ -260,8 +259,7 @@ class Between(TwoPoint):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if not can_be_called(self.law):
-            raise DefinitionError(f"{self._opening()}: law={cited(self.law)} is no function; give one of length [m] and rate [m/s].")
+        ensure(can_be_called(self.law), f"{self._opening()}: law={cited(self.law)} is no function; give one of length [m] and rate [m/s].")
 
     def push(self, motion: Poses, length: Array, rate: Array) -> Array:
         return self.law(length, rate)

@@ -14,7 +14,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..errors import AssemblyError, DefinitionError, SingularError, cited, one_word, unwarned
+from ..errors import AssemblyError, DefinitionError, SingularError, cited, ensure, one_word, unwarned
 from ..language import said
 from ..numeric.linear import solve_linear
 from ..plan import Mask, Plan, opening
@@ -88,8 +88,7 @@ def start_of(places: Places, start: Any) -> FloatArray:
         raise DefinitionError(f"{title}: start={cited(start)}: the strokes it begins near are expected, start={{{example}}}.")
     known = stroke_numbers(places.plan, start, f"{title}: start")
     missing = [name for name in places.free if name not in known]
-    if missing:
-        raise DefinitionError(f"{title}: start= does not say {', '.join(missing)}; give a value for each stroke that is not held.")
+    ensure(not missing, f"{title}: start= does not say {', '.join(missing)}; give a value for each stroke that is not held.")
     return np.array([known[name] for name in places.free])
 
 

@@ -17,7 +17,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from ..checks import is_listed, require_type
-from ..errors import DefinitionError, cited, errors_of, known_name, unwarned, warned_once
+from ..errors import DefinitionError, cited, ensure, errors_of, known_name, unwarned, warned_once
 from ..language import said
 from ..loads import AS_IT_RUNS, FRICTIONLESS, PLAIN, PLAIN_CASE, Acting, ForceElement, LoadCase
 from ..numeric.box import values_a_stroke
@@ -546,8 +546,7 @@ def values_over(motion: Motion, quantity: Any) -> FloatArray:
 def worst_at(motion: Motion, worst: Worst) -> FloatArray:
     """Return the worst value of a quantity over another stroke at every pose of a motion."""
     plan = motion.plan
-    if worst.over not in plan.strokes:
-        raise DefinitionError(f"{plan.title}: {worst}: {worst.over} is no stroke; its strokes are {', '.join(plan.strokes)}.")
+    ensure(worst.over in plan.strokes, f"{plan.title}: {worst}: {worst.over} is no stroke; its strokes are {', '.join(plan.strokes)}.")
     stroke = plan.strokes[worst.over]
     along = np.linspace(stroke.start, stroke.end, INNER)
     strokes = {name: np.broadcast_to(value[..., None], (*value.shape, INNER)) for name, value in motion.strokes.items()}

@@ -22,7 +22,7 @@ from typing import Any, ClassVar, NoReturn, TypeAlias, TypeGuard
 import numpy as np
 
 from ..checks import require, require_number, require_type
-from ..errors import DefinitionError, LawError, UntracedError, article, cited
+from ..errors import DefinitionError, LawError, UntracedError, article, cited, ensure
 from ..loads import Acting, Case, LoadCase
 from ..plan import Plan, plan_measure, require_kind
 from ..program import FloatArray
@@ -505,8 +505,7 @@ def shares_of(spectrum: Spectrum, where: str = "case") -> dict[str, float]:
         if not is_number(hours) or hours < 0.0:
             raise DefinitionError(f"{shown}: {name}: {cited(hours)}: hours or a share are expected, a number, zero or more.")
     total = float(sum(spectrum.values()))
-    if not 0.0 < total < np.inf:
-        raise DefinitionError(f"{shown}: all hours are zero; give one case some.")
+    ensure(0.0 < total < np.inf, f"{shown}: all hours are zero; give one case some.")
     return {name: float(hours) / total for name, hours in spectrum.items()}
 
 

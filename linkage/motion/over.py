@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..checks import is_listed, require
-from ..errors import DefinitionError, cited, known_name, unknown
+from ..errors import DefinitionError, cited, ensure, known_name, unknown
 from ..frozen import FrozenDict
 from ..language import said
 from ..loads import PLAIN_CASE, Case, LoadCase
@@ -512,8 +512,7 @@ def box_ends(name: str, value: object) -> Any:
             raise DefinitionError(f"Over({name}={cited(value)}): {expected}.")
     elif is_end(value):
         return amount_or_float(value) if is_number(value) else value
-    if isinstance(value, PoseCondition):
-        raise DefinitionError(f"Over({name}={value}): conditions on poses go into a list, only=[{value}].")
+    ensure(not isinstance(value, PoseCondition), f"Over({name}={value}): conditions on poses go into a list, only=[{value}].")
     raise DefinitionError(f"Over({name}={cited(value)}): (low, high) or one value is expected, in SI.")
 
 

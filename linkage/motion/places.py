@@ -337,8 +337,7 @@ def check_targets(places: Places, title: str) -> None:
         if not follows[place].any():
             all_free = Places(places.plan, places.designs, places.targets, places.bound, tuple(places.plan.strokes), {}, places.ranges)
             moving = [each for each, moves in zip(all_free.free, all_free.program.follows[place], strict=True) if moves]
-            if not moving:
-                raise DefinitionError(f"{title}: {targets[place]!r}: no stroke moves {name}; give a target on what moves.")
+            ensure(moving, f"{title}: {targets[place]!r}: no stroke moves {name}; give a target on what moves.")
             held = " and ".join(moving)
             raise DefinitionError(f"{title}: {targets[place]!r}: {name} follows {held} alone, which is held; hold another stroke.")
     for count in range(2, len(targets) + 1):
@@ -834,8 +833,7 @@ def positions_for(plan: Plan, designs: Mapping[str, object], targets: object, ho
     """Return the strokes that give some targets; see `strokes_for`."""
     places = Places.for_targets(plan, designs, targets, hold, where="strokes_for")
     for each in places.targets:
-        if each.is_path:
-            raise DefinitionError(f"{plan.title}: strokes_for: {each!r}: one number is expected; a path is followed, machine.follow(...).")
+        ensure(not each.is_path, f"{plan.title}: strokes_for: {each!r}: one number is expected; a path is followed, machine.follow(...).")
     wanted = np.array([float(each.value) for each in places.targets])
     search = BranchSearch(places, wanted)
     found = search.branches()

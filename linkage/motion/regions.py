@@ -18,7 +18,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..errors import DefinitionError, cited
+from ..errors import DefinitionError, cited, ensure
 from ..numeric import convex_pieces, crosses_itself
 from ..plan import Plan
 from ..program import FloatArray, Node
@@ -193,8 +193,7 @@ def inside_region(point: str, region: Region) -> NodeRequest:
         return (plan.trace.graph.node(region.depth(plan.trace.at(point), plan.trace.graph.pick)),)
 
     def names(plan: Plan) -> set[str]:
-        if point not in plan.points:
-            raise DefinitionError(f"{plan.title}: inside({point}, ...): {point} is no point; its points are {', '.join(plan.points)}.")
+        ensure(point in plan.points, f"{plan.title}: inside({point}, ...): {point} is no point; its points are {', '.join(plan.points)}.")
         return plan.reaches(point)
 
     return NodeRequest(
@@ -240,8 +239,7 @@ def region_shape(given: Any, where: str, outlines: Any, value: Any) -> Shape:
             known = f"its outlines are {', '.join(outlines)}" if outlines else "it has no outlines"
             raise DefinitionError(f"{where}: there is no outline {given}; {known}.")
         given = outlines[given]
-    if not is_shape(given):
-        raise DefinitionError(f"{where}: {cited(given)} is no shape; corners are expected, [(0, 0), (1, 0), (1, 0.5)] in m.")
+    ensure(is_shape(given), f"{where}: {cited(given)} is no shape; corners are expected, [(0, 0), (1, 0), (1, 0.5)] in m.")
     if not isinstance(given, Outline):
         require_measure(given, "length", where)
         return polygon_of(np.array(given, float), where)

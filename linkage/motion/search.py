@@ -139,8 +139,7 @@ def below_zero(motion: Motion, f: Function | Request) -> tuple[Span, ...]:
     if motion._design_shape or len(motion._stroke_shape) > 1:
         raise DefinitionError(f"{motion.plan.title}: ranges are told for one design along one stroke or one path; this is {motion.shape}.")
     between = OnLegs(motion, f)
-    if between.front:
-        raise DefinitionError(f"{motion.plan.title}: ranges are told for one number a pose; there are {between.front}.")
+    ensure(not between.front, f"{motion.plan.title}: ranges are told for one number a pose; there are {between.front}.")
     leg, t, value = between.leg, between.t, between.seen.ravel()
     found = [each for sense in (1.0, -1.0) for each in dips(between, sense, np.asarray(sense * value >= 0.0))]
     leg, t, value = (np.concatenate([known, *(each[row] for each in found)]) for row, known in enumerate((leg, t, value)))
@@ -300,8 +299,7 @@ def require_function(motion: Any, f: Any) -> None:
     """Raise DefinitionError for anything but a motion and a function of one."""
     require_motion(motion)
     check_any(motion.strokes, motion.plan)
-    if not can_be_called(f):
-        raise DefinitionError(f"{motion.plan.title}: {cited(f)} is no function of a motion; give one, such as lambda each: each.y('G').")
+    ensure(can_be_called(f), f"{motion.plan.title}: {cited(f)} is no function of a motion; give one, such as lambda each: each.y('G').")
 
 
 def values_of(f: Function, motion: Motion, *, everywhere: bool = False) -> FloatArray:

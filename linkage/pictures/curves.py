@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from ..checks import is_listed, require, require_type
-from ..errors import DefinitionError, cited, known_name
+from ..errors import DefinitionError, cited, ensure, known_name
 from ..language import noted, said, translated
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, Request, RequestLike, columns_of
@@ -174,8 +174,7 @@ def limit_of(given: Sequence[object], unit: str = "") -> Limit:
     found = Limit(*parts)
     if unit:
         require_measure(found.value, unit, f"the limit {found.text}".rstrip())
-    if found.fails not in ("above", "below"):
-        raise DefinitionError(f'the limit {found.text or found.value!r} fails {found.fails!r}: say "above" or "below".')
+    ensure(found.fails in ("above", "below"), f'the limit {found.text or found.value!r} fails {found.fails!r}: say "above" or "below".')
     return found
 
 

@@ -10,7 +10,7 @@ from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 
-from ..errors import DefinitionError
+from ..errors import DefinitionError, ensure
 from ..language import said
 from ..mechanism import Mechanism, require_mechanism
 from ..reports import Run, dimension_unit, first_stroke, stroke_middles
@@ -110,12 +110,10 @@ def separated(machines: Sequence[Mechanism]) -> list[Mechanism]:
         changed = {name: np.broadcast_to(value, shape).ravel() for name, value in machine.dimensions.items() if np.ndim(value)}
         one = [machine.replaced(**{name: float(values[index]) for name, values in changed.items()}) for index in range(number)]
         found += one if changed else [machine]
-    if not 0 < len(found) <= MOST_DESIGNS:
-        raise DefinitionError(f"draw([...]): {len(found)} designs do not make one picture; give 1 to {MOST_DESIGNS} of them.")
+    ensure(0 < len(found) <= MOST_DESIGNS, f"draw([...]): {len(found)} designs do not make one picture; give 1 to {MOST_DESIGNS} of them.")
     (title, strokes), *others = ((each.plan.title, ", ".join(each.strokes)) for each in found)
     for other, names in others:
-        if names != strokes:
-            raise DefinitionError(f"draw([...]): {other} has the strokes {names} and {title} {strokes}; draw them apart.")
+        ensure(names == strokes, f"draw([...]): {other} has the strokes {names} and {title} {strokes}; draw them apart.")
     return found
 
 

@@ -9,7 +9,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from ..checks import require_type
-from ..errors import AssemblyError, DefinitionError, SingularError, unknown, unwarned
+from ..errors import AssemblyError, SingularError, ensure, unknown, unwarned
 from ..language import noted, said, translated
 from ..loads import Case, ForceElement, LoadCase, Loads
 from ..motion import Motion
@@ -63,8 +63,7 @@ def force_question(
     if forces is False or forces is None:
         given = {"loads": loads, "case": case, "drive": drive, "direction": direction}
         named = next((name for name, value in given.items() if value is not None), "")
-        if named:
-            raise DefinitionError(f"draw({named}=...) says of which forces; say forces=True, or the name of a body, too.")
+        ensure(not named, f"draw({named}=...) says of which forces; say forces=True, or the name of a body, too.")
         return None
     if forces is not True:
         require_type("draw(forces", forces, str, 'say forces=True, or the body whose forces are drawn, forces="OBC"')

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from ..errors import DefinitionError
+from ..errors import DefinitionError, ensure
 from ..language import said, translated
 from ..motion import Motion
 from ..program import FloatArray
@@ -80,8 +80,7 @@ def lever_arms(forces: ForcesAt, at: Motion, pin: str, box: Bounds, size: float)
         if inside.get(bearer, False):
             loads.append(VectorArrow(f"load {element} on {bearer}", place, force, colour, element))
             load_turns.append(TurningArrow(f"moment {element} on {bearer}", place, moment, colour, element))
-    if not loads:
-        raise DefinitionError(f"{at.plan.title}: forces={pin!r}: no load turns about {pin}; name a pin about which a loaded body turns.")
+    ensure(loads, f"{at.plan.title}: forces={pin!r}: no load turns about {pin}; name a pin about which a loaded body turns.")
     held, held_turns = list[VectorArrow](), list[TurningArrow]()
     for number, joint in enumerate(forces.found.joints):
         own, other = inside.get(joint.on, False), inside.get(joint.by, False)

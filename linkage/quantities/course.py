@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..checks import require, require_number, require_whole
-from ..errors import DefinitionError, article, cited, one_word
+from ..errors import DefinitionError, article, cited, ensure, one_word
 from ..frozen import FrozenDict, frozen_copy, read_only, refuses_changes
 from ..units import Amount, amounts_in, display_unit, require_measure, show
 from ..vectors import FloatArray
@@ -375,8 +375,7 @@ def ramp(a: float, b: float, *, speed: float, acceleration: float | None = None,
     for name, value in limits.items():
         if value is not None or name == "speed":
             require_number(f"ramp({name}", value, "a finite number above zero is expected", above=0.0)
-    if a == b:
-        raise DefinitionError(f"ramp({cited(a)}, {cited(b)}): nothing moves; give the stroke that number, or hold(...) behind a course.")
+    ensure(a != b, f"ramp({cited(a)}, {cited(b)}): nothing moves; give the stroke that number, or hold(...) behind a course.")
     require(jerk is None or acceleration is not None, "ramp(jerk", jerk, "it limits an acceleration; give acceleration= too")
     kinds = {each.measures: name for name, value in {"a": a, "b": b, **limits}.items() for each in amounts_in(value)}
     if len(kinds) > 1:

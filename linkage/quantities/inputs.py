@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import ClassVar
 
-from ..errors import DefinitionError, cited
+from ..errors import DefinitionError, cited, ensure
 from ..frozen import immutable
 from ..units import UNITS, require_measure, unit_or_none
 from ..vectors import Scalar
@@ -35,8 +35,7 @@ class Stroke(Quantity):
         for value in (self.start, self.end):
             if getattr(value, "measures", "") != "angle":
                 require_measure(value, "length", "Stroke: end")
-        if self.start == self.end:
-            raise DefinitionError(f"Stroke({self.start}, {self.end}) has no length: give two different ends.")
+        ensure(self.start != self.end, f"Stroke({self.start}, {self.end}) has no length: give two different ends.")
 
     def rule(self, where: Where) -> Scalar:
         return where.input(self.name)
@@ -79,8 +78,7 @@ class Dimension(Quantity):
     needs_name: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
-        if not is_number(self.default):
-            raise DefinitionError(f"Dimension({cited(self.default)}): a finite number is expected.")
+        ensure(is_number(self.default), f"Dimension({cited(self.default)}): a finite number is expected.")
         object.__setattr__(self, "default", plain(self.default))
         unit_or_none(self.unit, where=f"Dimension({self.default!r}, unit=...)")
 

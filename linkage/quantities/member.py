@@ -14,7 +14,7 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from ..errors import DefinitionError, article, cited
+from ..errors import DefinitionError, article, cited, ensure
 from ..frozen import FrozenDict
 from ..vectors import Line, Scalar, Vec
 
@@ -339,8 +339,7 @@ def signature_of(kind: Hashable) -> tuple[Signature, int, float]:
 
 def check_arguments(kind: type[Member], given: tuple[object, ...], options: Mapping[str, object]) -> None:
     """Raise DefinitionError for arguments that a kind of member does not take, or that are missing."""
-    if kind.__init__ is object.__init__:
-        raise DefinitionError(f"{kind.__name__} takes no arguments; give it an __init__, or make it a frozen dataclass.")
+    ensure(kind.__init__ is not object.__init__, f"{kind.__name__} takes no arguments; give it an __init__, or make it a frozen dataclass.")
     taken, least, most = signature_of(kind)  # type: ignore[arg-type]  # a class with a class for its type
     if not options and least <= len(given) <= most:
         return

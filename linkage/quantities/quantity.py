@@ -13,7 +13,7 @@ from typing import Any, NoReturn, TypeAlias, cast
 import numpy as np
 
 from ..checks import is_number, is_whole
-from ..errors import DefinitionError, cited
+from ..errors import DefinitionError, cited, ensure
 from ..frozen import immutable, unmasked
 from ..units import amount_or_float, deg
 from ..vectors import FloatArray, Operators, Scalar, Vec
@@ -394,8 +394,7 @@ def ref(name: str) -> Quantity:
     Quantity
         The reference.
     """
-    if not is_reference(name):
-        raise DefinitionError(f"ref({name!r}): a name is expected, such as ref('L0').")
+    ensure(is_reference(name), f"ref({name!r}): a name is expected, such as ref('L0').")
     return Ref(name)
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from .. import motion as between
 from ..checks import is_listed, require
-from ..errors import DefinitionError
+from ..errors import ensure
 from ..language import said, with_and
 from ..motion import Motion, Request, out_of_reach, require_motion
 from ..program import FloatArray
@@ -23,8 +23,7 @@ Spare: TypeAlias = Callable[[Motion], FloatArray] | Request
 def one_stroke(motion: Motion) -> str:
     """Return the only stroke of a motion; DefinitionError for anything but a motion, and where there are several."""
     require_motion(motion)
-    if len(motion.strokes) != 1:
-        raise DefinitionError(f"{motion.plan.title}: ranges are told along one stroke, here are {len(motion.strokes)}.")
+    ensure(len(motion.strokes) == 1, f"{motion.plan.title}: ranges are told along one stroke, here are {len(motion.strokes)}.")
     return next(iter(motion.strokes))
 
 

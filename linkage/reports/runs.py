@@ -153,8 +153,7 @@ def run_along(motion: Motion) -> tuple[Run, int]:
     first, last = max(stretches(motion.reached), key=lambda part: part[1] - part[0], default=(0, -1))
     ways = {name: tuple(values[first : last + 1].tolist()) for name, values in motion.strokes.items()}
     moving = {name: way for name, way in ways.items() if len(set(way)) > 1}
-    if not moving:
-        raise DefinitionError(f"{title}: nothing moves along this motion; it has {last - first + 1} places in reach.")
+    ensure(moving, f"{title}: nothing moves along this motion; it has {last - first + 1} places in reach.")
     run = Run(moving, {name: way[0] for name, way in ways.items() if name not in moving}, case=case)
     if place is not None and place.instants is not None:
         run = replace(run, declared=place.over, instants=place.instants)
@@ -173,8 +172,7 @@ def one_run(machine: Mechanism, at: At) -> Run:
     if len({len(way) for way in ways.values()}) > 1:
         said = " and ".join(f"{name} passes {len(way)} values" for name, way in ways.items())
         raise DefinitionError(f"{title}: {said}; strokes that run together pass as many values each.")
-    if not (ways or free):
-        raise DefinitionError(f"{title}: every stroke is held, so that nothing moves; give {one} two values, its run.")
+    ensure(ways or free, f"{title}: every stroke is held, so that nothing moves; give {one} two values, its run.")
     moving = ways or {free[0]: (machine.strokes[free[0]].start, machine.strokes[free[0]].end)}
     held = stroke_middles(machine) | {name: values[0] for name, values in given.items()}
     return Run(moving, {name: value for name, value in held.items() if name not in moving})
@@ -210,8 +208,7 @@ def reached_motion(machine: Mechanism, strokes: At | Motion) -> Motion:
 
 def first_stroke(machine: Mechanism) -> str:
     """Return the first stroke; DefinitionError for a structure without one, and for anything but a mechanism."""
-    if not isinstance(machine, Mechanism):
-        raise DefinitionError(f"{machine!r:.60} is no mechanism; give a design such as Boom(), and its strokes by at=.")
+    ensure(isinstance(machine, Mechanism), f"{machine!r:.60} is no mechanism; give a design such as Boom(), and its strokes by at=.")
     ensure(machine.strokes, f"{machine.plan.title} has no stroke, so there is nothing to move; declare one, S = Stroke(0, 0.25).")
     return next(iter(machine.strokes))
 

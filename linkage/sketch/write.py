@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from ..errors import DefinitionError
+from ..errors import ensure
 from .board_json import board_json
 from .linkage_xml import linkage_xml
 from .machine_sketch import MachineSketch
@@ -42,6 +42,5 @@ def sketch_text(sketch: MachineSketch, suffix: str) -> str:
     DefinitionError
         The ending is none of these, or the program has no word for what the sketch holds.
     """
-    if suffix not in WRITERS:
-        raise DefinitionError(f"{suffix or 'no ending'} says no kind of file; a sketch is written as {', '.join(WRITERS)}.")
+    ensure(suffix in WRITERS, f"{suffix or 'no ending'} says no kind of file; a sketch is written as {', '.join(WRITERS)}.")
     return WRITERS[suffix](sketch)

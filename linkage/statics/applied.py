@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..checks import is_listed
-from ..errors import DefinitionError, SingularError, cited, errors_of, known_name, unknown
+from ..errors import DefinitionError, SingularError, cited, ensure, errors_of, known_name, unknown
 from ..loads import AS_IT_RUNS, FRICTIONLESS, PLAIN_CASE, Acting, Case, Damper, HasLoads, LoadCase, Loads
 from ..loads.acting import check_factor, shut_members
 from ..loads.element import AT_REST, SENSES, ForceElement, Friction, Load, Poses, Push, Rate, Rates, TwoPinned, check_together
@@ -252,8 +252,7 @@ def rates_in(motion: AnyMotion, acting: Acting, drive: str | None = None) -> Rat
         sense = 0 if direction == AS_IT_RUNS else sense
         named = [drive] if drive is not None else [*given] if len(given) == 1 else []
         wrong = next((name for name in named if sense and np.any(sense * np.asarray(given.get(name, 0.0)) < 0.0)), None)
-        if wrong is not None:
-            raise DefinitionError(f"{motion.plan.title}: direction={direction!r} and the rate of {wrong} contradict each other; drop one.")
+        ensure(wrong is None, f"{motion.plan.title}: direction={direction!r} and the rate of {wrong} contradict each other; drop one.")
         return Rates(given, True, direction, accelerations)
     if not sense:
         return AT_REST

@@ -197,8 +197,7 @@ class Rope(ForceElement, Tabled, HasVerdicts):
         elif pulley is not None:
             remedy = f"let it run over the pin {stations[beside].point} there, or give the other end's length"
             wrong = f"how far it lies on {pulley.name} hangs on where {wanted} ends; {remedy}"
-        if wrong:
-            raise DefinitionError(f"{self.name} = {self}: {wrong}.")
+        ensure(not wrong, f"{self.name} = {self}: {wrong}.")
         left = self.written("length")
         left = left + self.written("stretch") if "stretch" in self.numbers else left
         kept = stations[rest]

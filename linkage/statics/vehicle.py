@@ -419,8 +419,7 @@ def slipping(*, case: Case = None, acting: Acting | None = None) -> LawRequest:
 def support_in(name: str, plan: Plan) -> None:
     """Raise DefinitionError where a plan has no such support under its frame."""
     found = vehicle_of(plan)
-    if name not in found:
-        raise DefinitionError(f"{plan.title}: {name} is no support under its frame; these are {', '.join(found)}.")
+    ensure(name in found, f"{plan.title}: {name} is no support under its frame; these are {', '.join(found)}.")
 
 
 def rough_in(plan: Plan) -> None:

@@ -9,7 +9,7 @@ from typing import TypeVar
 import numpy as np
 
 from ..checks import is_listed, require
-from ..errors import DefinitionError, cited, known_name, one_word, unwarned
+from ..errors import DefinitionError, cited, ensure, known_name, one_word, unwarned
 from ..frozen import FrozenDict, immutable
 from ..mechanism import Mechanism
 from ..motion.measures import At, Condition, Constraint, Integral, Leaf, Measure, Worst, conditions_of, measure_of
@@ -254,8 +254,7 @@ def limits_listed(machine: Mechanism, given: object) -> tuple[Constraint, ...]:
     """Return conditions as constraints; DefinitionError for anything else, and for an equation, which no machine keeps."""
     found = tuple(conditions_of(given, machine))
     for each in found:
-        if each.symbol == "==":
-            raise DefinitionError(f"{machine.plan.title}: {each}: no machine keeps an equation to the last digit; write two limits.")
+        ensure(each.symbol != "==", f"{machine.plan.title}: {each}: no machine keeps an equation to the last digit; write two limits.")
     return found
 
 

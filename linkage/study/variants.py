@@ -144,8 +144,7 @@ def rows_fitted(machine: Mechanism, cylinder: str, rows: Sequence[Any]) -> tuple
     for field in fields:
         given, own = element.given(field), f"{element.name}.{field}"
         name = own if own in plan.table.spellings else name_of(given) if is_member_or_name(given) else ""
-        if name not in plan.table.spellings:
-            raise DefinitionError(f"{plan.title}: {own} follows {given}; a row of a catalogue sets a number or a dimension.")
+        ensure(name in plan.table.spellings, f"{plan.title}: {own} follows {given}; a row of a catalogue sets a number or a dimension.")
         names.append(name)
     table: list[Sequence[float]] = [tuple(float(value) for value in row) for row in rows]
     if not set(LENGTHS) <= set(fields):

@@ -17,7 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..checks import is_listed, require_number, require_type, two_of
-from ..errors import DefinitionError, FileError, cited, is_yes
+from ..errors import DefinitionError, FileError, cited, ensure, is_yes
 from ..quantities import Axes, Member, Operand, Reference, Stroke, is_number, label, name_of, needed_behind, needs, of_kind, spelled
 from ..quantities.axes import NOTHING, is_nothing, plus
 from ..quantities.member import is_member_or_name
@@ -276,8 +276,7 @@ class PlacedFile(Outline):
     form: ClassVar[str] = ""
 
     def __init__(self, path: str | Path, on: Carrier, at: Corner, angle: Operand) -> None:
-        if not str(path).strip():
-            raise DefinitionError(f"{self.form}: the path of the file is missing.")
+        ensure(str(path).strip(), f"{self.form}: the path of the file is missing.")
         self.path, self.on = str(path), carrying_points(on, self.form)
         self.at, self.angle = corner_of(at, f"{self.form}(at=...)"), quantity(angle)
 

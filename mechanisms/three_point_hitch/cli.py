@@ -67,9 +67,7 @@ def print_hitch(options: Namespace) -> int:
 
 def hitch_of(options: Namespace) -> ThreePointHitch:
     """Return the hitch that the options mean."""
-    machine = machine_like(options, ThreePointHitch, "three-point hitch", admissible={})
-    if not type(machine).admissible and (options.zones or options.figure == "zones"):
-        raise DefinitionError(f"{options.machine}: a file holds no admissible settings, over which the zones go; take them of a class.")
+    machine = machine_like(options, ThreePointHitch, "three-point hitch")
     if not options.category:
         return machine
     shipped = design_from(ThreePointHitch, options.settings)

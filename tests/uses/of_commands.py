@@ -202,9 +202,8 @@ USES = [
         "lever.py; mower_lift",
         (
             "hydrolinkage:",
-            "is no three-point hitch: it has no L0, E, M, C, D and",
-            "more; take a ThreePointHitch, a subclass of it,",
-            "that has all of its members and dimensions.",
+            "is no three-point hitch; take a ThreePointHitch, a subclass of it,",
+            "or a file of a design, with `machine` and `[set]`.",
         ),
     ),
     (
@@ -223,7 +222,7 @@ USES = [
         "three_point_hitch -o a.txt",
         ("hydrolinkage: -o a.txt: the file's name ends in", "of .png, .svg, .pdf, which chooses the format."),
     ),
-    ("balance @", "lever.py", ("hydrolinkage: lever.py is no balanced header: it", "has all of its members and dimensions.")),
+    ("balance @", "lever.py", ("hydrolinkage: lever.py is no balanced header; take a HeaderBalancer,", "with `machine` and `[set]`.")),
     ("balance @", "header_balancer --header 9", ("from 1, 2, 3); see hydrolinkage balance --help.",)),
     (
         "balance @",

@@ -721,7 +721,7 @@ def test_a_design_leaves_as_text_that_python_and_the_page_read(chromium, deliver
     exec(texts["python"], names := {})
     (tmp_path / "design.toml").write_text(texts["toml"])
     assert main(["show", str(tmp_path / "design.toml")]) == 0
-    found, read = names["machine"], design_of_file(str(tmp_path / "design.toml"), None, find)
+    found, read = names["machine"], design_of_file(str(tmp_path / "design.toml"), None)
     taken = design_of(ThreePointHitch, texts["options"].replace("--set ", "").split())
     expected = ThreePointHitch(**given)
     assert dict(found.dimensions) == dict(read.dimensions) == dict(taken.dimensions) == dict(expected.dimensions)

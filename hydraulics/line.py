@@ -252,6 +252,7 @@ class LiftLine(Circuit):
 
     def supply(self, motion: Poses) -> Array:
         """Return the highest pressure that lifts [Pa]: the pump's, as far as the relief valve lets it; DefinitionError for none."""
+        require_poses(motion)
         self.check_pump(motion.plan)
         pump = self._pressure_set(motion, "pressure")
         return np.minimum(pump, self._pressure_set(motion, "relief")) if self.relieves(motion.plan) else pump
@@ -273,6 +274,7 @@ class LiftLine(Circuit):
     def efficiency(self, motion: Poses, kind: str) -> Array:
         """Return the "mechanical" or "hydraulic" efficiency; DefinitionError unless it is above 0 and not above 1."""
         one_word("kind", kind, ("mechanical", "hydraulic"))
+        require_poses(motion)
         self.check_pump(motion.plan)
         what = f"{self.name or type(self).__name__}.{kind}_efficiency"
         return efficient(self.number(motion, f"{kind}_efficiency"), what)

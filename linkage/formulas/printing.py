@@ -92,8 +92,9 @@ class Text(StrPrinter):  # type: ignore[misc]
     def _print_MatMul(self, expr: sympy.MatMul) -> str:
         over, under, vector = factors(expr)
         if is_negative(expr):
-            return f"-{self._print(-expr)}"
-        text = self._print(vector) if over == 1 else f"{self.parenthesize(over, PRECEDENCE['Mul'])}*{self._print(vector)}"
+            return f"-{self.parenthesize(-expr, PRECEDENCE['Mul'], strict=True)}"
+        text = self.parenthesize(vector, PRECEDENCE["Mul"], strict=True)
+        text = text if over == 1 else f"{self.parenthesize(over, PRECEDENCE['Mul'])}*{text}"
         return text if under == 1 else f"{text}/{self.parenthesize(under, PRECEDENCE['Pow'])}"
 
     def _print_call(self, expr: sympy.Basic) -> str:
@@ -165,10 +166,10 @@ class Latex(LatexPrinter):  # type: ignore[misc]
     def _print_MatMul(self, expr: sympy.MatMul) -> str:
         over, under, vector = factors(expr)
         if is_negative(expr):
-            return f"- {self._print(-expr)}"
+            return f"- {self._factor(-expr)}"
         if under != 1:
-            return rf"\frac{{{self._print(over)}}}{{{self._print(under)}}}{self.times}{self._print(vector)}"
-        return self._print(vector) if over == 1 else f"{self.parenthesize(over, PRECEDENCE['Mul'])}{self.times}{self._print(vector)}"
+            return rf"\frac{{{self._print(over)}}}{{{self._print(under)}}}{self.times}{self._factor(vector)}"
+        return self._factor(vector) if over == 1 else f"{self.parenthesize(over, PRECEDENCE['Mul'])}{self.times}{self._factor(vector)}"
 
     def _print_TurnV(self, expr: TurnV | Tcos | Direction, exp: str | None = None) -> str:
         call = rf"{HEADS[type(expr)]}\left({', '.join(map(self._print, expr.args))}\right)"

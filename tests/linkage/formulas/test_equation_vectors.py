@@ -28,6 +28,10 @@ RULES = {
     "length": lambda P, Q, d: P + Vec(0.1, 0.3) * (Q - P - Vec(0.1, 0.1)).length(),
     "length of a vector": lambda P, Q, d: P + Vec(0.1, 0.3) * Vec(Q.x, d).length(),
     "square": lambda P, Q, d: P + Vec(0.1, 0.3) * (Q + Vec(0.1, 0.1) - P).square(),
+    "middle": lambda P, Q, d: (P + Q) * 0.5,
+    "less a sum": lambda P, Q, d: Q - (P + Q) * d,
+    "part of a sum": lambda P, Q, d: (P + Q) * (1.0 / (1.0 + d)),
+    "minus a sum": lambda P, Q, d: -(P + Q) * 1.0,
     "line": lambda P, Q, d: Line(P, Vec(0.6, 0.8)).at(d),
     "a line elsewhere": lambda P, Q, d: Line(Vec(0.1, 0.2), Vec(0.6, 0.8)).at(Q.x),
 }
@@ -94,3 +98,15 @@ def test_a_report_has_them(rule):
 def test_what_is_said_of_a_vector_of_numbers():
     assert "X = C + (0.1, 0.2)" in str(equations(machine_with("place + vector")))
     assert "X = C - (d, 0.2)" in str(equations(machine_with("place - vector")))
+
+
+def test_a_sum_that_is_scaled_is_in_brackets():
+    printed = {
+        "middle": ("X = 0.5*(C + B)", r"0.5 \left(\vec{C} + \vec{B}\right)"),
+        "less a sum": ("X = B - d*(B + C)", r"\vec{B} - d \left(\vec{B} + \vec{C}\right)"),
+        "part of a sum": ("X = (C + B)/(d + 1)", r"\frac{1}{d + 1} \left(\vec{C} + \vec{B}\right)"),
+        "minus a sum": ("X = -(B + C)", r"- \left(\vec{B} + \vec{C}\right)"),
+    }
+    for rule, (text, formula) in printed.items():
+        found = equations(machine_with(rule))
+        assert text in str(found) and formula in found.latex(), rule

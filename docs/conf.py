@@ -1,4 +1,4 @@
-"""Sphinx settings; `./run docs` builds the pages into docs/_build, with every picture, live page and machine's page made anew."""
+"""Sphinx settings; `./run docs` builds the pages into docs/_build, with every live page and machine's page made anew."""
 
 import sys
 import tomllib

@@ -11,6 +11,7 @@ from functools import cache, partial
 from html.parser import HTMLParser
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
+from runpy import run_path
 from urllib.parse import quote, unquote, urldefrag
 
 import numpy as np
@@ -20,7 +21,7 @@ from matplotlib.image import imread
 ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "docs"
 sys.path.insert(0, str(DOCS))
-from made import drawn, examples, gallery, searches, written_pages  # noqa: E402
+from made import examples, gallery, searches, written_pages  # noqa: E402
 
 from linkage.cli.entry import BUILT_IN  # noqa: E402
 from linkage.plugins import COMMANDS, entry_points  # noqa: E402
@@ -31,12 +32,12 @@ from tests.tools.sources import sources  # noqa: E402
 
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted(DOCS.glob("*.md")), *sorted(DOCS.glob("howto/*.md"))]
 LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
-SCRIPTS = {name: drawn.script(name) for name in drawn.MAKERS}
+SCRIPTS = {path.stem: run_path(str(path)) for path in sorted((DOCS / "pictures").glob("*.py"))}
 QUICK = ("conventions", "way")
 DRAWN = {
     picture: pytest.param(make, id=picture, marks=() if name in QUICK else pytest.mark.slow)
     for name, script in SCRIPTS.items()
-    for picture, make in script.PICTURES.items()
+    for picture, make in script["PICTURES"].items()
 }
 LONGEST_MESSAGE = 32
 """The words that one sentence of a message may have: more than that nobody reads beside a machine."""
@@ -233,7 +234,7 @@ def test_no_code_is_wider_than_its_column(page):
 def test_every_drawn_picture_is_shown():
     text = "\n".join(page.read_text(encoding="utf-8") for page in PAGES)
     assert set(re.findall(r"images/(\w+)\.png", text)) == set(DRAWN)
-    assert set(re.findall(r"images/(\w+\.gif)", text)) == {film for script in SCRIPTS.values() for film in getattr(script, "FILMS", {})}
+    assert set(re.findall(r"images/(\w+\.gif)", text)) == {film for script in SCRIPTS.values() for film in script.get("FILMS", {})}
     kept = {path.name for path in (DOCS / "images").iterdir()}
     assert kept == set(re.findall(r"images/(\w+\.\w+)", text))
 

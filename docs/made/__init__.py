@@ -1,4 +1,4 @@
-"""What the pages show is made here before they are read: pictures, live pages, machines' pages, the command's and the reference's.
+"""What the pages show is made here before they are read: live pages, machines' pages, the command's and the reference's.
 
 All of it goes into docs/_generated, which is not kept; `made` is also the Sphinx extension that has it made and sets formulas.
 """
@@ -14,7 +14,7 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
-from . import api, commands, drawn, examples, formulas, gallery, machines, notebook, searches
+from . import api, commands, examples, formulas, gallery, machines, notebook, searches
 
 HERE = Path(__file__).parents[1]
 GENERATED = HERE / "_generated"
@@ -40,7 +40,7 @@ def make_unless_kept(app: Any) -> None:
 def make_all(folder: Path) -> None:
     """Make all that is generated into a folder, anew, on as many processes as there are processors."""
     shutil.rmtree(folder, ignore_errors=True)
-    for name in ("machines", "figures", "api", "images", "extra/live", "extra/thumbs"):
+    for name in ("machines", "figures", "api", "extra/live", "extra/thumbs"):
         (folder / name).mkdir(parents=True)
     commands.make(folder / "commands.md")
     api.make(folder / "api")
@@ -48,12 +48,10 @@ def make_all(folder: Path) -> None:
     searches.make(pages, folder)
     rarely = {"initializer": gc.set_threshold, "initargs": (100_000,)}  # traced programs are many small objects, looked through in vain
     with ProcessPoolExecutor(os.cpu_count(), mp_context=get_context("spawn"), **rarely) as pool:
-        waiting = [pool.submit(drawn.draw_all, name, folder / "images") for name in drawn.MAKERS]
-        waiting.append(pool.submit(notebook.make, HERE / "notebook.ipynb", folder / "notebook.md"))
+        run = pool.submit(notebook.make, HERE / "notebook.ipynb", folder / "notebook.md")
         tiles = {name: pool.submit(machines.make, name, folder) for name in machines.registered()}
         shown = {page: pool.submit(examples.make, page, HERE, folder) for page, text in pages.items() if examples.shows(text)}
-        for each in waiting:
-            each.result()
+        run.result()
         gallery.make({name: each.result() for name, each in tiles.items()}, folder)
         found = {page: each.result() for page, each in shown.items()}
     (folder / "examples.json").write_text(json.dumps(found, indent=1), encoding="utf-8")
@@ -66,12 +64,9 @@ def written_pages() -> dict[str, str]:
 
 
 def show_examples(app: Any, page: str, source: list[str]) -> None:
-    """Put behind each block of examples what it drew, and pictures of this build for those that are kept."""
+    """Put behind each block of examples what it drew."""
     found = json.loads((GENERATED / "examples.json").read_text(encoding="utf-8"))
     source[0] = examples.with_results(source[0], found.get(page, {}))
-    if "/" not in page:
-        made = {path.name for path in (GENERATED / "images").iterdir()}
-        source[0] = drawn.IMAGE.sub(lambda each: f"](/_generated/images/{each[1]})" if each[1] in made else each[0], source[0])
 
 
 def put_paths(app: Any, page: str, template: str, context: dict[str, Any], doctree: Any) -> None:

@@ -6,7 +6,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations
 from types import MappingProxyType
 from typing import Any, ClassVar
@@ -156,30 +156,21 @@ def clearance() -> NodeRequest:
     DefinitionError
         The machine declares no planes.
     """
-    return least_gap(None)
-
-
-def least_gap(chosen: tuple[Pair, ...] | None) -> NodeRequest:
-    """Return the request for the least gap of chosen pairs of bodies [m], of bars without width; None means those of `clearance()`."""
-
-    def pairs(plan: Plan) -> dict[Pair, bool]:
-        return pairs_of(plan) if chosen is None else dict.fromkeys(chosen, False)
 
     def nodes(plan: Plan) -> tuple[Node, ...]:
-        found = pairs(plan)
+        found = pairs_of(plan)
         ensure(found, f"{plan.title}: clearance(): no two bodies lie in one plane that share no pin; ask gap(a, b) of two.")
-        width = plan.trace.value(width_of(plan)) if chosen is None else 0.0
+        width = plan.trace.value(width_of(plan))
         return (plan.trace.graph.node(least_number([gap_of(plan, a, b) - (width if thick else 0.0) for (a, b), thick in found.items()])),)
 
     def behind(plan: Plan) -> set[str]:
-        shapes = [shape_named(plan, name) for pair in pairs(plan) for name in pair]
-        widths = (width_of(plan),) if chosen is None else ()
-        return plan.reaches(*(name for shape in shapes for name in shape.parts_behind), *widths)
+        shapes = [shape_named(plan, name) for pair in pairs_of(plan) for name in pair]
+        return plan.reaches(*(name for shape in shapes for name in shape.parts_behind), width_of(plan))
 
     return NodeRequest(
-        text="clearance()", sentence="the least gap of what lies in one plane", key=("clearance", chosen), measures="length",
+        text="clearance()", sentence="the least gap of what lies in one plane", key=("clearance",), measures="length",
         traits=Trait.MAY_FAIL, nodes_of=nodes, names_of=behind,
-        refused_by=lambda motion: check_forms(motion, {name for pair in pairs(motion.plan) for name in pair}),
+        refused_by=lambda motion: check_forms(motion, {name for pair in pairs_of(motion.plan) for name in pair}),
     )  # fmt: skip
 
 
@@ -296,6 +287,37 @@ def pairs_without_planes(motion: Motion) -> tuple[tuple[Pair, ...], tuple[Pair, 
             for pair, _ in pairs_of_bodies(plan, a, b):
                 (apart if np.any(gaps_at(motion, pair) >= 0.0) else crossing).append(pair)
     return tuple(apart), tuple(crossing)
+
+
+def nearest_gap(motion: Motion, pairs: Sequence[Pair]) -> FloatArray:
+    """Return the least gap of chosen pairs of bodies at each pose of a motion [m], NaN out of reach; bars have no width.
+
+    A pair is looked at where the widths of its bodies say that it may be the nearest at some pose.
+    """
+    ends = {name: widths_of(motion, name) for name in dict.fromkeys(name for pair in pairs for name in pair)}
+    apart = {(a, b): np.maximum(ends[b][0] - ends[a][1], ends[a][0] - ends[b][1]).max(axis=0) for a, b in pairs}
+    found = np.full(motion.shape, np.inf).ravel()
+    for pair in sorted(pairs, key=lambda pair: float(np.fmin.reduce(apart[pair]))):
+        if np.any(apart[pair] < found):
+            found = np.fmin(found, gaps_at(motion, pair))
+    return np.where(motion.reached, found.reshape(motion.shape), np.nan)
+
+
+ACROSS = np.array([(np.cos(angle), np.sin(angle)) for angle in np.linspace(0.0, np.pi, 8, endpoint=False)])
+"""The directions along which the widths of bodies are compared, shape (8, 2)."""
+
+
+def widths_of(motion: Motion, name: str) -> tuple[FloatArray, FloatArray]:
+    """Return where a body begins and ends along some directions, shape (8, n) each [m], at all poses of a motion in a row."""
+    low, high = [], []
+    with unwarned():
+        for piece in shape_named(motion.plan, name).pieces(motion.plan, motion._placed, pick):
+            radius = np.max(np.asarray(piece.radius))
+            for P in piece.places:
+                along = ACROSS @ np.array([np.broadcast_to(part, motion.shape).ravel() for part in (P.x, P.y)])
+                low.append(along - radius)
+                high.append(along + radius)
+    return np.min(low, axis=0), np.max(high, axis=0)
 
 
 def gaps_at(motion: Motion, pair: Pair) -> FloatArray:

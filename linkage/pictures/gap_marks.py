@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import product
 from typing import TypeAlias
 
@@ -13,7 +15,7 @@ from matplotlib.lines import Line2D
 from ..checks import require, require_type
 from ..errors import unwarned
 from ..language import said, with_and
-from ..motion import Motion, Planes, Request, gap, least_gap, nearest_places, pair_at, pairs_without_planes
+from ..motion import Motion, Planes, Request, clearance, gap, nearest_gap, nearest_places, pair_at, pairs_without_planes
 from ..motion.grid import recalled
 from ..motion.planes import depth_words
 from ..plan import Plan
@@ -83,10 +85,12 @@ def asked_pair(given: object, plan: Plan) -> tuple[str, str] | None:
     return body_pair(f"{plan.title}: clearance", given, expected)
 
 
-def gap_request(given: object, plan: Plan, pairs: Pairs) -> Request:
-    """Return the request whose least value `draw(clearance=...)` is about."""
+def gap_asked(given: object, plan: Plan, pairs: Pairs) -> Request | Callable[[Motion], FloatArray]:
+    """Return the request, or the function of a motion, whose least value `draw(clearance=...)` is about."""
     pair = asked_pair(given, plan)
-    return least_gap(pairs) if pair is None else gap(*pair)
+    if pair is None:
+        return clearance() if pairs is None else partial(nearest_gap, pairs=pairs)
+    return gap(*pair)
 
 
 def assumed_pairs(motion: Motion) -> tuple[Pairs, str]:
@@ -113,8 +117,9 @@ def assumed_pairs(motion: Motion) -> tuple[Pairs, str]:
 
 def worst_pose(motion: Motion, given: object, pairs: Pairs, shown: int) -> int:
     """Return the pose of a motion, a flat index, at which the gap is least: the one shown, where it is no greater there."""
+    asked = gap_asked(given, motion.plan, pairs)
     with unwarned():
-        values = np.ravel(motion[gap_request(given, motion.plan, pairs)])
+        values = np.ravel(motion[asked] if isinstance(asked, Request) else asked(motion))
     values = np.where(np.isfinite(values), values, np.inf)
     worst = int(np.argmin(values))
     return worst if values[worst] < values[shown] else shown
@@ -122,7 +127,9 @@ def worst_pose(motion: Motion, given: object, pairs: Pairs, shown: int) -> int:
 
 def gap_mark(at: Motion, given: object, pairs: Pairs, place: str = "") -> GapMark:
     """Return the mark of the gap at a motion of one pose; faint with the `place` of another pose than the one shown."""
-    gap_request(given, at.plan, pairs).bound(at.plan)  # DefinitionError for two bodies that have no gap, and where no two are left
+    asked = gap_asked(given, at.plan, pairs)
+    if isinstance(asked, Request):
+        asked.bound(at.plan)  # DefinitionError for two bodies that have no gap, and where no two are left
     pair, width = asked_pair(given, at.plan), 0.0
     if pair is None:
         pair, width = pair_at(at, pairs)

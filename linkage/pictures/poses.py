@@ -22,7 +22,7 @@ from ..units import require_measure
 from . import style
 from .drawing import Drawing, draw_scene, mechanism
 from .free_body import draw_free_body
-from .gap_marks import gap_request
+from .gap_marks import gap_asked
 from .layout import cloud, surrounding_points
 from .overlays import Overlay, Overlays
 from .paper import empty_page, footnote, legend_row, look_keys, remark, write_title
@@ -123,7 +123,7 @@ def draw_strokes(machine: Mechanism, at: object, path: Sequence[str], count: int
     path = named_points(machine, path, "path")
     if overlays.has_gap and at is None:
         pairs, _ = overlays.pairs(machine.at(unreachable="nan", **stroke_middles(machine)))
-        (answer,) = machine.answers([least(gap_request(overlays.clearance, machine.plan, pairs))])
+        (answer,) = machine.answers([least(gap_asked(overlays.clearance, machine.plan, pairs))])
         at = {name: float(value) for name, value in answer.strokes.items()}  # no others: what it runs may be less than its strokes
     require_whole("count", count, "a path is drawn through 2 poses or more; give a whole number such as 101", least=2, most=MANY)
     moving, shown, swept = motions(machine, at, count)

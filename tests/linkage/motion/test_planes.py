@@ -30,9 +30,10 @@ from linkage import (
 )
 from linkage.files import load, to_toml
 from linkage.motion.gaps import nearest_places, triangles
-from linkage.motion.planes import pairs_of
+from linkage.motion.planes import gaps_at, nearest_gap, pairs_of, pairs_without_planes
 from linkage.numeric import convex_pieces, crosses_itself
 from linkage.vectors import Vec, pick
+from mechanisms.at_work.forwarder import Forwarder
 from mechanisms.classics.four_bar import FourBar
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.for_all import for_all
@@ -333,6 +334,17 @@ def test_a_machine_of_planes_is_drawn_and_printed():
 def test_what_is_no_plane_is_refused_in_words(make, words):
     with pytest.raises(DefinitionError, match=words):
         make()
+
+
+@for_all("seed", range(3))
+def test_the_least_gap_of_many_pairs_is_that_of_all_of_them(seed):
+    """Bodies whose widths keep them apart are not looked at, and none of them is the nearest; at one pose and at twenty."""
+    rng, machine = np.random.default_rng(seed), Forwarder()
+    strokes = {name: each.start + rng.uniform(size=20) * (each.end - each.start) for name, each in machine.strokes.items()}
+    for motion in (machine.at(unreachable="nan", **strokes), machine.at(unreachable="nan", **{name: v[0] for name, v in strokes.items()})):
+        pairs = pairs_without_planes(motion)[0][seed::2]
+        every = np.array([gaps_at(motion, pair) for pair in pairs]).min(axis=0).reshape(motion.shape)
+        assert len(pairs) > 20 and np.array_equal(nearest_gap(motion, pairs), every, equal_nan=True)
 
 
 # -- where they come nearest -------------------------------------------------------------------------------

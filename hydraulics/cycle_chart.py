@@ -158,6 +158,10 @@ def time_heading() -> str:
 # In words.
 
 
+FINE = 360.0
+"""An energy [J] below which its kWh would have an exponent."""
+
+
 def energy_rows(cycle: PumpCycle) -> list[tuple[str, str, str]]:
     """Return where the energy of a cycle goes, in rows of words."""
     words = {
@@ -166,7 +170,7 @@ def energy_rows(cycle: PumpCycle) -> list[tuple[str, str, str]]:
     }  # fmt: skip
     least = NOTHING * max(cycle.energy.pump, cycle.energy.braked)
     found = {text: energy if abs(energy := getattr(cycle.energy, name)) > least else 0.0 for name, text in words.items()}
-    return [(text, show(energy, "kJ", 4), show(energy, "kWh", 3)) for text, energy in found.items()]
+    return [(text, show(energy, "kJ", 4), show(energy, "kWh", 3 if abs(energy) >= FINE else "z.6f")) for text, energy in found.items()]
 
 
 def line_rows(cycle: PumpCycle) -> list[tuple[str, ...]]:

@@ -43,10 +43,9 @@ def forces_section(subject: ReportSubject) -> Section | None:
     except LinkageError as error:
         return Section(title, (said("The joint forces are not calculated: {why}", why=str(error)),))
     looks = said(
-        "The largest force of each joint over {domain}, between the poses of the tables too, over load cases and directions of "
-        "motion. Fx and Fy act on the body, in its own axes: x from the first of the named points to the second, y to its left. On "
-        "the frame they are in the axes of the drawing.",
-        domain=subject.domain,
+        "The largest force of each joint over all that the machine runs, between the poses of the tables too, over load cases and "
+        "directions of motion. Fx and Fy act on the body, in its own axes: x from the first of the named points to the second, y to "
+        "its left. On the frame they are in the axes of the drawing."
     )
     unit = unit_sign("kN")
     parts = said("Fx, {unit}", unit=unit), said("Fy, {unit}", unit=unit), said("F, {unit}", unit=unit)

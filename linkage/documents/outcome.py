@@ -9,10 +9,9 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.ticker import ScalarFormatter
 
 from ..errors import LinkageError, known_name, unwarned
-from ..language import heading_of, said, translated, with_decimals
+from ..language import heading_of, said, translated
 from ..loads import PLAIN_CASE, Acting
 from ..mechanism import Mechanism
 from ..motion import Answer, Column, Measure, Motion, Request, Tabled, judged_poses, least, most, places_text, speakers, transmission
@@ -130,8 +129,7 @@ def curve_blocks(
     subject: ReportSubject, run: Run, motion: Motion, names: Sequence[str] | None, first: str, limits: Mapping[str, Sequence[object]]
 ) -> Iterator[Block]:
     """Yield the curves along a run, the one the machine is about first."""
-    along = ", ".join(run.ways) if motion.time is None else said("time")
-    held, words = subject.words(dict(run.held)), run_words(subject.machine, run)
+    along, held, words = ", ".join(run.ways), subject.words(dict(run.held)), run_words(subject.machine, run)
     whole = subject.columns_along(run, motion)
     left = coordinates_of(subject.machine) | {*subject.doubles} if names is None else {*whole} - {*names}
     drawn = [name for name in whole if name != first and name not in left]
@@ -148,6 +146,7 @@ def curve_blocks(
         others = [each for each in same[name] if not any(each.startswith(f"{one} ") for one in (name, *same[name]))]
         caption = said("{column} along {stroke}.", column=called, stroke=along)
         caption = said("{column} along {stroke}; {held} held.", column=called, stroke=along, held=held) if held else caption
+        caption = said("{column} over time{beside}.", column=called, beside="") if motion.time is not None else caption
         caption = f"{caption.removesuffix('.')}, {words}." if words else caption
         caption += said(" The same curve: {names}.", names=", ".join(map(heading_of, others))) if others else ""
         caption += said(" Shaded: what its limit excludes.") if bound is not None else ""
@@ -233,11 +232,8 @@ def beyond_words(subject: ReportSubject, answers: Sequence[Answer], column: Colu
 def draw_column(ax: Axes, motion: Motion, column: Column, bound: Sequence[object] | None, beyond: Sequence[tuple[Answer, str]]) -> None:
     """Draw a column over the stroke with its limit, and lines with their values for extremes beyond it elsewhere."""
     panel(ax, motion, column, bound)
-    for axis in (ax.xaxis, ax.yaxis):
-        axis.set_major_formatter(SpokenTicks())
     pad = 9.0 if bound is None else 19.0  # a limit's words stand above the curve, under the heading
     heading = ax.set_title(ax.get_title(loc="left"), loc="left", fontsize=TITLE, fontweight="bold", color=INK, pad=pad)
-    heading.set_fontsize(TITLE * min(1.0, HEADING_SHARE * ax.bbox.width / heading.get_window_extent().width))
     marks = [(float(each.value) / factor(column.shown_unit), isinstance(each.question, Least), text) for each, text in beyond]
     marks = [mark for mark in marks if np.isfinite(mark[0])]
     low, high = (end([*ax.get_ylim(), *(value for value, *_ in marks)]) for end in (min, max))
@@ -245,18 +241,13 @@ def draw_column(ax: Axes, motion: Motion, column: Column, bound: Sequence[object
     ax.set_ylim(min([low, *(value - air for value, *_ in marks)]), max([high, *(value + air for value, *_ in marks)]))
     for value, is_least, text in marks:
         ax.axhline(value, color=INK, linewidth=1.1, linestyle=(0, (1.5, 1.5)), zorder=4.0)
-        small_text(ax, with_decimals(text), (1.0, value), (-4, -3 if is_least else 3), INK, ("axes fraction", "data"))
+        small_text(ax, text, (1.0, value), (-4, -3 if is_least else 3), INK, ("axes fraction", "data"))
+    for words in (heading, *ax.texts):
+        words.set_fontsize(words.get_fontsize() * min(1.0, WIDEST * ax.bbox.width / words.get_window_extent().width))
 
 
-class SpokenTicks(ScalarFormatter):
-    """Numbers along an axis with the decimal sign of the language that is spoken."""
-
-    def __call__(self, x: float, pos: int | None = None) -> str:
-        return with_decimals(super().__call__(x, pos))
-
-
-HEADING_SHARE = 0.97
-"""Of the width of a curve's axes: what its heading takes at the most, as letters on a screen are wider than printed ones."""
+WIDEST = 0.97
+"""Of the width of a curve's axes: what a line of words takes at the most, as letters on a screen are wider than printed ones."""
 
 
 def column_grids(subject: ReportSubject, caption: str, columns: Sequence[Column], outside: Sequence[bool]) -> Iterator[TableBlock]:

@@ -10,8 +10,9 @@ from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.ticker import ScalarFormatter
 
-from ..language import translated
+from ..language import translated, with_decimals
 from ..pictures.scene import Scene
 from ..pictures.sheet import ticks_of_length
 from ..units import factor, shown_in
@@ -64,4 +65,17 @@ def painted(figure: Figure, picture: Illustration) -> Axes:
     (wide, high), (left, right, bottom, top) = picture.size, picture.room
     ax = figure.add_axes((left / wide, bottom / high, 1.0 - (left + right) / wide, 1.0 - (bottom + top) / high))
     picture.paint(ax)
+    if with_decimals("0.5") != "0.5":
+        for words in ax.texts:
+            words.set_text(with_decimals(words.get_text()))
+        for axis in (ax.xaxis, ax.yaxis):
+            if isinstance(own := axis.get_major_formatter(), ScalarFormatter):
+                axis.set_major_formatter(SpokenTicks(useOffset=own.get_useOffset()))
     return ax
+
+
+class SpokenTicks(ScalarFormatter):
+    """Numbers along an axis with the decimal sign of the language that is spoken."""
+
+    def __call__(self, x: float, pos: int | None = None) -> str:
+        return with_decimals(super().__call__(x, pos))

@@ -17,14 +17,14 @@ from ..language import current_language, said, translated, with_decimals
 from ..language import language as spoken
 from ..loads import Acting, situation_of
 from ..mechanism import Mechanism, played_along
-from ..motion import HasVerdicts, Motion, speakers, stroke_display_unit
-from ..motion.judging import verdict_questions
+from ..motion import HasVerdicts, Motion, speakers, stroke_unit, way_text
+from ..motion.judging import domain_words, verdict_questions
 from ..motion.measures import least, most
 from ..pictures.curves import limit_of
 from ..pictures.poses import named_points
 from ..quantities import Dimension
 from ..reports import NOTHING, At, Run, column_among
-from ..units import current_system, show, shown_number, unit_system
+from ..units import current_system, unit_system
 from .assumptions import assumptions_section, standards_section
 from .calculation import calculated, calculation_blocks, has_loads
 from .checks import checks_section
@@ -327,7 +327,7 @@ def title_rows(subject: ReportSubject, title_block: Mapping[str, str], mark: Mar
     return (
         (said("Machine"), f"{machine.plan.heading} ({cls.__module__}:{cls.__qualname__})"),
         (said("Run"), ". ".join(run_text(subject, run) for run in subject.runs)),
-        (said("Judged over"), subject.domain),
+        (said("Judged over"), domain_words(subject.judge)),
         (said("Load cases"), ", ".join(map(subject.case_words, subject.judge.cases)) if has_loads(machine) else said("no loads")),
         (said("Verdicts"), mark.word),
         *([(said("Not kept"), broken)] if broken else []),
@@ -346,16 +346,9 @@ def today() -> str:
 
 def run_text(subject: ReportSubject, run: Run) -> str:
     """Return where a run goes, in words: `stacking: lift = 0 to 700 mm, 11 poses in tables; held: extend = 0 mm`."""
-    spans = []
-    for name, way in run.ways.items():
-        unit = stroke_display_unit(subject.machine.plan, name, "mm")
-        low = ", ".join(shown_number(value, unit) for value in way[:-1])
-        spans.append(said("{name} = {low} to {high}", name=name, low=low, high=show(way[-1], unit)))
+    spans = [f"{name} = {way_text(way, stroke_unit(subject.machine.plan, name))}" for name, way in run.ways.items()]
     moves, held = ", ".join(spans), subject.words(dict(run.held))
     if run.is_curve:
         moves = said("{stroke}, {poses} poses in tables", stroke=moves, poses=subject.count)
     parts = [each for each in (moves, held and said("held: {held}", held=held)) if each]
     return f"{run.title}: {'; '.join(parts)}" if run.title else "; ".join(parts)
-
-
-# What the machine itself judges.

@@ -151,13 +151,6 @@ class ReportSubject:
         """The pose whose numbers are filled in, with the run that it is of and its load case, as text."""
         return ", ".join(filter(None, (self.words(self.pose), run_words(self.machine, self.run))))
 
-    @property
-    def domain(self) -> str:
-        """All that the judge looks at, in words: the strokes of each `Over`, with its name where there are several."""
-        places = self.judge.places
-        named = [(place.over.title if len(places) > 1 else "", place.over.words(place.motion)) for place in places]
-        return "; ".join(f"{name}: {words}" if name else words for name, words in named)
-
     @cached_property
     def columns(self) -> list[Column]:
         """The results at the poses of the drawings, under the machine's own loads."""
@@ -170,7 +163,7 @@ class ReportSubject:
             found, own = self.columns, self.member_columns
         else:
             with unwarned():
-                found = results(self.machine, motion, run.case)
+                found = results(self.machine, motion, run.case or PLAIN_CASE)
             own = self.columns_of_members(motion, run.case)
         named = {column.name: column for column in found}
         for name, column in own:
@@ -192,7 +185,7 @@ class ReportSubject:
     def table_columns(self) -> list[list[Column]]:
         """The results at the poses of each table, in the load case of its run."""
         with unwarned():
-            return [results(self.machine, motion, run.case) for run, motion in self.tables]
+            return [results(self.machine, motion, run.case or PLAIN_CASE) for run, motion in self.tables]
 
     @cached_property
     def doubles(self) -> dict[str, str]:

@@ -39,7 +39,7 @@ def verdict_section(subject: ReportSubject, limits: Mapping[str, Sequence[object
     if not found:
         return Section(title, (said("This machine declares no rules of its own."),)), Mark(None, said("no rules declared")), ()
     judged = [each for each in found if each.is_rule]
-    domain = said("Judged over {domain}, in all load cases and directions of motion that occur there.", domain=subject.domain)
+    domain = said("Judged over all that the machine runs, in all load cases and directions of motion that occur there.")
     heads = (said("rule"), said("result"), said("what was found"))
     rows = tuple((each.heading, verdict_mark(each.ok) if each.is_rule else Mark(None, "–"), each.sentence) for each in found)
     table = TableBlock(said("Rules, over all that the machine runs"), heads, rows, "llm")

@@ -18,6 +18,7 @@ from ..formulas.listing import X_AXIS
 from ..formulas.names import Direction
 from ..formulas.numbered import members_with_lines
 from ..formulas.printing import Text
+from ..loads import PLAIN_CASE
 from ..mechanism import Mechanism
 from ..motion import Column, Motion
 from ..program import FloatArray
@@ -280,7 +281,7 @@ class LiveResult:
 
 def live_results(calculation: Calculation) -> list[LiveResult]:
     """Return the machine's table over the calculation's poses, each column with its formula."""
-    table = results(calculation.design, calculation.motion, calculation.run.case)
+    table = results(calculation.design, calculation.motion, calculation.run.case or PLAIN_CASE)
     return FormulaSearch(calculation, table).found()
 
 
@@ -384,7 +385,7 @@ class FormulaSearch:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", SingularWarning)
                 motion, known = self.calculation.at_design(design, poses)
-                table = results(design, motion, self.calculation.run.case)
+                table = results(design, motion, self.calculation.run.case or PLAIN_CASE)
         except LinkageError:
             return None
         known |= {symbol: motion.strokes[name] for name, symbol in self.calculation.stroke_symbols.items()}

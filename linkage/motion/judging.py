@@ -234,14 +234,18 @@ def is_pushed(judge: Judge, stroke: str) -> bool:
     return any(stroke in judge.plan.reaches(end) for ends in (*bars, *held) for end in ends)
 
 
+def domain_words(judge: Judge) -> str:
+    """Return all that a judge looks at in words: the strokes of each `Over`, with its name where there are several."""
+    named = [(place.over.title if len(judge.places) > 1 else "", place.over.words(place.motion)) for place in judge.places]
+    return "; ".join(f"{name}: {words}" if name else words for name, words in named)
+
+
 def assembly_verdicts(judge: Judge) -> list[Verdict]:
     """Return whether it is assembled wherever it runs; if not, the lost share, the missing length in the deepest place, a remedy."""
     if not judge.plan.strokes or not judge.plan.moving:
         return []
     answer = judge.answer(reachable)
-    several = len(judge.places) > 1
-    titles = [f"{place.over.name}: " if place.over.name and several else "" for place in judge.places]
-    spans = "; ".join(title + place.over.words(place.motion) for title, place in zip(titles, judge.places, strict=True))
+    spans = domain_words(judge)
     ok: bool | None = bool(answer.ok)
     if judge.is_empty:
         ok, text = None, said("over {spans} no place is left to look at.", spans=spans)

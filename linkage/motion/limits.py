@@ -290,6 +290,21 @@ def span_text(values: Any, unit: str) -> str:
     return said("{low} to {high}", low=stroke_number(low, unit, 6), high=stroke_text(high, unit, 6))
 
 
+MOST_TURNS = 4
+"""Of more turns of a stroke along a path its range alone is told."""
+
+
+def way_text(values: Any, unit: str) -> str:
+    """Return where a stroke begins, turns back and ends, one after the other: `0, 0.3 to 0.1 m`; of many values their range."""
+    values = np.asarray(values, float)
+    *passed, last = [*values[:-1][np.diff(values) != 0.0].tolist(), float(values[-1])]
+    turns = [b for a, b, c in zip(passed, passed[1:], [*passed[2:], last], strict=False) if (b - a) * (c - b) < 0.0]
+    if not passed or len(turns) >= MOST_TURNS or not np.isfinite(values).all():
+        return span_text(values, unit)
+    low = ", ".join(stroke_number(each, unit, 6) for each in [passed[0], *turns])
+    return said("{low} to {high}", low=low, high=stroke_text(last, unit, 6))
+
+
 def place_text(value: Any, unit: str) -> str:
     """Return a stroke [m or rad], or the range of several, as a place of it is read: `0.1234 m`, `25.00 deg`, `0.1000 to 0.2000 m`."""
     digits, shown = 2 if unit == "rad" else 4, display_unit(UNITS[unit][1])

@@ -22,7 +22,7 @@ from ..quantities.course import Course, check_rising, course_of
 from ..units import Amount, amount_or_float, require_measure, show
 from .grid import MotionLike
 from .instants import Instants
-from .limits import places_text, span_text, stroke_unit
+from .limits import span_text, stroke_unit, way_text
 from .strokes import check_magnitude, strokes_over_axes
 
 OPTIONS = ("only", "cases", "lost", "time")
@@ -373,7 +373,7 @@ class Over(Member):
         return self.name
 
     def words(self, motion: MotionLike) -> str:
-        """Return its strokes in words: `phi = 15 to 80 deg, t = 0 m`; of a path from place to place.
+        """Return its strokes in words: `phi = 15 to 80 deg, t = 0 m`; of a path those that each passes.
 
         Parameters
         ----------
@@ -386,15 +386,12 @@ class Over(Member):
             The strokes in words.
         """
         plan = motion.plan
-        ends = [f"{name} = {span_text(values, stroke_unit(plan, name))}" for name, values in motion.strokes.items()]
+        spans_of = way_text if self.shape == "path" else span_text
+        text = ", ".join(f"{name} = {spans_of(values, stroke_unit(plan, name))}" for name, values in motion.strokes.items())
         if self.shape == "path" and len(motion.strokes) > 1:
-            units = {name: stroke_unit(plan, name) for name in motion.strokes}
-            start, end = (places_text({name: value[k] for name, value in motion.strokes.items()}, units) for k in (0, -1))
-            text = said("the path from {start} to {end}", start=start, end=end)
+            text = said("the path {spans}", spans=text)
         elif self.shape == "poses":
-            text = said("{count} poses, {spans}", count=motion.reached.size, spans=", ".join(ends))
-        else:
-            text = ", ".join(ends)
+            text = said("{count} poses, {spans}", count=motion.reached.size, spans=text)
         if self.time is not None:
             text = said("{spans} in {time}", spans=text, time=show(self.time[-1] - self.time[0], "s", 4))
         return said("{spans}, where {conditions}", spans=text, conditions=", ".join(map(str, self.only))) if self.only else text

@@ -16,6 +16,7 @@ from matplotlib.ticker import MaxNLocator
 from ..checks import is_listed, require, require_type
 from ..errors import DefinitionError, cited, ensure, known_name
 from ..language import noted, said, translated
+from ..loads import PLAIN_CASE
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, Request, RequestLike, columns_of
 from ..motion.measures import Constraint, FixedNumber, Leaf, Least, Most
@@ -59,7 +60,7 @@ def plot_machine(
     curves, held = list[Curve](), ""
     for run in runs:
         motion = motion_over(machine, run, np.linspace(0.0, 1.0, poses))
-        own = {column.name: column for column in results(machine, motion, run.case)}
+        own = {column.name: column for column in results(machine, motion, run.case or PLAIN_CASE)}
         shown = columns or columns_about(machine, [*own.values()])
         if is_listed(shown):
             shown = [own[known_name("Column", each, own, where=machine.plan.title)] if isinstance(each, str) else each for each in shown]

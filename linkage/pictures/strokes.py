@@ -11,6 +11,7 @@ import numpy as np
 from ..checks import require_whole
 from ..errors import DefinitionError
 from ..language import said, translated
+from ..loads import PLAIN_CASE
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, check_any, last_holding, require_motion, stroke_display_unit
 from ..plan import Plan
@@ -173,7 +174,7 @@ def playback(machine: Mechanism, count: int, column: str | None = None, *, at: A
     motion = reached_motion(machine, motion_over(machine, run, shares))
     turn = ((turn or run.is_path) and bool(motion.reached.all()) and ends_where_begun(motion)) or run.instants is not None
     there = [int(pose) for pose in np.flatnonzero(motion.reached)]
-    shown = column_among(machine, results(machine, motion, run.case), column)
+    shown = column_among(machine, results(machine, motion, run.case or PLAIN_CASE), column)
     case = in_case_words(machine.plan, run.case)
     return Playback(motion, tuple(there if turn else there + there[-2:0:-1]), shown, turn, seconds, case)
 

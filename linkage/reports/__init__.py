@@ -2,12 +2,22 @@
 
 from .live_columns import LiveColumn, at_its_rates, column_requests, is_column
 from .ranges import closely, ranges_below_zero, reached_span, spans_in_words
-from .results import case_along, column_among, columns_about, force_columns, is_changing, is_loaded, rate_columns, request_in_case, results
+from .results import (
+    case_along,
+    case_shown,
+    column_among,
+    columns_about,
+    force_columns,
+    is_changing,
+    is_loaded,
+    rate_columns,
+    request_in_case,
+    results,
+)
 from .runs import (
     NOTHING,
     At,
     Run,
-    case_shown,
     first_stroke,
     in_case_words,
     motion_over,

@@ -10,12 +10,15 @@ from typing import TypeVar, cast
 import numpy as np
 
 from ..checks import is_listed
-from ..errors import DefinitionError, cited, known_name
+from ..errors import DefinitionError, LinkageError, cited, known_name, unwarned
 from ..files.criterion import REQUESTS, request_function
 from ..language import noted
-from ..loads import PLAIN_CASE, Acting, Case, ForceElement
-from ..mechanism import Mechanism, require_mechanism
-from ..motion import Column, Motion, Request, Tabled, columns_of, require_motion, speakers, stroke_unit
+from ..loads import PLAIN, PLAIN_CASE, Acting, Case, ForceElement
+from ..mechanism import Mechanism, played_along, require_mechanism
+from ..motion import Answer, Column, Motion, Over, Request, Tabled, columns_of, least, most, require_motion, speakers, stroke_unit
+from ..motion.judge import Domain
+from ..motion.measures import MeasuredQuantity
+from ..motion.requests import may_be_unlimited
 from ..program import FloatArray
 from ..statics import drive_force, driving_force, held_fault
 
@@ -61,12 +64,48 @@ def results(machine: Mechanism, motion: Motion, case: Case = None) -> list[Colum
 
 
 def case_along(motion: Motion) -> Case:
-    """Return the load case that a motion is shown in: the first of the `Over` that it was swept over, which it keeps.
+    """Return the load case that a motion is shown in: None, the machine's own loads, where these occur; else the worst case there.
 
-    None, the machine's own loads, where these occur there, and of any other motion.
+    The `Over` that a motion was swept over names the cases; of any other motion the `Over`s of its machine do.
     """
-    cases = motion.over.cases if motion.is_swept else None
-    return None if cases is None or PLAIN_CASE in cases else cases[0]
+    declared = [motion.over] if motion.is_swept else [*motion.plan.of_kind(Over).values()]
+    cases = [PLAIN_CASE if each.cases is None else each.cases for each in declared] or [PLAIN_CASE]
+    if any(PLAIN_CASE in each for each in cases):
+        return None
+    if len(cases[0]) == 1 or motion._design_shape:
+        return cases[0][0]
+    machine, _ = played_along(motion, None)
+    return case_shown(machine, machine.judge(declared[0]).places[0])
+
+
+def case_shown(machine: Mechanism, place: Domain, acting: Acting = PLAIN) -> Case:
+    """Return the load case that an `Over` is shown in: the one asked for, else the machine's own loads, else the worst of those there."""
+    cases = place.cases(PLAIN)
+    case = (None if PLAIN_CASE in cases else cases[0]) if acting.case is None else acting.case
+    if case is not None and acting.case is None and len(cases) > 1:
+        _, answer = worst_answer(machine, machine.at(unreachable="nan", **place.motion.strokes), place, acting)
+        case = case if answer is None else answer.case or case
+    return None if case == PLAIN_CASE else case
+
+
+def worst_answer(machine: Mechanism, motion: Motion, place: Domain, acting: Acting) -> tuple[str, Answer | None]:
+    """Return the column that a machine is about, as it changes over a motion, and where it is worst over an `Over`; "" and None for none.
+
+    Its worst side is that of its limit; of what may be without a limit, such as a reserve, the least; else the greatest.
+    """
+    with unwarned():
+        try:
+            column = column_among(machine, results(machine, motion, PLAIN_CASE), None)
+            if column.request is None:
+                return "", None
+            limit = tuple(machine.featured().limits.get(column.name, ()))
+            is_least = may_be_unlimited(column.request)
+            if limit:
+                is_least = limit[2:] == ("below",)
+            side = (least if is_least else most)(cast(MeasuredQuantity, column.request))
+            return column.name, machine.judge(place.over, acting).lost_allowed().answer(side)
+        except LinkageError:
+            return "", None
 
 
 def column_in_case(motion: Motion, column: Column, case: Case) -> Column:

@@ -5,24 +5,22 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from types import MappingProxyType
-from typing import Any, TypeAlias, cast
+from typing import Any, TypeAlias
 
 import numpy as np
 
 from ..checks import require_type
-from ..errors import DefinitionError, LinkageError, ensure, known_name, unwarned
+from ..errors import DefinitionError, ensure, known_name
 from ..language import said
-from ..loads import PLAIN, PLAIN_CASE, Acting, Case, LoadCase
+from ..loads import PLAIN, Acting, Case, LoadCase
 from ..mechanism import Mechanism
-from ..motion import Answer, Judge, Motion, Run, case_named, least, most, out_of_reach, require_motion
+from ..motion import Judge, Motion, Run, case_named, out_of_reach, require_motion
 from ..motion.judge import Domain
-from ..motion.measures import MeasuredQuantity
-from ..motion.requests import may_be_unlimited
 from ..numeric.line import stretches
 from ..plan import Plan, require_kind
 from ..program import FloatArray
 from ..quantities import as_mapping, numbers_in
-from .results import case_along, column_among, results
+from .results import case_along, case_shown, worst_answer
 
 At: TypeAlias = Mapping[str, Any]
 NOTHING: At = MappingProxyType({})
@@ -94,16 +92,6 @@ def run_over(machine: Mechanism, place: Domain, acting: Acting) -> Run:
     return Run(ways, still, place.over.title, case, place.over.shape == "poses", worst, declared, place.instants)
 
 
-def case_shown(machine: Mechanism, place: Domain, acting: Acting = PLAIN) -> Case:
-    """Return the load case that an `Over` is shown in: the one asked for, else the machine's own loads, else the worst of those there."""
-    cases = place.cases(PLAIN)
-    case = (None if PLAIN_CASE in cases else cases[0]) if acting.case is None else acting.case
-    if case is not None and acting.case is None and len(cases) > 1:
-        _, answer = worst_answer(machine, machine.at(unreachable="nan", **place.motion.strokes), place, acting)
-        case = case if answer is None else answer.case or case
-    return None if case == PLAIN_CASE else case
-
-
 def run_words(machine: Mechanism, run: Run) -> str:
     """Return which run it is and in which load case, in words: `over reaching, in the case far`; "" where there is nothing to say."""
     parts = [said("over {over}", over=run.title) if run.title else "", in_case_words(machine.plan, run.case)]
@@ -114,26 +102,6 @@ def in_case_words(plan: Plan, case: Case) -> str:
     """Return which load case it is in words, by its title; "" for the machine's own loads."""
     known = plan.of_kind(LoadCase).get(case, case) if isinstance(case, str) else case
     return "" if known is None else said("in the case {case}", case=known.label if isinstance(known, LoadCase) else known)
-
-
-def worst_answer(machine: Mechanism, motion: Motion, place: Domain, acting: Acting) -> tuple[str, Answer | None]:
-    """Return the column that a machine is about, as it changes over a motion, and where it is worst over an `Over`; "" and None for none.
-
-    Its worst side is that of its limit; of what may be without a limit, such as a reserve, the least; else the greatest.
-    """
-    with unwarned():
-        try:
-            column = column_among(machine, results(machine, motion), None)
-            if column.request is None:
-                return "", None
-            limit = tuple(machine.featured().limits.get(column.name, ()))
-            is_least = may_be_unlimited(column.request)
-            if limit:
-                is_least = limit[2:] == ("below",)
-            side = (least if is_least else most)(cast(MeasuredQuantity, column.request))
-            return column.name, machine.judge(place.over, acting).lost_allowed().answer(side)
-        except LinkageError:
-            return "", None
 
 
 def run_along(motion: Motion) -> tuple[Run, int]:
@@ -175,7 +143,8 @@ def one_run(machine: Mechanism, at: At) -> Run:
     ensure(ways or free, f"{title}: every stroke is held, so that nothing moves; give {one} two values, its run.")
     moving = ways or {free[0]: (machine.strokes[free[0]].start, machine.strokes[free[0]].end)}
     held = stroke_middles(machine) | {name: values[0] for name, values in given.items()}
-    return Run(moving, {name: value for name, value in held.items() if name not in moving})
+    case = case_along(machine.at(unreachable="nan", **held))
+    return Run(moving, {name: value for name, value in held.items() if name not in moving}, case=case)
 
 
 def stroke_way(machine: Mechanism, name: str, value: object) -> tuple[float, ...]:

@@ -13,7 +13,7 @@ from linkage import Column, DefinitionError, ForceElement, GuideFriction, Motion
 from linkage.checks import require_number, require_whole
 from linkage.errors import ensure
 from linkage.language import noted
-from linkage.loads import SENSES, PinFriction, Support
+from linkage.loads import SENSES, Acting, PinFriction, Support
 from linkage.loads.element import Formulas
 from linkage.motion import Answer, Judge, require_motion
 from linkage.program import FloatArray
@@ -247,7 +247,8 @@ def reaction_columns(motion: Motion) -> list[Column]:
     balance, shoes = HeaderState(motion), motion.inputs["shoes"]
     OBx, OBy, ABx, ABy = (Coordinate("B", axis) - Coordinate(name, axis) for name in "OA" for axis in "xy")
     arm = (OBx * ABy - OBy * ABx) / AB  # H (34)
-    free = drive_force("h", own_loads(motion, SHOE)) / ratio(Coordinate("R", "y"))  # the other loads' need over the shoe's way
+    others = Acting(loads=own_loads(motion, SHOE), direction="frictionless")
+    free = drive_force("h", acting=others) / ratio(Coordinate("R", "y"))  # the other loads' need over the shoe's way
     return [
         Column("h", motion.strokes["h"], "mm", 1, "h"),
         Column("R_y", balance.height, "mm", 1, Coordinate("R", "y")),

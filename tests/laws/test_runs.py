@@ -85,7 +85,7 @@ def declaring():
 def judged_ends(machine):
     """Return the least and the greatest value of what is asked of a machine, by the names of its columns [SI]."""
     run = run_of(machine)
-    found = results(machine, machine.at(unreachable="nan", **run.divided(3)))
+    found = results(machine, machine.at(unreachable="nan", **run.divided(3)), "plain")
     asked = {column.name: column.request for column in found if isinstance(column.request, Request)}
     judge = machine.judge().lost_allowed()
     lows, highs = judge.answers([*map(least, asked.values())]), judge.answers([*map(most, asked.values())])
@@ -221,7 +221,7 @@ PLACED = re.compile(r"at (\w+ = -?[\d.]+ m)")
 def test_a_run_is_asked_for_by_its_strokes_as_before():
     assert [run.title for run in runs_of(OfPaths())] == ["out", "back"]
     (asked,) = runs_of(OfPaths(), dict(S=(0.0, 0.25)))
-    assert (asked.ways, asked.held, asked.title, asked.case) == ({"S": (0.0, 0.25)}, {"T": 0.1}, "", None)
+    assert (asked.ways, asked.held, asked.title, asked.case) == ({"S": (0.0, 0.25)}, {"T": 0.1}, "", "heavy")  # plain in no Over
     (undeclared,) = runs_of(Lift())
     assert (undeclared.ways, undeclared.held, undeclared.title) == ({"S": (0.0, 0.25)}, {"T": 0.1}, "")
 

@@ -152,5 +152,5 @@ def test_every_reader_takes_a_swept_motion(tmp_path):
     assert page(motion, tmp_path / "p.html").exists()
     text = report(motion, tmp_path / "r.md", count=3).read_text(encoding="utf-8")
     assert "| Run | S = 0, 200 to 0 mm, turn = 0, 28.6479 to 0 deg, 3 poses in tables |" in text
-    assert "Judged over the path from S = 0.0 mm, turn = 0.00 deg to S = 0.0 mm, turn = 0.00 deg" in text
+    assert "| Judged over | the path S = 0, 200 to 0 mm, turn = 0, 28.6479 to 0 deg |" in text
     assert len(export(motion, tmp_path / "m.csv").read_text(encoding="utf-8").splitlines()) == 10

@@ -108,9 +108,9 @@ def test_a_page_slides_in_seconds():
 def test_a_report_tells_instants(tmp_path):
     report(Timed(), tmp_path / "up.md", count=5)
     text = (tmp_path / "up.md").read_text(encoding="utf-8")
-    assert " s (S = " in text and "S = 20 to 180 mm in 1.8 s" in text and "drive force, kN along time" in text
+    assert " s (S = " in text and "S = 20 to 180 mm in 1.8 s" in text and "drive force, kN over time" in text
     assert "masses have their inertia" in text and "quasi-static" not in text and "accelerations, shocks" not in text
-    assert "time, s along" not in text  # no curve of the time over itself
+    assert "time, s over" not in text  # no curve of the time over itself
     report(Jerky(), tmp_path / "jerky.md", count=5)
     text = (tmp_path / "jerky.md").read_text(encoding="utf-8")
     assert "quasi-static" in text and "the rate of S jumps by 0.1 m/s at 1.6 s, so that inertia is left out" in text

@@ -9,7 +9,7 @@ from contextlib import suppress
 from dataclasses import replace
 from itertools import islice
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias, TypedDict, TypeVar, Unpack, overload
+from typing import TYPE_CHECKING, Any, TypeAlias, TypedDict, TypeVar, Unpack, cast, overload
 
 import numpy as np
 
@@ -23,6 +23,7 @@ from ..motion.measures import (
     At,
     CombinedMeasure,
     Constraint,
+    FixedNumber,
     Leaf,
     Measure,
     Worst,
@@ -37,6 +38,7 @@ from ..motion.measures import (
 from ..program import FloatArray, fixed_backend
 from ..quantities import Quantity, ref
 from ..statics.applied import case_of
+from ..statics.law_requests import LawRequest
 from ..units import show
 from .box import unit_points
 from .checkpoint import digest, folder_given, how_far
@@ -175,7 +177,7 @@ def optimise(
     case : LoadCase, str, sequence or mapping, optional
         The load cases, or their hours.
     over : mapping, optional
-        The ranges of the strokes [m or rad].
+        The ranges of the strokes [m or rad], an `Over` or its name; by default the one `Over` that the class declares, else all strokes.
     robust : mapping, optional
         Tolerances of dimensions by name [SI].
     sigmas : float
@@ -239,6 +241,7 @@ def optimise(
     sought = [mean_in_cases(objectives[0], shares)] if shares else [in_case(objectives[0], each) for each in cases]
     if all(each is objectives[0] for each in sought):
         sought = [objectives[0]]  # it names its load cases itself
+    sought += [] if shares or robust is not None else worse_pieces(objectives[0], sense, cases, judge)
     problem = Problem(machine, sought, held, space, sense, over)
     if robust is not None:
         problem = with_spread(problem, robust, sigmas)
@@ -251,13 +254,16 @@ def optimise(
 def where_searched(machine: Mechanism, over: Any, travels: Mapping[str, Range]) -> tuple[Any, list[Case]]:
     """Return the part of each stroke that a search looks at, and the load cases that occur there, None for the plain loads.
 
-    `over` is a dictionary, an `Over` or the name of one that the class declares; without it the box, and `travels`, the ways of cylinders
-    by their rows. DefinitionError for a path, poses and conditions on poses, which a search does not run along.
+    `over` is a dictionary, an `Over` or the name of one that the class declares. Without it that one which is all that the machine runs,
+    if that is a box, else all strokes, and `travels`, the ways of cylinders by their rows. DefinitionError for a path, poses and conditions
+    on poses, which a search does not run along.
     """
     plan, title = machine.plan, machine.plan.title
     declared = plan.of_kind(Over)
     if isinstance(over, str):
         over = declared[known_name("Over", over, declared, where=title)]
+    elif over is None and len(declared) == 1:
+        over = next((each for each in declared.values() if each.shape == "box" and not each.only), None)
     occurring: list[Case] = [None, *plan.of_kind(LoadCase)]
     if not isinstance(over, Over):
         ranges_of(machine, over)  # which refuses what is none
@@ -376,6 +382,21 @@ def pieces_in_cases(constraints: Sequence[Constraint], cases: Sequence[Case], ju
             pieces = judge.split(situated)
             found += [one] if case is None and len(pieces) == 1 else pieces
     return found
+
+
+def worse_pieces(objective: Measure, sense: float, cases: Sequence[Case], judge: Judge) -> list[Measure]:
+    """Return the pieces of an objective, in a direction of motion, that are somewhere worse than at rest, as with friction."""
+    asked = Constraint(objective, "<=" if sense > 0.0 else ">=", FixedNumber(0.0))
+    pieces, motion = [each.left for each in pieces_in_cases([asked], cases, judge)], judge.motion._with_gaps()
+
+    def values(measure: Measure) -> FloatArray:
+        """Return its quantity over the poses, greater where it is worse, the least number where there is none."""
+        return np.asarray(np.nan_to_num(sense * motion[cast(Leaf, measure).quantity], nan=-np.inf))
+
+    requests = [(each, each.quantity) for each in pieces if isinstance(each, Leaf)]
+    moving = [each for each, one in requests if isinstance(one, LawRequest) and one.situation.direction in ("extending", "retracting")]
+    rest = np.max([values(in_case(objective, each)) for each in cases], axis=0) if moving else np.zeros(())
+    return [each for each in moving if np.any(values(each) > rest + SAME_TO_DIGITS * np.abs(rest))]
 
 
 # Spread: each number as bad as tolerances make it.

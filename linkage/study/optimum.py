@@ -20,6 +20,7 @@ from ..disk import Place, replacing_text
 from ..errors import AssemblyError, DefinitionError, LinkageError, ensure
 from ..frozen import immutable
 from ..mechanism import Mechanism
+from ..motion import Over
 from ..motion.measures import Constraint, FixedNumber, Integral, Leaf, Measure, measure_of, measure_unit
 from ..numeric.line import Index
 from ..plan import Mask, Plan
@@ -193,7 +194,12 @@ class Optimum(Shown):
         tries = f"{self.agreed} of {self.tries} searches came to it" if self.tries > 1 else "one search"
         rows = f" over {self.searched} of {problem.space.count} combinations" if problem.space.count > 1 else ""
         lines += [f"  {each}." for each in self.cut]
-        lines.append(f"  {tries}{rows}; {self.evaluations} designs looked at. Assembled over the whole stroke.")
+        places = self.machine.judge(problem.over).places if problem.over else ()
+        spans = "; ".join(place.over.words(place.motion) for place in places) or "the whole stroke"
+        lines.append(f"  {tries}{rows}; {self.evaluations} designs looked at. Assembled over {spans}.")
+        declared = problem.plan.of_kind(Over)
+        if declared and not problem.over:
+            lines.append(f"  A search does not run along {', '.join(declared)}: ask the design found, machine.answers([...]).")
         if self.limit is not None:
             lines.append(f"  The limit of {self.limit} designs was reached: this is the best so far. A larger limit= looks at more.")
         return "\n".join(lines)

@@ -32,11 +32,12 @@ from linkage.loads import Case, Glyph, Parameter, Poses
 from linkage.loads.element import Formulas, value_text
 from linkage.motion import Column, Condition, Judge, Motion
 from linkage.quantities import NamedMembers, Quantity, Reference, quantity
+from linkage.statics import is_among
 from linkage.units import mm, require_measure, show, shown_number
 from linkage.verdict import Verdict
 
 from .buckling import Buckling
-from .cylinders import LENGTHS, PISTON, TOLERANCE, Ram, Side
+from .cylinders import LENGTHS, PISTON, TOLERANCE, Ram, Side, circuits_among
 from .inputs import Array, follows, in_metres, number_set, one_design, one_number, positive, stroke_in_metres
 from .remedy import show_enough
 from .standard_sizes import MOST, RamSize, Works, chosen_series
@@ -253,17 +254,27 @@ class Telescope(Ram):
         """
         if self.stages == 1:
             return cast(Array, each[0])
-        length, borders = motion.distance(self.A, self.B), self.ends_of_stages(motion)[1:-1]
         found = each[0]
-        for border, value in zip(borders, each[1:], strict=True):
-            found = np.where(is_past(length, border, direction), value, found)
+        for border, value in zip(self.ends_of_stages(motion)[1:-1], each[1:], strict=True):
+            found = np.where(self.is_past(motion, border, direction), value, found)
         return cast(Array, found)
 
     def is_in_stage(self, motion: Poses, stage: int, direction: str | None = None) -> Any:
         length, ends = motion.distance(self.A, self.B), self.ends_of_stages(motion)
         within = length >= 0.0
-        within = within if stage == 1 else within & is_past(length, ends[stage - 1], direction)
-        return within if stage == self.stages else within & ~is_past(length, ends[stage], direction)
+        within = within if stage == 1 else within & self.is_past(motion, ends[stage - 1], direction)
+        return within if stage == self.stages else within & ~self.is_past(motion, ends[stage], direction)
+
+    def is_past(self, motion: Poses, border: Array, direction: str | None) -> Any:
+        """Return where it moves with the stage beyond a border: at the border itself unless it is retracting.
+
+        Beside other cylinders on its line it is at the border as at rest: the shares of one pressure know no direction.
+        """
+        length, members = motion.distance(self.A, self.B), motion.plan.members
+        lines = [line.members(members) for line in circuits_among(members)]
+        if direction == "retracting" and not any(len(line) > 1 and is_among(self, line) for line in lines):
+            return length > border + TOLERANCE
+        return length >= border - TOLERANCE
 
     def sized(self, motion: Poses, direction: str | None = None) -> StageSize:
         """Return the size of the stage that moves, to broadcast against a motion.
@@ -410,11 +421,6 @@ def in_part(whole: Any, ends: Sequence[Any], stage: int) -> Any:
     """Return a length, or an amount of oil, as far as it lies in a stage, by its number from 0. The outer stages have no outer ends."""
     above = whole if stage == 0 else np.maximum(whole, ends[stage])
     return above if stage == len(ends) - 2 else np.minimum(above, ends[stage + 1])
-
-
-def is_past(length: Array, border: Array, direction: str | None) -> Any:
-    """Return where a telescope moves with the stage beyond a border: at the border itself unless it is retracting."""
-    return length > border + TOLERANCE if direction == "retracting" else length >= border - TOLERANCE
 
 
 def check_falling(bores: Sequence[Any], what: str) -> None:

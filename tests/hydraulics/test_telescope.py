@@ -147,6 +147,24 @@ def test_at_a_border_the_direction_says_which_stage_moves(direction, stages):
     assert_allclose(found, expected, rtol=1e-9)
 
 
+def test_all_on_one_line_have_its_pressure_at_a_border_too():
+    """Whichever way it moves: the telescope, the cylinder beside it, and the line."""
+
+    class Beside(Hoist):
+        helper = Cylinder("O", "P", bore=50 * mm, rod=36 * mm)
+        line = LiftCircuit(["hoist", helper], pressure=160 * bar, mechanical_efficiency=0.9)
+
+    machine = Beside()
+    at_borders = machine.at(S=np.concatenate([ENDS[:-1] - 1.5 + way for way in (-1e-9, 0.0, 1e-9, 0.1)]))
+    for direction in (None, "extending", "retracting"):
+        one, other = (at_borders[pressure(each, direction=direction)] for each in ("hoist", "helper"))
+        assert_allclose(one, other, rtol=1e-9)
+        area = at_borders[thrust("hoist", direction=direction)] / at_borders[thrust("helper", direction=direction)] * np.pi / 4 * 0.05**2
+        assert_allclose(machine.hoist.sized(at_borders, direction).area, area, rtol=1e-9)
+    low = [str(each).split("makes")[1] for each in machine.verdicts() if each.rule.startswith("lowering")]
+    assert len(low) == 2 and low[0] == low[1]
+
+
 def test_a_four_stage_hoist_by_hand():
     motion = Hoist().at(S=[0.4, 1.5, 2.5, 3.5])
     areas = np.pi / 4 * np.square(BORES)

@@ -100,7 +100,7 @@ def levelled(seed):
     return Level
 
 
-@first_daily(2, "seed", range(8))
+@first_daily(1, "seed", range(8))
 def test_a_closed_line_stays_between_empty_and_its_relief(seed):
     kind, seen = levelled(seed), set()
     for along in ((0.0, 1.0), (0.0, -1.0), (0.6, -0.8)):

@@ -148,7 +148,7 @@ class Arms(Mechanism):
     D = Crank(A, AD=0.4, angle=u + v)
 
 
-@first_daily(4, "seed", range(30))
+@first_daily(2, "seed", [3, 0, 1, 2, *range(4, 30)])
 def test_a_pole_is_never_told_as_a_value(seed):
     rng = np.random.default_rng(seed)
     machine = (Rocker, Rocker, Rocker, Arms)[seed % 4]()

@@ -32,7 +32,7 @@ from linkage.loads import Force, LinkMass, LoadCase, Moment, PinFriction, Spring
 from linkage.reports import results
 from linkage.statics import Standing
 from linkage.units import deg, g0, kN
-from tests.for_all import for_all
+from tests.for_all import first_daily, for_all
 
 
 class Digger(Mechanism):
@@ -175,7 +175,7 @@ def by_trying(positions, stiffness, force, moment):
     return None
 
 
-@pytest.mark.parametrize("many", [3, 4, 5])
+@first_daily(2, "many", [3, 4, 5])
 def test_supports_that_lift_off_drop_out(many):
     rng, lifted, tipped = np.random.default_rng(many), 0, 0
     for number in range(8):
@@ -479,7 +479,7 @@ class MirroredPart(Mechanism):
     hill = LoadCase(slope=0.1)
 
 
-@pytest.mark.parametrize("machine", [UnderAPart, MirroredPart])
+@first_daily(1, "machine", [MirroredPart, UnderAPart])
 def test_the_frame_of_parts_balances_and_has_equations(machine):
     at = {"own.S": 0.1, "own.s": 0.2}
     for case in (None, "hill"):

@@ -70,7 +70,7 @@ def test_threads_give_what_one_process_gives(small, wanted, given, measure):
 
 
 @FORKING
-@STUDIES
+@FIRST
 def test_forked_processes_give_what_one_process_gives(small, wanted, given, measure):
     with ProcessPoolExecutor(2, multiprocessing.get_context("fork")) as pool:
         same(survey(*given, measure, executor=pool), wanted(measure))

@@ -30,7 +30,7 @@ from linkage.loads import Poses
 from linkage.loads.element import value_text
 from linkage.plan import Mask
 from linkage.program import is_traced
-from linkage.quantities import Dimension, Quantity, spelled
+from linkage.quantities import Dimension, Quantity, source_text
 from linkage.units import cm3, litre, require_measure, show, unit_or_none, units_of
 from linkage.verdict import Verdict
 
@@ -582,7 +582,7 @@ class AccumulatorBlock:
 
     def _check_sized(self) -> None:
         if self.following:
-            names = ", ".join(map(spelled, self.following))
+            names = ", ".join(map(source_text, self.following))
             raise DefinitionError(f"{self}: it follows {names}; ask sized(motion) for the block of a design.")
 
     def _absolute(self, pressure: ArrayLike) -> Array:

@@ -15,7 +15,7 @@ from linkage.frozen import immutable
 from linkage.language import noted
 from linkage.loads import Glyph, Halves, Load, Parameter, Poses, Rates, TwoPoint
 from linkage.loads.point import DOWN, on_slope, shared_mass
-from linkage.quantities import Axes, Member, NamedMembers, Operand, Quantity, Reference, Where, label, name_of, quantity, spelled
+from linkage.quantities import Axes, Member, NamedMembers, Operand, Quantity, Reference, Where, label, name_of, quantity, source_text
 from linkage.steps import Link, Point
 from linkage.units import mm
 from linkage.vectors import Vec
@@ -219,8 +219,8 @@ class OnCylinder(Point):
         return found
 
     def __str__(self) -> str:
-        across = "" if self.across is None else f", {spelled(self.across)}"
-        return f"{type(self).__name__}({label(self.cylinder)}, {spelled(self.along)}{across})"
+        across = "" if self.across is None else f", {source_text(self.across)}"
+        return f"{type(self).__name__}({label(self.cylinder)}, {source_text(self.along)}{across})"
 
 
 class OnBarrel(OnCylinder):

@@ -219,7 +219,18 @@ class HoldingValve(OnLines, HasVerdicts):
         return np.asarray(np.maximum((thrust - other * piloted) / own, 0.0) + self.at_designs(motion, "ratio") * piloted)[()]
 
     def pilot_at_rest(self, motion: AnyMotion) -> Array | float:
-        """Return what a tank or gas keeps in the pilot line [Pa gauge]; 0 where that is on a pump."""
+        """Return the pressure that a tank or gas gives the pilot line; 0 where that is on a pump.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses.
+
+        Returns
+        -------
+        array or float
+            The pressure [Pa gauge].
+        """
         members = motion.plan.members
         _, pilot = self.lines(members)
         return pilot.line_pressure(motion, None) if pilot.kind_in(members) == "given" else 0.0

@@ -96,7 +96,7 @@ class Plugins(Generic[T]):
             self._loaded[entry] = found
         return self._loaded[entry]
 
-    def given(self, value: object) -> T | None:
+    def for_object(self, value: object) -> T | None:
         """Return the plugin for an object that is given instead of a name; None for a name, and for any other object."""
         return None if isinstance(value, str) else self.made(value)
 

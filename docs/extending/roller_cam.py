@@ -6,7 +6,7 @@ from math import pi
 import numpy as np
 
 from linkage import Curve
-from linkage.quantities import Joint, JointSide, guided, label, name_of, quantity, spelled
+from linkage.quantities import Joint, JointSide, guided, label, name_of, quantity, source_text
 from linkage.steps import Contour, Point
 from linkage.vectors import Line, Vec
 
@@ -64,5 +64,5 @@ class RollerCam(Point):
         return Contour(O, A, np.stack([profile.x, profile.y])), Contour(self.name, O, round_)
 
     def __str__(self):
-        given = f"base={spelled(self.base)}, angles={self.angles}, lifts={self.lifts}, roller={self.roller!r}"
+        given = f"base={source_text(self.base)}, angles={self.angles}, lifts={self.lifts}, roller={self.roller!r}"
         return f"RollerCam({label(self.O)}, {label(self.A)}, {label(self.guide)}, {given})"

@@ -42,7 +42,7 @@ def checks_section(subject: ReportSubject, values: Mapping[str, object]) -> Sect
     """Return the section of checks."""
     found = checks(subject, values)
     silent = said("not made")
-    rows = ((each.name, each.what, figure_text(each.measured), figure_text(each.bound), Mark.kept(each.ok, silent)) for each in found)
+    rows = ((each.name, each.what, figure_text(each.measured), figure_text(each.bound), Mark.of(each.ok, silent)) for each in found)
     heads = (said("check"), said("what is compared"), said("measured"), said("bound"), said("result"))
     table = TableBlock(said("Largest relative differences over the poses of the table"), heads, tuple(rows), "lmrrl")
     return Section(said("Checks of the calculation"), (table,))

@@ -29,7 +29,7 @@ class Mark:
     word: str
 
     @classmethod
-    def kept(cls, ok: bool | None, silent: str) -> Mark:
+    def of(cls, ok: bool | None, silent: str) -> Mark:
         """Return the mark of a rule; `silent` is its word where it says nothing."""
         return cls(ok, silent if ok is None else said("kept") if ok else said("not kept"))
 

@@ -60,7 +60,7 @@ def rules_mark(judged: Sequence[Verdict]) -> Mark:
 
 def verdict_mark(ok: bool | None) -> Mark:
     """Return the mark of a verdict."""
-    return Mark.kept(ok, said("says nothing"))
+    return Mark.of(ok, said("says nothing"))
 
 
 # The worst places of all rules.

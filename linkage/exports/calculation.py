@@ -282,7 +282,7 @@ class LiveResult:
 def live_results(calculation: Calculation) -> list[LiveResult]:
     """Return the machine's table over the calculation's poses, each column with its formula."""
     table = results(calculation.design, calculation.motion, calculation.run.case or PLAIN_CASE)
-    return FormulaSearch(calculation, table).found()
+    return FormulaSearch(calculation, table).result()
 
 
 Trial = tuple[list[FloatArray], dict[sympy.Symbol, Any]]
@@ -298,7 +298,7 @@ class FormulaSearch:
         picks = np.unique(np.linspace(0, calculation.motion.shape[0] - 1, LOOKED_AT).round().astype(int))
         self.poses = {name: value[picks] if np.ndim(value) else value for name, value in calculation.stroke_values.items()}
 
-    def found(self) -> list[LiveResult]:
+    def result(self) -> list[LiveResult]:
         """Return each column with the first formula that gives it everywhere."""
         self.here = self._trial({}, self.calculation.stroke_values)
         self.changed = self._first(self._changes(all_of=True))

@@ -190,7 +190,7 @@ def exporter_of(file: Path, format: str | Exporter | None = None) -> Exporter:
     DefinitionError where there is none, naming those that are installed.
     """
     if format is not None:
-        return EXPORTERS.given(format) or EXPORTERS[known_name("Format", format, EXPORTERS, where="export(...)")]
+        return EXPORTERS.for_object(format) or EXPORTERS[known_name("Format", format, EXPORTERS, where="export(...)")]
     own = [each for each in EXPORTERS.own.values() if each.suffix == file.suffix.lower()]
     if own:
         return own[0]

@@ -169,7 +169,7 @@ class CriterionParser(Grammar):
 
     # -- parts -----------------------------------------------------------------------------------------
 
-    def joined(self, sign: str, a: object, b: object) -> Any:
+    def operation(self, sign: str, a: object, b: object) -> Any:
         if sign in ("*", "/") and isinstance(a, Request) and isinstance(b, Amount):
             return Combined("multiply" if sign == "*" else "divide", (a, Number(float(b))))  # measures something else
         said = f"{self.words(a)} {sign} {self.words(b)}"

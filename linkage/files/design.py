@@ -13,7 +13,7 @@ import numpy as np
 from ..errors import DefinitionError, ensure
 from ..mechanism import Mechanism, declared
 from ..plan import Part
-from ..quantities import InnerQuantity, Member, Number, Quantity, Ref, is_number, joined_names, label, name_of, quantity, spelled
+from ..quantities import InnerQuantity, Member, Number, Quantity, Ref, is_number, joined_names, label, name_of, quantity, source_text
 from ..quantities.quantity import plain
 from ..steps import Link, Pin, Step
 from ..units import factor, parse
@@ -64,7 +64,7 @@ class Design:
         """Return a quantity as a number or as text that reads back as the same; DefinitionError where there is none."""
         if isinstance(given, Number):
             return given.number
-        return self.read_back(spelled(given), form(given), expression)
+        return self.read_back(source_text(given), form(given), expression)
 
     def arrow(self, given: Member | str) -> str:
         """Return a vector as text, or its name; DefinitionError unless it reads back as the same."""

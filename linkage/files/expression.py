@@ -197,7 +197,7 @@ class Grammar(ABC):
         """Return the value of a function's call."""
 
     @abstractmethod
-    def joined(self, sign: str, a: Any, b: Any) -> Any:
+    def operation(self, sign: str, a: Any, b: Any) -> Any:
         """Return two parts joined; of numbers alone it is a number."""
 
     def negative(self, part: Any) -> Any:
@@ -229,7 +229,7 @@ class Grammar(ABC):
         match node:
             case ast.BinOp(left, sign, right):
                 first = self.meaning(left, depth)
-                return self.joined(SIGNS[type(sign)], first, self.meaning(right, depth + 1))
+                return self.operation(SIGNS[type(sign)], first, self.meaning(right, depth + 1))
             case ast.UnaryOp(ast.USub(), operand):
                 return self.negative(self.meaning(operand, depth + 1))
             case ast.UnaryOp(_, operand):
@@ -251,7 +251,7 @@ class Parser(Grammar):
     def negative(self, part: Quantity) -> Quantity:
         return Number(-part.number) if isinstance(part, Number) else -part
 
-    def joined(self, sign: str, a: Quantity, b: Quantity) -> Quantity:
+    def operation(self, sign: str, a: Quantity, b: Quantity) -> Quantity:
         if not (isinstance(a, Number) and isinstance(b, Number)):
             made: Quantity = BINARY[sign](a, b)
             return made

@@ -69,7 +69,7 @@ class TextMeasures:
 
     def __call__(self, machine: Mechanism) -> Keywords:
         """Return a number or a truth value for each design of a machine, shape (m,), by name."""
-        measures, conditions = self.said(machine)
+        measures, conditions = self.measures_and_conditions(machine)
         problem = self.problem(machine, measures, conditions)
         drawn = {name: entry.default for name, entry in machine.plan.table.entries.items()}
         for leaf in problem.leaves:  # panels are those of the machine as its class has it, whatever the batch
@@ -87,7 +87,7 @@ class TextMeasures:
             found[name] = sound(leaf for one in kept for leaf in one.margin.leaves) & keeps(kept, numbers, count)
         return {name: found[name] for name in self.texts}
 
-    def said(self, machine: Mechanism) -> tuple[dict[str, Measure], dict[str, Sequence[Constraint]]]:
+    def measures_and_conditions(self, machine: Mechanism) -> tuple[dict[str, Measure], dict[str, Sequence[Constraint]]]:
         """Return the measures, and the constraints of the conditions, by name; DefinitionError for a text that says none."""
         measures, conditions = dict[str, Measure](), dict[str, Sequence[Constraint]]()
         for name, text in self.texts.items():
@@ -106,7 +106,7 @@ class TextMeasures:
 
     def units(self, machine: Mechanism) -> dict[str, str]:
         """Return the units that they are shown in, by name; raises as `problem` does."""
-        measures, conditions = self.said(machine)
+        measures, conditions = self.measures_and_conditions(machine)
         self.problem(machine, measures, conditions)
         return dict.fromkeys(conditions, "") | {name: unit_of_measure(machine.plan, each) for name, each in measures.items()}
 

@@ -11,7 +11,7 @@ import sympy
 from ..frozen import immutable
 from ..motion import Motion
 from ..plan import Plan
-from ..quantities import FRAME_AXES, AtPose, Axes, Quantity, Variable, spelled
+from ..quantities import FRAME_AXES, AtPose, Axes, Quantity, Variable, source_text
 from ..quantities.member import Member, Reference, Tabulated, Turning, Where, joined_names, name_of
 from ..steps import Arrow, Assignment, Axis, CosineAngle, Group, Guide, Offset, Point, Turn, Vector
 from ..vectors import FloatArray, Line, Numbers, Scalar, Vec
@@ -231,7 +231,7 @@ class Listing:
             return self.input(named)
         if named or id(member) in self._labels:
             return self._known(named or id(member), member)
-        return self._lengths.get(spelled(member)) or symbolic_value(member, self)
+        return self._lengths.get(source_text(member)) or symbolic_value(member, self)
 
     def _known(self, key: str | int, member: Quantity) -> Term:
         if key not in self._terms:
@@ -250,7 +250,7 @@ class Listing:
         """Return the length a vector is scaled to; an expression gets the vector's name: L_AB = L0 + S."""
         if arrow.name and not length.name and id(length) not in self._labels:
             self._labels[id(length)] = Assignment(arrow.name, length)
-            self._lengths[spelled(length)] = self.value(length)
+            self._lengths[source_text(length)] = self.value(length)
         return self.value(length)
 
     def turn(self, angle: Reference) -> Turning:

@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from ..errors import DefinitionError, cited, ensure
 from ..frozen import keep_own
-from ..quantities import Jointed, Member, Number, Quantity, Reference, Variable, label, name_of, quantity, real, spelled
+from ..quantities import Jointed, Member, Number, Quantity, Reference, Variable, label, name_of, quantity, real, source_text
 from ..quantities.quantity import plain
 from ..steps import Bar, Point
 from ..units import require_measure
@@ -773,7 +773,7 @@ def check_together(elements: Mapping[str, object] | Sequence[tuple[str, object]]
 
 def value_text(value: object) -> str:
     """Return a parameter as it is written: a number, an expression, a name."""
-    return spelled(quantity(value)) if isinstance(value, (str, Quantity)) else repr(plain(value))
+    return source_text(quantity(value)) if isinstance(value, (str, Quantity)) else repr(plain(value))
 
 
 def require_poses(given: object) -> None:

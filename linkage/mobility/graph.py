@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..plan import Plan
-from ..quantities import joined_names, spelled
+from ..quantities import joined_names, source_text
 from ..shown import Shown
 from ..steps import Link
 from ..vectors import Numbers
@@ -51,7 +51,7 @@ def chain_graph(plan: Plan, inputs: Mapping[str, Numbers]) -> nx.MultiGraph:
         dimensions = {name: length if length.ndim else float(length) for name, length in far.items()}  # an array of a batch of designs
         graph.add_node(body.name, kind=body.kind, points=body.points, link=link, dimensions=dimensions)
     for pair in chain.pairs:
-        driven = {} if pair.length is None else {pair.name: spelled(pair.length)}
+        driven = {} if pair.length is None else {pair.name: source_text(pair.length)}
         graph.add_edge(pair.a, pair.b, key=pair.name, kind=pair.kind, strokes=pair.strokes, dimensions=driven)
     nodes = graph.nodes(data=True)
     bodies = tuple((f"{name} ({data['link']})" if data["link"] else name, data["kind"], " ".join(data["points"])) for name, data in nodes)

@@ -329,7 +329,7 @@ def source_of(
     plan: Plan, designs: Mapping[str, Any], requests: Sequence[RequestLike], language: object, name: str, orders: int = 0
 ) -> str:
     """Return requests as text in a language; see Mechanism.source."""
-    writer = LANGUAGES.given(language) or LANGUAGES[one_word("language", language, tuple(LANGUAGES))]
+    writer = LANGUAGES.for_object(language) or LANGUAGES[one_word("language", language, tuple(LANGUAGES))]
     require(isinstance(name, str) and name.isascii() and name.isidentifier(), "name", name, "a function's name is expected, such as poses")
     if name in writer.words.split():
         raise DefinitionError(f"name={name!r} has a meaning in {language} already; give the function another name, such as poses.")

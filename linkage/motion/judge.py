@@ -346,7 +346,7 @@ class Domain:
         with unwarned():
             return least_margins(self.motion, self.over.condition_mask if self.over.only else None)
 
-    def lost(self, seen: Coverage) -> LostPlaces:
+    def lost_places(self, seen: Coverage) -> LostPlaces:
         """Return the lost places of one design: those on the grid, and holes between its places."""
 
         def of_design(value: PerDesign) -> float:
@@ -820,13 +820,13 @@ class Judge:
             made.append(Candidate(value, margin, where, unbounded, situation, side, place, seen, lawless, unlimited, time, undefined))
         return made
 
-    def lost(self, candidate: Candidate) -> LostPlaces:
+    def lost_of(self, candidate: Candidate) -> LostPlaces:
         """Return the lost places of a candidate of one design."""
         seen = candidate.seen
         if seen is not None:
             key = (id(candidate.place), seen.design)
             if key not in self._lost:
-                self._lost[key] = candidate.place.lost(seen)
+                self._lost[key] = candidate.place.lost_places(seen)
             return self._lost[key]
         if not candidate.lawless or not np.isnan(candidate.value):
             return NONE_LOST
@@ -852,10 +852,10 @@ class Judge:
     def answered(self, question: object, candidates: Sequence[Candidate], margins: FloatArray) -> Answer:
         """Return the answer of one design, with the names of load case, movement and `Over` where there are several."""
         is_bare = isinstance(question, Measure)
-        lost = next(filter(None, map(self.lost, candidates)), NONE_LOST)
+        lost = next(filter(None, map(self.lost_of, candidates)), NONE_LOST)
         fatal = [
             each for each in candidates
-            if each.undefined or ((each.seen is None or each.place.over.lost != ALLOWED) and (each.lawless or self.lost(each)))
+            if each.undefined or ((each.seen is None or each.place.over.lost != ALLOWED) and (each.lawless or self.lost_of(each)))
         ]  # fmt: skip
         known = [k for k, each in enumerate(candidates) if not np.isnan(margins[k])]
         place = min(known, key=lambda k: margins[k], default=0)
@@ -899,7 +899,7 @@ class Judge:
     def reached_by(self, design: tuple[int, ...]) -> Answer:
         """Return whether all places can be assembled, of one design by its place in a batch."""
         every = [seen.of_design(design) for seen in self._seen]
-        losses = [place.lost(seen) for place, seen in zip(self.places, every, strict=True)]
+        losses = [place.lost_places(seen) for place, seen in zip(self.places, every, strict=True)]
         number = max(range(len(self.places)), key=lambda each: (losses[each].share, bool(losses[each])))
         place, seen, lost = self.places[number], every[number], losses[number]
         fatal = any(each and one.over.lost != ALLOWED for each, one in zip(losses, self.places, strict=True))

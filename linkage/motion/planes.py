@@ -18,7 +18,7 @@ from ..language import said
 from ..loads import TwoPoint
 from ..plan import Plan
 from ..program import FloatArray, Node
-from ..quantities import Operand, Quantity, Reference, Variable, joined_names, quantity, spelled
+from ..quantities import Operand, Quantity, Reference, Variable, joined_names, quantity, source_text
 from ..surroundings import Outline
 from ..units import show
 from ..vectors import pick
@@ -136,7 +136,7 @@ class Planes(HasVerdicts):
         return [Verdict("clearance", False, f"{text} {remedy}", answer=answer)]
 
     def __str__(self) -> str:
-        width = [] if self.width.constant == 0.0 else [f"width={spelled(self.width)}"]
+        width = [] if self.width.constant == 0.0 else [f"width={source_text(self.width)}"]
         return f"Planes({', '.join([*map(repr, self.planes), *width])})"
 
 

@@ -23,7 +23,7 @@ from ..loads import AS_IT_RUNS, DIRECTIONS, Acting
 from ..pickling import object_of, picklable
 from ..plan import NEAR, REGULAR, ArrayReading, Mask, Plan
 from ..program import FloatArray, Kernel, Node, Notes, ancestors, gradient
-from ..quantities import TAKEN, Arithmetic, Member, Number, PoseCondition, Quantity, Reference, label, name_of, quantity, spelled
+from ..quantities import TAKEN, Arithmetic, Member, Number, PoseCondition, Quantity, Reference, label, name_of, quantity, source_text
 from ..steps import Arrow, Point
 from .dead_points import LEAST, PLACES, PrecisionLeft
 from .grid import MotionLike
@@ -660,7 +660,7 @@ def bracketed(part: Request | Quantity | float, binding: int) -> str:
     if isinstance(part, float):
         text, binds = repr(part), 3 if part < 0.0 else 9
     elif isinstance(part, Quantity):
-        return spelled(part, binding)
+        return source_text(part, binding)
     else:
         text, binds = str(part), part.binds if isinstance(part, Combined) else 9
     return f"({text})" if binds < binding else text

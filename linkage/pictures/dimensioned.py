@@ -14,7 +14,7 @@ from matplotlib.patches import Arc
 
 from ..motion import Motion
 from ..program import FloatArray
-from ..quantities import Quantity, Stroke, spelled
+from ..quantities import Quantity, Stroke, source_text
 from ..units import shown_number
 from . import style
 from .drawing import draw_scene
@@ -176,7 +176,7 @@ def dimension_text(motion: Motion, quantity: Quantity, unit: str, pose: int) -> 
     """Return a dimension as a drawing has it: its number without the unit of lengths, or the formula that follows a stroke."""
     strokes, sign = motion.plan.of_kind(Stroke), "°" if unit == "deg" else ""
     if motion.plan.terms(quantity) & strokes.keys():
-        return ADDED.sub(lambda found: shown_number(float(found[0]), unit, 5) + sign, spelled(quantity))
+        return ADDED.sub(lambda found: shown_number(float(found[0]), unit, 5) + sign, source_text(quantity))
     value = float(np.broadcast_to(motion.value(quantity), motion.shape).ravel()[pose])
     return shown_number(abs(value) if sign else value, unit, 5) + sign
 

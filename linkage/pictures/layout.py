@@ -33,7 +33,7 @@ def cloud(scene: Scene, at: Places) -> FloatArray:
         along = line[-1] - line[0]
         normal = left_of(along) / (np.hypot(*along) or 1.0)
         wide += [line + offset * half * scene.size * normal for offset in (-1.0, 0.0, 1.0)]
-    there = [each for each in (*scene.fed, *scene.load_marks) if np.isfinite([at[name] for name in each.on]).all()]
+    there = [each for each in (*scene.accumulators, *scene.load_marks) if np.isfinite([at[name] for name in each.on]).all()]
     beside = [each.placed(each.corners, at) for each in there]
     points = [place[None] for place in at.values() if np.isfinite(place).all()]
     return np.concatenate([np.empty((0, 2)), *wide, *beside, *points])

@@ -423,7 +423,7 @@ class Scene:
             lines += shapes.yokes(aside, self.size) if aside else ()
             if lines:
                 found.append(DrawnMark(name, on, tuple(lines)))
-        return (*found, *self.fed, *self.pulleys, *self.ropes)
+        return (*found, *self.accumulators, *self.pulleys, *self.ropes)
 
     @cached_property
     def pulleys(self) -> tuple[DrawnMark, ...]:
@@ -461,7 +461,7 @@ class Scene:
         return [float(np.ravel(np.asarray(each, float))[0]) for each in glyph.radii(self.motion)]
 
     @cached_property
-    def fed(self) -> tuple[DrawnMark, ...]:
+    def accumulators(self) -> tuple[DrawnMark, ...]:
         """The accumulators of gas-fed lines, each on its cylinder's barrel, on the side where there is room."""
         found = []
         for _, glyph in self.glyphs:
@@ -672,7 +672,7 @@ class Scene:
         ends = ends[:, np.isfinite(ends).all(axis=0)]
         (x0, y0), (x1, y1) = np.min(ends - near, axis=1, initial=np.inf), np.max(ends + near, axis=1, initial=-np.inf)
         own = min(left - pad, float(x0)), max(right + pad, float(x1)), min(bottom - pad, float(y0)), max(top + pad, float(y1))
-        outside = (*self.fed, *self.pulleys)  # these stand outside the points that carry them
+        outside = (*self.accumulators, *self.pulleys)  # these stand outside the points that carry them
         corners = np.concatenate([np.empty((0, 2)), *(each.placed(each.corners, at) for at in self.some(5) for each in outside)])
         return self._grown(self._grown(own, corners, 1.0), self._around(), SHARE)
 

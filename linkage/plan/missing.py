@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from ..quantities import joined_names, spelled
+from ..quantities import joined_names, source_text
 from ..steps import Guide, Point, Step
 from ..units import mm
 from ..vectors import FloatArray, Mask
@@ -56,7 +56,7 @@ def missing_words(plan: Members, name: str, reading: ArrayReading, lost: Mask) -
     for owner, length in plan.following:
         least = float(np.min(reading.value(length)))
         if owner == name and least < 0.0:
-            return f"the length {spelled(length)} = {least:.4g} m is negative. Keep the stroke where it is positive.", -least
+            return f"the length {source_text(length)} = {least:.4g} m is negative. Keep the stroke where it is positive.", -least
     told = coinciding_words(plan, name, reading) or followed_words(plan, name, reading)
     tables = [reading.outside[each] for each in (name, *sorted(plan.reaches(name))) if each in reading.outside]
     if tables and not told:

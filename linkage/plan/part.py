@@ -14,7 +14,7 @@ from ..checks import is_listed, two_of
 from ..errors import DefinitionError, about, cited, ensure, is_yes, unknown
 from ..frozen import FrozenDict
 from ..quantities import FRAME_AXES, Axes, Coordinate, Dimension, Operand, Quantity, Ref, Stroke, Variable, is_number, label, quantity
-from ..quantities import spelled as written
+from ..quantities import source_text as written
 from ..quantities.axes import is_nothing
 from ..quantities.member import Member, Reference, is_member_or_name, name_of, needs, of_kind, word_arguments
 from ..steps import Arrow, Drawn, Group, Link, Point, Step

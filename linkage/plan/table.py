@@ -13,7 +13,7 @@ import numpy.typing as npt
 from ..checks import is_listed, require
 from ..errors import DefinitionError, unknown
 from ..frozen import read_only
-from ..quantities import Number, Operand, Quantity, Variable, quantity, real, spelled
+from ..quantities import Number, Operand, Quantity, Variable, quantity, real, source_text
 from ..steps import Slot
 from ..steps.step import TURN
 from ..units import UNITS, deg, require_measure
@@ -80,9 +80,10 @@ class Table:
             sign = 1 if slot.spellings[first] == slot.spellings[spelling] else -1
             if isinstance(given, Number) and isinstance(owner, Number) and isclose(given.number, sign * owner.number, rel_tol=1e-9):
                 return Variable(first) if sign > 0 else -Variable(first)
-            if not isinstance(owner, Number) and sign > 0 and (given is owner or spelled(given) == spelled(owner)):
+            if not isinstance(owner, Number) and sign > 0 and (given is owner or source_text(given) == source_text(owner)):
                 return owner
-            raise DefinitionError(f"{where}: {spelling}={spelled(given)} contradicts {first}={spelled(owner)}; a dimension has one value.")
+            two = f"{spelling}={source_text(given)} contradicts {first}={source_text(owner)}"
+            raise DefinitionError(f"{where}: {two}; a dimension has one value.")
         stands: Quantity = Variable(spelling) if isinstance(given, Number) else given
         if isinstance(given, Number):
             for each in slot.spellings:
@@ -90,7 +91,7 @@ class Table:
             self.add_variable(spelling, given.number, slot.kind, where)
             self.spellings |= {each: (spelling, slot.spellings[each] * slot.spellings[spelling]) for each in slot.spellings}
         else:
-            self.following |= dict.fromkeys(slot.spellings, spelled(given))
+            self.following |= dict.fromkeys(slot.spellings, source_text(given))
         self._labels[key] = (spelling, given)
         if isinstance(key, frozenset):
             self.lengths[key] = stands

@@ -165,7 +165,7 @@ class RunOptions:
 
     def __post_init__(self) -> None:
         is_known = self.backend is None or (isinstance(self.backend, str) and (self.backend in OWN or self.backend in ADDED))
-        if not is_known and ADDED.given(self.backend) is None:
+        if not is_known and ADDED.for_object(self.backend) is None:
             *others, last = map(quoted, [*OWN, *ADDED])
             raise DefinitionError(f"backend={self.backend!r}: say {', '.join(others)} or {last}, or nothing for the quickest.")
         require_whole("threads", self.threads, "a whole number of at least 1 is expected", least=1)

@@ -1,5 +1,7 @@
 """Scalars of a mechanism: strokes, dimensions, outputs, and arithmetic of them."""
 
+import warnings
+
 from ..star import declare_public
 from .axes import FRAME_AXES, Axes, is_nothing
 from .course import Course, course_of, ramp
@@ -46,7 +48,15 @@ from .quantity import (
     real,
     ref,
     signed_terms,
-    spelled,
+    source_text,
 )
 
 declare_public(globals())
+
+
+def __getattr__(name: str) -> object:
+    """Return `source_text` by its former name, with a warning; AttributeError for any other name."""
+    if name != "spelled":
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    warnings.warn("linkage.quantities.spelled is source_text now; the old name goes with the next release.", FutureWarning, stacklevel=2)
+    return source_text

@@ -10,7 +10,7 @@ import numpy as np
 from ..frozen import immutable
 from ..vectors import Vec
 from .member import Reference, Where, name_of
-from .quantity import Number, Quantity, spelled
+from .quantity import Number, Quantity, source_text
 
 NOTHING = Number(0.0)
 
@@ -147,8 +147,8 @@ class Axes:
 
     def __str__(self) -> str:
         words = [f"on=({', '.join(self.carrier)})"] if self.carrier else []
-        words += [] if all(map(is_nothing, self.at)) else [f"at=({spelled(self.at[0])}, {spelled(self.at[1])})"]
-        words += [] if is_nothing(self.angle) else [f"angle={spelled(self.angle, 0, 'angle')}"]
+        words += [] if all(map(is_nothing, self.at)) else [f"at=({source_text(self.at[0])}, {source_text(self.at[1])})"]
+        words += [] if is_nothing(self.angle) else [f"angle={source_text(self.angle, 0, 'angle')}"]
         return ", ".join([*words, *(["mirrored=True"] if self.mirrored else [])])
 
 

@@ -16,7 +16,7 @@ from ..frozen import immutable, read_only, refuses_changes
 from ..units import amounts_in
 from ..vectors import FloatArray, Scalar, pick
 from .member import Pick, Reference, Where
-from .quantity import Quantity, quantity, real, spelled
+from .quantity import Quantity, quantity, real, source_text
 
 ROUNDING = 1e-12
 """So far beyond its ends, as a share of its length, a table still has a value."""
@@ -218,4 +218,4 @@ class CurveValue(Quantity):
         return where.curve(self.curve, where.value(self.x), self.order)
 
     def __str__(self) -> str:
-        return f"{self.curve}({spelled(self.x)}{f', {self.order}' if self.order else ''})"
+        return f"{self.curve}({source_text(self.x)}{f', {self.order}' if self.order else ''})"

@@ -95,7 +95,7 @@ DIGITS = 17  # tell any float from its neighbours
 MORE = 2  # characters that degrees may be longer than radians
 
 
-def spelled(part: Quantity, binding: int = 0, measures: str = "") -> str:
+def source_text(part: Quantity, binding: int = 0, measures: str = "") -> str:
     """Return a part as text, in brackets where it binds more loosely than its surroundings.
 
     `measures` says what it stands for, where its place tells: the numbers of an `angle` are written in degrees.
@@ -422,8 +422,8 @@ class Sum(Expression):
     def text(self, measures: str = "") -> str:
         kind = measures or self.measures
         if isinstance(self.b, Negative) and not self.b.name:
-            return f"{spelled(self.a, 1, kind)} - {spelled(self.b.a, 2, kind)}"
-        return f"{spelled(self.a, 1, kind)} + {spelled(self.b, 2, kind)}"
+            return f"{source_text(self.a, 1, kind)} - {source_text(self.b.a, 2, kind)}"
+        return f"{source_text(self.a, 1, kind)} + {source_text(self.b, 2, kind)}"
 
 
 @immutable
@@ -447,7 +447,7 @@ class Negative(Expression):
         return cos, -sin
 
     def text(self, measures: str = "") -> str:
-        return f"-{spelled(self.a, 3, measures or self.measures)}"
+        return f"-{source_text(self.a, 3, measures or self.measures)}"
 
 
 def signed_terms(given: Quantity, members: Mapping[str, Member], sign: float = 1.0) -> Iterator[tuple[float, Quantity]]:
@@ -477,7 +477,7 @@ class Operation(Expression):
         return OPERATORS[self.symbol](where.value(self.a), where.value(self.b))
 
     def text(self, measures: str = "") -> str:
-        return f"{spelled(self.a, self.left)} {self.symbol} {spelled(self.b, self.right)}"
+        return f"{source_text(self.a, self.left)} {self.symbol} {source_text(self.b, self.right)}"
 
 
 class Function(Expression):
@@ -501,4 +501,4 @@ class Function(Expression):
         return FUNCTIONS[self.symbol](*values)
 
     def text(self, measures: str = "") -> str:
-        return f"{self.symbol}({', '.join(spelled(each) for each in self.arguments)})"
+        return f"{self.symbol}({', '.join(source_text(each) for each in self.arguments)})"

@@ -218,7 +218,7 @@ def read_plus_json(found: FoundMachine, data: JsonTable) -> None:
     for row in json_list(data["l"], found.file, "l"):
         cells = json_list(row, found.file, "a link")
         ensure_file(len(cells) > 6, f"{found.file}: a link has {len(cells)} cells instead of seven or more.")
-        links.append(PlusLink(str(cells[1]), tuple(str(whole(key)) for key in str(cells[6]).split("|") if key)))
+        links.append(PlusLink(str(cells[1]), tuple(str(joint_number(key)) for key in str(cells[6]).split("|") if key)))
     read_plus(found, joints, links)
 
 
@@ -229,12 +229,12 @@ def json_joint(found: FoundMachine, row: list[Any]) -> PlusJoint:
     weld = row[9] if long else row[8]
     angle = radians(found.number(row[5] or 0, f"the angle of {row[1]}"))
     return PlusJoint(
-        str(whole(row[0])), str(row[1]), row[2], row[3], slides=whole(row[4]) == 0, fixed=is_set(row[6]), drives=long and is_set(row[7]),
-        rigid=is_set(weld), angle=angle,
+        str(joint_number(row[0])), str(row[1]), row[2], row[3], slides=joint_number(row[4]) == 0, fixed=is_set(row[6]),
+        drives=long and is_set(row[7]), rigid=is_set(weld), angle=angle,
     )  # fmt: skip
 
 
-def whole(given: object) -> object:
+def joint_number(given: object) -> object:
     """Return a whole number, in digits of base 16 where it is a text, as the file writes it; anything else as it is."""
     return int(given, 16) if isinstance(given, str) and re.fullmatch(r"-?[0-9a-f]{1,6}", given) else given
 

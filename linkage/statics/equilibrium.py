@@ -269,7 +269,7 @@ class System:
             return
         members = [each for each in self.structure.holders.every_cylinder if any(is_among(each, line.cylinders) for line in ties)]
         forms = [self.thrust(next(strut for strut in self.structure.struts if strut.name == member_title(each))) for each in members]
-        given = [self.given(each) for each in members]
+        given = [self.law_thrust(each) for each in members]
         shares = [share_of(each, ties, [areas(line, self.poses, 1) for line in ties]) for each in members]
         none = self.poses.zeros()
         rows = [[none if each is None else each for each in row] for row in shares]
@@ -282,7 +282,7 @@ class System:
                 right = reduce(np.subtract, (factor * given[row] for factor, (row, _) in zip(factors, pivots, strict=True)), given[place])
                 yield reduce(LinearForm.plus, others, form), right
 
-    def given(self, member: TwoPoint) -> FloatArray:
+    def law_thrust(self, member: TwoPoint) -> FloatArray:
         """Return the thrust that laws put on a member which holds, too (n,)."""
         own = [each.thrust for each in self.structure.thrusts if same(member, each.member)]
         return self.poses.flattened(sum(own)) if own else self.poses.zeros()

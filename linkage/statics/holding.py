@@ -82,7 +82,7 @@ class Holders:
         return {line.tie.name: line.tie.run for line in self.closed if line.tie is not None and line.tie.run is not None}
 
     @property
-    def given(self) -> frozenset[str]:
+    def line_quantities(self) -> frozenset[str]:
         """The quantities that closed lines give."""
         return frozenset(line.tie.gives for line in self.closed if line.tie is not None)
 

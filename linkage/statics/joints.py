@@ -144,7 +144,7 @@ def two_point_members(
     found = []
     for bar in plan.cylinders:
         strokes = {name for name in plan.strokes if name == bar.length.name or name in plan.reaches(bar.length)}
-        if strokes - holders.strokes_taken and not holders.given & plan.reaches(bar.length):
+        if strokes - holders.strokes_taken and not holders.line_quantities & plan.reaches(bar.length):
             found.append(Strut(joined_names(bar.P, bar.Q), bar.P, bar.Q, bar.length))
     struts = [*found, *cylinders, *known_struts(given)]
     twice = next((name for name, count in Counter(strut.name for strut in struts).items() if count > 1), None)
@@ -389,7 +389,7 @@ class Structure:
         strokes, given = {letter: set[str]() for letter in joint.holds}, set[str]()
         for drive in joint.drives:
             follows = self.plan.reaches(drive.quantity.name or drive.quantity, within=carrier)
-            given |= {drive.along} if self.holders.given & follows else set()
+            given |= {drive.along} if self.holders.line_quantities & follows else set()
             if drive.along:
                 strokes[drive.along] |= follows & set(self.plan.strokes)
         gone = {letter: names for letter, names in strokes.items() if letter not in given and names and names <= self.holders.strokes_taken}

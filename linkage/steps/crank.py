@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..errors import DefinitionError
-from ..quantities import FRAME_AXES, Driven, Joint, JointSide, Operand, Quantity, Reference, Where, quantity, spelled
+from ..quantities import FRAME_AXES, Driven, Joint, JointSide, Operand, Quantity, Reference, Where, quantity, source_text
 from ..vectors import Vec
 from .primitives import Axis, Offset, Turn
 from .step import UNBOUND, Assignment, Position, Step
@@ -62,4 +62,4 @@ class Crank(Step):
         return Assignment(name, self.PX), Assignment(name, arm), Assignment(self.X, Offset(self.P, arm))
 
     def arguments(self) -> list[str]:
-        return [*super().arguments(), f"angle={spelled(self.angle, 0, 'angle')}"]
+        return [*super().arguments(), f"angle={source_text(self.angle, 0, 'angle')}"]

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from ..errors import DefinitionError, cited
-from ..quantities import FRAME_AXES, Axes, Operand, Quantity, Reference, Where, label, quantity, spelled
+from ..quantities import FRAME_AXES, Axes, Operand, Quantity, Reference, Where, label, quantity, source_text
 from ..vectors import Vec
 from .step import Point
 
@@ -57,7 +57,7 @@ class Ground(Point):
         return Carried(P, Q, self.x, self.y).renewed(_name=self.name, axes=stands)
 
     def __str__(self) -> str:
-        return f"Ground({spelled(self.x)}, {spelled(self.y)})"
+        return f"Ground({source_text(self.x)}, {source_text(self.y)})"
 
 
 class Carried(Ground):
@@ -94,4 +94,4 @@ class Carried(Ground):
         return ((*self.axes.carrier, self.name),)
 
     def __str__(self) -> str:
-        return f"Carried({', '.join(self.axes.carrier)}, {spelled(self.x)}, {spelled(self.y)})"
+        return f"Carried({', '.join(self.axes.carrier)}, {source_text(self.x)}, {source_text(self.y)})"

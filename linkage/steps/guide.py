@@ -7,7 +7,7 @@ from types import MappingProxyType
 from typing import Self
 
 from ..errors import DefinitionError
-from ..quantities import FRAME_AXES, Axes, Member, Operand, Quantity, Reference, Variable, Where, label, name_of, quantity, spelled
+from ..quantities import FRAME_AXES, Axes, Member, Operand, Quantity, Reference, Variable, Where, label, name_of, quantity, source_text
 from ..quantities.joint import Driven, Joint, Jointed, JointSide, guided
 from ..vectors import Line, Scalar, Vec
 from .step import Point, position
@@ -107,7 +107,8 @@ class Guide(Jointed):
 
     def __str__(self) -> str:
         start = label(self.P) if self.P is not None else str(self.fixed_at)
-        end = label(self.Q) if self.Q is not None else f"angle={spelled(quantity(0.0 if self.angle is None else self.angle), 0, 'angle')}"
+        angle = quantity(0.0 if self.angle is None else self.angle)
+        end = label(self.Q) if self.Q is not None else f"angle={source_text(angle, 0, 'angle')}"
         return f"Guide({start}, {end})"
 
 
@@ -178,4 +179,4 @@ class OnGuide(Point):
         return (Joint("driven", self.name, on, by, "nt", lambda where: where.line(guide), (guide,), drives),)
 
     def __str__(self) -> str:
-        return f"OnGuide({label(self.guide)}, at={spelled(self.along)})"
+        return f"OnGuide({label(self.guide)}, at={source_text(self.along)})"

@@ -13,7 +13,7 @@ from typing import Protocol
 
 from ..errors import ensure
 from ..frozen import immutable, refuses_changes
-from ..quantities import Operand, Quantity, joined_names, quantity, spelled
+from ..quantities import Operand, Quantity, joined_names, quantity, source_text
 
 
 @immutable
@@ -61,7 +61,7 @@ class DimensionTable(Protocol):
 def written_labels(labels: Mapping[str, Operand], slots: Iterable[Slot]) -> list[str]:
     """Return labels as they are written, `OB=0.3`: the numbers of those that are angles in degrees."""
     angles = {spelling for slot in slots if slot.kind == "angle" for spelling in slot.spellings}
-    return [f"{label}={spelled(quantity(value), 0, 'angle' if label in angles else '')}" for label, value in labels.items()]
+    return [f"{label}={source_text(quantity(value), 0, 'angle' if label in angles else '')}" for label, value in labels.items()]
 
 
 def relabelled(labels: Mapping[str, Operand], values: Mapping[str, float]) -> dict[str, Operand]:

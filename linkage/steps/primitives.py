@@ -9,7 +9,7 @@ import numpy as np
 
 from ..errors import DefinitionError
 from ..frozen import immutable
-from ..quantities import FRAME_AXES, Axes, Driven, Joint, JointSide, Length, Operand, Quantity, label, quantity, spelled
+from ..quantities import FRAME_AXES, Axes, Driven, Joint, JointSide, Length, Operand, Quantity, label, quantity, source_text
 from ..quantities.member import Member, Reference, Turning, Where, joined_names, name_of
 from ..vectors import Line, Scalar, Vec
 from .step import Bar, Point, angle_given
@@ -136,8 +136,8 @@ class Turn(Arrow):
         return where.vector_length(self.base) if self.scaled_to is None else where.value(self.scaled_to)
 
     def __str__(self) -> str:
-        end = "" if self.scaled_to is None else f", length={spelled(self.scaled_to)}"
-        return f"Turn({label(self.base)}, {spelled(self.angle, 0, 'angle')}{end})"
+        end = "" if self.scaled_to is None else f", length={source_text(self.scaled_to)}"
+        return f"Turn({label(self.base)}, {source_text(self.angle, 0, 'angle')}{end})"
 
 
 def triangle(where: Where, base2: Scalar, p: Scalar, q: Scalar) -> tuple[Scalar, Scalar]:
@@ -186,10 +186,10 @@ class CosineAngle(Quantity):
         return where.close_angle(along * scale, height * scale)
 
     def sides(self, where: Where) -> tuple[tuple[str, Scalar], ...]:
-        return tuple((spelled(side), where.value(side)) for side in self.triangle)
+        return tuple((source_text(side), where.value(side)) for side in self.triangle)
 
     def __str__(self) -> str:
-        return f"CosineAngle({', '.join(map(spelled, self.triangle))})"
+        return f"CosineAngle({', '.join(map(source_text, self.triangle))})"
 
 
 @immutable

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..quantities import Joint, JointSide, Operand, Quantity, Reference, Where, guided, quantity, spelled
+from ..quantities import Joint, JointSide, Operand, Quantity, Reference, Where, guided, quantity, source_text
 from ..vectors import Line, Scalar, Side, Vec
 from .step import UNBOUND, Position, Step, angle_given
 
@@ -119,7 +119,7 @@ class PinSlotDyad(Step):
         return f"the slot's offset is larger than the distance {self.P}{self.Q}", gap
 
     def arguments(self) -> list[str]:
-        given = [] if self.offset.constant == 0.0 else [f"offset={spelled(self.offset)}"]
+        given = [] if self.offset.constant == 0.0 else [f"offset={source_text(self.offset)}"]
         return [*super().arguments(), *given]
 
     def joints(self) -> tuple[Joint, ...]:
@@ -246,4 +246,4 @@ class YokeDyad(Step):
         return Line(where.at(self.X), where.line(self.guide).direction.turned(*where.turn(self.angle)))
 
     def arguments(self) -> list[str]:
-        return [*super().arguments(), f"angle={spelled(self.angle, 0, 'angle')}"]
+        return [*super().arguments(), f"angle={source_text(self.angle, 0, 'angle')}"]

@@ -85,7 +85,7 @@ def infeasible_error(
         if not nowhere:
             break
         look = problem.evaluated(problem.dimensions_at(end.unit, end.combination))
-        nowhere = [each for each in nowhere if look.lost(each.margin)[0]]
+        nowhere = [each for each in nowhere if look.lost_of(each.margin)[0]]
     if nowhere:
         why = " and ".join(no_value(problem.plan, leaf) for leaf in nowhere[0].margin.leaves)
         what = f"{shown(problem, nowhere[0])} is kept by no design that was found, for {why}"

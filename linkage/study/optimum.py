@@ -508,7 +508,7 @@ def stopped_by(problem: Problem, combination: Sequence[int], unit: FloatArray) -
         return what_of(str(error))
     if not bool(look.is_assembled[0]):
         return what_of(problem.refusal or "it cannot be assembled over the whole stroke")
-    return next((no_value(problem.plan, leaf) for leaf in problem.leaves if look.lost(leaf)[0]), "")
+    return next((no_value(problem.plan, leaf) for leaf in problem.leaves if look.lost_of(leaf)[0]), "")
 
 
 def what_of(message: str) -> str:

@@ -183,7 +183,7 @@ class Evaluated:
         known = {leaf: rows.values[np.isfinite(rows.values)] for leaf, rows in self.rows.items()}
         return {leaf: float(np.abs(values).max(initial=0.0)) for leaf, values in known.items()}
 
-    def lost(self, measure: Measure) -> Mask:
+    def lost_of(self, measure: Measure) -> Mask:
         """Return of which designs (m,) a leaf of a measure is lost."""
         return np.asarray(np.any([self.rows[leaf].lost for leaf in measure.leaves], axis=0))
 
@@ -592,7 +592,7 @@ class Problem:
             found = (np.asarray(each.from_leaves(numbers.__getitem__), float) for each in self.objectives)
             values = np.array([np.broadcast_to(each, shape) for each in found])
         missing = self._missing(look).max(axis=0, initial=0.0)
-        values = np.where(np.array([look.lost(each) for each in self.objectives]).reshape(len(values), -1), np.nan, values)
+        values = np.where(np.array([look.lost_of(each) for each in self.objectives]).reshape(len(values), -1), np.nan, values)
         return np.where(look.is_assembled, values, np.nan), np.where(look.is_assembled, missing, np.nan), look.reached
 
     def missing_of_each(self, combination: Sequence[int], unit: FloatArray) -> FloatArray:
@@ -612,7 +612,7 @@ class Problem:
         found = np.zeros((len(self.constraints), *look.reached.shape))
         with np.errstate(all="ignore"):
             for row, (each, size) in enumerate(zip(self.constraints, self._sizes, strict=True)):
-                found[row] = np.where(look.lost(each.margin), np.inf, np.maximum(missed(each, look.numbers, size), 0.0))
+                found[row] = np.where(look.lost_of(each.margin), np.inf, np.maximum(missed(each, look.numbers, size), 0.0))
         return found
 
     def certainly(self, measure: Measure, combination: Sequence[int]) -> Enclosure | None:
@@ -709,7 +709,7 @@ class Problem:
                 if isinstance(leaf, Integral):
                     low, high = self.ends(design)[self._of_leaf[leaf][0].outer[0]]
                     value = float(self.panels(leaf, design).value) * (high - low)
-                found.enter_number(leaf, value, lost=look.lost(leaf)[0])
+                found.enter_number(leaf, value, lost=look.lost_of(leaf)[0])
         for names, leaves in between.items():
             self._note_extremes(found, leaves, design, names, quick=quick)
         return found

@@ -298,13 +298,13 @@ class Climb:
     room: FloatArray
 
     @property
-    def going(self) -> Index:
+    def unfinished(self) -> Index:
         """The poses at which something is left to look for."""
         return np.flatnonzero((self.room > LEAST) & (self.load > 0.0) & np.isfinite(self.load))
 
     def step(self) -> Climb:
         """Return them after one look around."""
-        rows, k = self.going, self.solved
+        rows, k = self.unfinished, self.solved
         parts = {name: getattr(self, name)[rows] for name in ("order", "load", "centre", "worth", "room")}
         here = replace(self, base=self.base.select(rows), **parts)
         s = here.centre.shape[1] - k
@@ -667,7 +667,7 @@ class FieldSearch:
         start = PlacePoses(base.place, np.take_along_axis(base.unit, order, axis=1))
         climb = Climb(self.moved, self.many.solved, start, order, load, start.unit, load, np.full(len(load), room))
         for _ in range(looks):
-            if not climb.going.size:
+            if not climb.unfinished.size:
                 break
             climb = climb.step()
         unit = np.empty_like(base.unit)

@@ -18,7 +18,7 @@ import numpy.typing as npt
 
 from ..checks import is_listed, require_number, require_type, two_of
 from ..errors import DefinitionError, FileError, cited, ensure, is_yes
-from ..quantities import Axes, Member, Operand, Reference, Stroke, is_number, label, name_of, needed_behind, needs, of_kind, spelled
+from ..quantities import Axes, Member, Operand, Reference, Stroke, is_number, label, name_of, needed_behind, needs, of_kind, source_text
 from ..quantities.axes import NOTHING, is_nothing, plus
 from ..quantities.member import is_member_or_name
 from ..quantities.quantity import Quantity, plain, quantity
@@ -137,7 +137,7 @@ class Outline(Member):
         for each in self.numbers():
             behind = needed_behind([each.name] if each.name else needs(each), members)
             if strokes := sorted(behind & of_kind(members, Stroke).keys()):
-                yield f"{spelled(each)} follows the stroke {strokes[0]}; give a fixed size, and carry it with on="
+                yield f"{source_text(each)} follows the stroke {strokes[0]}; give a fixed size, and carry it with on="
 
     def in_axes(self, axes: Axes) -> Self:
         if len(self.carriers) == 2:  # the axes of a body go with its points, which are mirrored
@@ -254,7 +254,7 @@ class CircleOutline(Outline):
     def __str__(self) -> str:
         place = corner_text(self.centre) if self.centre else repr(*self.carriers)
         options = {} if self.filled else {"filled": "False"}
-        return outline_text("Outline.circle", [f"at={place}", f"radius={spelled(self.radius)}"], self.on, options)
+        return outline_text("Outline.circle", [f"at={place}", f"radius={source_text(self.radius)}"], self.on, options)
 
 
 class LineOutline(Outline):
@@ -308,7 +308,7 @@ class PlacedFile(Outline):
     def _placing(self) -> list[str]:
         """Return how it is placed, in so far as it is not the usual."""
         at = [] if all(map(is_nothing, self.at)) else [f"at={corner_text(self.at)}"]
-        return at + ([] if is_nothing(self.angle) else [f"angle={spelled(self.angle, measures='angle')}"])
+        return at + ([] if is_nothing(self.angle) else [f"angle={source_text(self.angle, measures='angle')}"])
 
 
 class DxfOutline(PlacedFile):
@@ -370,7 +370,7 @@ class ImageOutline(PlacedFile):
 
     def __str__(self) -> str:
         opacity = {} if self.opacity == 0.5 else {"opacity": repr(self.opacity)}
-        return outline_text("Outline.image", [repr(self.path), f"width={spelled(self.width)}", *self._placing()], self.on, opacity)
+        return outline_text("Outline.image", [repr(self.path), f"width={source_text(self.width)}", *self._placing()], self.on, opacity)
 
 
 Outline.circle, Outline.dxf, Outline.image = CircleOutline, DxfOutline, ImageOutline
@@ -425,7 +425,7 @@ def numbers_at(corners: Sequence[Sequence[Quantity]], value: Value) -> Array:
 
 def corner_text(corner: Sequence[Quantity]) -> str:
     """Return a corner as it is written."""
-    return f"({', '.join(map(spelled, corner))})"
+    return f"({', '.join(map(source_text, corner))})"
 
 
 def outline_text(what: str, words: Sequence[str], on: Sequence[Reference], options: Mapping[str, str]) -> str:

@@ -72,7 +72,7 @@ class FitWork(ABC):
         """How many designs are looked at at a time."""
 
     @abstractmethod
-    def found(self, fit: Fit, rows: DesignValues) -> dict[str, Array]:
+    def results(self, fit: Fit, rows: DesignValues) -> dict[str, Array]:
         """Return the results of designs of one combination, arrays (m, ...)."""
 
     @property
@@ -106,7 +106,7 @@ class FitWork(ABC):
             fit = self.fit(combination)
             own = {name: column[begin:first] for name, column in rows.items() if name != "combination"}
             looked = np.zeros(first - begin)
-            parts.append(self.found(fit, own) | {"looked": looked})
+            parts.append(self.results(fit, own) | {"looked": looked})
             looked[0] = fit.problem.count.designs
         return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
 
@@ -118,7 +118,7 @@ class LookWork(FitWork):
     timed: Any
     piece: ClassVar[int] = 1024
 
-    def found(self, fit: Fit, rows: DesignValues) -> dict[str, Array]:
+    def results(self, fit: Fit, rows: DesignValues) -> dict[str, Array]:
         _, reached = fit.swept(rows["unit"], poses_of(fit, self.timed))
         return {"whole": np.asarray(reached.all(axis=1)), "somewhere": np.asarray(reached.any(axis=1))}
 
@@ -132,7 +132,7 @@ class LayWork(FitWork):
     running: frozenset[Combination]
     piece: ClassVar[int] = 256
 
-    def found(self, fit: Fit, rows: DesignValues) -> dict[str, Array]:
+    def results(self, fit: Fit, rows: DesignValues) -> dict[str, Array]:
         combination = fit.combination
         at, base = laid_designs(fit, self.likeness[combination], rows["unit"], self.timed, runs=combination in self.running)
         return {"at": at, "base": base, "error": fit.errors(at, base)}
@@ -150,7 +150,7 @@ class DescentWork(FitWork):
     def facts(self) -> str:
         return f"{super().facts} {self.through} {self.most}"
 
-    def found(self, fit: Fit, rows: DesignValues) -> dict[str, Array]:
+    def results(self, fit: Fit, rows: DesignValues) -> dict[str, Array]:
         at, base = np.array(rows["at"]), rows["base"]
         error, going = fit.errors(at, base), np.arange(len(at))
         through = {"free": None, "running": fit.assembled, "keeping": fit.keeping}[self.through]
@@ -190,7 +190,7 @@ class RaceWork(FitWork):
     def facts(self) -> str:
         return f"{super().facts} {RACE}"
 
-    def found(self, fit: Fit, rows: DesignValues) -> dict[str, Array]:
+    def results(self, fit: Fit, rows: DesignValues) -> dict[str, Array]:
         at, base = rows["at"], rows["base"]
         raced, error = fit.descend(at, base, RACE)
         runs = fit.assembled(raced) & np.isfinite(error)
@@ -209,7 +209,7 @@ class PolishWork(FitWork):
     def facts(self) -> str:
         return f"{super().facts} {self.in_order} {self.most}"
 
-    def found(self, fit: Fit, rows: DesignValues) -> dict[str, Array]:
+    def results(self, fit: Fit, rows: DesignValues) -> dict[str, Array]:
         ((at, first, base),) = zip(rows["at"], rows["first"], rows["base"], strict=True)
         fit.problem.count.limit = int(min(self.most, LOOKS))
         for start in (at, first):

@@ -19,7 +19,7 @@ from linkage import (
     pin_force,
     pin_forces,
 )
-from linkage.quantities import Joint, JointSide, label, name_of, quantity, spelled
+from linkage.quantities import Joint, JointSide, label, name_of, quantity, source_text
 from linkage.steps import Bar, Point
 from linkage.vectors import Line, Vec
 from tests.extending.readings import OF_NUMBERS, Case
@@ -67,7 +67,7 @@ class GearPair(Point):
         return (Joint("mesh", self.name, second, first, "n", self.action),)
 
     def __str__(self):
-        given = ", ".join(f"{name}={spelled(getattr(self, name))}" for name in ("angle", "first", "second", "reach"))
+        given = ", ".join(f"{name}={source_text(getattr(self, name))}" for name in ("angle", "first", "second", "reach"))
         return f"GearPair({label(self.O)}, {label(self.A)}, {label(self.M)}, {given}, pressure={self.pressure!r})"
 
 

@@ -5,7 +5,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from linkage import LEFT, Crank, Dimension, Dyad, Ground, Mechanism, Stroke, Weight, drive_force, equations, pin_force, pin_forces
-from linkage.quantities import Joint, JointSide, label, name_of, quantity, spelled
+from linkage.quantities import Joint, JointSide, label, name_of, quantity, source_text
 from linkage.steps import Point
 from linkage.vectors import Vec
 from tests.extending.readings import OF_NUMBERS, Case
@@ -37,7 +37,7 @@ class Level(Point):
         return (Joint("leveller", self.name, JointSide((name_of(self.P), self.name)), JointSide(), "c"),)
 
     def __str__(self):
-        return f"Level({label(self.P)}, dx={spelled(self.dx)}, dy={spelled(self.dy)})"
+        return f"Level({label(self.P)}, dx={source_text(self.dx)}, dy={source_text(self.dy)})"
 
 
 class Lift(Mechanism):

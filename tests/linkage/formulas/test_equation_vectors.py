@@ -7,7 +7,7 @@ from linkage import LEFT, Dimension, Dyad, Ground, Mechanism, OnLink, Stroke, dr
 from linkage.documents.html import html_text
 from linkage.documents.reporting import report_document
 from linkage.loads import Weight
-from linkage.quantities import label, quantity, spelled
+from linkage.quantities import label, quantity, source_text
 from linkage.steps import Point
 from linkage.vectors import Line, Vec
 from tests.for_all import for_all
@@ -52,7 +52,7 @@ class Beside(Point):
         return RULES[self.rule](where.at(self.P), where.at(self.Q), where.value(self.d))
 
     def __str__(self):
-        return f"Beside({label(self.P)}, {label(self.Q)}, {spelled(self.d)}, {self.rule!r})"
+        return f"Beside({label(self.P)}, {label(self.Q)}, {source_text(self.d)}, {self.rule!r})"
 
 
 class Lever(Mechanism):

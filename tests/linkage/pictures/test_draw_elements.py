@@ -163,7 +163,7 @@ def test_every_element_reaches_from_pin_to_pin_at_every_pose(cls):
     for pose in range(5):
         drawing.update(pose)
         for part in elements(drawing):
-            if part.mark in scene.fed:
+            if part.mark in scene.accumulators:
                 continue  # accumulators stand beside a barrel
             P, Q = (motion[name][:, pose] for name in part.points)
             places = local(np.concatenate([each.get_xy() for each in part.artists]), P, Q)
@@ -239,8 +239,8 @@ def test_a_spring_beside_the_driven_cylinder_and_a_cylinder_of_its_own():
 def test_the_cylinder_declared_on_a_driven_length_is_drawn_once(cls):
     scene = Scene(cls().sweep(5))
     assert [(ram.P, ram.Q, ram.aside) for ram in scene.cylinders] == [("A", "B", 0.0)]
-    assert scene.straights == scene.fed
-    assert len(scene.fed) == (cls is HeaderBalancer)
+    assert scene.straights == scene.accumulators
+    assert len(scene.accumulators) == (cls is HeaderBalancer)
 
 
 def test_a_gas_fed_cylinder_beside_a_crank_is_a_cylinder():

@@ -199,7 +199,7 @@ def test_a_cylinder_along_a_bar_hangs_beside_it():
 
 def test_a_gas_fed_cylinder_carries_its_accumulators():
     motion, drawing = drawn(HeaderBalancer)
-    (fed,) = drawing.scene.fed
+    (fed,) = drawing.scene.accumulators
     assert set(fed.on) == {"A", "B"}
     (part,) = [part for part in parts(drawing, MarkPart) if part.mark is fed]
     count = len(HeaderBalancer.plan.of_kind(FloatCircuit)["floating"].block.accumulators)

@@ -11,7 +11,7 @@ from .pareto import Front
 from .settings import Settings, Solutions, settings_for
 from .space import around
 from .survey import Survey, survey
-from .tolerances import Effect, SobolIndices, Tolerance, Tornado, sigma, sobol, spread, tornado
+from .tolerances import Effect, SobolIndices, Tolerance, Tornado, sigma, sobol, tornado
 from .working_field import WorkingField, working_field
 from .zone import Zone, zone
 

@@ -11,7 +11,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..checks import require, require_type, require_whole
+from ..checks import require, require_whole
 from ..errors import DefinitionError, cited, ensure, one_word, unknown, unwarned
 from ..frozen import FrozenDict, immutable, refuses_changes
 from ..mechanism import Mechanism
@@ -24,7 +24,7 @@ from ..program import FloatArray, Node, RunOptions, gradient
 from ..quantities import is_number, is_whole
 from ..units import SI, display_unit, require_measure, show, unit_or_none
 from .box import is_pair, unit_points
-from .checks import check_mechanism, unit_of
+from .checks import unit_of
 from .measured import Measured, StudyPoses, measured_title, number_bound, traced_number
 
 LAWS = ("normal", "uniform", "truncated")
@@ -249,44 +249,6 @@ def sigma_of(what: Request, quantity: RequestLike, deviations: tuple[tuple[str, 
         order=1 + what.order, nodes_of=nodes, names_of=what.names, notes_of=what.notes, refused_by=refuse,
         traits=Trait.MAY_FAIL | what.traits & Trait.FOLLOWS_ANGLES,
     )  # fmt: skip
-
-
-def spread(
-    machine: Mechanism,
-    designs: Mapping[str, Any],
-    quantity: RequestLike,
-    tolerances: Mapping[str, ToleranceLike],
-    strokes: Mapping[str, Any],
-) -> FloatArray:
-    """Return the standard deviation of a quantity at designs and strokes, from exact gradients.
-
-    `spread(hitch, {"OB": array}, "tilt", {"OB": 0.1 * mm, "CD": 0.2 * mm}, {"S": array})` is one kernel call. It is
-    `evaluate([sigma(...)])` of these designs.
-
-    Parameters
-    ----------
-    machine : Mechanism
-        The machine.
-    designs : mapping of str to array
-        Dimensions by name [SI].
-    quantity : str, quantity or request
-        The quantity.
-    tolerances : mapping of str to Tolerance or float
-        By dimension [SI].
-    strokes : mapping of str to array
-        Strokes by name [m or rad].
-
-    Returns
-    -------
-    array (*designs, *strokes)
-        The standard deviation; NaN where the quantity or its gradient has no value.
-    """
-    check_mechanism(machine)
-    traced_number(machine.plan, quantity)
-    for what, given in (("designs", designs), ("strokes", strokes)):
-        require_type(f"{machine.plan.title}: {what}", given, Mapping, f"a dictionary of {what} by name is expected, such as {{...: 0.1}}")
-    with unwarned(), np.errstate(all="ignore"):
-        return machine.replaced(**designs).evaluate([sigma(quantity, tolerances)], unreachable="nan", **strokes)[0]
 
 
 # Which dimension matters: one at a time, from exact gradients and the real change, and by the shares of the variance.

@@ -885,12 +885,6 @@ USES = [
         'None; -1; "a"; 1.5',
         ("a whole number is expected, at least 0.",),
     ),
-    ('study.spread(@, {}, "tilt", {"OB": 1e-4}, {"S": 0.1})', 'None; 3; "Lift"; Lift', ("A study is of a mechanism:",)),
-    (
-        'study.spread(lifting, {}, "tilt", {"OB": 1e-4}, @)',
-        'None; 3; []; "S"',
-        ("Lift: strokes=", "a dictionary of strokes by name is expected"),
-    ),
     ('study.survey(@, {"OB": np.array([0.3])}, len)', 'None; 3; "Lift"; Lift; []', ("A study is of a mechanism:",)),
     (
         'study.survey(@, {"OB": np.array([0.3])}, len)',

@@ -34,7 +34,7 @@ from linkage import (
 from linkage.motion import Request
 from linkage.motion.measures import Condition, Measure
 from linkage.quantities import Quantity
-from linkage.study import Target, Tolerance, monte_carlo, settings_for, sobol, spread, survey, tornado, zone
+from linkage.study import Target, Tolerance, monte_carlo, settings_for, sobol, survey, tornado, zone
 from tests.uses.machines import batch, lifting, two
 
 nan, inf = float("nan"), float("inf")
@@ -104,7 +104,6 @@ OPTIONS = {
     "monte_carlo": ("of", "tolerances", "subject_to", "count", "percentiles", "method", "seed", "backend", "threads", "S"),
     "tornado": ("quantity", "tolerances", "unit", "S"),
     "sobol": ("quantity", "tolerances", "count", "seed", "S"),
-    "spread": ("designs", "quantity", "tolerances", "strokes"),
 }  # fmt: skip
 RIGHT = {
     "optimise": lambda: dict(minimise=most(pressure("lift")), vary={"OB": (0.28, 0.32)}, starts=1, limit=40),
@@ -116,7 +115,6 @@ RIGHT = {
     "monte_carlo": lambda: dict(of=["tilt"], tolerances={"OB": 1 * mm}, count=64, S=[0.0, 0.1]),
     "tornado": lambda: dict(quantity="tilt", tolerances={"OB": 1 * mm}, S=0.1),
     "sobol": lambda: dict(quantity="tilt", tolerances={"OB": 1 * mm}, count=16, S=0.1),
-    "spread": lambda: dict(designs={"OB": [0.29, 0.3]}, quantity="tilt", tolerances={"OB": 1 * mm}, strokes={"S": [0.0, 0.1]}),
 }
 """An ask of each kind that works."""
 
@@ -149,7 +147,5 @@ def asked(kind, parts, machine=lifting):
         return str(settings_for(machine, parts.pop("name"), parts.pop("quantity"), **parts))
     if kind == "targets":
         return str(settings_for(machine, parts["name"], parts["quantity"], points=parts["points"]))
-    if kind == "spread":
-        return spread(machine, parts["designs"], parts["quantity"], parts["tolerances"], parts["strokes"])
     return {"zone": zone, "survey": survey, "monte_carlo": monte_carlo, "tornado": tornado, "sobol": sobol}[kind](machine, **parts)
 

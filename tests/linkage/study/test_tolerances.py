@@ -34,7 +34,7 @@ from linkage import (
 )  # fmt: skip
 from linkage.pictures import plot_bands, plot_tornado
 from linkage.quantities import ref
-from linkage.study import Tolerance, monte_carlo, sigma, sobol, spread, tornado
+from linkage.study import Tolerance, monte_carlo, sigma, sobol, tornado
 from linkage.study.tolerances import tolerance_words, tolerances_of
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
@@ -102,6 +102,11 @@ def test_tolerances_are_told_as_a_drawing_does():
 
 
 # -- the gradient's sigma -------------------------------------------------------------------------------------
+
+
+def spread(machine, designs, quantity, tolerances, strokes):
+    """Return the standard deviation of a quantity at designs and strokes, NaN where it has no value."""
+    return machine.replaced(**designs).evaluate([sigma(quantity, tolerances)], unreachable="nan", **strokes)[0]
 
 
 def test_sigma_of_a_linear_output_is_exact():

@@ -56,19 +56,19 @@ def programme_read(machine: Mechanism, file: str) -> Programme:
     faults, data = found.faults, found.data
     until, start, demands = 1.0, dict[str, float](), dict[Reference, Demand]()
     for key in data:
-        with faults.at(key):
+        with faults.at_key(key):
             known_name("Key", key, KEYS)
-    with faults.at("until"):
+    with faults.at_key("until"):
         ensure("until" in data, 'it is missing; say when the programme ends, until = "4 s".')
         until = si_number(data["until"], "time")
         require(until > 0.0, "until", data["until"], 'an instant behind 0 s is expected, until = "4 s"')
     for name, given in table_under("start", data, faults).items():
-        with faults.at("start", *name.split(".")):
+        with faults.at_key("start", *name.split(".")):
             start[known_name("Stroke", name, machine.strokes)] = si_number(given, stroke_measure(machine.plan, name))
     for name, given in table_under("demands", data, faults).items():
-        with faults.at("demands", *name.split(".")):
+        with faults.at_key("demands", *name.split(".")):
             demands[known_name("Cylinder", name, machine.plan.of_kind(Ram))] = demand_read(given, until)
-    with faults.at("case"):
+    with faults.at_key("case"):
         case = data.get("case")
         case = None if case is None else known_name("Load case", case, machine.plan.of_kind(LoadCase))
     faults.check()

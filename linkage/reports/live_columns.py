@@ -95,9 +95,8 @@ def not_followed(motion: Motion, request: RequestLike, column: Column, known: Ma
     """Return why a program's values differ from a column's, NaN at the same poses, in words; empty where they agree."""
     own, request = np.broadcast_to(np.asarray(column.values, float), motion.shape), at_its_rates(motion, request)
     try:
-        is_request = isinstance(request, Request)
-        found = known.get(bound(motion.plan, request).key) if is_request else motion[request]
-        found = motion._requested(request) if found is None else found
+        found = known.get(bound(motion.plan, request).key) if isinstance(request, Request) else motion[request]
+        found = motion._requested(request) if found is None and isinstance(request, Request) else found
     except LinkageError as error:
         return str(error)
     close = CLOSE * float(np.nanmax(np.abs(own), initial=0.0))

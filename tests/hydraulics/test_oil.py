@@ -253,6 +253,8 @@ def test_a_tank_on_the_other_side_is_a_back_pressure_while_it_lifts():
     assert lifting[0] == lifting[1]
     size = OnTank.ram.size  # it always counts: at rest it presses on the load's side
     assert OnTank.line.holding(b).working == pytest.approx((40 * kN + 5 * bar * size.pull_area) / size.push_area)
+    drained = type("Drained", (OnTank,), {"back": OilLine("ram.rod_side", Tank())})
+    assert drained.line.holding(drained().sweep(3)).working == pytest.approx(40 * kN / size.push_area, rel=1e-12)
 
 
 def test_a_regenerative_line_has_bounds_and_holds():

@@ -430,10 +430,10 @@ def test_groups_solved_by_iteration_are_searched_too():
 
 
 def test_friction_and_functions_of_a_motion_are_searched_by_differences():
-    class Rubbing(Boom):
+    class Worn(Boom):
         pin = PinFriction("O", radius=30 * mm, coefficient=0.2)
 
-    rubbing = optimise(Rubbing(), maximise=least(reserve("lift")), vary={"OB": (0.25, 0.34)}, starts=1)
+    rubbing = optimise(Worn(), maximise=least(reserve("lift")), vary={"OB": (0.25, 0.34)}, starts=1)
     assert_allclose(rubbing.value, np.min(rubbing.machine.sweep(501)[reserve("lift")]), rtol=1e-6)
     assert rubbing.machine["OB"] == pytest.approx(0.34, abs=1e-6)
 
@@ -444,27 +444,38 @@ def test_friction_and_functions_of_a_motion_are_searched_by_differences():
     assert_allclose(own.value, known.value, rtol=1e-6)
 
 
-def test_the_number_found_is_the_one_that_the_judge_gives():
-    """With friction in both directions, in all load cases, and, without over=, where the class says that it runs."""
+class Rubbing(Loaded):
+    """With friction in both directions, which no load case takes away."""
 
-    class Rubbing(Loaded):
-        pin = PinFriction("O", radius=30 * mm, coefficient=0.2)
+    pin = PinFriction("O", radius=30 * mm, coefficient=0.2)
 
-    class Low(Rubbing):
-        run = Over(S=(0.0, 0.1), cases=["full"])
 
-    class Ways(Rubbing):
-        run, back = Over(S=(0.0, 0.1)), Over.path(S=[0.2, 0.1])
+class Low(Rubbing):
+    """It runs over a box, which a search takes."""
 
-    asked = dict(minimise=(most(thrust("lift")), most(pressure("lift")), most(pin_force("O"))), maximise=(least(reserve("lift")),))
-    for machine, over in ((Loaded(), None), (Rubbing(), None), (Low(), None), (Ways(), Over())):
-        for aim, measures in asked.items():
-            for measure in measures:
-                found = optimise(machine, vary={"OB": (0.29, 0.31)}, starts=1, limit=8, method="local", **{aim: measure})
-                (judged,) = found.machine.answers([measure], over=over)
-                assert found.value == pytest.approx(float(judged.value), rel=1e-9), (machine, measure)
-        where = {Low: "Assembled over S = 0 to 0.1 m.", Ways: "A search does not run along run, back: ask the design found"}
-        assert where.get(type(machine), "Assembled over the whole stroke.") in str(found)
+    run = Over(S=(0.0, 0.1), cases=["full"])
+
+
+class Ways(Rubbing):
+    """It runs over a path too, along which no search runs."""
+
+    run, back = Over(S=(0.0, 0.1)), Over.path(S=[0.2, 0.1])
+
+
+LEAST = [("minimise", most(pressure("lift"))), ("minimise", most(pin_force("O"))), ("maximise", least(reserve("lift")))]
+WHERE = {Low: "Assembled over S = 0 to 0.1 m.", Ways: "A search does not run along run, back: ask the design found"}
+
+
+@for_all(
+    "machine, aim, measure",
+    [(Low, "minimise", most(thrust("lift")))],
+    slow=[(machine, *each) for machine in (Loaded, Rubbing, Low, Ways) for each in LEAST],
+)
+def test_the_number_found_is_the_one_that_the_judge_gives(machine, aim, measure):
+    found = optimise(machine(), vary={"OB": (0.29, 0.31)}, starts=1, limit=3, method="local", **{aim: measure})
+    (judged,) = found.machine.answers([measure], over=Over() if machine is Ways else None)
+    assert found.value == pytest.approx(float(judged.value), rel=1e-9)
+    assert WHERE.get(machine, "Assembled over the whole stroke.") in str(found)
 
 
 def test_exact_rows_of_forces_hold_with_several_cylinders_and_strokes():

@@ -480,9 +480,9 @@ def refused_where(poses: FlatPoses, values: FloatArray, cond: FloatArray, what: 
         worst = float(cond[near].max())
         where = where_words(motion.plan, poses.mask(near), motion.strokes)
         # one division by a difference that is lost: the error goes with the condition, not its square
-        error = f"expect a relative error of about {np.finfo(float).eps * worst:.0e}"
-        text = f"{what} {is_or_are(what)} nearly refused {where}, for close by {reason} (condition {worst:.1e}); {error}."
-        warn(SingularWarning(text))
+        estimate = float(np.finfo(float).eps) * worst
+        text = f"{what} {is_or_are(what)} nearly refused {where}, for close by {reason} (condition {worst:.1e})"
+        warn(SingularWarning(f"{text}; expect a relative error of about {estimate:.0e}.", estimate=estimate))
     return np.where(lost, np.nan, values)
 
 

@@ -3,11 +3,29 @@
 import warnings
 from itertools import islice
 
+import mpmath
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from linkage import LEFT, AssemblyError, Crank, Dyad, Ground, Mechanism, SingularError, SingularWarning, Stroke, ratio, x, y
+from hydraulics import Cylinder, thrust
+from linkage import (
+    LEFT,
+    AssemblyError,
+    Crank,
+    Dyad,
+    Ground,
+    Mechanism,
+    SingularError,
+    SingularWarning,
+    Stroke,
+    Weight,
+    mm,
+    pin_forces,
+    ratio,
+    x,
+    y,
+)
 from tests.for_all import first_daily, for_all
 
 from .exactly import exactly, off, off_by_parts, pins_exactly
@@ -198,3 +216,43 @@ def test_the_double_toggle_is_refused_as_its_output_is():
     found, warned = told(lambda: motion.ratio(x("B"), order=2))  # it is exact, and asked for by itself
     assert_allclose(found, -np.cos(1e-4), rtol=1e-12)
     assert max(warned) < 1e-12
+
+
+class Turned(Mechanism):
+    """A crank whose weight a cylinder beside it holds, which stands still where A, O and B are in line."""
+
+    phi = Stroke(0.0, 1.0)
+    O, A = Ground(0.0, 0.0), Ground(1.5, 0.1)
+    B = Crank(O, OB=0.3, angle=phi)
+    load = Weight(B, mass=50)
+    ram = Cylinder(A, B, bore=50 * mm, rod=28 * mm, works="both")
+
+
+def held_by(phi):
+    """Return the thrust of the cylinder of `Turned`, in sixty digits."""
+    with mpmath.workdps(60):
+        u, v = 0.3 * mpmath.cos(phi), 0.3 * mpmath.sin(phi)
+        x, y = u - 1.5, v - mpmath.mpf(0.1)
+        return float(50 * mpmath.mpf(9.80665) * u * mpmath.hypot(x, y) / (y * u - x * v))
+
+
+def test_a_cylinder_next_to_its_dead_point_is_right_told_or_refused():
+    """The thrust by every door; the error to expect is a number, for programs too."""
+    machine, count = Turned(), 0
+    doors = (
+        lambda motion: motion[thrust("ram")],
+        lambda motion: machine.ram.thrust(motion),
+        lambda motion: pin_forces(motion).thrusts["ram"],
+        lambda motion: machine.evaluate([thrust("ram")], **motion.strokes)[0],
+        lambda motion: machine.function([thrust("ram")])(float(motion.strokes["phi"][0])),
+    )
+    for away in 10.0 ** -np.arange(1.0, 13.0):
+        phi = float(np.arctan2(0.1, 1.5)) + away
+        for door in doors:
+            found, warned = told(lambda door=door, phi=phi: float(np.ravel(door(machine.at(phi=[phi])))[0]))
+            count += len(warned)
+            if away < 3e-6:
+                assert found is None, away
+            else:
+                assert found == pytest.approx(held_by(phi), rel=max([1e-10, *warned])), away
+    assert count >= 6

@@ -21,7 +21,7 @@ from ..verdict import Remark, Verdict
 from . import stroke_search
 from .answer import NONE_LOST, Answer, share_text
 from .judge import Domain, Judge, Question, measures_of
-from .limits import BoxLimits, Limits, LoopMargin, StrokeLimits, place_text, places_text, timed_texts
+from .limits import BoxLimits, Limits, LoopMargin, StrokeLimits, angle_text, place_text, places_text, timed_texts
 from .measures import Condition, Measure, conditions_of, least, reachable
 from .motion import Motion, require_motion
 from .over import Over
@@ -318,7 +318,7 @@ def transmission_remarks(judge: Judge) -> list[Remark]:
     if not found:
         return []
     joint = min(found, key=lambda name: float(found[name].value))
-    angle, poor = (show(float(each), "deg", 3) for each in (found[joint].value, POOR))
+    angle, poor = (angle_text(float(each), 3) for each in (found[joint].value, POOR))
     given = {"angle": angle, "joint": joint, "place": found[joint].place, "poor": poor}
     return [Remark(said("The least transmission angle is {angle}, of {joint} {place}: below {poor} pin forces and play grow.", **given))]
 

@@ -55,8 +55,8 @@ class StrokeLimits:
             at = {"stroke": self.stroke, "place": stroke_text(value, self.unit)}
             lines.append("  " + said("dead point of {name} at {stroke} = {place}: its length stands still", name=name, **at))
         for least in self.transmission:
-            where = {"joint": least.joint, "place": stroke_text(least.stroke, self.unit, 6)}
-            lines.append("  " + said("least transmission angle at {joint}: {angle} at {place}", angle=show(least.angle, "deg", 4), **where))
+            given = {"joint": least.joint, "angle": angle_text(least.angle, 4), "place": stroke_text(least.stroke, self.unit, 6)}
+            lines.append("  " + said("least transmission angle at {joint}: {angle} at {place}", **given))
         return "\n".join([*lines, *([f"  {self.open_turn}"] if self.open_turn else [])])
 
     def _reach(self, interval: Interval) -> list[str]:
@@ -174,6 +174,15 @@ class Interval:
 
     def __contains__(self, value: float) -> bool:
         return self.low <= value <= self.high
+
+
+def angle_text(angle: float, digits: int) -> str:
+    """Return a transmission angle [rad] in words; zero at a dead point, which is found to half of the digits of its angle."""
+    return show(angle if angle > DEAD_ANGLE else 0.0, "deg", digits)
+
+
+DEAD_ANGLE = 1e-6
+"""Transmission angles below it are those of a dead point [rad]."""
 
 
 @refuses_changes

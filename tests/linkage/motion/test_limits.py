@@ -398,3 +398,15 @@ def test_a_machine_whose_sketch_cannot_be_assembled_is_not_called_wide():
     assert limits.remark == ""
     assert "wide" not in str(limits)
     assert not [each for each in Short().verdicts() if "wide" in each.sentence]
+
+
+def test_a_dead_point_has_no_transmission_angle_in_every_text():
+    """Where the stroke ends there, and where it lies within; its angle is found to rounding."""
+    dead = np.hypot(0.1, 0.6) + 0.30 - 0.5
+    for end in (dead, dead + 1e-3):
+
+        class Ends(Lift):
+            S = Stroke(0.1, end)
+
+        assert "least transmission angle at B: 0 deg" in str(Ends().sweep(2, unreachable="nan").limits())
+        assert any(str(each).startswith("The least transmission angle is 0 deg, of B") for each in Ends().verdicts())

@@ -23,6 +23,7 @@ from ..loads import ForceElement, Poses, Reeving, Tie, TwoPinned, TwoPoint
 from ..motion import Motion
 from ..motion.dead_points import REFUSE, WARN, condition_of_sine, is_or_are
 from ..motion.limits import where_words
+from ..motion.stroke_search import out_of_reach
 from ..plan import Plan
 from ..program import FloatArray, Traced, elementwise, eliminated, is_traced, node_of
 from ..quantities import Member, joined_names
@@ -135,6 +136,8 @@ def assigned(plan: Plan, elements: Sequence[ForceElement]) -> Holders:
     follows[:, [name in cuts for name in strokes]] = 0.0  # the oil that is put in is driven by the closed line itself
     for line, row in zip(lines, follows, strict=True):
         if not row.any():
+            if not motion.reached.any():
+                raise out_of_reach(motion)
             what = f"{line_names(line)} holds nothing here: no stroke changes the distance {joined_names(*line[0].ends)}"
             raise DefinitionError(f"{plan.title}: {what}. Put it between two points that move against each other, or take it out.")
     best = matched(follows)

@@ -12,6 +12,7 @@ from hydraulics import Cylinder, LiftCircuit, OilLine, Tank, capacity, pressure,
 from linkage import (
     LEFT,
     RIGHT,
+    AssemblyError,
     CosineAngle,
     DefinitionError,
     Dyad,
@@ -355,3 +356,18 @@ def test_machines_without_a_stroke_have_forces_or_say_why():
         assert machine.verdicts() is not None and machine.freedom.loose == ()
     forces = pin_forces(Truss().at(unreachable="nan"))
     assert np.allclose(sum(forces.on_body("frame").values()), [0.0, -100 * 9.80665])
+
+
+def test_a_machine_that_is_assembled_nowhere_says_so_and_not_that_its_cylinder_holds_nothing():
+    class Short(Mechanism):
+        S = Stroke(0.0, 0.2)
+        A, O = Ground(0.0, 0.0), Ground(0.5, 0.0)
+        B = Dyad(A, O, AB=1.5 + S, OB=0.3, side=RIGHT)
+        load = Weight(B, mass=100)
+        ram = Cylinder(A, B, bore=50 * mm, rod=28 * mm)
+
+    short = Short()
+    motion = short.sweep(3, unreachable="nan")
+    for door in (short.verdicts, lambda: motion[thrust("ram")], lambda: short.answers([most(thrust("ram"))]), lambda: pin_forces(motion)):
+        with pytest.raises(AssemblyError, match=r"AB = .* m\. Shorten the stroke or lengthen OB"):
+            door()

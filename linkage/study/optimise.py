@@ -391,7 +391,7 @@ def worse_pieces(objective: Measure, sense: float, cases: Sequence[Case], judge:
 
     def values(measure: Measure) -> FloatArray:
         """Return its quantity over the poses, greater where it is worse, the least number where there is none."""
-        return np.asarray(np.nan_to_num(sense * motion[cast(Leaf, measure).quantity], nan=-np.inf))
+        return np.asarray(np.nan_to_num(sense * motion[cast(Request, cast(Leaf, measure).quantity)], nan=-np.inf))
 
     requests = [(each, each.quantity) for each in pieces if isinstance(each, Leaf)]
     moving = [each for each, one in requests if isinstance(one, LawRequest) and one.situation.direction in ("extending", "retracting")]

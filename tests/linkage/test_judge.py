@@ -222,7 +222,7 @@ class Rocker(Mechanism):
 def test_many_questions_over_a_box_are_each_answered_at_their_own_place():
     """How near D comes to places where it has been: there, and nowhere else of the box, nothing is left."""
     rng = np.random.default_rng(5)
-    poses = {"S": rng.uniform(0.02, 0.28, 16), "T": rng.uniform(0.02, 0.18, 16)}
+    poses = {"S": rng.uniform(0.02, 0.28, 40), "T": rng.uniform(0.02, 0.18, 40)}
     been = Loader().at(**poses)["D"].T
     found = Loader().answers([least(abs(x("D") - float(a)) + abs(y("D") - float(b))) for a, b in been])
     assert_allclose([float(each.value) for each in found], 0.0, atol=1e-8)

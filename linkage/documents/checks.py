@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
@@ -82,17 +82,12 @@ def largest_finite(values: FloatArray) -> float:
 
 def loops_closed(motion: Motion) -> Iterator[Check]:
     """Yield how well the links close their loops, each as its given length in the direction that it has; nothing without a loop."""
-    import networkx as nx
-
-    plan, graph = motion.plan, nx.Graph()
-    given: dict[frozenset[str], Quantity] = dict(plan.table.lengths)
-    ground = list(plan.ground)
-    given |= {frozenset(pair): distance(*pair) for pair in pairwise(ground) if frozenset(pair) not in given}
-    graph.add_edges_from(tuple(sorted(pair)) for pair in given if len(pair) == 2)
-    loops = nx.minimum_cycle_basis(graph) if graph.number_of_edges() < 40 else nx.cycle_basis(graph)
+    given: dict[frozenset[str], Quantity] = dict(motion.plan.table.lengths)
+    given |= {frozenset(pair): distance(*pair) for pair in pairwise(motion.plan.ground) if frozenset(pair) not in given}
+    loops = [*closed_walks((P, Q) for P, Q in (sorted(pair) for pair in given if len(pair) == 2))]
     worst, longest = 0.0, 0.0
     for loop in loops:
-        sides = [(P, Q) for P, Q, *_ in nx.find_cycle(graph.subgraph(loop), source=loop[0])]
+        sides = [*pairwise([*loop, loop[0]])]
         angles = [motion.angle(*side) for side in sides]
         vectors = [
             np.asarray(motion.value(given[frozenset(side)]) * np.array([np.cos(angle), np.sin(angle)]))
@@ -103,6 +98,23 @@ def loops_closed(motion: Motion) -> Iterator[Check]:
     if loops:
         what = said("given lengths in the directions of the links, summed round the closed loops: {n} of them", n=len(loops))
         yield Check(said("loops closed"), what, worst / (longest or 1.0), EXACT)
+
+
+def closed_walks(pairs: Iterable[tuple[str, str]]) -> Iterator[list[str]]:
+    """Yield the points of a loop for each pair that pairs before it join already."""
+    tree: dict[str, list[str]] = {}
+
+    def walk(start: str, end: str, before: str) -> list[str]:
+        found = (walk(each, end, start) for each in tree.get(start, ()) if each != before)
+        return [end] if start == end else next(([start, *rest] for rest in found if rest), [])
+
+    for P, Q in pairs:
+        loop = walk(P, Q, "")
+        if loop:
+            yield loop
+        else:
+            tree.setdefault(P, []).append(Q)
+            tree.setdefault(Q, []).append(P)
 
 
 def equations_against(subject: ReportSubject, values: Mapping[str, Any]) -> Check:

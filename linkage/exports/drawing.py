@@ -19,8 +19,9 @@ import numpy as np
 from ..errors import known_name
 from ..loads import PinFriction
 from ..motion import Motion
+from ..pictures.layout import props
 from ..pictures.scene import DrawnMark, Places, Scene
-from ..pictures.shapes import left_of
+from ..pictures.shapes import left_of, polar
 from ..program import FloatArray
 from ..quantities import body_name, joined_names
 from ..units import mm
@@ -107,9 +108,10 @@ def pose_parts(motion: Motion, pose: int) -> Iterator[Part]:
     scene = Scene(motion)
     there = scene.at(pose)
     at, size = {name: place / mm for name, place in there.items()}, scene.size / mm
-    for name in scene.grounds:  # a triangle under each pin on the frame, then the tracks
-        foot = at[name] + size * np.array([[-1.9, -3.2], [1.9, -3.2]])
-        yield Polyline("frame", name, np.array([at[name], *foot]), closed=True)
+    for name, way in props(scene).items():  # a triangle on the side of each pin on the frame where pictures have it, then the tracks
+        along, across = polar(way), left_of(polar(way))
+        feet = (at[name] + size * (3.2 * along + aside * across) for aside in (-1.9, 1.9))
+        yield Polyline("frame", name, np.array([at[name], *feet]), closed=True)
     for track in scene.tracks:
         yield Polyline("frame" if track.fixed else "bodies", track.name, np.array([at[name] for name in track.ends]))
     yield from mark_parts("bodies", scene.blocks, there)
@@ -118,6 +120,8 @@ def pose_parts(motion: Motion, pose: int) -> Iterator[Part]:
         yield outline_around(name, places, ROUND * size)
         if len(corners) > 1:
             yield Polyline("centre_lines", name, places, closed=len(corners) > 2)
+    for ends in scene.stays:
+        yield Polyline("centre_lines", joined_names(*ends), np.array([at[name] for name in ends]))
     for cylinder in scene.cylinders:
         mark = cylinder.mark(scene.size)
         yield from mark_parts("cylinders", [mark], there)

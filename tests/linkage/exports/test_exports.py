@@ -38,7 +38,9 @@ from linkage.cli import main
 from linkage.exports.calculation import Calculation, live_results
 from linkage.exports.formula_text import cell_names, formula
 from linkage.exports.workbook import from_si, to_si
-from linkage.reports import results, run_of
+from linkage.pictures.layout import props
+from linkage.pictures.scene import Scene
+from linkage.reports import results, run_of, stroke_middles
 from linkage.units import UNITS, deg, kgf_cm2, mm
 from mechanisms.classics.stephenson_two import StephensonTwo
 from mechanisms.header_balancer import HeaderBalancer
@@ -402,6 +404,20 @@ def test_a_drawing_has_the_machine_in_millimetres(tmp_path):
     assert_allclose([(x, y) for x, y, *_ in path], hitch.sweep(101)["G"].T / mm, rtol=0, atol=1e-9)
     lengths = {each.dxf.text.split(" = ")[0]: each.get_measurement() for each in space.query('DIMENSION[layer=="dimensions"]')}
     assert lengths["OB"] == pytest.approx(300.0) and lengths["MK"] == pytest.approx(880.0)
+
+
+@for_all("machine", [ThreePointHitch, HeaderBalancer, MowerLift])
+def test_a_pin_on_the_frame_stands_as_in_pictures(machine, tmp_path):
+    """Its triangle is on the side where pictures and pages have it: below, or beside where below is no room."""
+    motion = machine().at(**stroke_middles(machine()))
+    document = drawing(export(motion, tmp_path / "frame.dxf"))
+    frame = [np.array([(x, y) for x, y, *_ in each]) * mm for each in document.modelspace().query('LWPOLYLINE[layer=="frame"]')]
+    ways = props(Scene(motion))
+    assert len({*ways.values()}) > 1
+    for name, way in ways.items():
+        pin, *feet = next(each for each in frame if len(each) == 3 and np.allclose(each[0], motion[name], rtol=0.0, atol=1e-9))
+        out = np.mean(feet, axis=0) - pin
+        assert_allclose(out / np.hypot(*out), [np.cos(way), np.sin(way)], rtol=0.0, atol=1e-9)
 
 
 def test_an_outline_keeps_its_distance(tmp_path):

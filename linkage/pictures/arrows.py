@@ -185,7 +185,7 @@ CROSSED_TEXT, CROSSED_LEADER, COVERED_TEXT, OFF_SHEET = 40.0, 250.0, 400.0, 900.
 STRAY, LED_STRAY, LED_BESIDE = 300.0, 6.0, 60.0
 """What it costs to stand nearer to what another text stands for than to the own, without and with such a line, in covered points; and
 with one right beside it."""
-ARROW = 4
+ARROW = 8
 """What a point along an arrow costs, in covered points."""
 ALONG_LEADER = np.linspace(0.0, 1.0, 24)[1:, None]
 """The shares of a leading line at which it is looked at."""
@@ -230,7 +230,8 @@ def wordings(layer: ArrowLayer, scale: float, size: float) -> list[Wording]:
         unit = shown_in("kNm") if current_system() else {"N": "Nm", "kN": "kNm"}[layer.unit]
         text = f"{significant(abs(turn.moment) / factor(unit))} {translated(unit)} {turn.text}".strip()
         at = turn.at + np.array([0.0, turn.radius * size])
-        found.append(Wording(text, at, np.array([0.0, 1.0]), style.mixed(turn.colour, style.INK, 0.4), turn.name))
+        colour, curve = style.mixed(turn.colour, style.INK, 0.4), turning_line(turn, size)
+        found.append(Wording(text, at, np.array([0.0, 1.0]), colour, turn.name, curve))
     return found
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -164,8 +165,13 @@ class Overlay:
         near = [mark.at for mark in self.marks if mark.is_near(self.sheet)]
         near += [end for arm in self.arms for end in arm.line.ends]
         left, right, bottom, top = grown(box, np.array(near).reshape(-1, 2), 3.0 * size)
+        return left, right, bottom, top + self.note_share * (right - left)
+
+    @property
+    def note_share(self) -> float:
+        """The height of its remarks at the top of the sheet, as a share of the sheet's width."""
         lines = sum(len(textwrap.wrap(sentence, NOTE_WIDTH)) for sentence in self.sentences)
-        return left, right, bottom, top + lines * NOTE_LINE * (right - left)
+        return NOTE_LINE * (lines + 1) if lines else 0.0
 
     @property
     def sentences(self) -> list[str]:
@@ -181,6 +187,9 @@ class Overlay:
         """Return points along the arrows, where no name should stand, shape (n, 2) [m]; `size` is that of a pin [m]."""
         lines = [np.empty((0, 2)), *(arrows.arrow_points(layer, layer.scale(self.sheet), size) for layer in self.layers)]
         lines += [gap.outer(0.0) for gap in self.gaps] + [arm.line.covered for arm in self.arms]
+        left, right, _, top = self.box(size)
+        if self.note_share:  # the remarks
+            lines.append(np.array([*product(np.arange(left, right, size), np.arange(top, top - self.note_share * (right - left), -size))]))
         return np.concatenate([*lines, *(mark.at[None] for mark in self.marks if mark.is_near(self.sheet))])
 
     def draw(self, ax: Axes, size: float, keep_clear: FloatArray) -> None:
@@ -215,7 +224,7 @@ def sheet_note(ax: Axes, sentences: Sequence[str]) -> None:
         across = int(ax.get_position(original=True).width * figure_of(ax).get_figwidth() * 72.0 / (0.5 * style.SMALL))
         lines = [line for sentence in sentences for line in textwrap.wrap(sentence, across)]
         look: Keywords = {"fontsize": style.SMALL, "color": style.ACCENT, "ha": "left", "va": "top", "zorder": 21.0, "gid": "note"}
-        box = {"facecolor": style.PAPER, "edgecolor": "none", "alpha": 0.85, "pad": 1.5}
+        box = {"facecolor": style.PAPER, "edgecolor": "none", "alpha": 0.85, "pad": 0.0}
         ax.text(0.012, 0.985, "\n".join(lines), transform=ax.transAxes, bbox=box, **look)
 
 

@@ -23,7 +23,7 @@ from . import style
 from .drawing import Drawing, draw_scene, mechanism
 from .free_body import draw_free_body
 from .gap_marks import gap_asked
-from .layout import cloud, surrounding_points
+from .layout import cloud, label_free, surrounding_points
 from .overlays import Overlay, Overlays
 from .paper import empty_page, footnote, legend_row, look_keys, remark, write_title
 from .pose_choice import telling_angles
@@ -115,7 +115,7 @@ def draw_laid(ax: Axes, scene: Scene, index: int, overlays: Overlays, laid: Over
     draw_scene(ax, scene, index, [laid.points_covered(scene.size)])
     overlays.centrodes(ax, scene.motion)
     at = scene.at(index)
-    laid.draw(ax, scene.size, np.concatenate([cloud(scene, at), surrounding_points(scene, at)]))
+    laid.draw(ax, scene.size, np.concatenate([*label_free(scene, [at]), surrounding_points(scene, at)]))
 
 
 def draw_strokes(machine: Mechanism, at: object, path: Sequence[str], count: int, overlays: Overlays) -> Figure:
@@ -147,7 +147,7 @@ def draw_strokes(machine: Mechanism, at: object, path: Sequence[str], count: int
         poses = Scene(shown)
         faint = [cloud(whole, poses.at(pose))[::3] for pose in poses.reached[:-1]]
         at = poses.at(last)
-        laid.draw(ax, whole.size, np.concatenate([cloud(whole, at), surrounding_points(whole, at), *faint]))
+        laid.draw(ax, whole.size, np.concatenate([*label_free(whole, [at]), surrounding_points(whole, at), *faint]))
         footnote(figure, laid.sense)
     write_heading(figure, ax, shown, moving)
     lost = int(np.count_nonzero(~swept.reached))

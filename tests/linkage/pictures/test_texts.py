@@ -167,6 +167,21 @@ def check_machine(machine):
         plt.close(figure)
 
 
+@for_all("seed", (1,), slow=(0, *range(2, 20)))
+def test_values_keep_clear_at_any_pose(seed):
+    """Poses that nobody chose, outside what is judged, where arrows crowd about few pins; one each of machines of several strokes."""
+    for name in ("levelled_telehandler", "grapple"):
+        machine, random = SHIPPED[name].load()(), np.random.default_rng(seed)
+        strokes = {stroke: each.start + random.uniform() * (each.end - each.start) for stroke, each in machine.strokes.items()}
+        motion = machine.at(unreachable="nan", **strokes)
+        if motion.reached.all():
+            figure = draw(motion, forces=True)
+            check_texts(figure)
+            check_forces(figure)
+            assert crossed(figure, "load ") == [] and crossed(figure, "couple ") == []
+            plt.close(figure)
+
+
 @for_all("name", QUICK)
 def test_no_text_covers_another(name):
     check_machine(SHIPPED[name].load()())

@@ -58,7 +58,8 @@ def column_requests(
     found: dict[str, LiveColumn] = {}
     acting = {} if case is None else {column.name: column for column in results(machine, motion, case)}
     shown = results(machine, motion, PLAIN_CASE) if columns is None else columns
-    known_values = values_together(motion, [request_in_case(each.request, case) for each in shown if isinstance(each.request, Request)])
+    wanted = [each.request for each in shown if isinstance(each.request, Request) and (only is None or each.name in only)]
+    known_values = values_together(motion, [request_in_case(each, case) for each in wanted])
     for place, plainly in enumerate(shown):
         column = acting.get(plainly.name, plainly)
         names[column.name] += 1
@@ -95,8 +96,11 @@ def not_followed(motion: Motion, request: RequestLike, column: Column, known: Ma
     """Return why a program's values differ from a column's, NaN at the same poses, in words; empty where they agree."""
     own, request = np.broadcast_to(np.asarray(column.values, float), motion.shape), at_its_rates(motion, request)
     try:
-        found = known.get(bound(motion.plan, request).key) if isinstance(request, Request) else motion[request]
-        found = motion._requested(request) if found is None and isinstance(request, Request) else found
+        if isinstance(request, Request):
+            together = known.get(bound(motion.plan, request).key)
+            found = motion._requested(request) if together is None else together
+        else:
+            found = motion[request]
     except LinkageError as error:
         return str(error)
     close = CLOSE * float(np.nanmax(np.abs(own), initial=0.0))

@@ -25,7 +25,8 @@ autodoc_typehints = "none"  # the first lines say shapes and units; types are fo
 autodoc_preserve_defaults = True
 napoleon_google_docstring = False
 napoleon_use_rtype = False
-napoleon_use_ivar = True  # attributes that are properties too are described once
+napoleon_use_param = False
+napoleon_custom_sections = [("Attributes", "params_style")]  # listed as parameters are: properties among them are described once
 python_maximum_signature_line_length = 88
 
 html_theme = "furo"

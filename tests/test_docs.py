@@ -357,11 +357,12 @@ def test_docstrings_stand_for_themselves():
 def test_arguments_that_no_source_has_are_written():
     from made import api
 
-    from linkage import draw, standing
+    from linkage import Crank, draw, standing
 
     situation = "case=None, direction=None, rates=None, accelerations=None, inertia=None, acting=None"
     assert api.written_arguments(standing) == f"(motion, loads=None, *, {situation})"
     assert api.written_arguments(draw) == ""
+    assert api.written_arguments(Crank) == "(P, *, angle, at=None, **lengths)"
 
 
 def test_formulas_of_the_theory_are_set():

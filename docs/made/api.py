@@ -93,7 +93,7 @@ def entries(module: str, names: Sequence[str]) -> Iterator[str]:
         thing = getattr(door, name)
         if inspect.isclass(thing):
             shown = "" if issubclass(thing, (Member, BaseException)) else "\n   :members:"
-            yield f"```{{eval-rst}}\n.. autoclass:: {module}.{name}{shown}\n```\n"
+            yield f"```{{eval-rst}}\n.. autoclass:: {module}.{name}{written_arguments(thing)}{shown}\n```\n"
         elif name not in values:
             yield f"```{{eval-rst}}\n.. autofunction:: {module}.{name}{written_arguments(thing)}\n```\n"
     numbers = [name for name in values if isinstance(getattr(door, name), float)]
@@ -104,13 +104,16 @@ def entries(module: str, names: Sequence[str]) -> Iterator[str]:
 
 
 def written_arguments(function: Any) -> str:
-    """Return the arguments of a function whose signature names more than its source does, by values; "" for any other one."""
-    if not inspect.isfunction(function):
+    """Return the arguments of a function whose signature names more than its source does, and of a member; "" for any other one."""
+    if inspect.isfunction(function):
+        given, code = inspect.signature(function), inspect.unwrap(function).__code__
+        variable = bool(code.co_flags & inspect.CO_VARARGS) + bool(code.co_flags & inspect.CO_VARKEYWORDS)
+        is_written = len(given.parameters) > code.co_argcount + code.co_kwonlyargcount + variable
+    else:
+        is_written = inspect.isclass(function) and issubclass(function, Member)
+    if not is_written:
         return ""
-    given, code = inspect.signature(function), inspect.unwrap(function).__code__
-    variable = bool(code.co_flags & inspect.CO_VARARGS) + bool(code.co_flags & inspect.CO_VARKEYWORDS)
-    if len(given.parameters) <= code.co_argcount + code.co_kwonlyargcount + variable:
-        return ""
+    given = inspect.signature(function)
     plain_ones = [each.replace(annotation=inspect.Parameter.empty) for each in given.parameters.values()]
     return str(inspect.Signature(plain_ones))
 

@@ -70,7 +70,7 @@ class Answer:
         Where the worst is [m or rad].
     case, direction, drive, side, over : str or array
         In which situation it is; "" where there is one only.
-    lost : Lost
+    lost : LostPlaces
         Where the machine cannot be assembled.
     unlimited, outside : float
         The shares of the places looked at without a limit, and outside of the conditions on poses.

@@ -359,6 +359,13 @@ def test_a_direction_that_is_lost_is_never_a_silent_nan(kind, count):
     assert_array_equal(motion.reached, S != 0.0)
 
 
+@for_all("kind", ["Dyad", "Crank over a pole"])
+def test_points_that_rounding_alone_keeps_apart_are_lost_and_others_are_not(kind):
+    motion = coinciding(kind)().at(S=[-0.1, 1e-17, 0.1], unreachable="nan")
+    assert_array_equal(motion.reached, [True, False, True])
+    assert_array_equal(np.isnan(motion["X"]).any(axis=0), ~motion.reached)
+
+
 def test_points_may_coincide_where_no_direction_is_taken():
     motion = coinciding()().sweep(5)
     assert_allclose(motion["u"], np.abs(motion.strokes["S"]), atol=1e-16)

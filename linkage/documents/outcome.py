@@ -243,7 +243,7 @@ def draw_column(ax: Axes, motion: Motion, column: Column, bound: Sequence[object
         ax.axhline(value, color=INK, linewidth=1.1, linestyle=(0, (1.5, 1.5)), zorder=4.0)
         small_text(ax, text, (1.0, value), (-4, -3 if is_least else 3), INK, ("axes fraction", "data"))
     for words in (heading, *ax.texts):
-        words.set_fontsize(words.get_fontsize() * min(1.0, WIDEST * ax.bbox.width / words.get_window_extent().width))
+        words.set_fontsize(float(words.get_fontsize()) * min(1.0, WIDEST * ax.bbox.width / words.get_window_extent().width))
 
 
 WIDEST = 0.97

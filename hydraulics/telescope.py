@@ -269,6 +269,20 @@ class Telescope(Ram):
         """Return where it moves with the stage beyond a border: at the border itself unless it is retracting.
 
         Beside other cylinders on its line it is at the border as at rest: the shares of one pressure know no direction.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses.
+        border : array
+            The length at which the stage ends [m].
+        direction : str, optional
+            The direction of motion.
+
+        Returns
+        -------
+        array of bool
+            Where it is past the border.
         """
         length, members = motion.distance(self.A, self.B), motion.plan.members
         lines = [line.members(members) for line in circuits_among(members)]

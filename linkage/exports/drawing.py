@@ -120,8 +120,8 @@ def pose_parts(motion: Motion, pose: int) -> Iterator[Part]:
         yield outline_around(name, places, ROUND * size)
         if len(corners) > 1:
             yield Polyline("centre_lines", name, places, closed=len(corners) > 2)
-    for ends in scene.stays:
-        yield Polyline("centre_lines", joined_names(*ends), np.array([at[name] for name in ends]))
+    for P, X in scene.stays:
+        yield Polyline("centre_lines", joined_names(P, X), np.array([at[P], at[X]]))
     for cylinder in scene.cylinders:
         mark = cylinder.mark(scene.size)
         yield from mark_parts("cylinders", [mark], there)

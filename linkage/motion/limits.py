@@ -306,7 +306,7 @@ MOST_TURNS = 4
 def way_text(values: Any, unit: str) -> str:
     """Return where a stroke begins, turns back and ends, one after the other: `0, 0.3 to 0.1 m`; of many values their range."""
     values = np.asarray(values, float)
-    *passed, last = [*values[:-1][np.diff(values) != 0.0].tolist(), float(values[-1])]
+    passed, last = values[:-1][np.diff(values) != 0.0].tolist(), float(values[-1])
     turns = [b for a, b, c in zip(passed, passed[1:], [*passed[2:], last], strict=False) if (b - a) * (c - b) < 0.0]
     if not passed or len(turns) >= MOST_TURNS or not np.isfinite(values).all():
         return span_text(values, unit)

@@ -55,7 +55,7 @@ def scheme(machine: HeaderBalancer, title: str) -> Figure:
     named(ax, (0.5 * (PUMP + RELIEF), DRAIN - 0.22), "tank", "center")
     pairs = [(float(machine[volume]) / litre, float(machine[gas]) / kgf_cm2) for volume, gas in (("V_I", "P_I"), ("V_II", "P_II"))]
     text = "\n".join(["accumulators", *(f"{size:.4g} l, gas at {gas:.4g} kgf/cm²" for size, gas in pairs if size > 0.0)])
-    vessels = Scene(motion).fed[0]
+    vessels = Scene(motion).accumulators[0]
     x, y = vessels.placed(vessels.corners, Scene(motion).at(0)).mean(axis=0).tolist()
     leader = {"arrowstyle": "-", "color": style.MUTED, "linewidth": 0.8}
     beside(ax, text, (x, y), (60, -52), color=style.INK, zorder=14.0, va="center", arrowprops=leader)

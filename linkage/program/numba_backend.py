@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from functools import cached_property
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
 
@@ -24,9 +24,6 @@ SHORT = 16
 """With fewer poses than this the designs run along the inner loop."""
 COMPILE, LOAD = 2e10, 2e9
 """The operations from which compiling a loop pays, and from which loading one from disk does."""
-
-
-Counts: TypeAlias = np.ndarray[tuple[int, ...], np.dtype[np.int64]]
 
 
 def is_there() -> bool:
@@ -88,12 +85,7 @@ class NumbaLoop:
         """Fill values, shape (outputs, designs, poses); a guard that is not above zero at some pose becomes -1."""
         m, n = values.shape[1:]
         turned = self.turns(m, n) and not any(map(is_table, poses))
-        if turned not in self._ready:
-            self._ready[turned] = compiled_loop(self._texts[turned], "poses", lambda types: (
-                *(types.Array(types.float64, axes, "C", readonly=True) for axes in (2, 3)),  # what a motion holds cannot be written
-                types.float64[::1], *(types.int64[::1],) * 3,
-            ))  # fmt: skip
-        loop, bad = self._ready[turned], np.zeros(max(len(guards), 1), np.int64)
+        loop = self._ready.get(turned) or self._loop(turned)
         target = values.transpose(0, 2, 1) if turned else values
         for left in range(0, m, PART):
             part = slice(left, min(left + PART, m))
@@ -102,11 +94,26 @@ class NumbaLoop:
                 constants = np.array(np.broadcast_to(constants, (len(constants), part.stop - left)))
             for first in range(0, n, WIDE):
                 here = slice(first, min(first + WIDE, n))
-                inputs = input_cube([columns_part(rows_part(value, part), here) for value in poses], here.stop - first)
+                seen = poses if m <= PART and n <= WIDE else [columns_part(rows_part(value, part), here) for value in poses]
+                inputs = input_cube(seen, here.stop - first)
                 if turned:
                     inputs = np.array(inputs.transpose(0, 2, 1))
-                self._part(loop, constants, inputs, target[:, here, part] if turned else target[:, part, here], bad)
-        guards[bad[: len(guards)] > 0] = -1.0
+                block = target[:, here, part] if turned else target[:, part, here]
+                inside = block if block.strides[2] == block.itemsize else np.empty(block.shape)
+                layer, line, _ = inside.strides
+                loop(constants, inputs, memory(inside), guards, layer // inside.itemsize, line // inside.itemsize, *inside.shape[1:])
+                if inside is not block:
+                    block[...] = inside
+
+    def _loop(self, turned: bool) -> Callable[..., None]:
+        """Return the compiled loop of an order, kept."""
+
+        def arguments(types: Any) -> Sequence[Any]:  # what a motion holds cannot be written
+            read = [types.Array(types.float64, axes, "C", readonly=True) for axes in (2, 3)]
+            return *read, *[types.float64[::1]] * 2, *[types.int64] * 4
+
+        self._ready[turned] = loop = compiled_loop(self._texts[turned], "poses", arguments)
+        return loop
 
     def _constants(self, design: Sequence[Numbers], part: slice) -> FloatArray:
         """Return the design part as one array, shape (count, designs or 1); that of the last single design is kept."""
@@ -118,13 +125,6 @@ class NumbaLoop:
             found = constant_table(self.arrays.passed(key), part)
             self._last = key, found
         return found
-
-    def _part(self, loop: Callable[..., None], constants: FloatArray, inputs: FloatArray, block: FloatArray, bad: Counts) -> None:
-        """Fill a block, shape (outputs, rows, columns)."""
-        inside = block if block.strides[2] == block.itemsize else np.empty(block.shape)
-        loop(constants, inputs, memory(inside), bad, np.array(inside.strides[:2]) // inside.itemsize, np.array(inside.shape[1:]))
-        if inside is not block:
-            block[...] = inside
 
 
 def memory(block: FloatArray) -> FloatArray:
@@ -142,7 +142,7 @@ def constant_table(passed: Sequence[Numbers], part: slice) -> FloatArray:
 
 def input_cube(poses: Sequence[Numbers], n: int) -> FloatArray:
     """Return the inputs of the poses as one array, shape (count, designs or 1, poses)."""
-    rows = max((len(value) for value in poses if is_table(value)), default=1)
+    rows = max([len(value) for value in poses if is_table(value)], default=1)
     if len(poses) == 1 and np.size(poses[0]) == rows * n:
         return np.ascontiguousarray(poses[0], float).reshape(1, rows, n)
     return stacked(poses, rows, n)

@@ -167,32 +167,32 @@ def lettered(letter: str, nodes: Sequence[Node]) -> dict[Node, str]:
     return {node: f"{letter}{place}" for place, node in enumerate(nodes)}
 
 
-SIZES = ("layer, line = strides[0], strides[1]", "rows, columns = shape[0], shape[1]")
 OPEN = 16
 """Up to so many outputs a compiler proves by itself that they do not overlap."""
 
 
 def numba_text(plan: Schedule, turned: bool) -> str:
-    """Return a module with `poses(c, i, o, bad, strides, shape)`: constants (count, rows), inputs (count, rows or 1, columns), results.
+    """Return a module with `poses(c, i, o, guards, layer, line, rows, columns)`: a loop over the poses.
 
-    `o` is the memory of the results, `strides` how far apart outputs and rows are in it, `shape` the rows and columns.
+    Constants `c` have the shape (count, rows), inputs `i` (count, rows or 1, columns). `o` is the memory of the results, `layer` and
+    `line` say how far apart outputs and rows are in it.
     `turned`: rows are poses and columns designs, so that the constants vary along the columns and the inputs do not. Many
-    arrays go through a short one of their own, `s`, where the compiler sees that they do not overlap. `bad` counts the
-    poses where a guard is not above zero.
+    arrays go through a short one of their own, `s`, where the compiler sees that they do not overlap. `guards` becomes -1
+    where a guard is not above zero at some pose.
     """
     inside = along_designs if turned else along_poses if len(plan.outputs) <= OPEN else along_poses_in_parts
-    return HEAD + "\n".join(["def poses(c, i, o, bad, strides, shape):", *inside(plan)]) + "\n"
+    return HEAD + "\n".join(["def poses(c, i, o, guards, layer, line, rows, columns):", *inside(plan)]) + "\n"
 
 
 def pose_loop(plan: Schedule, depth: int, count: str, given: Sequence[str], targets: Sequence[str]) -> list[str]:
-    """Return the loop over so many poses: the inputs, the operations, the outputs into their targets; `bad` counts missed guards."""
+    """Return the loop over so many poses: the inputs, the operations, the outputs into their targets; missed guards become -1."""
     lines, outputs, guards = loop_text(plan, NUMBA)
     results = [f"{target} = {name}" for target, name in zip(targets, outputs, strict=True)]
     missed = [f"missed{k} += 0 if {name} > 0.0 else 1" for k, name in enumerate(guards)]
     return [
         *indented(depth, *(f"missed{k} = 0" for k in range(len(guards))), f"for b in range({count}):"),
         *indented(depth + 1, *given, *lines, *results, *missed),
-        *indented(depth, *(f"bad[{k}] += missed{k}" for k in range(len(guards)))),
+        *indented(depth, *(f"guards[{k}] = -1.0 if missed{k} > 0 else guards[{k}]" for k in range(len(guards)))),
     ]
 
 
@@ -200,7 +200,7 @@ def along_poses(plan: Schedule) -> list[str]:
     """Return the function's inside for few outputs: one loop a design."""
     inputs, outputs = range(len(plan.pose_inputs)), range(len(plan.outputs))
     return [
-        *indented(1, *SIZES, "for row in range(rows):"),
+        *indented(1, "for row in range(rows):"),
         *indented(2, *row_inputs(plan), *(f"x{k} = i[{k}, across]" for k in inputs)),
         *indented(2, *(f"o{k} = o[{k} * layer + row * line:{k} * layer + row * line + columns]" for k in outputs)),
         *pose_loop(plan, 2, "columns", [f"i{k} = x{k}[b]" for k in inputs], [f"o{k}[b]" for k in outputs]),
@@ -211,7 +211,7 @@ def along_poses_in_parts(plan: Schedule) -> list[str]:
     """Return the function's inside for many outputs: a design's poses some hundred at a time, their results copied out."""
     inputs, outputs, width = range(len(plan.pose_inputs)), range(len(plan.outputs)), part_of(len(plan.outputs))
     return [
-        *indented(1, *SIZES, f"s = np.empty({len(outputs) * width})", "for row in range(rows):"),
+        *indented(1, f"s = np.empty({len(outputs) * width})", "for row in range(rows):"),
         *indented(2, *row_inputs(plan), f"for start in range(0, columns, {width}):"),
         *indented(3, f"count = min({width}, columns - start)", *(f"x{k} = i[{k}, across, start:start + count]" for k in inputs)),
         *pose_loop(plan, 3, "count", [f"i{k} = x{k}[b]" for k in inputs], [f"s[{k * width} + b]" for k in outputs]),
@@ -225,7 +225,7 @@ def along_designs(plan: Schedule) -> list[str]:
     width = part_of(count + len(outputs))
     constants = [f"c{k} = s[{k * width} + b]" for k in range(count)]
     return [
-        *indented(1, *SIZES, f"s = np.empty({(count + len(outputs)) * width})", f"for start in range(0, columns, {width}):"),
+        *indented(1, f"s = np.empty({(count + len(outputs)) * width})", f"for start in range(0, columns, {width}):"),
         *indented(2, f"count = min({width}, columns - start)"),
         *indented(2, *(f"s[{k * width}:{k * width} + count] = c[{k}, start:start + count]" for k in range(count))),
         *indented(2, "for row in range(rows):", *(f"    i{k} = i[{k}, row, 0]" for k in range(len(plan.pose_inputs)))),

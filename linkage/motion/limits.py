@@ -178,7 +178,7 @@ class Interval:
 
 def angle_text(angle: float, digits: int) -> str:
     """Return a transmission angle [rad] in words; zero at a dead point, which is found to half of the digits of its angle."""
-    return show(angle if angle > DEAD_ANGLE else 0.0, "deg", digits)
+    return show(0.0 if angle <= DEAD_ANGLE else angle, "deg", digits)
 
 
 DEAD_ANGLE = 1e-6
@@ -287,6 +287,10 @@ def where_said(plan: Plan, mask: Mask, strokes: Mapping[str, Any]) -> str:
 # Strokes as they are read.
 
 
+STILL = 1e-9
+"""A stroke that moves by no more than the rounding of a search stands still [m or rad]."""
+
+
 def span_text(values: Any, unit: str) -> str:
     """Return the range of some stroke values as it is read: `0 to 0.25 m`, `90 deg`."""
     values = np.asarray(values, float)
@@ -294,7 +298,7 @@ def span_text(values: Any, unit: str) -> str:
     if not values.size:
         return "nothing"
     low, high = float(values.min()), float(values.max())
-    if low == high:
+    if high - low <= STILL:
         return stroke_text(low, unit, 6)
     return said("{low} to {high}", low=stroke_number(low, unit, 6), high=stroke_text(high, unit, 6))
 
@@ -306,12 +310,13 @@ MOST_TURNS = 4
 def way_text(values: Any, unit: str) -> str:
     """Return where a stroke begins, turns back and ends, one after the other: `0, 0.3 to 0.1 m`; of many values their range."""
     values = np.asarray(values, float)
-    passed, last = values[:-1][np.diff(values) != 0.0].tolist(), float(values[-1])
-    turns = [b for a, b, c in zip(passed, passed[1:], [*passed[2:], last], strict=False) if (b - a) * (c - b) < 0.0]
-    if not passed or len(turns) >= MOST_TURNS or not np.isfinite(values).all():
+    steps = np.diff(values)
+    moving = np.flatnonzero(np.abs(steps) > STILL)
+    turns = moving[1:][steps[moving[1:]] * steps[moving[:-1]] < 0.0]
+    if not moving.size or len(turns) >= MOST_TURNS or not np.isfinite(values).all():
         return span_text(values, unit)
-    low = ", ".join(stroke_number(each, unit, 6) for each in [passed[0], *turns])
-    return said("{low} to {high}", low=low, high=stroke_text(last, unit, 6))
+    low = ", ".join(stroke_number(float(values[place]), unit, 6) for place in (0, *turns))
+    return said("{low} to {high}", low=low, high=stroke_text(float(values[-1]), unit, 6))
 
 
 def place_text(value: Any, unit: str) -> str:

@@ -54,6 +54,13 @@ class Lever(Mechanism):
     cycle = Over.path(S=[0.0, 0.2, 0.2, 0.05, 0.0])
 
 
+def test_a_stroke_that_rounding_alone_moves_is_told_as_held():
+    noise = 1e-13 * np.array([0.0, 1.0, -1.0, 2.0, 1.0])
+    for a, told in ((np.linspace(0.1, 0.5, 5), "0.1 to 0.5 m"), (np.array([0.0, 0.3, 0.5, 0.5, 0.2]) + noise, "0, 0.5 to 0.2 m")):
+        motion = Blocks().at(a=a, b=0.3 + noise)
+        assert motion.over.words(motion) == f"the path a = {told}, b = 0.3 m"
+
+
 def walked(ways, count):
     """Return strokes at equal shares of a way of legs, each as long as its longest move in parts of its stroke's range: leg by leg."""
     names = list(ways)

@@ -15,7 +15,7 @@ from ..language import heading_of, said, translated
 from ..loads import PLAIN_CASE, Acting
 from ..mechanism import Mechanism
 from ..motion import Answer, Column, Measure, Motion, Request, Tabled, judged_poses, least, most, places_text, speakers, transmission
-from ..motion.limits import StrokeLimits
+from ..motion.limits import StrokeLimits, angle_text
 from ..motion.measures import Least, Most
 from ..motion.requests import may_be_unlimited
 from ..pictures import mechanism
@@ -26,7 +26,7 @@ from ..program import FloatArray
 from ..reports import Run, dagger_words, run_words
 from ..reports.table import NO_VALUE, column_blocks, dagger_ends, flat
 from ..reports.table import column_texts as text_cells
-from ..units import factor, show, unit_sign
+from ..units import factor, unit_sign
 from .content import Block, Cell, Illustration, Section, TableBlock
 from .pictures import ROOM, WIDE, height_of, in_one_unit
 from .run import CLOSE, FIGURES, ReportSubject, same_curve
@@ -385,7 +385,7 @@ def limits_section(subject: ReportSubject) -> Section:
     )  # fmt: skip
     for joint, answer in zip(joints, angles, strict=True):
         if np.isfinite(answer.value):
-            angle = said("least transmission angle at {joint}: {angle}", joint=joint, angle=show(float(answer.value), "deg", 4))
+            angle = said("least transmission angle at {joint}: {angle}", joint=joint, angle=angle_text(float(answer.value), 4))
             rows += ((", ".join(answer.strokes), angle, places_text(answer.strokes, answer.units), ""),)
     heads = (said("stroke"), said("limit"), said("at stroke"), said("the others held at"))
     wide = 4 if len(strokes) > 1 else 3

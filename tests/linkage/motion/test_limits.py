@@ -32,6 +32,9 @@ from linkage import (
     distance,
     reachable,
 )
+from linkage.documents.outcome import limits_section
+from linkage.documents.run import ReportSubject
+from linkage.motion.limits import angle_text
 from tests.for_all import for_all
 
 
@@ -410,3 +413,5 @@ def test_a_dead_point_has_no_transmission_angle_in_every_text():
 
         assert "least transmission angle at B: 0 deg" in str(Ends().sweep(2, unreachable="nan").limits())
         assert any(str(each).startswith("The least transmission angle is 0 deg, of B") for each in Ends().verdicts())
+        assert "least transmission angle at B: 0 deg" in str(limits_section(ReportSubject.of(Ends(), {}, 5)).blocks)
+    assert [angle_text(each, 4) for each in (1.0 * deg, np.nan)] == ["1 deg", "nan deg"]

@@ -1719,7 +1719,8 @@ def judge_of(motion: Motion, what: str, acting: Acting | None = None, *, unreach
 
 def is_named(reference: Reference) -> bool:
     """Return whether a reference to a cylinder goes by its name in a class; DefinitionError for anything but a reference."""
-    ensure(is_member_or_name(reference), f"{cited(reference)} stands where a cylinder or its name is expected.")
+    if not is_member_or_name(reference):
+        raise DefinitionError(f"{cited(reference)} stands where a cylinder or its name is expected.")
     return isinstance(reference, str) or bool(reference.name)
 
 

@@ -285,7 +285,7 @@ class Telescope(Ram):
             Where it is past the border.
         """
         length, members = motion.distance(self.A, self.B), motion.plan.members
-        lines = [line.members(members) for line in circuits_among(members)]
+        lines = (line.members(members) for line in circuits_among(members))
         if direction == "retracting" and not any(len(line) > 1 and is_among(self, line) for line in lines):
             return length > border + TOLERANCE
         return length >= border - TOLERANCE

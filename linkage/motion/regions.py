@@ -239,7 +239,8 @@ def region_shape(given: Any, where: str, outlines: Any, value: Any) -> Shape:
             known = f"its outlines are {', '.join(outlines)}" if outlines else "it has no outlines"
             raise DefinitionError(f"{where}: there is no outline {given}; {known}.")
         given = outlines[given]
-    ensure(is_shape(given), f"{where}: {cited(given)} is no shape; corners are expected, [(0, 0), (1, 0), (1, 0.5)] in m.")
+    if not is_shape(given):
+        raise DefinitionError(f"{where}: {cited(given)} is no shape; corners are expected, [(0, 0), (1, 0), (1, 0.5)] in m.")
     if not isinstance(given, Outline):
         require_measure(given, "length", where)
         return polygon_of(np.array(given, float), where)

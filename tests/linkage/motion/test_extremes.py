@@ -189,6 +189,18 @@ def test_what_has_no_value_and_what_is_no_number():
         greatest(Lift().sweep(3), lambda motion: np.zeros((3, 7)))
 
 
+def test_a_function_is_shown_only_where_it_is_refused():
+    class Silent:
+        def __call__(self, motion):
+            return motion["psi"]
+
+        def __repr__(self):
+            raise RuntimeError("not asked for")
+
+    motion = Lift().at(S=np.linspace(0.5, 0.7, 11))
+    assert greatest(motion, Silent()).value == greatest(motion, lambda each: each["psi"]).value
+
+
 def test_in_words():
     assert str(greatest(Lift().sweep(2), lambda motion: motion.strokes["S"])) == "0.75 at S = 0.7500 m"
     assert str(greatest(Arm().sweep(2), lambda motion: motion.x("A") - motion.y("A"))) == "0.141421 at phi = 315.00 deg"

@@ -21,6 +21,7 @@ from ..errors import AssemblyError, DefinitionError, LinkageError, ensure
 from ..frozen import immutable
 from ..mechanism import Mechanism
 from ..motion import Over
+from ..motion.judging import domain_words
 from ..motion.measures import Constraint, FixedNumber, Integral, Leaf, Measure, measure_of, measure_unit
 from ..numeric.line import Index
 from ..plan import Mask, Plan
@@ -194,8 +195,7 @@ class Optimum(Shown):
         tries = f"{self.agreed} of {self.tries} searches came to it" if self.tries > 1 else "one search"
         rows = f" over {self.searched} of {problem.space.count} combinations" if problem.space.count > 1 else ""
         lines += [f"  {each}." for each in self.cut]
-        places = self.machine.judge(problem.over).places if problem.over else ()
-        spans = "; ".join(place.over.words(place.motion) for place in places) or "the whole stroke"
+        spans = domain_words(self.machine.judge(problem.over)) if problem.over else "the whole stroke"
         lines.append(f"  {tries}{rows}; {self.evaluations} designs looked at. Assembled over {spans}.")
         declared = problem.plan.of_kind(Over)
         if declared and not problem.over:

@@ -52,8 +52,8 @@ from .motion import reachable as reachable
 from .motion import transmission as transmission
 from .motion import worst as worst
 from .pictures.browser import page as page
-from .pictures.draw import draw as draw
-from .pictures.draw import plot as plot
+from .pictures.by_kind import draw as draw
+from .pictures.by_kind import plot as plot
 from .pictures.film import animate as animate
 from .plan import Part as Part
 from .quantities import Course as Course

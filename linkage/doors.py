@@ -17,7 +17,7 @@ from .reports import NOTHING
 
 
 def late(module: str, name: str) -> Callable[..., Any]:
-    """Return a function that loads the one with this name of a module of this package, ".pictures.draw", when it is called."""
+    """Return a function that loads the one with this name of a module of this package, ".pictures.film", when it is called."""
 
     def call(*arguments: Any, **options: Any) -> Any:
         return getattr(import_module(module, __package__), name)(*arguments, **options)

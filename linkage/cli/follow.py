@@ -246,7 +246,7 @@ def axis_said(option: str, text: str) -> FloatArray:
 
 def print_chart(field: WorkingField) -> None:
     """Print a chart as text: heights from above, radii across, a letter for each limiter."""
-    from ..pictures.load_chart import ChartText
+    from ..pictures.chart_text import ChartText
 
     text = ChartText(field)
     across, down = np.argsort(field.x, kind="stable"), np.argsort(-field.y, kind="stable")

@@ -19,8 +19,9 @@ from ..motion.limits import StrokeLimits, angle_text
 from ..motion.measures import Least, Most
 from ..motion.requests import may_be_unlimited
 from ..pictures import mechanism
-from ..pictures.curves import as_curve, limit_of, panel, small_text
+from ..pictures.curves import panel, small_text
 from ..pictures.scene import Scene
+from ..pictures.shown_values import as_curve, limit_of
 from ..pictures.style import ACCENT, INK, THIN, TITLE
 from ..program import FloatArray
 from ..reports import Run, dagger_words, run_words

@@ -20,8 +20,7 @@ from ..mechanism import Mechanism, played_along
 from ..motion import HasVerdicts, Motion, speakers, stroke_unit, way_text
 from ..motion.judging import domain_words, verdict_questions
 from ..motion.measures import least, most
-from ..pictures.curves import limit_of
-from ..pictures.poses import named_points
+from ..pictures.shown_values import limit_of, named_points
 from ..quantities import Dimension
 from ..reports import NOTHING, At, Run, column_among
 from ..units import current_system, unit_system

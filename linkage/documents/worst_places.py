@@ -14,7 +14,7 @@ from ..loads import PLAIN_CASE
 from ..mechanism import verdicts_of
 from ..motion import Answer, Column, HasVerdicts, MotionFunction, Request, places_text, speakers
 from ..motion.measures import Constraint, Leaf, least, measure_of, most
-from ..pictures.curves import limit_of
+from ..pictures.shown_values import limit_of
 from ..reports import is_column
 from ..units import display_unit, show, unit_sign
 from ..verdict import Verdict

@@ -21,7 +21,7 @@ from ..formulas.numbered import CONVENTION, DEFINITIONS, uses
 from ..language import heading_of
 from ..loads import PLAIN_CASE, LoadCase
 from ..motion import stroke_display_unit, stroke_unit
-from ..pictures.load_chart import ChartText
+from ..pictures.chart_text import ChartText
 from ..reports import column_among, dimension_unit
 from ..statics.applied import case_of
 from ..study import WorkingField

@@ -1,11 +1,33 @@
-"""Pictures: a mechanism at a pose, at its end positions, in motion, and curves of results over the stroke."""
+"""Pictures: a mechanism at a pose, at its end positions, in motion, and curves of results over the stroke.
 
-from ..star import declare_public
+What draws is loaded when it is first asked for: it brings Matplotlib, of which a live page needs nothing.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
 from .browser import page, page_html
-from .curves import Limit
-from .draw import draw, plot
-from .drawing import Drawing, mechanism
-from .film import animate
-from .tolerances import plot_bands, plot_tornado, plot_zone
+from .shown_values import Limit
 
-declare_public(globals())
+if TYPE_CHECKING:
+    from .by_kind import draw, plot
+    from .drawing import Drawing, mechanism
+    from .film import animate
+    from .tolerances import plot_bands, plot_tornado, plot_zone
+
+_ROOMS = {"draw": "by_kind", "plot": "by_kind", "Drawing": "drawing", "mechanism": "drawing", "animate": "film"}
+_ROOMS |= dict.fromkeys(("plot_bands", "plot_tornado", "plot_zone"), "tolerances")
+__all__ = ["Limit", "page", "page_html", *_ROOMS]
+
+
+def __getattr__(name: str) -> object:
+    """Return a name of what draws, from then on there; AttributeError for any other."""
+    if name not in _ROOMS:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    globals()[name] = found = getattr(import_module(f".{_ROOMS[name]}", __name__), name)
+    return found
+
+
+def __dir__() -> list[str]:
+    """Return the names of the room, those not loaded yet included."""
+    return sorted({*globals(), *_ROOMS})

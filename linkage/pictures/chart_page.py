@@ -12,12 +12,12 @@ from ..language import heading_of, language
 from ..motion import stroke_display_unit
 from ..study import WorkingField
 from ..units import factor, shown_in, unit_sign
-from .curves import typeset
-from .load_chart import ChartText
+from .chart_text import ChartText
 from .page_data import cylinder_data, scene_data, signs
 from .page_file import LANGUAGES, PageData, page_text
 from .page_judge import unit_data
 from .scene import Scene
+from .shown_values import typeset
 
 Kind = TypeVar("Kind", bound=np.generic)
 PARTS = ("chart.html", "page.css", "chart.css", "mechanism.js", "labels.js", "chart.js")

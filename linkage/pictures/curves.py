@@ -2,32 +2,28 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from math import ceil, sqrt
 from textwrap import wrap
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from ..checks import is_listed, require, require_type
-from ..errors import DefinitionError, cited, ensure, known_name
-from ..language import noted, said, translated
+from ..checks import is_listed, require_type
+from ..errors import DefinitionError, cited, known_name
+from ..language import said, translated
 from ..loads import PLAIN_CASE
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, Request, RequestLike, columns_of
-from ..motion.measures import Constraint, FixedNumber, Leaf, Least, Most
-from ..motion.requests import may_be_unlimited
 from ..program import FloatArray
-from ..quantities import Quantity, is_number
+from ..quantities import Quantity
 from ..reports import At, case_along, columns_about, in_case_words, motion_over, request_in_case, results, run_of, run_words, runs_of
-from ..statics import LawRequest
-from ..units import factor, require_measure
 from . import style
 from .sheet import Keywords, panels, quiet
+from .shown_values import Limit, as_curve, check_poses, limit_of, typeset
 from .strokes import StrokeAxis, frame_count
 
 PANEL = (4.6, 3.0)
@@ -115,15 +111,6 @@ def columns_named(motion: Motion, columns: Sequence[Column | RequestLike]) -> li
     return found
 
 
-def check_poses(column: Column, motion: Motion) -> None:
-    """Raise DefinitionError for a column that has not one value a pose of a motion."""
-    try:
-        np.broadcast_to(column.values, motion.shape)
-    except ValueError:
-        said = f"{motion.plan.title}: the column {column.name} has values of shape {np.shape(column.values)}"
-        raise DefinitionError(f"{said}, and the motion poses of shape {motion.shape}; give one value for each pose.") from None
-
-
 def panel_grid(count: int, title: str, held: str = "") -> tuple[Figure, list[Axes]]:
     """Return a figure and the axes of so many panels, as near to a square as they go, under a title with the held strokes."""
     across = min(ceil(sqrt(count)), 4)
@@ -148,78 +135,12 @@ def stroke_panel(ax: Axes, along: StrokeAxis, heading: str, ends: tuple[float, f
     ax.set_ylim(*ends)
 
 
-# Limit lines: a value that a result may not pass, and on which side it fails.
-
-
-class Limit(NamedTuple):
-    """A value [SI] that a column may not pass, its words, and the side that fails: "above" or "below"."""
-
-    value: float
-    text: str = ""
-    fails: str = "above"
-
-    def drawn(self, column: Column) -> float:
-        """Return the value in the unit of a column."""
-        return self.value / factor(column.shown_unit)
-
-    def failing(self, values: FloatArray) -> FloatArray:
-        """Return the mask of the values [SI] that fail."""
-        return np.asarray(values > self.value if self.fails == "above" else values < self.value)
-
-
-def limit_of(given: Sequence[object], unit: str = "") -> Limit:
-    """Return a limit from a tuple of its parts; DefinitionError for a side that is neither above nor below, and for another `unit`."""
-    parts = tuple(given) if is_listed(given) else ()
-    is_limit = 1 <= len(parts) <= 3 and is_number(parts[0]) and all(isinstance(each, str) for each in parts[1:])
-    require(is_limit, "", given, 'is no limit; write (value [SI], text) or (value, text, "below")')
-    found = Limit(*parts)
-    if unit:
-        require_measure(found.value, unit, f"the limit {found.text}".rstrip())
-    ensure(found.fails in ("above", "below"), f'the limit {found.text or found.value!r} fails {found.fails!r}: say "above" or "below".')
-    return found
-
-
-def limit_on(constraint: Constraint, is_shown: Callable[[Leaf], bool]) -> Limit | None:
-    """Return the limit that a condition sets a quantity at every pose; None where it sets none. `is_shown` tells the quantity's leaves."""
-    leaf, number, sign = leaf_bound(constraint, is_shown) or (None, 0.0, "")
-    if isinstance(leaf, Most) and sign == "<=":
-        return Limit(number, "", "above")
-    return Limit(number, "", "below") if isinstance(leaf, Least) and sign == ">=" else None
-
-
-def leaf_bound(constraint: Constraint, is_shown: Callable[[Leaf], bool]) -> tuple[Leaf, float, str] | None:
-    """Return the leaf, the number [SI] and the sign of a condition that holds a quantity against a number; None for any other."""
-    left, right, turned = constraint.left, constraint.right, {"<=": ">=", ">=": "<=", "==": "=="}[constraint.symbol]
-    for one, other, sign in ((left, right, constraint.symbol), (right, left, turned)):
-        if isinstance(one, Leaf) and isinstance(other, FixedNumber) and is_shown(one):
-            return one, other.value, sign
-    return None
-
-
 def limit_crossings(along: FloatArray, values: FloatArray, at: float) -> list[float]:
     """Return where values cross a limit, by straight lines between the poses."""
     off = values - at
     places = np.flatnonzero(np.signbit(off[1:]) != np.signbit(off[:-1]))
     places = places[np.isfinite(off[places]) & np.isfinite(off[places + 1])]
     return [float(along[i] - off[i] * (along[i + 1] - along[i]) / (off[i + 1] - off[i])) for i in places]
-
-
-# A reserve has no bound where little is carried: its curve is the load in % of what the pump can carry.
-
-RESERVE, PUMP_LOAD, WHOLE = "reserve", noted("pump load in %"), 100.0
-
-
-def as_curve(column: Column, bound: Sequence[object] | None = None) -> tuple[Column, Sequence[object] | None]:
-    """Return a column and its limit as curves show them. Of a cylinder's reserve, no output of the machine's own, that is 100 % over it."""
-    is_law = column.request is None or (isinstance(column.request, LawRequest) and may_be_unlimited(column.request))
-    if column.unit or not is_law or not re.match(rf"{RESERVE}\b", column.name):
-        return column, bound
-    with np.errstate(divide="ignore"):
-        share = Column(column.name.replace(RESERVE, PUMP_LOAD, 1), WHOLE / np.asarray(column.values, float), "", 1)
-    if bound is None:
-        return share, Limit(WHOLE, said("all that the pump can carry"))
-    value, text, fails = limit_of(bound)
-    return share, Limit(WHOLE / value, text, "below" if fails == "above" else "above")
 
 
 # One curve over a stroke: its line, its limit with the failing side shaded, its axes.
@@ -282,8 +203,3 @@ def small_text(
     ax.annotate(text, at, xytext=offset, xycoords=coords, textcoords="offset points", ha=across, va=up, **look)
 
 
-def typeset(text: str) -> str:
-    """Return a heading with its squares and cubes raised: kgf/cm² for kgf/cm2."""
-    for plain, raised in (("cm2", "cm²"), ("m2", "m²"), ("cm3", "cm³"), ("m3", "m³"), ("kgf_cm", "kgf/cm")):
-        text = text.replace(plain, raised)
-    return text

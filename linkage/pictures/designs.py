@@ -17,13 +17,13 @@ from ..reports import Run, dimension_unit, first_stroke, stroke_middles
 from ..units import show
 from . import style
 from .drawing import Drawing
-from .layout import cloud
+from .layout import cloud, joined_box
 from .overlays import sheet_note
 from .paper import empty_page, legend_row, look_keys, write_title
 from .pose_choice import telling_angles
-from .poses import motions, named_points, trace
+from .poses import motions, trace
 from .scene import Scene
-from .sheet import joined_box
+from .shown_values import named_points
 from .strokes import is_turn, stroke_words
 from .style import FAINT, STRONG, Look
 

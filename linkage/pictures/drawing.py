@@ -21,13 +21,13 @@ from ..errors import FileError
 from ..motion import Motion
 from ..program import FloatArray
 from . import style
-from .labels import LabelPart, offsets
+from .labels import offsets
 from .layout import label_free, props
 from .scene import DrawnMark, Places, Plate, Pose, Scene
 from .shapes import SLOT, rounded_outline
 from .sheet import MOST_PIXELS, Keywords, pixels_text, points_a_metre, sheet
 from .style import FAINT, STRONG, Look
-from .symbols import MovingPart, ground, polygon, rails
+from .symbols import LabelPart, MovingPart, ground, polygon, rails
 
 
 def mechanism(ax: Axes, motion: Motion, pose: Pose = 0, *, faint: bool = False) -> Drawing:

@@ -28,11 +28,12 @@ from ..program import FloatArray
 from ..reports import NOTHING, At
 from . import style
 from .browser import COUNT, page
-from .curves import Limit, as_curve, limit_of, panel, typeset
+from .curves import panel
 from .drawing import Drawing
-from .poses import named_points, trace
+from .poses import trace
 from .scene import Scene
 from .sheet import sheet
+from .shown_values import Limit, as_curve, limit_of, named_points, typeset
 from .strokes import Playback, StrokeAxis, frame_count, playback, stroke_words, unreached_words
 
 GIF_DPI = 100

@@ -12,14 +12,15 @@ from . import arrows, style
 from .arrows import ArrowLayer, Wording
 from .drawing import MarkPart, body_part, pin
 from .force_arrows import FRAME, ForceQuestion, drawn_body, force_layer, forces_at_pose, short_name
-from .labels import LabelPart, offsets
+from .labels import offsets
+from .layout import grown
 from .overlays import sheet_note
 from .paper import BOTTOM, LEFT, RIGHT, TOP, footnote, legend_row, write_title
 from .scene import Places, Plate, Scene
 from .shapes import hull, segment
-from .sheet import empty_figure, fitted_to, grown, points_a_metre, sheet
+from .sheet import empty_figure, fitted_to, points_a_metre, sheet
 from .style import STRONG
-from .symbols import MovingPart, polygon
+from .symbols import LabelPart, MovingPart, polygon
 
 FREE_WIDTH, FREE_HEIGHT = 11.0, 6.0
 """The figure's size [inch]."""

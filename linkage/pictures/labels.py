@@ -6,16 +6,12 @@ from collections.abc import Collection, Mapping, Sequence
 from types import MappingProxyType
 
 import numpy as np
-from matplotlib.axes import Axes
 
 from ..plan import Mask
 from ..program import FloatArray
 from . import style
 from .scene import Bounds, Places
 from .shapes import lines_cross, polar
-from .sheet import Keywords, haloed_beside
-from .style import Look
-from .symbols import MovingPart
 
 REACH = (1.0, 1.4, 2.0, 2.8, 4.0, 5.5, 7.5)
 WAYS = polar(np.radians(np.arange(60.0, 420.0, 15.0)))
@@ -33,29 +29,6 @@ NO_EDGE: Bounds = (-np.inf, np.inf, -np.inf, np.inf)
 ROUNDS = 4
 MINOR = 0.75
 """The size of the letters of a point of a construction, as a share of the others'."""
-
-
-class LabelPart(MovingPart):
-    """A point's name at an offset [points], joined to the point by a thin line where it stands away from it."""
-
-    def __init__(
-        self, ax: Axes, name: str, offset: FloatArray, gap: float, look: Look, minor: bool = False, font: float = style.LABEL,
-        text: str = "",
-    ) -> None:  # fmt: skip
-        self.points, text = (name,), text or name
-        font = font * (MINOR if minor else 1.0)
-        leader = {"arrowstyle": "-", "color": look.colour(style.MUTED), "linewidth": 0.8, "shrinkA": 0.0, "shrinkB": 0.6 * gap}
-        self.is_led = bool(distance_to_box(offset, half_of(text, font)) > LED * gap)
-        colour = look.colour(style.MUTED if minor else style.INK)
-        more: Keywords = {"ha": "center", "fontstyle": "italic", "zorder": look.level + 1.0}
-        more["bbox"] = {"boxstyle": "square,pad=0.05", "facecolor": "none", "edgecolor": "none"}
-        more["arrowprops"] = leader if self.is_led else None
-        self.text = haloed_beside(ax, text, np.zeros(2), offset, font, colour, **more)
-        self.artists = (self.text,)
-
-    def move(self, at: Places) -> None:
-        x, y = at[self.points[0]]
-        self.text.xy = (float(x), float(y))
 
 
 def offsets(

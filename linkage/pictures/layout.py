@@ -1,4 +1,4 @@
-"""Free room on a sheet: the area that a mechanism covers, and the side on which a ground symbol stands freely."""
+"""Free room on a sheet: what a mechanism covers, the side on which a ground symbol stands freely, and where fixed rails lie."""
 
 from __future__ import annotations
 
@@ -7,9 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..program import FloatArray
-from .scene import Places, Scene
-from .shapes import left_of, polar, segment
-from .symbols import hatched
+from .scene import Bounds, Places, Scene, SlideTrack
+from .shapes import BLOCK, left_of, polar, segment
 
 DOWN, LEFT, RIGHT, UP = -np.pi / 2, np.pi, 0.0, np.pi / 2
 WORTH = {DOWN: 0.0, LEFT: 3.0, RIGHT: 3.0, UP: 6.0}
@@ -18,6 +17,25 @@ WORTH = {DOWN: 0.0, LEFT: 3.0, RIGHT: 3.0, UP: 6.0}
 ACROSS = (-2.7, -2.1, -1.5, -0.9, -0.3, 0.3, 0.9, 1.5, 2.1, 2.7)
 SYMBOL = [(u, v) for u in (1.2, 1.8, 2.4, 3.0, 3.6, 4.2) for v in ACROSS if u > 3.0 or abs(v) < 0.7 * u]
 """Points that cover a ground symbol, along its direction and across, in sizes."""
+
+BASE = 1.9
+"""Half the base of a ground symbol's triangle, in sizes."""
+HATCH = 0.9
+"""The depth of the hatching of ground and rails, in sizes."""
+
+
+def joined_box(boxes: Sequence[Bounds]) -> Bounds:
+    """Return the box around several [m]."""
+    left, right, bottom, top = np.array(boxes).T
+    return float(left.min()), float(right.max()), float(bottom.min()), float(top.max())
+
+
+def grown(box: Bounds, points: FloatArray, margin: float) -> Bounds:
+    """Return a box that has room for points, shape (n, 2) [m], with a margin around them."""
+    if not points.size:
+        return box
+    (x0, y0), (x1, y1) = points.min(axis=0) - margin, points.max(axis=0) + margin
+    return joined_box([box, (x0, x1, y0, y1)])
 
 
 def cloud(scene: Scene, at: Places) -> FloatArray:
@@ -80,3 +98,47 @@ def label_free(scene: Scene, poses: Sequence[Places]) -> list[FloatArray]:
     symbols = [np.tile(symbol(scene.at(0)[name], way, scene.size), (2, 1)) for name, way in props(scene).items()]
     rails = [segment(start, end, 0.5 * scene.size) for lines in hatched(scene) for start, end in lines]
     return [np.concatenate([cloud(scene, at), *symbols, *rails]) for at in poses]
+
+
+# Fixed rails, with their hatching.
+
+
+def hatched(scene: Scene) -> list[FloatArray]:
+    """Return for each piece of a fixed rail its line and then its hatches, shape (n, 2, 2) [m]; it leaves room for pins on its way."""
+    if not scene.reached:
+        return []
+    at = scene.at(scene.reached[0])
+    pins = [at[name] for name in scene.grounds]
+    found = []
+    for track in scene.tracks:
+        if track.fixed:
+            start, end = at[track.ends[0]], at[track.ends[1]]
+            found += rail(start, end, side_of_rail(scene, track, end - start), pins, scene.size)
+    return found
+
+
+def side_of_rail(scene: Scene, track: SlideTrack, along: FloatArray) -> FloatArray:
+    """Return the direction from a track to its rail: below, or to the right; on the other side where all that rides hangs down there."""
+    below = np.array([along[1], -along[0]]) / (np.hypot(*along) or 1.0)
+    below = -below if below[1] > 1e-6 or (abs(below[1]) <= 1e-6 and below[0] < 0.0) else below
+    carried = [(rider, name) for rider in track.riders for points in scene.bodies if rider in points for name in points if name != rider]
+    hanging = [float((at[name] - at[rider]) @ below) > BLOCK * scene.size for at in scene.some(5) for rider, name in carried]
+    return -below if hanging and all(hanging) else below
+
+
+def rail(start: FloatArray, end: FloatArray, below: FloatArray, pins: list[FloatArray], size: float) -> list[FloatArray]:
+    """Return the pieces of a rail on a side of its track, each a line and its hatches; none where a pin's support stands in its way."""
+    long = float(np.hypot(*(end - start)))
+    along = (end - start) / (long or 1.0)
+    base, hatch, room = start + BLOCK * size * below, HATCH * size, 1.6 * BASE * size
+    stops = sorted(float((pin - start) @ along) for pin in pins if -size < (pin - start) @ below < 4.0 * size)
+    stops = [stop for stop in stops if -room < stop < long + room]
+    starts = [0.0, *(stop + room for stop in stops)]
+    ends = [*(stop - room for stop in stops), long]
+    found = []
+    for first, last in zip(starts, ends, strict=True):
+        if last - first > 2.0 * hatch:
+            places = np.arange(first, last - hatch, 1.1 * hatch)
+            line = (base + first * along, base + last * along)
+            found.append(np.array([line, *((base + (s + hatch) * along, base + s * along + hatch * below) for s in places)]))
+    return found

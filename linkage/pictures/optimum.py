@@ -22,13 +22,14 @@ from ..study.optimum import unit_of_leaf
 from ..study.problem import Problem
 from ..units import factor, mm, shown_in
 from . import style
-from .curves import WIDEST, axis_range, leaf_bound, limit_on, mark_limit, panel_grid, stroke_panel, typeset
+from .curves import WIDEST, axis_range, mark_limit, panel_grid, stroke_panel
 from .drawing import draw_scene
 from .labels import offsets
-from .layout import label_free
+from .layout import joined_box, label_free
 from .paper import legend_row, look_keys, sheets_beside, write_title
 from .scene import Places, Scene
-from .sheet import haloed_beside, joined_box, points_a_metre
+from .sheet import haloed_beside, points_a_metre
+from .shown_values import leaf_bound, limit_on, typeset
 from .strokes import StrokeAxis, stroke_words
 from .style import FAINT, STRONG
 from .symbols import arrow_between

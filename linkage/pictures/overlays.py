@@ -22,10 +22,11 @@ from . import arrows, style
 from .arrows import ArrowLayer, VectorArrow, Wording
 from .force_arrows import ForceQuestion, Rates, force_layer, forces_at_pose, one_pose, why_no_forces
 from .gap_marks import GapMark, Pairs, asked_pair, assumed_pairs, body_pair, draw_gap, gap_mark, own_bodies, worst_pose
+from .layout import grown
 from .lever_arms import LeverArm, lever_arms
 from .scene import Bounds, Scene
 from .shapes import segment
-from .sheet import Keywords, figure_of, grown
+from .sheet import Keywords, figure_of
 from .strokes import pose_words
 
 VELOCITY, POLE = "#9a3a86", "#8a5a00"

@@ -27,15 +27,14 @@ from ..reports import LiveColumn, column_requests, is_changing, request_in_case,
 from ..reports.runs import NOTHING, At, motion_over, reached_motion, run_along, run_of
 from ..units import SYSTEMS, UNITS, deg, display_unit, factor, shown_in, unit_system
 from ..verdict import Verdict
-from .curves import WHOLE, Limit, as_curve, check_poses, limit_of, typeset
 from .influence import influences
 from .labels import offsets
 from .layout import label_free, props
 from .page_file import EVENTS, MACHINE, START, PageData, page_part, page_text, tight
 from .page_forces import force_arrows, page_situations, situated_requests, situated_rows
 from .page_judge import LiveQuestions, course_data, rule_key, unit_data
-from .poses import named_points
 from .scene import DrawnMark, Plate, Scene, SlideTrack
+from .shown_values import WHOLE, Limit, as_curve, check_poses, limit_of, named_points, typeset
 from .strokes import ends_where_begun, is_turn
 
 FONT = 14.0

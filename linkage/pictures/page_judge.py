@@ -25,8 +25,8 @@ from ..program import Node
 from ..quantities import is_number, quantity
 from ..reports import at_its_rates, is_column
 from ..units import display_unit, factor, shown_in
-from .curves import Limit, limit_of, typeset
 from .page_file import PageData
+from .shown_values import Limit, limit_of, typeset
 
 Piece: TypeAlias = tuple[int, SearchRow, str]
 """The place of an `Over` among those of the judge, what is sought over it, and the name of its row."""

@@ -11,8 +11,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from . import style
+from .layout import joined_box
 from .scene import Bounds
-from .sheet import empty_figure, figure_of, joined_box, renderer_of, sheet
+from .sheet import empty_figure, figure_of, renderer_of, sheet
 from .style import Look
 
 WIDTH = 9.0

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ..checks import is_listed, require, require_type, require_whole
+from ..checks import is_listed, require, require_whole
 from ..errors import DefinitionError, cited, ensure, known_name
 from ..language import said, said_of
 from ..mechanism import Mechanism, require_mechanism
@@ -23,12 +23,13 @@ from . import style
 from .drawing import Drawing, draw_scene, mechanism
 from .free_body import draw_free_body
 from .gap_marks import gap_asked
-from .layout import cloud, label_free, surrounding_points
+from .layout import cloud, grown, label_free, surrounding_points
 from .overlays import Overlay, Overlays
 from .paper import empty_page, footnote, legend_row, look_keys, remark, write_title
 from .pose_choice import telling_angles
 from .scene import Pose, Scene
-from .sheet import grown, sheet
+from .sheet import sheet
+from .shown_values import named_points
 from .strokes import is_turn, pose_words, unreached_words
 from .style import FAINT, STRONG
 from .symbols import arrow_between
@@ -189,12 +190,6 @@ def chosen_values(machine: Mechanism, name: str, value: object) -> FloatArray:
     is_given = values.size and np.isfinite(values).all()
     require(is_given, f"{machine.plan.title}: at", value, f"values of {name} are expected, such as at=[0.0, 0.1]")
     return values
-
-
-def named_points(machine: Mechanism, names: object, what: str) -> tuple[str, ...]:
-    """Return the names of points whose paths are drawn; DefinitionError for anything but a list of such names."""
-    listed = require_type(f"{machine.plan.title}: {what}", names, (list, tuple), f'a list of points is expected, such as {what}=["G"]')
-    return tuple(known_name("Point", name, machine.plan.points, where=machine.plan.title) for name in listed)
 
 
 def draw_poses(ax: Axes, shown: Motion, swept: Motion, keep_clear: Sequence[FloatArray]) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
 from io import BytesIO
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -95,20 +94,6 @@ def fitted_to(ax: Axes, box: Bounds) -> Bounds:
     wide, high = max(right - left, shape * (top - bottom)), max(top - bottom, (right - left) / shape)
     x, y = 0.5 * (left + right), 0.5 * (bottom + top)
     return x - 0.5 * wide, x + 0.5 * wide, y - 0.5 * high, y + 0.5 * high
-
-
-def joined_box(boxes: Sequence[Bounds]) -> Bounds:
-    """Return the box around several [m]."""
-    left, right, bottom, top = np.array(boxes).T
-    return float(left.min()), float(right.max()), float(bottom.min()), float(top.max())
-
-
-def grown(box: Bounds, points: FloatArray, margin: float) -> Bounds:
-    """Return a box that has room for points, shape (n, 2) [m], with a margin around them."""
-    if not points.size:
-        return box
-    (x0, y0), (x1, y1) = points.min(axis=0) - margin, points.max(axis=0) + margin
-    return joined_box([box, (x0, x1, y0, y1)])
 
 
 def quiet(ax: Axes) -> None:

@@ -14,8 +14,11 @@ from matplotlib.patches import Polygon
 
 from ..program import FloatArray
 from . import style
-from .scene import Places, Scene, SlideTrack
-from .shapes import BLOCK, left_of, polar
+from .labels import LED, MINOR, distance_to_box, half_of
+from .layout import BASE, HATCH, hatched
+from .scene import Places, Scene
+from .shapes import left_of, polar
+from .sheet import Keywords, haloed_beside
 from .style import Look
 
 
@@ -55,10 +58,8 @@ def arrow_between(
 
 # Pins on the frame: a triangle on hatched ground.
 
-HEIGHT, BASE = 3.2, 1.9
-"""The triangle's height and half its base, in sizes."""
-HATCH = 0.9
-"""The depth of the hatching of ground and rails, in sizes."""
+HEIGHT = 3.2
+"""The triangle's height, in sizes."""
 
 
 def ground(ax: Axes, pin: FloatArray, way: float, size: float, look: Look) -> None:
@@ -83,42 +84,27 @@ def rails(ax: Axes, scene: Scene, look: Look) -> None:
         ax.add_collection(LineCollection(list(lines), colors=colour, linewidths=widths, zorder=look.level - 0.6), autolim=False)
 
 
-def hatched(scene: Scene) -> list[FloatArray]:
-    """Return for each piece of a fixed rail its line and then its hatches, shape (n, 2, 2) [m]; it leaves room for pins on its way."""
-    if not scene.reached:
-        return []
-    at = scene.at(scene.reached[0])
-    pins = [at[name] for name in scene.grounds]
-    found = []
-    for track in scene.tracks:
-        if track.fixed:
-            start, end = at[track.ends[0]], at[track.ends[1]]
-            found += rail(start, end, side_of_rail(scene, track, end - start), pins, scene.size)
-    return found
+# Points' names.
 
 
-def side_of_rail(scene: Scene, track: SlideTrack, along: FloatArray) -> FloatArray:
-    """Return the direction from a track to its rail: below, or to the right; on the other side where all that rides hangs down there."""
-    below = np.array([along[1], -along[0]]) / (np.hypot(*along) or 1.0)
-    below = -below if below[1] > 1e-6 or (abs(below[1]) <= 1e-6 and below[0] < 0.0) else below
-    carried = [(rider, name) for rider in track.riders for points in scene.bodies if rider in points for name in points if name != rider]
-    hanging = [float((at[name] - at[rider]) @ below) > BLOCK * scene.size for at in scene.some(5) for rider, name in carried]
-    return -below if hanging and all(hanging) else below
+class LabelPart(MovingPart):
+    """A point's name at an offset [points], joined to the point by a thin line where it stands away from it."""
 
+    def __init__(
+        self, ax: Axes, name: str, offset: FloatArray, gap: float, look: Look, minor: bool = False, font: float = style.LABEL,
+        text: str = "",
+    ) -> None:  # fmt: skip
+        self.points, text = (name,), text or name
+        font = font * (MINOR if minor else 1.0)
+        leader = {"arrowstyle": "-", "color": look.colour(style.MUTED), "linewidth": 0.8, "shrinkA": 0.0, "shrinkB": 0.6 * gap}
+        self.is_led = bool(distance_to_box(offset, half_of(text, font)) > LED * gap)
+        colour = look.colour(style.MUTED if minor else style.INK)
+        more: Keywords = {"ha": "center", "fontstyle": "italic", "zorder": look.level + 1.0}
+        more["bbox"] = {"boxstyle": "square,pad=0.05", "facecolor": "none", "edgecolor": "none"}
+        more["arrowprops"] = leader if self.is_led else None
+        self.text = haloed_beside(ax, text, np.zeros(2), offset, font, colour, **more)
+        self.artists = (self.text,)
 
-def rail(start: FloatArray, end: FloatArray, below: FloatArray, pins: list[FloatArray], size: float) -> list[FloatArray]:
-    """Return the pieces of a rail on a side of its track, each a line and its hatches; none where a pin's support stands in its way."""
-    long = float(np.hypot(*(end - start)))
-    along = (end - start) / (long or 1.0)
-    base, hatch, room = start + BLOCK * size * below, HATCH * size, 1.6 * BASE * size
-    stops = sorted(float((pin - start) @ along) for pin in pins if -size < (pin - start) @ below < 4.0 * size)
-    stops = [stop for stop in stops if -room < stop < long + room]
-    starts = [0.0, *(stop + room for stop in stops)]
-    ends = [*(stop - room for stop in stops), long]
-    found = []
-    for first, last in zip(starts, ends, strict=True):
-        if last - first > 2.0 * hatch:
-            places = np.arange(first, last - hatch, 1.1 * hatch)
-            line = (base + first * along, base + last * along)
-            found.append(np.array([line, *((base + (s + hatch) * along, base + s * along + hatch * below) for s in places)]))
-    return found
+    def move(self, at: Places) -> None:
+        x, y = at[self.points[0]]
+        self.text.xy = (float(x), float(y))

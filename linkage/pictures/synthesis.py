@@ -19,15 +19,16 @@ from ..synthesis import FunctionTask, PathTask, PoseTask, Synthesis, Synthesised
 from ..synthesis.synthesis import CLOSEST_CHANGE_POINT, EXACT, miss_unit
 from ..units import display_unit, factor, show, shown_in
 from . import style
-from .curves import axis_range, stroke_panel, typeset
+from .curves import axis_range, stroke_panel
 from .drawing import body_part, draw_scene
 from .labels import offsets
-from .layout import cloud
+from .layout import cloud, grown
 from .paper import LEFT, sheets_beside, write_title
 from .poses import trace
 from .scene import Bounds, Scene
 from .shapes import polar
-from .sheet import figure_of, grown, haloed_beside, points_a_metre
+from .sheet import figure_of, haloed_beside, points_a_metre
+from .shown_values import typeset
 from .strokes import StrokeAxis, stroke_words
 from .style import FAINT
 

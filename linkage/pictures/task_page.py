@@ -16,9 +16,9 @@ from ..reports import At, results
 from ..synthesis import FunctionTask, PathTask, PoseTask, Synthesis
 from ..synthesis.synthesis import miss_unit
 from ..synthesis.tasks import Task
+from .layout import grown
 from .page_data import PageRequests, machine_text, page_data, unit_data
 from .page_file import PageData
-from .sheet import grown
 from .strokes import frame_count
 
 

@@ -23,8 +23,9 @@ from ..study.monte_carlo import Band, MonteCarlo, share_words
 from ..study.tolerances import Tornado, tolerance_words
 from ..units import factor, show, shown_in, unit_or_none, unit_sign
 from . import style
-from .curves import WIDEST, Limit, axis_range, limit_on, panel_grid, small_text, stroke_panel, typeset
+from .curves import WIDEST, axis_range, panel_grid, small_text, stroke_panel
 from .sheet import panels
+from .shown_values import Limit, limit_on, typeset
 from .strokes import StrokeAxis
 
 LETTERS = 13

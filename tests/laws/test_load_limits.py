@@ -24,7 +24,7 @@ from linkage import (
     least,
     working_field,
 )
-from linkage.pictures.load_chart import ChartText
+from linkage.pictures.chart_text import ChartText
 from linkage.units import bar, deg, g0, kN, mm
 from tests.for_all import first_daily
 

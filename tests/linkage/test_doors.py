@@ -15,8 +15,8 @@ from tests.test_house import HEAVY, OPTIONAL
 
 ROOT = Path(__file__).parents[2]
 LATE = {
-    "animate": "pictures.film", "draw": "pictures.draw", "drawing_board": "board.page", "equations": "formulas.numbered",
-    "export": "exports.export", "page": "pictures.browser", "plot": "pictures.draw", "report": "documents.reporting",
+    "animate": "pictures.film", "draw": "pictures.by_kind", "drawing_board": "board.page", "equations": "formulas.numbered",
+    "export": "exports.export", "page": "pictures.browser", "plot": "pictures.by_kind", "report": "documents.reporting",
 }  # fmt: skip
 DOORS = ("animate", "draw", "equations", "page", "plot")
 SAY = f"print([type(getattr(linkage, name)).__name__ for name in {DOORS}], [type(name).__name__ for name in ({', '.join(DOORS)})])"
@@ -40,15 +40,17 @@ def test_doors_are_functions_whatever_is_imported(lines):
 
 
 def test_no_library_is_loaded_before_it_is_asked_for():
-    """None behind the doors by a star, no graphs by the mobility, and pydantic by no room."""
+    """None behind the doors by a star, no graphs by the mobility, pydantic by no room, and nothing that draws by a live page."""
     told, four_bar = "print(*sys.modules)", "from mechanisms.classics.four_bar import FourBar"
-    rooms = "import linkage.cli, linkage.files, hydraulics"
-    text = printed(STAR, "import sys", told, four_bar, "FourBar().mobility", told, "FourBar().graph", told, rooms, told)
-    star, moved, drawn, last = (each.split() for each in text.splitlines())
+    rooms, live = "import linkage.cli, linkage.files, hydraulics", "len(linkage.pictures.page_html(FourBar()))"
+    asked = four_bar, "FourBar().mobility", told, "FourBar().graph", told, rooms, told, PICTURES, live, told
+    text = printed(STAR, "import sys", told, *asked)
+    star, moved, drawn, last, paged = (each.split() for each in text.splitlines())
     assert "linkage.mechanism" in star
     behind = *HEAVY, *OPTIONAL, "linkage.pictures", "linkage.formulas", "linkage.notebook"
     assert not [name for name in star if name.startswith(behind)]
     assert "networkx" not in moved and "networkx" in drawn and "pydantic" not in last
+    assert "linkage.pictures.page_data" in paged and not [name for name in paged if name.startswith(("matplotlib", "sympy"))]
 
 
 def test_what_is_loaded_late_says_what_it_takes():

@@ -6,7 +6,7 @@ import pytest
 
 from linkage import export, plot, working_field
 from linkage.cli.entry import main
-from linkage.pictures.load_chart import ChartText
+from linkage.pictures.chart_text import ChartText
 from linkage.units import g0, unit_system
 from tests.laws.test_working_field import Arm, Digger
 from tests.linkage.pictures.test_page import unpacked

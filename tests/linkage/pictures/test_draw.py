@@ -37,11 +37,11 @@ from linkage import (
 from linkage.pictures import draw, mechanism, plot, style
 from linkage.pictures.curves import limit_crossings
 from linkage.pictures.drawing import BodyPart, MarkPart
+from linkage.pictures.layout import hatched
 from linkage.pictures.scene import Scene
 from linkage.pictures.shapes import hull, rounded_outline
 from linkage.pictures.sheet import sheet
 from linkage.pictures.strokes import stroke_words
-from linkage.pictures.symbols import hatched
 from mechanisms.classics.inverted_slider_crank import InvertedSliderCrank
 from mechanisms.classics.scotch_yoke import ScotchYoke
 from mechanisms.classics.slider_crank import SliderCrank

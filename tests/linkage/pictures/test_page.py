@@ -54,10 +54,10 @@ from linkage.files import load
 from linkage.motion import live_text
 from linkage.pictures import page_html
 from linkage.pictures.chart_page import chart_page
-from linkage.pictures.curves import as_curve
-from linkage.pictures.load_chart import ChartText
+from linkage.pictures.chart_text import ChartText
 from linkage.pictures.page_data import PageRequests, limit_data, named_in_code
 from linkage.pictures.page_file import bare, page_part, said_in, tight
+from linkage.pictures.shown_values import as_curve
 from linkage.plan.trace import Trace
 from linkage.quantities import name_of
 from linkage.reports import results

@@ -6,11 +6,11 @@ from matplotlib.text import Text
 
 from linkage.pictures import draw
 from linkage.pictures.film import column_text
+from linkage.pictures.layout import hatched
 from linkage.pictures.poses import on_its_way
 from linkage.pictures.scene import Scene
 from linkage.pictures.shapes import segment
 from linkage.pictures.strokes import playback
-from linkage.pictures.symbols import hatched
 from mechanisms.classics.front_loader import FrontLoader
 from mechanisms.classics.pantograph import Pantograph
 from mechanisms.classics.scissor_lift import ScissorLift

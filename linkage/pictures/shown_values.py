@@ -1,0 +1,109 @@
+"""Columns, their limits, points and headings as pictures and pages show them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from ..checks import is_listed, require, require_type
+from ..errors import DefinitionError, ensure, known_name
+from ..language import noted, said
+from ..mechanism import Mechanism
+from ..motion import Column, Motion
+from ..motion.measures import Constraint, FixedNumber, Leaf, Least, Most
+from ..motion.requests import may_be_unlimited
+from ..program import FloatArray
+from ..quantities import is_number
+from ..statics import LawRequest
+from ..units import factor, require_measure
+
+
+def named_points(machine: Mechanism, names: object, what: str) -> tuple[str, ...]:
+    """Return the names of points whose paths are drawn; DefinitionError for anything but a list of such names."""
+    listed = require_type(f"{machine.plan.title}: {what}", names, (list, tuple), f'a list of points is expected, such as {what}=["G"]')
+    return tuple(known_name("Point", name, machine.plan.points, where=machine.plan.title) for name in listed)
+
+
+def check_poses(column: Column, motion: Motion) -> None:
+    """Raise DefinitionError for a column that has not one value a pose of a motion."""
+    try:
+        np.broadcast_to(column.values, motion.shape)
+    except ValueError:
+        said = f"{motion.plan.title}: the column {column.name} has values of shape {np.shape(column.values)}"
+        raise DefinitionError(f"{said}, and the motion poses of shape {motion.shape}; give one value for each pose.") from None
+
+
+# Limit lines: a value that a result may not pass, and on which side it fails.
+
+
+class Limit(NamedTuple):
+    """A value [SI] that a column may not pass, its words, and the side that fails: "above" or "below"."""
+
+    value: float
+    text: str = ""
+    fails: str = "above"
+
+    def drawn(self, column: Column) -> float:
+        """Return the value in the unit of a column."""
+        return self.value / factor(column.shown_unit)
+
+    def failing(self, values: FloatArray) -> FloatArray:
+        """Return the mask of the values [SI] that fail."""
+        return np.asarray(values > self.value if self.fails == "above" else values < self.value)
+
+
+def limit_of(given: Sequence[object], unit: str = "") -> Limit:
+    """Return a limit from a tuple of its parts; DefinitionError for a side that is neither above nor below, and for another `unit`."""
+    parts = tuple(given) if is_listed(given) else ()
+    is_limit = 1 <= len(parts) <= 3 and is_number(parts[0]) and all(isinstance(each, str) for each in parts[1:])
+    require(is_limit, "", given, 'is no limit; write (value [SI], text) or (value, text, "below")')
+    found = Limit(*parts)
+    if unit:
+        require_measure(found.value, unit, f"the limit {found.text}".rstrip())
+    ensure(found.fails in ("above", "below"), f'the limit {found.text or found.value!r} fails {found.fails!r}: say "above" or "below".')
+    return found
+
+
+def limit_on(constraint: Constraint, is_shown: Callable[[Leaf], bool]) -> Limit | None:
+    """Return the limit that a condition sets a quantity at every pose; None where it sets none. `is_shown` tells the quantity's leaves."""
+    leaf, number, sign = leaf_bound(constraint, is_shown) or (None, 0.0, "")
+    if isinstance(leaf, Most) and sign == "<=":
+        return Limit(number, "", "above")
+    return Limit(number, "", "below") if isinstance(leaf, Least) and sign == ">=" else None
+
+
+def leaf_bound(constraint: Constraint, is_shown: Callable[[Leaf], bool]) -> tuple[Leaf, float, str] | None:
+    """Return the leaf, the number [SI] and the sign of a condition that holds a quantity against a number; None for any other."""
+    left, right, turned = constraint.left, constraint.right, {"<=": ">=", ">=": "<=", "==": "=="}[constraint.symbol]
+    for one, other, sign in ((left, right, constraint.symbol), (right, left, turned)):
+        if isinstance(one, Leaf) and isinstance(other, FixedNumber) and is_shown(one):
+            return one, other.value, sign
+    return None
+
+
+# A reserve has no bound where little is carried: its curve is the load in % of what the pump can carry.
+
+RESERVE, PUMP_LOAD, WHOLE = "reserve", noted("pump load in %"), 100.0
+
+
+def as_curve(column: Column, bound: Sequence[object] | None = None) -> tuple[Column, Sequence[object] | None]:
+    """Return a column and its limit as curves show them. Of a cylinder's reserve, no output of the machine's own, that is 100 % over it."""
+    is_law = column.request is None or (isinstance(column.request, LawRequest) and may_be_unlimited(column.request))
+    if column.unit or not is_law or not re.match(rf"{RESERVE}\b", column.name):
+        return column, bound
+    with np.errstate(divide="ignore"):
+        share = Column(column.name.replace(RESERVE, PUMP_LOAD, 1), WHOLE / np.asarray(column.values, float), "", 1)
+    if bound is None:
+        return share, Limit(WHOLE, said("all that the pump can carry"))
+    value, text, fails = limit_of(bound)
+    return share, Limit(WHOLE / value, text, "below" if fails == "above" else "above")
+
+
+def typeset(text: str) -> str:
+    """Return a heading with its squares and cubes raised: kgf/cm² for kgf/cm2."""
+    for plain, raised in (("cm2", "cm²"), ("m2", "m²"), ("cm3", "cm³"), ("m3", "m³"), ("kgf_cm", "kgf/cm")):
+        text = text.replace(plain, raised)
+    return text

@@ -12,7 +12,7 @@ from typing import ClassVar, Literal, Protocol, Self, TypeAlias, TypedDict, Type
 from numpy.typing import ArrayLike
 
 from ..checks import require_number, require_type
-from ..errors import DefinitionError, cited, ensure, known_name, unknown
+from ..errors import DefinitionError, cited, known_name, unknown
 from ..frozen import immutable, keep_own, refuses_changes
 from ..quantities import Member, Reference, in_degrees, is_member_or_name, name_of
 from ..quantities.quantity import plain
@@ -191,7 +191,8 @@ def check_words(title: object, scale: object, only: object, shut: object) -> Non
     loads = require_type(f"{opening}: only", () if only is None else only, (list, tuple), f"is not a list of loads; write {remedy}")
     lines = require_type(f"{opening}: shut", shut, (list, tuple), 'is not a list of lines; write their names, shut=["line"]')
     for each in (*scale, *loads, *lines):
-        ensure(is_member_or_name(each), f"{opening}: {cited(each)} is neither a load nor the name of one.")
+        if not is_member_or_name(each):
+            raise DefinitionError(f"{opening}: {cited(each)} is neither a load nor the name of one.")
 
 
 # What acts, in which case, which way, at which rates.

@@ -259,7 +259,8 @@ class Between(TwoPoint):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        ensure(can_be_called(self.law), f"{self._opening()}: law={cited(self.law)} is no function; give one of length [m] and rate [m/s].")
+        if not can_be_called(self.law):
+            raise DefinitionError(f"{self._opening()}: law={cited(self.law)} is no function; give one of length [m] and rate [m/s].")
 
     def push(self, motion: Poses, length: Array, rate: Array) -> Array:
         return self.law(length, rate)

@@ -10,7 +10,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..errors import LawError, LinkageError, UntracedError, ensure, unwarned
+from ..errors import DefinitionError, LawError, LinkageError, UntracedError, unwarned
 from ..language import heading_of, language, translated
 from ..loads import FRICTIONLESS, PLAIN_CASE, Acting
 from ..mechanism import Mechanism
@@ -133,7 +133,8 @@ class LiveQuestions:
 
     def leaf_rows(self, leaf: Leaf) -> list[Piece]:
         """Return the pieces of a leaf with the names of their rows, over every `Over`; of a value at one pose the row alone."""
-        ensure(not isinstance(leaf, Integral), f"{leaf}: an integral is not followed in the page.")
+        if isinstance(leaf, Integral):
+            raise DefinitionError(f"{leaf}: an integral is not followed in the page.")
         found = []
         for number, place in enumerate(self.judge.places[:1] if isinstance(leaf, At) else self.judge.places):
             is_timed = place.instants is not None and is_of_force(leaf.quantity)

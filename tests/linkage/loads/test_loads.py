@@ -11,6 +11,7 @@ from numpy.testing import assert_allclose
 
 from linkage import (
     RIGHT,
+    Between,
     DefinitionError,
     Dimension,
     Dyad,
@@ -428,6 +429,23 @@ def test_a_force_that_is_none_is_refused_with_what_it_is(force, word):
 
     with pytest.raises(DefinitionError, match=word):
         driving_force(at(Lift), [Odd()])
+
+
+def test_what_is_right_is_not_told_in_words():
+    """A law, or a load, may be long in words, and a law may have none."""
+
+    class Untold:
+        def __call__(self, length, rate):
+            return -length
+
+        def __repr__(self):
+            pytest.fail("nothing is wrong")
+
+    class Silent(Weight):
+        __repr__ = Untold.__repr__
+
+    assert callable(Between("A", "B", Untold()).law)
+    assert len(LoadCase(only=[Silent("B", mass=1.0)]).only) == 1
 
 
 def test_every_load_is_listed_once():

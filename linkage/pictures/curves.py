@@ -51,17 +51,18 @@ def plot_machine(
     machine: Mechanism, columns: Sequence[Column | RequestLike], limits: Mapping[str, Sequence[object]] | None, at: At, count: int
 ) -> Figure:
     """Return a figure of a machine's results over its runs (`runs_of`), those it is about unless others are named."""
-    featured, poses = machine.featured(), frame_count(count)
+    featured, title, poses = machine.featured(), machine.plan.title, frame_count(count)
     runs = [run for run in runs_of(machine, at) if run.is_curve] or [run_of(machine, at)]
     curves, held = list[Curve](), ""
     for run in runs:
         motion = motion_over(machine, run, np.linspace(0.0, 1.0, poses))
-        own = {column.name: column for column in results(machine, motion, run.case or PLAIN_CASE)}
-        shown = columns or columns_about(machine, [*own.values()])
+        table = results(machine, motion, run.case or PLAIN_CASE)
+        shown = columns or columns_about(machine, table)
         if is_listed(shown):
-            shown = [own[known_name("Column", each, own, where=machine.plan.title)] if isinstance(each, str) else each for each in shown]
+            known = {column.name: column for column in (*columns_of(motion), *table)}  # a table of its own may leave out points and outputs
+            shown = [known[known_name("Column", each, known, where=title)] if isinstance(each, str) else each for each in shown]
             if len(runs) > 1 and any(isinstance(each, Column) for each in columns):
-                raise DefinitionError(f"{machine.plan.title}: a Column has values of one motion, and it runs {len(runs)} ways; name it.")
+                raise DefinitionError(f"{title}: a Column has values of one motion, and it runs {len(runs)} ways; name it.")
             shown = [request_in_case(each, run.case) for each in shown]
         held = StrokeAxis.of(motion).held
         curves += [(motion, column, run_words(machine, run) if len(runs) > 1 else "") for column in columns_named(motion, shown)]

@@ -42,11 +42,13 @@ from linkage.pictures.scene import Scene
 from linkage.pictures.shapes import hull, rounded_outline
 from linkage.pictures.sheet import sheet
 from linkage.pictures.strokes import stroke_words
+from linkage.reports import results
 from mechanisms.classics.inverted_slider_crank import InvertedSliderCrank
 from mechanisms.classics.scotch_yoke import ScotchYoke
 from mechanisms.classics.slider_crank import SliderCrank
 from mechanisms.crane import ArmDrive
 from mechanisms.crane import Crane as ShippedCrane
+from mechanisms.header_balancer import HeaderBalancer
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.for_all import for_all
@@ -471,6 +473,15 @@ def test_a_constant_column_a_single_pose_and_gaps_can_be_drawn():
     plot(still, [Column("p", np.full(3, 7.0))]).canvas.draw()
     plot(machine.at(S=[0.6]), [Column("q", np.array([1.0]))]).canvas.draw()
     plot(machine.at(S=[0.6, 2.0], unreachable="nan"), [Column("q", np.full(2, np.nan))]).canvas.draw()
+
+
+def test_names_that_the_table_of_a_machine_leaves_out_are_plotted_too():
+    machine = HeaderBalancer()
+    assert not {"B_x", "h_horizon"} & {column.name for column in results(machine, machine.sweep(2))}
+    figure = plot(machine, ["B_x", "R_y", "h_horizon"], count=5)
+    assert [ax.get_title(loc="left").partition(",")[0] for ax in figure.axes] == ["B_x", "R_y", "h_horizon"]
+    with pytest.raises(DefinitionError, match=r"'B_z' is unknown in HeaderBalancer.*B_x.*P_req"):
+        plot(machine, ["B_z"])
 
 
 def test_what_cannot_be_plotted_is_said_in_words():

@@ -145,9 +145,12 @@ def curve_blocks(
         column, bound = as_curve(whole[name], limits.get(name))
         called, further = column.heading, beyond.get(name, []) if column is whole[name] else []
         others = [each for each in same[name] if not any(each.startswith(f"{one} ") for one in (name, *same[name]))]
-        caption = said("{column} along {stroke}.", column=called, stroke=along)
-        caption = said("{column} along {stroke}; {held} held.", column=called, stroke=along, held=held) if held else caption
-        caption = said("{column} over time{beside}.", column=called, beside="") if motion.time is not None else caption
+        if motion.time is not None:
+            caption = said("{column} over time{beside}.", column=called, beside=held and f"; {said('held: {held}', held=held)}")
+        elif held:
+            caption = said("{column} along {stroke}; {held} held.", column=called, stroke=along, held=held)
+        else:
+            caption = said("{column} along {stroke}.", column=called, stroke=along)
         caption = f"{caption.removesuffix('.')}, {words}." if words else caption
         caption += said(" The same curve: {names}.", names=", ".join(map(heading_of, others))) if others else ""
         caption += said(" Shaded: what its limit excludes.") if bound is not None else ""

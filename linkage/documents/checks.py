@@ -103,15 +103,18 @@ def loops_closed(motion: Motion) -> Iterator[Check]:
 def closed_walks(pairs: Iterable[tuple[str, str]]) -> Iterator[list[str]]:
     """Yield the points of a loop for each pair that pairs before it join already."""
     tree: dict[str, list[str]] = {}
-
-    def walk(start: str, end: str, before: str) -> list[str]:
-        found = (walk(each, end, start) for each in tree.get(start, ()) if each != before)
-        return [end] if start == end else next(([start, *rest] for rest in found if rest), [])
-
     for P, Q in pairs:
-        loop = walk(P, Q, "")
-        if loop:
-            yield loop
+        before, ahead = {P: P}, [P]
+        while ahead and Q not in before:
+            here = ahead.pop()
+            further = [each for each in tree.get(here, ()) if each != before[here]]
+            before |= dict.fromkeys(further, here)
+            ahead += further
+        if Q in before:
+            walk = [Q]
+            while walk[-1] != P:
+                walk.append(before[walk[-1]])
+            yield walk
         else:
             tree.setdefault(P, []).append(Q)
             tree.setdefault(Q, []).append(P)

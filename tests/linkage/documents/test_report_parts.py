@@ -5,8 +5,10 @@ import shutil
 import subprocess
 from dataclasses import replace
 from functools import cache, partial
+from itertools import combinations, pairwise
 from xml.etree import ElementTree
 
+import networkx as nx
 import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -27,10 +29,12 @@ from linkage import (
     LoadCase,
     Mechanism,
     OnLink,
+    Over,
     Stroke,
     Weight,
     max_table,
     pin_forces,
+    ramp,
     report,
 )
 from linkage.cli import main
@@ -38,12 +42,13 @@ from linkage.cli.listing import registered
 from linkage.cli.machines import find
 from linkage.documents import report_document
 from linkage.documents.breaking import LONGEST, formula_pieces
+from linkage.documents.checks import closed_walks
 from linkage.documents.content import Illustration, Section, TableBlock
 from linkage.documents.forces import Stop, blocked_cylinders, body_words, worst_blocked
 from linkage.documents.html import html_text
 from linkage.documents.inputs import in_digits, member_rows, plain_words, with_units
 from linkage.documents.markdown import markdown
-from linkage.documents.outcome import CURVE_ROOM, HALF, draw_column
+from linkage.documents.outcome import CURVE_ROOM, HALF, curve_blocks, draw_column
 from linkage.documents.pdf import pdf
 from linkage.documents.pictures import painted
 from linkage.documents.reporting import NUMBER, cited_numbers, own_system, speaking
@@ -503,6 +508,30 @@ def test_bodies_go_by_the_names_of_their_links():
     assert Pumped.plan.link_names == {}
     names = ["frame", "frame.OBT", "frame.ram"]  # of a part that is called frame
     assert [body_words(plan, name) for name in names] == names
+
+
+def test_walks_are_closed_and_as_many_as_there_are_loops():
+    rng = np.random.default_rng(3)
+    for count in (4, 9, 20):
+        pairs = [pair for pair in combinations(map(str, range(count)), 2) if rng.random() < 3.0 / count]
+        walks = [[frozenset(side) for side in pairwise([*walk, walk[0]])] for walk in closed_walks(pairs)]
+        graph = nx.Graph(pairs)
+        assert len(walks) == len(pairs) - len(graph) + nx.number_connected_components(graph)
+        assert all(len({*walk}) == len(walk) >= 3 and {*walk} <= {*map(frozenset, pairs)} for walk in walks)
+    (long,) = closed_walks((str(k), str((k + 1) % 600)) for k in range(600))
+    assert len(long) == 600
+
+
+def test_a_curve_over_time_says_what_is_held():
+    class Two(Mechanism):
+        S, U = Stroke(0.3, 0.5), Stroke(0.0, 0.1)
+        O, A = Ground(0.0, 0.0), Ground(0.35, -0.1)
+        B = Dyad(O, A, OB=0.3 + U, AB=S, side=RIGHT)
+        rise = Over.path(S=ramp(0.32, 0.48, speed=0.1), U=0.05)
+
+    subject = ReportSubject.of(Two(), {}, 3)
+    (curve,) = curve_blocks(subject, *subject.curves[0], ["B_y"], "B_y", {})
+    assert curve.caption.startswith("B_y, m over time; held: U = 50 mm, over rise.")
 
 
 def test_a_report_says_how_a_machine_runs(tmp_path):

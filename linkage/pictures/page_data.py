@@ -628,10 +628,10 @@ MARKS = {True: 1, False: 0, None: 2}
 
 
 def verdict_data(machine: Mechanism, judge: Judge, along: Motion | None) -> tuple[list[list[Any]], list[Verdict] | None]:
-    """Return the machine's verdicts over all that a judge looks at, as they stand for the design that is delivered, and as data.
+    """Return rows of the machine's verdicts over all that a judge looks at, for the design that is delivered, and the verdicts.
 
-    Each is 1 where it is kept, 0 where it is not, 2 where it is only said, 3 where it says nothing; its heading and its sentence, then
-    what differs in Russian. Where verdicts are refused there are none, and the error's words as data.
+    A row is 1 where one is kept, 0 where it is not, 2 where it is only said, 3 where it says nothing; its heading and its sentence, then
+    what differs in Russian. Where verdicts are refused a row has the error's words, and instead of verdicts there is None.
     """
     said: dict[str, list[tuple[int, str, str]]] = {}
     found: list[Verdict] | None = None

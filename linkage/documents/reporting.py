@@ -17,7 +17,7 @@ from ..language import current_language, said, translated, with_decimals
 from ..language import language as spoken
 from ..loads import Acting, situation_of
 from ..mechanism import Mechanism, played_along
-from ..motion import HasVerdicts, Motion, speakers, stroke_unit, way_text
+from ..motion import HasVerdicts, Motion, speakers, stroke_display_unit, way_text
 from ..motion.judging import domain_words, verdict_questions
 from ..motion.measures import least, most
 from ..pictures.shown_values import limit_of, named_points
@@ -345,8 +345,8 @@ def today() -> str:
 
 def run_text(subject: ReportSubject, run: Run) -> str:
     """Return where a run goes, in words: `stacking: lift = 0 to 700 mm, 11 poses in tables; held: extend = 0 mm`."""
-    spans = [f"{name} = {way_text(way, stroke_unit(subject.machine.plan, name))}" for name, way in run.ways.items()]
-    moves, held = ", ".join(spans), subject.words(dict(run.held))
+    units = {name: stroke_display_unit(subject.machine.plan, name, "mm") for name in run.ways}
+    moves, held = ", ".join(f"{name} = {way_text(way, units[name])}" for name, way in run.ways.items()), subject.words(dict(run.held))
     if run.is_curve:
         moves = said("{stroke}, {poses} poses in tables", stroke=moves, poses=subject.count)
     parts = [each for each in (moves, held and said("held: {held}", held=held)) if each]

@@ -339,13 +339,13 @@ def timed_texts(strokes: Mapping[str, Any], units: Mapping[str, str], time: floa
 
 
 def stroke_text(value: float, unit: str, digits: int = 9) -> str:
-    """Return a value of a stroke [m or rad] as it is read: `0.25 m`, `90 deg`."""
-    return show(value, display_unit(UNITS[unit][1]), digits)
+    """Return a value of a stroke [m or rad] as it is read, a length in the unit that is said: `0.25 m`, `90 deg`."""
+    return show(value, display_unit(UNITS[unit][1], unit), digits)
 
 
 def stroke_number(value: float, unit: str, digits: int = 9) -> str:
     """Return a value of a stroke [m or rad] as it is read, without its unit; angles in degrees."""
-    return shown_number(value, display_unit(UNITS[unit][1]), digits)
+    return shown_number(value, display_unit(UNITS[unit][1], unit), digits)
 
 
 def stroke_measure(plan: Plan, name: str) -> str:

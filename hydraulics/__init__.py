@@ -21,12 +21,12 @@ from .gas import polytropic as polytropic
 from .gas import real_nitrogen as real_nitrogen
 from .lift import LiftCircuit as LiftCircuit
 from .lift import lift_verdicts as lift_verdicts
-from .line import Holding as Holding
-from .line import Lowering as Lowering
+from .lifting_line import Holding as Holding
+from .lifting_line import Lowering as Lowering
 from .moving import flow as flow
 from .moving import power as power
 from .moving import rate as rate
-from .oil import OilLine as OilLine
+from .oil_line import OilLine as OilLine
 from .pump import Pump as Pump
 from .pump import Relief as Relief
 from .pump import Tank as Tank

@@ -27,7 +27,7 @@ from linkage.units import show
 
 from .cylinders import PISTON, ROD, OnLines, Ram, cylinder_request, in_class, line_thrust, lines_of
 from .inputs import Array, one_design
-from .line import LiftLine
+from .lifting_line import LiftLine
 
 AT_BORDER = 1e-9
 """Of its size: what is on the other side of a border by no more is on it."""

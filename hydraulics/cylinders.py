@@ -29,8 +29,8 @@ from linkage.loads import AS_IT_RUNS, AT_REST, FRICTIONLESS, DrawnAs, ForceEleme
 from linkage.loads.acting import Acting, ActingKeywords, Case, Loads, situation_of, takes_situation
 from linkage.loads.element import DIRECTIONS, UNBOUNDED, Declared, Formulas, Parameter, Poses, Push, Rates, Share, Tie, require_poses
 from linkage.motion import Answer, Column, Judge, Motion, Question, Request, SmoothPiece, Tabled, greatest, lowest, require_motion
-from linkage.motion.judging import HasVerdicts, PageWords, over_time
 from linkage.motion.measures import Condition, Constraint, MeasuredQuantity, at, least, most
+from linkage.motion.motion_verdicts import HasVerdicts, PageWords, over_time
 from linkage.plan import Mask, Plan
 from linkage.quantities import InnerQuantity, Quantity, distance, label, quantity
 from linkage.quantities.member import Member, NamedMembers, Reference, body_name, is_member_or_name, name_of, of_kind

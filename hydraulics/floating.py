@@ -35,7 +35,7 @@ from .accumulator import AccumulatorBlock, keeps_rule
 from .cylinders import Circuit, Feeds, Ram, as_in, chamber_area, least_and_most
 from .gas import Polytropic
 from .inputs import Array, all_finite, follows, in_pascals, number_set, one_design
-from .line import pressure_range
+from .lifting_line import pressure_range
 from .shut import shut_verdicts
 from .standing import standing_pressure
 

@@ -42,7 +42,7 @@ from .cylinders import (
 )
 from .files import pressure_kind
 from .inputs import Array, check_pressures, follows, not_negative, one_design, one_number
-from .line import LiftLine
+from .lifting_line import LiftLine
 from .moving import flow
 from .pump import Pump
 from .remedy import Sizes, can_be_set, show_enough, size_words, smallest

@@ -42,7 +42,7 @@ from .cylinders import (
     thrust_request,
 )
 from .inputs import Array, only_where, proper_share
-from .line import LiftLine, Work, way_back
+from .lifting_line import LiftLine, Work, way_back
 from .standing import moves_in
 
 Circuits: TypeAlias = str | LiftLine

@@ -19,7 +19,7 @@ from linkage.verdict import Verdict
 
 from .cylinders import Circuit, least_and_most
 from .inputs import Array, one_design
-from .line import LiftLine, pressure_range
+from .lifting_line import LiftLine, pressure_range
 from .standing import CommonStroke, members_in, standing_pressure
 
 EMPTY = 1e-9

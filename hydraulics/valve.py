@@ -28,7 +28,7 @@ from linkage.verdict import Verdict
 
 from .cylinders import PISTON, Circuit, OnLines, Ram, carries_loads, circuits_among, in_class
 from .inputs import Array, follows, in_pascals, number_set, one_design, positive
-from .line import LiftLine
+from .lifting_line import LiftLine
 from .standing import CommonStroke, moves_in
 
 USUAL_SETTING = 1.3

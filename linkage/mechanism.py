@@ -25,8 +25,8 @@ from .mobility import FourBar, Mobility, chain_graph, check, four_bars, mobility
 from .motion import Answer, Featured, Positions, RequestLike, Target, at_values, follow_path, from_above, positions_for, sweep_values
 from .motion.functions import PoseFunction, evaluate, source_of
 from .motion.judge import Judge, Question
-from .motion.judging import HELD, judge_verdicts
 from .motion.motion import Motion, require_motion
+from .motion.motion_verdicts import HELD, judge_verdicts
 from .motion.over import OPTIONS, Over
 from .motion.table import Column, columns_of
 from .plan import Body, Part, Plan, check_circuits, require_kinds, with_parts

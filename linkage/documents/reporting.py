@@ -18,8 +18,8 @@ from ..language import language as spoken
 from ..loads import Acting, situation_of
 from ..mechanism import Mechanism, played_along
 from ..motion import HasVerdicts, Motion, speakers, stroke_display_unit, way_text
-from ..motion.judging import domain_words, verdict_questions
 from ..motion.measures import least, most
+from ..motion.motion_verdicts import domain_words, verdict_questions
 from ..pictures.shown_values import limit_of, named_points
 from ..quantities import Dimension
 from ..reports import NOTHING, At, Run, column_among

@@ -9,11 +9,11 @@ from .gaps import gap, nearest_places
 from .grid import Grid
 from .instants import Instants
 from .judge import Judge, Question, case_named
-from .judging import HasVerdicts, PageWords, geometry_verdicts, judge_verdicts, judged_poses, limits_over, over_time, pose_sentence
 from .limits import places_text, stroke_display_unit, stroke_measure, stroke_unit, way_text
 from .live import LiveText, live_text
 from .measures import Condition, Constraint, Leaf, Measure, at, integral, least, most, reachable, worst
 from .motion import Motion, OnePose, each_at_its_stroke, require_motion
+from .motion_verdicts import HasVerdicts, PageWords, geometry_verdicts, judge_verdicts, judged_poses, limits_over, over_time, pose_sentence
 from .over import OPTIONS, Over, Run
 from .places import Positions, Target, positions_for
 from .planes import Planes, clearance, nearest_gap, pair_at, pairs_without_planes

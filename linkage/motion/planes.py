@@ -25,9 +25,9 @@ from ..vectors import pick
 from ..verdict import Verdict
 from .gaps import body_points_of, check_forms, corner_pieces, follows_dimensions, gap_in, gap_of, least_number, shape_named
 from .judge import Judge, Question
-from .judging import HasVerdicts
 from .measures import Condition, least
 from .motion import Motion
+from .motion_verdicts import HasVerdicts
 from .requests import NodeRequest, Trait
 
 Pair = tuple[str, str]

@@ -16,8 +16,8 @@ from ..loads import FRICTIONLESS, PLAIN_CASE, Acting
 from ..mechanism import Mechanism
 from ..motion import Column, Condition, HasVerdicts, Instants, LiveText, PageWords, Request, RequestLike, least, most, speakers
 from ..motion.judge import Domain, Judge, SearchRow, leaf_key, measures_of
-from ..motion.judging import NEAR, verdict_questions
 from ..motion.measures import At, CombinedMeasure, Constraint, FixedNumber, Integral, Leaf, Measure, conditions_of, dimension_value
+from ..motion.motion_verdicts import NEAR, verdict_questions
 from ..motion.over import ALLOWED
 from ..motion.requests import NodeRequest, bound, is_of_force
 from ..plan import Plan

@@ -21,8 +21,8 @@ from ..errors import AssemblyError, DefinitionError, LinkageError, ensure
 from ..frozen import immutable
 from ..mechanism import Mechanism
 from ..motion import Over
-from ..motion.judging import domain_words
 from ..motion.measures import Constraint, FixedNumber, Integral, Leaf, Measure, measure_of, measure_unit
+from ..motion.motion_verdicts import domain_words
 from ..numeric.line import Index
 from ..plan import Mask, Plan
 from ..program import FloatArray

@@ -17,8 +17,8 @@ from ..frozen import immutable
 from ..language import said, said_of
 from ..mechanism import Mechanism
 from ..motion import stroke_display_unit
-from ..motion.judging import transmissions
 from ..motion.measures import Measure, measure_of
+from ..motion.motion_verdicts import transmissions
 from ..plan import Mask
 from ..program import FloatArray
 from ..shown import HasSentence, Shown, text_columns

@@ -9,8 +9,8 @@ from linkage.cli.listing import registered
 from linkage.cli.machines import find
 from linkage.loads import Acting
 from linkage.motion.judge import RowFunction, leaves_of
-from linkage.motion.judging import HasVerdicts, speakers
 from linkage.motion.measures import At
+from linkage.motion.motion_verdicts import HasVerdicts, speakers
 from tests.for_all import for_all
 from tests.laws.random_machines import random_machine
 from tests.laws.test_time_laws import asked, heavy

@@ -34,7 +34,7 @@ from linkage.cli import main
 from linkage.files import load, save
 from linkage.loads import Acting
 from linkage.motion import live_text
-from linkage.motion.judging import over_pose
+from linkage.motion.motion_verdicts import over_pose
 from linkage.pictures.force_arrows import one_pose
 from linkage.pictures.page_data import PageRequests, page_data
 from linkage.pictures.strokes import playback

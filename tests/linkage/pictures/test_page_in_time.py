@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 from hydraulics import LiftCircuit, pressure
 from linkage import Course, Over, Weight, ramp
 from linkage.motion import live_text
-from linkage.motion.judging import over_pose
+from linkage.motion.motion_verdicts import over_pose
 from linkage.pictures.force_arrows import one_pose
 from linkage.pictures.page_data import PageRequests, page_data
 from linkage.pictures.page_file import page_part

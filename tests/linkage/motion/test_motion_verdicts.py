@@ -10,7 +10,7 @@ from linkage import RIGHT, Column, DefinitionError, Dimension, Dyad, Ground, Mec
 from linkage.loads import FRICTIONLESS, PLAIN_CASE, ForceElement
 from linkage.motion import HasVerdicts, Tabled
 from linkage.motion.judge import Situation, situation_found
-from linkage.motion.judging import geometry_verdicts
+from linkage.motion.motion_verdicts import geometry_verdicts
 from linkage.reports import results
 from linkage.units import bar, litre, mm
 from mechanisms.at_work.excavator import HookExcavator

@@ -64,7 +64,7 @@ from .files import filled_kind, on_line_kind
 from .floating import Block, GasLine
 from .inputs import Array, follows, in_pascals, names_behind, number_set, one_design, one_number
 from .lift import PumpLine
-from .line import pressure_range
+from .lifting_line import pressure_range
 from .pump import Pump, Relief, Supply, Tank
 from .shut import EMPTY, intensified, shut_verdicts
 from .standing import standing_pressure

@@ -69,10 +69,15 @@ def frozen_copy(value: Any) -> Any:
     return value
 
 
+UNCHANGING = (bool, int, float, str, type(None))
+"""Types of values that are their own frozen copies."""
+
+
 def keep_own(holder: object) -> None:
     """Replace the values of a frozen dataclass by frozen copies."""
     for name, value in vars(holder).items():
-        object.__setattr__(holder, name, frozen_copy(value))
+        if type(value) not in UNCHANGING:
+            object.__setattr__(holder, name, frozen_copy(value))
 
 
 def refuses_changes(kind: Kind) -> Kind:

@@ -47,7 +47,8 @@ class Grid:
         self.designs: FrozenDict[str, Any] = designs if type(designs) is FrozenDict else FrozenDict(designs)
         self.strokes: FrozenDict[str, FloatArray] = FrozenDict({name: read_only(value) for name, value in strokes.items()})
         self._is_plain = self.designs.is_of_floats
-        arrays = [] if self._is_plain else [np.shape(value) for value in self.designs.values() if varies(value)]
+        self._varying = () if self._is_plain else tuple([name for name, value in self.designs.items() if varies(value)])
+        arrays = [np.shape(self.designs[name]) for name in self._varying]
         try:
             self.design_shape = np.broadcast_shapes(*arrays) if arrays else ()
         except ValueError:
@@ -91,7 +92,8 @@ class Grid:
         shape = self.design_shape
         if self._is_plain:
             return self.designs
-        return {name: np.broadcast_to(value, shape).ravel() if varies(value) else float(value) for name, value in self.designs.items()}
+        given, varying = self.designs.items(), self._varying
+        return {name: np.broadcast_to(value, shape).ravel() if name in varying else float(value) for name, value in given}
 
     @cached_property
     def flat(self) -> dict[str, Any]:
@@ -134,7 +136,7 @@ class Grid:
         tail = (1,) * len(self.stroke_shape)
         designs = self.designs.items()
         shaped = {
-            name: np.float64(value) if type(value) is float or not varies(value) else np.reshape(value, np.shape(value) + tail)
+            name: np.reshape(value, np.shape(value) + tail) if name in self._varying else np.float64(value)
             for name, value in designs
         }
         solved = {name: self.full(value[None])[0] for name, value in self.solved.inputs.items()}

@@ -19,7 +19,7 @@ from ..plan import Mask, Plan, require_kind
 from ..program import FloatArray
 from ..quantities import Curve, Member, PoseCondition, Quantity, Stroke, is_number, keywords, name_of, needs, numbers_in, quantity, real
 from ..quantities.course import Course, check_rising, course_of
-from ..units import Amount, amount_or_float, require_measure, show
+from ..units import Amount, amount_or_float, amounts_in, require_measure, show
 from .grid import MotionLike
 from .instants import Instants
 from .limits import span_text, stroke_unit, way_text
@@ -206,7 +206,10 @@ class Over(Member):
         DefinitionError
             An unknown stroke or load case, or a path that leaves a stroke open.
         """
-        known, where = list(strokes), f"{title}.{self.name}" if self.name else f"{title}: {self}"
+        known = list(strokes)
+        if set(self.strokes) == set(known) and not self.cases:
+            return
+        where = f"{title}.{self.name}" if self.name else f"{title}: {self}"
         for name in self.strokes:
             if name not in known:
                 error = unknown("Stroke", name, known, where=where)
@@ -273,7 +276,8 @@ class Over(Member):
         if instants is not None:
             return instants.strokes
         for name, value in self.strokes.items():
-            require_kind(plan, name, value, f"{plan.title}: {self}: {name}")
+            if next(amounts_in(value), None) is not None:
+                require_kind(plan, name, value, f"{plan.title}: {self}: {name}")
         if self.shape != "box":
             known = [self.numbers(self.strokes[name], plan, number) for name in plan.strokes]
             values = dict(zip(plan.strokes, np.broadcast_arrays(*map(real, known)), strict=True))
@@ -328,7 +332,7 @@ class Over(Member):
             The numbers [m or rad].
         """
         if isinstance(given, tuple):
-            return [self.numbers(each, plan, number) for each in given]
+            return [each if type(each) is float else self.numbers(each, plan, number) for each in given]
         if is_number(given):
             return float(given)
         if isinstance(given, str) and given in plan.table.spellings:

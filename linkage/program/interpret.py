@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from math import frexp
+from operator import attrgetter
 
 import numpy as np
 
@@ -38,6 +39,8 @@ def interpret(
     return [values[node.origin] for node in outputs]
 
 
+ORIGIN = attrgetter("origin")
+"""The node that holds the value of a node."""
 TO_ROUNDING = 1e-12
 """Of the size of the terms of a sum: what rounding may leave of it where it vanishes."""
 
@@ -66,7 +69,7 @@ def node_value(
     """Return the value of a node from those of its arguments; `clipped`: the root of a negative number, not below `least`, is zero."""
     if node.op in ("constant", "input"):
         return inputs[node.value] if node.op == "input" else float(node.value)
-    args = [values[arg.origin] for arg in node.args]
+    args = [*map(values.__getitem__, map(ORIGIN, node.args))]
     if clipped and node.op == "sqrt":
         negligible = True if least is None else args[0] >= least
         args = [np.where(negligible, np.maximum(args[0], 0.0), np.nan)]  # a dead point is reached to rounding; NaN stays

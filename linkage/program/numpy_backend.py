@@ -82,9 +82,10 @@ class NumpyBlocks:
     def run(self, design: Sequence[Numbers], poses: Sequence[Numbers], values: FloatArray, guards: FloatArray) -> None:
         """Fill values, shape (outputs, designs, poses), and the least value of each guard."""
         m, n = values.shape[1:]
-        if m == 1 and n <= self.block and not any(map(is_table, poses)):
-            inputs = [np.ascontiguousarray(value, float) if has_many(value) else in_block(value, 0) for value in poses]
-            self._pose(self._constants(design), inputs, registers_of(self._code[1], n), list(values[:, 0]), guards)
+        if min(m, n) == 1 and m * n <= self.block:  # one row
+            constants = self._constants(design) if m == 1 else list(map(in_block, self.passed(design)))
+            row = values[:, 0] if m == 1 else values[:, :, 0]
+            self._pose(constants, list(map(in_block, poses)), registers_of(self._code[1], m * n), list(row), guards)
             return
         turned = self.turns(m, n)
         target = values.transpose(0, 2, 1) if turned else values
@@ -97,7 +98,8 @@ class NumpyBlocks:
         for left in range(0, length, columns):
             part = slice(left, min(left + columns, length))
             if turned:
-                constants = [in_block(value, 1) for value in self.passed([columns_part(value, part) for value in design])]
+                seen = design if length <= columns else [columns_part(value, part) for value in design]
+                constants = [in_block(value, 1) for value in self.passed(seen)]
             for top in range(0, rows, height):
                 band = slice(top, min(top + height, rows))
                 here = slice(0, part.stop - part.start) if turned else part
@@ -157,14 +159,14 @@ def as_floats(values: Sequence[Numbers]) -> tuple[float, ...] | None:
     return None if any(map(has_many, values)) else tuple(float(np.ravel(value)[0]) for value in values)
 
 
-def in_block(value: Numbers, axis: int) -> FloatArray:
-    """Return a value as a block holds it: a number without dimensions, or an array that varies along one axis or both."""
+def in_block(value: Numbers, axis: int | None = None) -> FloatArray:
+    """Return a value as a block holds it: a number without dimensions, or an array that varies along one axis or both; None: of one row."""
     if type(value) is float:
         return np.array(value)
-    if not has_many(value):
-        return np.array(float(np.ravel(value)[0]))
     array = np.ascontiguousarray(value, float)
-    return array if array.ndim == 2 else array[None, :] if axis == 1 else array[:, None]
+    if array.size == 1:
+        return array.reshape(())
+    return array.reshape(-1) if axis is None else array if array.ndim == 2 else array[None, :] if axis == 1 else array[:, None]
 
 
 def window(value: FloatArray, band: slice, part: slice, shape: tuple[int, ...]) -> FloatArray:

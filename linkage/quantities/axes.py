@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable
 from dataclasses import field
+from functools import cached_property
 
 import numpy as np
 
@@ -44,7 +45,7 @@ class Axes:
         """Whether they have the directions of the frame."""
         return not self.carrier and not self.mirrored and self.is_level
 
-    @property
+    @cached_property
     def is_frame(self) -> bool:
         """Whether they are those of the frame itself."""
         return self.are_upright and all(map(is_nothing, self.at))
@@ -114,6 +115,8 @@ class Axes:
 
     def place(self, where: Where, given: Vec) -> Vec:
         """Return where a place of the part is in the frame [m]."""
+        if self.is_frame:
+            return given
         found = self._turned(where, given)
         x, y = [part if is_nothing(way) else where.value(way) + part for way, part in zip(self.at, (found.x, found.y), strict=True)]
         if not self.carrier:

@@ -7,6 +7,7 @@ from functools import lru_cache
 from inspect import Parameter, Signature, signature
 from keyword import iskeyword
 from math import inf
+from operator import attrgetter
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Protocol, Self, TypeAlias, TypeGuard, TypeVar
 from unicodedata import normalize
@@ -92,10 +93,13 @@ class Member:
         if not self._name:
             object.__setattr__(self, "_name", name)
 
-    @property
-    def name(self) -> str:
-        """The name in the class; empty for a part of an expression."""
-        return self._name
+    if TYPE_CHECKING:
+
+        @property
+        def name(self) -> str: ...
+
+    else:  # it is read so often that it costs no call of a function
+        name = property(attrgetter("_name"), doc="The name in the class; empty for a part of an expression.")
 
     def parts(self) -> tuple[Reference, ...]:
         """Return the references this member is built from, names or members: those in `expects`, unless a subclass says otherwise.

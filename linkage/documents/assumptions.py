@@ -103,8 +103,8 @@ def left_open(subject: ReportSubject) -> Iterator[str]:
 
 # The standards that are cited, each by the rules and texts that cite it.
 
-RUSSIAN = "\u0413\u041e\u0421\u0422"
-STANDARD = re.compile(rf"\b(?:ISO(?:/TS|/TR)?|EN|DIN|GOST|{RUSSIAN}|ASABE|SAE|JIS) ?[A-Z]?\d[\d.-]*\d|\bOECD Code \d+")
+RUSSIAN, CODE, OECD = "\u0413\u041e\u0421\u0422", "\u041a\u043e\u0434\u0435\u043a\u0441", "\u041e\u042d\u0421\u0420"
+STANDARD = re.compile(rf"\b(?:ISO(?:/TS|/TR)?|EN|DIN|GOST|{RUSSIAN}|ASABE|SAE|JIS) ?[A-Z]?\d[\d.-]*\d|\bOECD Code \d+|\b{CODE} \d+ {OECD}")
 GRAVITY = "ISO 80000-4"
 
 

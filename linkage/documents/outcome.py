@@ -109,7 +109,8 @@ def results_blocks(
             yield dagger_words()
     if names is None and subject.doubles:
         pairs = (said("{drive} is {thrust}", drive=heading_of(one), thrust=heading_of(other)) for one, other in subject.doubles.items())
-        yield f"{'; '.join(pairs)}."
+        text = "; ".join(pairs)
+        yield f"{text[:1].upper()}{text[1:]}."
     for run, motion in subject.curves:
         yield from curve_blocks(subject, run, motion, names if len(subject.curves) == 1 else [first, *limits], first, limits)
 

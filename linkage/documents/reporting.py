@@ -20,6 +20,7 @@ from ..mechanism import Mechanism, played_along
 from ..motion import HasVerdicts, Motion, speakers, stroke_display_unit, way_text
 from ..motion.measures import least, most
 from ..motion.motion_verdicts import domain_words, verdict_questions
+from ..pictures.scene import RAISED
 from ..pictures.shown_values import limit_of, named_points
 from ..quantities import Dimension
 from ..reports import NOTHING, At, Run, column_among
@@ -237,7 +238,7 @@ def composed(
     )
     whole = tuple(spoken_numbers(each) for each in sections if each is not None)
     words = cited_numbers(plain_words(translated(own_paragraphs(type(machine))[0])))
-    facts = tuple((name, with_decimals(text)) for name, text in title_rows(subject, title_block, mark, broken))
+    facts = tuple((name, printed(text)) for name, text in title_rows(subject, title_block, mark, broken))
     return Document(machine.plan.heading, words, block, facts, mark, whole, current_language())
 
 
@@ -264,25 +265,35 @@ OWN_UNITS = {
 """The units by which a system is told."""
 
 
+POWER = re.compile(r"(?<=[/\d])( ?[mc]?m|s)([23])\b")
+"""A square or cube of a unit, behind a slash or a number."""
+
+
+def printed(text: str) -> str:
+    """Return a text with the decimal sign of the language that is spoken, and the squares and cubes of its units raised."""
+    return POWER.sub(lambda found: found[1] + found[2].translate(RAISED), with_decimals(text))
+
+
 def spoken_numbers(section: Section) -> Section:
-    """Return a section whose texts have the decimal sign of the language that is spoken; declarations stay as they are written.
+    """Return a section whose texts are as they are printed; declarations stay as they are written.
 
     Columns that are empty in every row go.
     """
 
     def cell_of(heading: str, cell: Cell) -> Cell:
-        return with_decimals(cell) if isinstance(cell, str) and heading != said("declared as") else cell
+        return printed(cell) if isinstance(cell, str) and heading != said("declared as") else cell
 
     def spoken(block: Block) -> Block:
         match block:
             case str():
-                return with_decimals(block)
+                return printed(block)
             case tuple():
-                return tuple(map(with_decimals, block))
+                return tuple(map(printed, block))
             case TableBlock(filled=table):
-                return replace(table, rows=tuple(tuple(map(cell_of, table.headings, row)) for row in table.rows))
+                rows = tuple(tuple(map(cell_of, table.headings, row)) for row in table.rows)
+                return replace(table, headings=tuple(map(printed, table.headings)), rows=rows)
             case Illustration():
-                return replace(block, caption=with_decimals(block.caption))
+                return replace(block, caption=printed(block.caption))
         return block
 
     return replace(section, blocks=tuple(map(spoken, section.blocks)))

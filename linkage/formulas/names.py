@@ -331,10 +331,10 @@ class SymbolNames:
 
 def _letters_and_index(name: str) -> tuple[str, str, str]:
     """Return a name's letters, the same as a Greek letter where they spell one, and its index: L0, k_m, rail.x; M_ has the index _."""
-    match = re.fullmatch(r"([^\W\d_]+)(?:[_.](?=.*[^_]))?(\w*?)(_*)", name)
+    match = re.fullmatch(r"([^\W\d_]+)(?:[_.](?=.*[^_]))?([\w.]*?)(_*)", name)
     head, tail, last = match.groups() if match else (name, "", "")
     greek = sympy.latex(sympy.Symbol(head))
-    index = tail.replace("_", ",") + escaped_latex(last)
+    index = re.sub("[_.]", ",", tail) + escaped_latex(last)
     return escaped_latex(head), greek if re.fullmatch(r"\\[A-Za-z]+", greek) else "", index
 
 

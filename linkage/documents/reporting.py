@@ -218,8 +218,7 @@ def composed(
     path = named_points(machine, trace, "trace") if trace is not None else tuple(featured.path) or machine.plan.moving[-1:]
     look_ahead(subject)
     found = calculated(machine, subject.pose, start, subject.run.case)
-    verdicts, mark, judged = verdict_section(subject, bounds)
-    broken = "; ".join(each.heading for each in judged if each.is_rule and each.ok is False)
+    verdicts, mark, judged, broken = verdict_section(subject, bounds)
     sections = (
         sketch_section(subject, path),
         of_source(verdicts),

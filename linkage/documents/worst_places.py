@@ -23,8 +23,11 @@ from .outcome import amount_text
 from .run import ReportSubject
 
 
-def verdict_section(subject: ReportSubject, limits: Mapping[str, Sequence[object]]) -> tuple[Section, Mark, Sequence[Verdict]]:
-    """Return the section of a machine's verdicts over all that it runs, with its worst places, how many rules are kept, and all of them."""
+def verdict_section(subject: ReportSubject, limits: Mapping[str, Sequence[object]]) -> tuple[Section, Mark, Sequence[Verdict], str]:
+    """Return the section of a machine's verdicts over all that it runs, with its worst places, how many rules are kept, and all of them.
+
+    The last is which rules and limits of columns are not kept.
+    """
     title = said("Verdicts")
     try:
         with unwarned():
@@ -35,16 +38,19 @@ def verdict_section(subject: ReportSubject, limits: Mapping[str, Sequence[object
             Section(title, (said("The machine cannot be judged over all that it runs: {why}", why=str(error)),)),
             Mark(False, said("not judged")),
             (),
+            "",
         )
     if not found:
-        return Section(title, (said("This machine declares no rules of its own."),)), Mark(None, said("no rules declared")), ()
+        return Section(title, (said("This machine declares no rules of its own."),)), Mark(None, said("no rules declared")), (), ""
     judged = [each for each in found if each.is_rule]
     domain = said("Judged over all that the machine runs, in all load cases and directions of motion that occur there.")
     heads = (said("rule"), said("result"), said("what was found"))
     rows = tuple((each.heading, verdict_mark(each.ok) if each.is_rule else Mark(None, "–"), each.sentence) for each in found)
     table = TableBlock(said("Rules, over all that the machine runs"), heads, rows, "llm")
     places = [(each.heading, each.ok, each.answer, None, rule_share(subject, each)) for each in judged if isinstance(each.answer, Answer)]
-    return Section(title, (domain, table, *worst_places(subject, [*places, *limited]))), rules_mark(judged), found
+    broken = [*(each.heading for each in judged if each.ok is False), *(name for name, ok, *_ in limited if ok is False)]
+    shown = Section(title, (domain, table, *worst_places(subject, [*places, *limited])))
+    return shown, rules_mark(judged), found, "; ".join(dict.fromkeys(broken))
 
 
 def rules_mark(judged: Sequence[Verdict]) -> Mark:

@@ -52,7 +52,7 @@ def scheme(machine: HeaderBalancer, title: str) -> Figure:
     dial(ax, GAUGE, MAIN + 0.4, 0.15)
     ax.add_line(Line2D([GAUGE - 0.07, GAUGE + 0.08], [MAIN + 0.33, MAIN + 0.48], color=style.INK, zorder=13.0))
     named(ax, (GAUGE - 0.22, MAIN + 0.4), f"gauge\n{charge}", "right")
-    named(ax, (0.5 * (PUMP + RELIEF), DRAIN - 0.22), "tank", "center")
+    named(ax, (PUMP, DRAIN - 0.22), "tank", "center")
     pairs = [(float(machine[volume]) / litre, float(machine[gas]) / kgf_cm2) for volume, gas in (("V_I", "P_I"), ("V_II", "P_II"))]
     text = "\n".join(["accumulators", *(f"{size:.4g} l, gas at {gas:.4g} kgf/cm²" for size, gas in pairs if size > 0.0)])
     vessels = Scene(motion).accumulators[0]

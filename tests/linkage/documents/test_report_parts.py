@@ -41,6 +41,7 @@ from linkage.cli import main
 from linkage.cli.listing import registered
 from linkage.cli.machines import find
 from linkage.documents import report_document
+from linkage.documents.assumptions import STANDARD
 from linkage.documents.breaking import LONGEST, formula_pieces
 from linkage.documents.checks import closed_walks
 from linkage.documents.content import Illustration, Section, TableBlock
@@ -51,7 +52,7 @@ from linkage.documents.markdown import markdown
 from linkage.documents.outcome import CURVE_ROOM, HALF, curve_blocks, draw_column
 from linkage.documents.pdf import pdf
 from linkage.documents.pictures import painted
-from linkage.documents.reporting import NUMBER, cited_numbers, own_system, speaking
+from linkage.documents.reporting import NUMBER, cited_numbers, own_system, printed, speaking
 from linkage.documents.run import ReportSubject
 from linkage.documents.sources import without_unit
 from linkage.documents.title import FIELDS, TitleBlock
@@ -203,6 +204,8 @@ def test_assumptions_follow_the_machine():
 def test_standards_are_those_that_rules_and_inputs_cite():
     (grid,) = (block for block in blocks(shown(), TableBlock) if block.headings[0] == "standard")
     assert dict(grid.rows)["ISO 3320"] == "rule: standard size" and dict(grid.rows)["EN 1234-1"] == "source of B"
+    names = ["ISO 3320", "Кодекс 2 ОЭСР", "OECD Code 2", "ГОСТ 6540-68"]
+    assert STANDARD.findall("by {}, {}, ({}), {}.".format(*names)) == names
 
 
 # -- one unit for one kind, no raw numbers, no numbers of others' equations --------------------------------
@@ -254,11 +257,22 @@ def test_pins_say_what_bounds_them_where_no_relief_valve_is_declared():
 
 
 def test_lengths_and_pressures_have_one_unit():
-    for machine, other in ((Loader, r"\d (MPa|kgf/cm2|m)\b"), (MowerLift, r"\d (bar|MPa|m|kN)\b")):
+    for machine, other in ((Loader, r"\d (MPa|kgf/cm²|kgf/cm2|m)\b"), (MowerLift, r"\d (bar|MPa|m|kN)\b")):
         document = shown(machine)
         found = [text for section in document.sections if section.title not in ("Calculation", "Definition of the mechanism")
                  for block in section.blocks for text in texts_of(block) if re.search(other, text)]  # fmt: skip
         assert not found
+
+
+def test_powers_of_units_are_raised_and_names_are_not():
+    text = "(0.96 at 155 kgf/cm2, 9.81 m/s2), 3.5 cm2 of m2, SS2 and cm2"
+    assert printed(text) == "(0.96 at 155 kgf/cm², 9.81 m/s²), 3.5 cm² of m2, SS2 and cm2"
+    shown_texts = [each for each in texts(shown(MowerLift)) if "kgf/cm" in each]
+    assert shown_texts and not [each for each in shown_texts if "kgf/cm2" in each]
+
+
+def test_the_first_page_names_each_rule_and_limit_that_is_not_kept():
+    assert dict(shown(MowerLift).facts)["Not kept"] == "lifting; kz; pd"
 
 
 def texts_of(block):

@@ -237,7 +237,7 @@ def composed(
     )
     whole = tuple(spoken_numbers(each) for each in sections if each is not None)
     words = cited_numbers(plain_words(translated(own_paragraphs(type(machine))[0])))
-    facts = tuple((name, printed(text)) for name, text in title_rows(subject, title_block, mark, broken))
+    facts = tuple((name, set_in_type(text)) for name, text in title_rows(subject, title_block, mark, broken))
     return Document(machine.plan.heading, words, block, facts, mark, whole, current_language())
 
 
@@ -268,31 +268,31 @@ POWER = re.compile(r"(?<=[/\d])( ?[mc]?m|s)([23])\b")
 """A square or cube of a unit, behind a slash or a number."""
 
 
-def printed(text: str) -> str:
+def set_in_type(text: str) -> str:
     """Return a text with the decimal sign of the language that is spoken, and the squares and cubes of its units raised."""
     return POWER.sub(lambda found: found[1] + found[2].translate(RAISED), with_decimals(text))
 
 
 def spoken_numbers(section: Section) -> Section:
-    """Return a section whose texts are as they are printed; declarations stay as they are written.
+    """Return a section whose texts are set in type; declarations stay as they are written.
 
     Columns that are empty in every row go.
     """
 
     def cell_of(heading: str, cell: Cell) -> Cell:
-        return printed(cell) if isinstance(cell, str) and heading != said("declared as") else cell
+        return set_in_type(cell) if isinstance(cell, str) and heading != said("declared as") else cell
 
     def spoken(block: Block) -> Block:
         match block:
             case str():
-                return printed(block)
+                return set_in_type(block)
             case tuple():
-                return tuple(map(printed, block))
+                return tuple(map(set_in_type, block))
             case TableBlock(filled=table):
                 rows = tuple(tuple(map(cell_of, table.headings, row)) for row in table.rows)
-                return replace(table, headings=tuple(map(printed, table.headings)), rows=rows)
+                return replace(table, headings=tuple(map(set_in_type, table.headings)), rows=rows)
             case Illustration():
-                return replace(block, caption=printed(block.caption))
+                return replace(block, caption=set_in_type(block.caption))
         return block
 
     return replace(section, blocks=tuple(map(spoken, section.blocks)))

@@ -52,7 +52,7 @@ from linkage.documents.markdown import markdown
 from linkage.documents.outcome import CURVE_ROOM, HALF, curve_blocks, draw_column
 from linkage.documents.pdf import pdf
 from linkage.documents.pictures import painted
-from linkage.documents.reporting import NUMBER, cited_numbers, own_system, printed, speaking
+from linkage.documents.reporting import NUMBER, cited_numbers, own_system, set_in_type, speaking
 from linkage.documents.run import ReportSubject
 from linkage.documents.sources import without_unit
 from linkage.documents.title import FIELDS, TitleBlock
@@ -266,7 +266,7 @@ def test_lengths_and_pressures_have_one_unit():
 
 def test_powers_of_units_are_raised_and_names_are_not():
     text = "(0.96 at 155 kgf/cm2, 9.81 m/s2), 3.5 cm2 of m2, SS2 and cm2"
-    assert printed(text) == "(0.96 at 155 kgf/cm², 9.81 m/s²), 3.5 cm² of m2, SS2 and cm2"
+    assert set_in_type(text) == "(0.96 at 155 kgf/cm², 9.81 m/s²), 3.5 cm² of m2, SS2 and cm2"
     shown_texts = [each for each in texts(shown(MowerLift)) if "kgf/cm" in each]
     assert shown_texts and not [each for each in shown_texts if "kgf/cm2" in each]
 

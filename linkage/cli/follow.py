@@ -249,10 +249,9 @@ def print_chart(field: WorkingField) -> None:
     from ..pictures.chart_text import ChartText
 
     text = ChartText(field)
-    across, down = np.argsort(field.x, kind="stable"), np.argsort(-field.y, kind="stable")
-    rows = [["", *(text.length_text(float(field.x[n])) for n in across)]]
-    for k in down:
-        cells = (f"{text.load_text(float(field.load[k, n]))} {text.letters.get(str(field.limiter[k, n]), '')}".strip() for n in across)
+    rows = [["", *(text.length_text(float(field.x[n])) for n in text.across)]]
+    for k in text.down:
+        cells = (f"{text.load_text(float(field.load[k, n]))} {text.letters.get(str(field.limiter[k, n]), '')}".strip() for n in text.across)
         rows.append([text.length_text(float(field.y[k])), *(cell or "-" for cell in cells)])
     print(text.title)
     print(*lined_up(rows), *text.legend(), sep="\n")

@@ -32,6 +32,7 @@ from linkage.motion import Answer, Column, Judge, Motion, Question, Request, Smo
 from linkage.motion.measures import Condition, Constraint, MeasuredQuantity, at, least, most
 from linkage.motion.motion_verdicts import HasVerdicts, PageWords, over_time
 from linkage.plan import Mask, Plan
+from linkage.program import is_traced
 from linkage.quantities import InnerQuantity, Quantity, distance, label, quantity
 from linkage.quantities.member import Member, NamedMembers, Reference, body_name, is_member_or_name, name_of, of_kind
 from linkage.statics import LawRequest, applied_elements, elements_of, held_in_case, is_among, member_thrust, own_rates, request_text, same
@@ -41,7 +42,7 @@ from linkage.verdict import Remark, Verdict
 
 from .barrel import HELD, MASSES, BarrelAndRod
 from .buckling import Buckling, never_pushed
-from .inputs import Array, follows, names_behind, number_set, one_design, one_number, only_where, stroke_in_metres
+from .inputs import LONGEST, Array, follows, in_metres, names_behind, number_set, one_design, one_number, only_where, stroke_in_metres
 from .remedy import Sizes, can_be_set, show_enough, smallest
 from .standard_sizes import CylinderSize, RamSize, Works, chosen_series, standard_rods, standard_verdict
 
@@ -727,7 +728,10 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         """Return the utilisation in one direction, in a pull 0 or `below`."""
         push = self.rod_push(motion, acting)
         bar = Buckling(1.0, self.mounting, self.safety)
-        allowed = bar.critical_of(self.thickness(motion, acting.direction), motion.distance(self.A, self.B)) / self.safety
+        length = motion.distance(self.A, self.B)
+        if not is_traced(length):
+            in_metres(np.nan_to_num(length), f"{self.name or self}: length between the ends", 2.0 * LONGEST)
+        allowed = bar.critical_of(self.thickness(motion, acting.direction), length) / self.safety
         return push / allowed if below else np.where(push > 0.0, push / allowed, 0.0) + 0.0 * push
 
     @property

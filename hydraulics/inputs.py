@@ -17,6 +17,7 @@ from linkage.errors import DefinitionError, cited
 from linkage.frozen import unmasked
 from linkage.loads import ForceElement, Poses
 from linkage.loads.element import value_text
+from linkage.motion.measures import FAINTEST
 from linkage.plan import ArrayReading
 from linkage.program import Comparison, is_traced
 from linkage.quantities import Member, NamedMembers, Quantity, Reference, name_of, needs, quantity
@@ -30,8 +31,6 @@ LONGEST = 30.0
 """m; a longer stroke was given in millimetres."""
 SLENDER = 300.0
 """A stroke of more bores than this was given in millimetres."""
-FAINTEST = 1000.0
-"""Pa; less, and not none, was given in bar or another unit."""
 STRONGEST = 1.0
 """m3/s; a larger flow was given in litres a minute."""
 

@@ -207,7 +207,7 @@ def next_rod(rod: float) -> float:
 
 
 def _next(size: float, series: tuple[float, ...], what: str) -> float:
-    positive(one_number(size, what.capitalize()), what.capitalize())
+    positive(in_metres(one_number(size, what.capitalize()), what.capitalize()), what.capitalize())
     larger = [standard for standard in series if standard > size * SAME]
     if not larger:
         raise DefinitionError(

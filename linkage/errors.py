@@ -236,7 +236,9 @@ def did_you_mean(name: object, names: Sequence[str]) -> str:
 def unknown(kind: str, name: object, known: Iterable[str], where: str = "", *, member: str = "") -> DefinitionError:
     """Return the error for a name that is not there: it lists the valid names and the nearest one; `member` is whose part it is."""
     names = list(known)
-    hint = did_you_mean(name, names)
+    point, _, axis = name.rpartition("_") if isinstance(name, str) else ("", "", "")
+    is_heading = kind == "Name" and axis in ("x", "y") and point in names  # as tables and files head a point's coordinate
+    hint = f' The coordinate is motion.{axis}("{point}"), in requests {axis}("{point}").' if is_heading else did_you_mean(name, names)
     place = f" in {where}" if where else ""
     listing = ", ".join(names) if names else "none"
     return DefinitionError(f"{kind} {cited(name)} is unknown{place}.{hint} Known: {listing}.", member=member)

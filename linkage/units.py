@@ -95,9 +95,9 @@ MPa = UnitFactor(1e6, "pressure")
 bar = UnitFactor(1e5, "pressure")
 kgf_cm2 = UnitFactor(kgf / cm**2, "pressure")
 psi = UnitFactor(lbf / inch**2, "pressure")
-litre = 1e-3
-gal = 231 * inch**3  # the US liquid gallon
-cm3 = 1e-6
+litre = UnitFactor(1e-3, "volume")
+gal = UnitFactor(231 * inch**3, "volume")  # the US liquid gallon
+cm3 = UnitFactor(1e-6, "volume")
 cm2 = 1e-4
 
 #: name -> (factor to SI, what it measures); `add_unit` adds to it
@@ -168,7 +168,8 @@ def add_unit(name: str, factor: float, measures: str, systems: Iterable[str] = (
     return UnitFactor(factor, measures)
 
 
-EXAMPLES = {"length": "80 * mm", "angle": "15 * deg", "force": "5 * kN", "pressure": "180 * bar", "mass": "250 * kg"}
+EXAMPLES = {"length": "80 * mm", "angle": "15 * deg", "force": "5 * kN", "pressure": "180 * bar", "mass": "250 * kg",
+            "volume": "4 * litre", "flow": "60 * litre / minute"}
 
 
 def require_measure(value: object, unit: str, what: str) -> None:
@@ -187,11 +188,12 @@ def require_measure(value: object, unit: str, what: str) -> None:
     ------
     DefinitionError
         The amount measures something else. Moments, stiffnesses and numbers of an open kind take forces, since `5 * kN` may stand for
-        5 kN m; they take no lengths, angles and pressures.
+        5 kN m; they take no lengths, angles and pressures. A volume may be a stroke, of oil, where a length is expected.
     """
     wanted = unit if unit in SI else UNITS[unit][1] if unit in UNITS else ""
     for each in amounts_in(value):
-        if each.measures != wanted and (wanted in EXAMPLES or each.measures != "force"):
+        may_stand = {"force": wanted not in EXAMPLES, "volume": wanted in ("", "length")}
+        if each.measures != wanted and not may_stand.get(each.measures, False):
             expected = f"value of {wanted}, such as {EXAMPLES[wanted]}" if wanted in EXAMPLES else "number in SI, without a unit"
             given = f"{article(each.measures)} {each.measures}"
             raise DefinitionError(f"{what}={float(each):.6g} was given as {given}; expected is a {expected}.")
@@ -257,7 +259,8 @@ def parse(text: str, kind: str = "") -> float:
     if kind and measured != kind:
         valid = ", ".join(units_of(kind))
         raise DefinitionError(f"{text!r} is {article(measured)} {measured} where a value of kind {kind} is wanted; use one of: {valid}.")
-    value = float(float(number) * factor)
+    whole = unit[:-4] if unit is not None and unit.endswith("/min") and unit[:-4] in UNITS else ""
+    value = float(float(number) * UNITS[whole][0] / minute if whole else float(number) * factor)  # to the last bit as 40 * litre / minute
     if not math.isfinite(value):
         raise DefinitionError(f"{text!r} is not a finite number.")
     return value
@@ -280,9 +283,9 @@ def parse_span(text: str, kind: str = "") -> tuple[float, ...] | None:
     )
 
 
-def unit_or_none(unit: object, where: str, among: Collection[str] = UNITS) -> str:
+def unit_or_none(unit: object, where: str, among: Collection[str] | None = None) -> str:
     """Return a unit, or "" for none; DefinitionError, with the units there are, for anything else."""
-    return "" if isinstance(unit, str) and not unit else known_name("Unit", unit, among, where=where)
+    return "" if isinstance(unit, str) and not unit else known_name("Unit", unit, UNITS if among is None else among, where=where)
 
 
 # -- one system of units for all that is shown -------------------------------------------------------------

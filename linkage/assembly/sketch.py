@@ -12,7 +12,7 @@ import numpy as np
 
 from ..errors import AssemblyError, DefinitionError
 from ..language import said
-from ..plan import ArrayReading, Part, Plan, has_no_axes, missing_words, strokes_text
+from ..plan import WIDE, ArrayReading, Part, Plan, has_no_axes, missing_words, strokes_text
 from ..quantities import FRAME_SIDE, Axes, Member, Operand, Quantity, Reference, joined_names, name_of, quantity
 from ..quantities.member import needed_behind, needs, of_kind
 from ..steps import Drawn, Group, Guide, GuideCross, Pin, Step
@@ -294,8 +294,6 @@ def all_behind(members: Mapping[str, Member], names: Iterable[str]) -> dict[str,
 
 AGREES = 1e-3
 """A given length is that of the drawing to this part of it, an angle to so many rad: a drawing is read off to a millimetre in a metre."""
-WIDE = 200.0
-"""A machine of more metres across has millimetres that were taken for metres."""
 DIGITS = 3
 """Digits of the stroke that is named as a remedy."""
 

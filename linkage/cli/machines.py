@@ -7,12 +7,13 @@ from collections.abc import Mapping
 from importlib import import_module
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
+from traceback import extract_tb
 from types import ModuleType
 from typing import Any, TypeVar
 
 from ..checks import is_class_of
 from ..disk import read
-from ..errors import DefinitionError, ensure, unknown
+from ..errors import DefinitionError, LinkageError, ensure, unknown
 from ..mechanism import Mechanism
 from ..plugins import guarded
 from .listing import OWN, registered
@@ -84,7 +85,12 @@ def module_of_file(place: str) -> ModuleType:
     sys.modules[spec.name] = module
     if str(path.parent) not in sys.path:
         sys.path.insert(0, str(path.parent))
-    spec.loader.exec_module(module)
+    try:
+        spec.loader.exec_module(module)
+    except LinkageError as error:
+        lines = [each.lineno for each in extract_tb(error.__traceback__) if each.filename == str(path)]
+        error.args = (f"{error} ({place}, line {lines[-1]})",) if lines else error.args
+        raise
     return module
 
 

@@ -105,6 +105,10 @@ class LoadCase(Member):
         """
         loads = [name for name, member in members.items() if isinstance(member, ForceElement)]
         where = f"{title}.{self.name}"
+        for name in self.scale:
+            own = name_of(name)
+            remedy = f'write its name in quotes, scale={{"{own}": 2.0}}'
+            ensure(isinstance(name, str), f"{where}: scale={{{own}: ...}} names the load itself; {remedy}.")
         for name in self.mentioned:
             known_name("Load", name, loads, where=where)
         for name in self.scale:

@@ -6,12 +6,12 @@ from abc import abstractmethod
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import MISSING, Field, dataclass, fields, is_dataclass
 from types import MappingProxyType
-from typing import Any, ClassVar, Literal, Protocol, Self, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, Protocol, Self, TypeAlias, TypeVar
 
 import numpy as np
 import numpy.typing as npt
 
-from ..errors import DefinitionError, cited, ensure
+from ..errors import DefinitionError, cited, did_you_mean, ensure
 from ..frozen import keep_own
 from ..quantities import Jointed, Member, Number, Quantity, Reference, Variable, label, name_of, quantity, real, source_text
 from ..quantities.quantity import plain
@@ -369,6 +369,13 @@ class ForceElement(Jointed):
         """
         given = quantity(self.given(name))
         return Variable(f"{self.name}.{name}") if isinstance(given, Number) else given
+
+    if not TYPE_CHECKING:  # a name that is not there shall be found before it runs
+
+        def __getattr__(self, name: str) -> Any:
+            """Raise AttributeError with the nearest name."""
+            near = "" if name.startswith("_") else did_you_mean(name, [each for each in dir(self) if not each.startswith("_")])
+            raise AttributeError(f"{type(self).__name__} has no attribute {name!r}.{near}")
 
     # -- what a subclass says ------------------------------------------------------------------------------
 

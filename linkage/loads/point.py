@@ -15,7 +15,7 @@ from ..frozen import immutable, unmasked
 from ..quantities import Axes, Member, Reference, is_number, label, name_of, real
 from ..quantities.quantity import plain
 from ..steps import Link, Point
-from ..units import g0, require_measure
+from ..units import Amount, g0, require_measure
 from .element import AT_REST, Array, ForceElement, Friction, Glyph, Load, Parameter, Poses, Rate, Rates, couple, value_text
 
 DOWN = (0.0, -g0)  # gravity, m/s2
@@ -265,11 +265,14 @@ def shared_mass(
     return [Load(point, vector(mass, own) / len(points), on) for point, own in zip(points, felt, strict=True)]
 
 
+SIZE_ALONE = " A size alone has no direction: downwards it is (0, -8 * kN)."
+
+
 def two_parts(given: object, what: str) -> tuple[Parameter, Parameter]:
     """Return a vector's parts; DefinitionError unless there are two."""
     parts = two_of(given)
     if not parts or np.ma.is_masked(given):
-        raise DefinitionError(f"{what}: {cited(given)} is not a vector; write (x, y).")
+        raise DefinitionError(f"{what}: {cited(given)} is not a vector; write (x, y).{SIZE_ALONE if isinstance(given, Amount) else ''}")
     x, y = parts
     return x, y
 
@@ -376,8 +379,8 @@ class LinkMass(OnBody):
     mass : float or quantity
         The mass [kg], a design variable.
     at : tuple of float, optional
-        The centre (along, across) [m] in the body's axes: from its first point towards the second, and to the left. By default it lies in
-        the middle of the points named. Each then bears an equal share, so that the mass of a cylinder or a telescope goes out with its
+        The centre (along, across) [m] in the body's axes: from the first point that is named here towards the second, and to the left of
+        that, of `"O B T"` from O towards B. By default it lies in the middle of the points named. Each then bears an equal share, so that the mass of a cylinder or a telescope goes out with its
         ends.
     gravity : tuple of float, optional
         The gravity (x, y) [m/s2], as for a Weight.

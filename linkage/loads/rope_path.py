@@ -18,11 +18,15 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from ..checks import is_number
 from ..errors import DefinitionError, cited
 from ..frozen import immutable
 from ..quantities import Axes, Member, Number, Quantity, Reference, Where, label, name_of
 from ..vectors import Scalar, Side, Vec
 from .element import Array, ForceElement, Glyph, Load, Parameter, Poses
+
+WIDEST = 10.0
+"""m; the radius of a larger pulley was given in millimetres."""
 
 
 @immutable
@@ -54,6 +58,9 @@ class Pulley(ForceElement):
         if side is None:
             raise DefinitionError(f"Pulley: side={cited(self.side)}; say side=LEFT where the rope turns left around it, else side=RIGHT.")
         object.__setattr__(self, "side", side)
+        if is_number(self.radius) and self.radius > WIDEST:
+            large = f"{self.radius:.6g}"
+            raise DefinitionError(f"Pulley: radius={large} m is more than any pulley has; write {large} * mm if these are millimetres.")
 
     @property
     def sense(self) -> float:

@@ -29,7 +29,7 @@ from ..program import FloatArray
 from ..quantities import Arithmetic, PoseCondition, Quantity, is_number, name_of, x, y
 from ..quantities.quantity import Function, Negative, Number, Operation, Sum, stands_for
 from ..steps import Point
-from ..units import IN_TIME, Amount, require_measure
+from ..units import IN_TIME, Amount, require_measure, show
 from .limits import stroke_unit
 from .motion import Motion
 from .requests import Combined, NodeRequest, Request, Value, bound, stroke_of
@@ -134,7 +134,7 @@ class FixedNumber(Measure):
         return self.value
 
     def __str__(self) -> str:
-        return f"{self.value:.6g}"
+        return show(self.value, SHOWN[self.measures], 6) if self.measures in ("force", "pressure") else f"{self.value:.6g}"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -748,6 +748,10 @@ def common_kind(plan: Plan, what: str, left: MeasureKind | None, right: MeasureK
     return left if left.is_sure else right
 
 
+FAINTEST = 1000.0
+"""Pa; less, and not none, was given in bar or another unit."""
+
+
 def check_kinds(plan: Plan, measures: Iterable[Measure], constraints: Iterable[Constraint]) -> None:
     """Raise DefinitionError where measures or conditions add or compare different kinds."""
     for each in measures:
@@ -759,6 +763,8 @@ def check_kinds(plan: Plan, measures: Iterable[Measure], constraints: Iterable[C
             if isinstance(side, FixedNumber) and side.measures not in ("", "angle") and kind == kind_called("number"):
                 what = f"a plain number does not compare with {article(side.measures)} {side.measures}"
                 raise DefinitionError(f"{plan.title}: {constraint}: {what}; write the limit without a unit.")
+            if isinstance(side, FixedNumber) and not side.measures and kind == kind_called("pressure") and 0.0 < abs(side.value) < FAINTEST:
+                raise DefinitionError(f"{plan.title}: {constraint}: {side} Pa is next to nothing; write {side} * bar if these are bar.")
 
 
 def check_condition(plan: Plan, condition: PoseCondition) -> None:

@@ -17,7 +17,7 @@ from ..checks import require
 from ..errors import DefinitionError, ensure
 from ..loads import ForceElement, Glyph, Halves, TwoPoint
 from ..motion import Motion, Over, require_motion
-from ..plan import member_sides
+from ..plan import WIDE, member_sides
 from ..program import FloatArray
 from ..quantities import Quantity, Where, is_whole, joined_names, needs
 from ..steps import Arrow, Guide, Point
@@ -650,7 +650,7 @@ class Scene:
         every = every[:, np.isfinite(every).all(axis=0)]
         ensure(every.size, f"{self.motion.plan.title}: there is nothing to draw, no point stands anywhere.")
         low, high = every.min(axis=1), every.max(axis=1)
-        if float(np.max(high - low)) > LARGE:
+        if float(np.max(high - low)) > WIDE:
             said = f"{self.motion.plan.title} is {float(np.max(high - low)):.4g} m across; lengths are in m"
             warnings.warn(f"{said}, write 500 * mm if these are millimetres.", stacklevel=2)
         return float(low[0]), float(high[0]), float(low[1]), float(high[1])
@@ -709,8 +709,6 @@ class Scene:
         return np.concatenate(found)
 
 
-LARGE = 200.0
-"""A machine that is larger [m] is asked about: its lengths are more likely millimetres."""
 SHARE = 0.3
 """How far each side of the sheet moves outwards for what stands around, as a share of the mechanism's own larger side."""
 BESIDE = 2.6

@@ -15,7 +15,7 @@ from .members import (
     with_inner,
     written_out,
 )
-from .missing import Mask, failures, missing_words, name_or_pins, negative, opening
+from .missing import WIDE, Mask, failures, missing_words, name_or_pins, negative, opening
 from .part import Part, check_circuits, has_no_axes, with_parts
 from .plan import TRACING, Plan, plan_measure, require_kind, require_kinds
 from .reading import ArrayReading, Reading

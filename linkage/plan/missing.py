@@ -15,6 +15,8 @@ from .reading import ArrayReading
 
 #: A side so many times longer than the others was given in another unit.
 MISTAKEN = 90.0
+WIDE = 200.0
+"""A machine of more metres across has millimetres that were taken for metres."""
 
 
 def failures(plan: Members, reading: ArrayReading, shape: tuple[int, ...]) -> Iterator[tuple[str, Mask]]:
@@ -124,7 +126,9 @@ def length_text(length: float) -> str:
 def remedy(plan: Members, name: str, labels: Sequence[str], longest: int, values: FloatArray, reading: ArrayReading) -> str:
     """Return the remedy: the stroke that a side follows, a dimension that closes the gap, or a unit that looks mistaken."""
     others = [index for index in range(len(labels)) if index != longest]
-    if values[longest] > MISTAKEN * values[others].max():
+    short, middle = sorted(values[others])
+    is_short = values[longest] > WIDE / 10.0 and middle > MISTAKEN * short and values[longest] - middle > 10.0 * short
+    if is_short or values[longest] > min(WIDE, MISTAKEN * middle):
         return f"Are all lengths in m? {values[longest]:.6g} m would be {values[longest]:.6g} * mm."
     free = [labels[index] for index in others if labels[index] in plan.table.spellings]
     other = f"shorten {labels[longest]}" if labels[longest] in plan.table.spellings else "move its points closer"

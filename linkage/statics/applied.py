@@ -160,14 +160,19 @@ def applied_elements(plan: Plan, acting: Acting, without: str = "") -> list[Appl
     return found
 
 
+OWN_LOADS = "own loads"
+
+
 def case_of(plan: Plan, case: Case) -> LoadCase:
     """Return the load case that is meant; the plain one for None and "plain"."""
     if case is None or (isinstance(case, str) and case == PLAIN_CASE):
-        return LoadCase("own loads")
+        return LoadCase(OWN_LOADS)
     if isinstance(case, LoadCase):
         return case
     cases = plan.of_kind(LoadCase)
     titled = {each.label: each for each in cases.values()}
+    if case == OWN_LOADS and case not in titled | cases:  # as tables of forces print the plain one
+        return LoadCase(OWN_LOADS)
     return (titled | cases)[known_name("Load case", case, [*dict.fromkeys((PLAIN_CASE, *cases, *titled))], where=plan.title)]
 
 

@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..checks import two_of
-from ..errors import DefinitionError, cited, ensure
+from ..errors import DefinitionError, cited, did_you_mean, ensure
 from ..frozen import immutable, refuses_changes
 from ..quantities import Jointed, Member, Number, Operand, Quantity, Reference, Where, is_number, joined_names, label, name_of, quantity
 from ..units import deg, require_measure
@@ -234,7 +234,8 @@ class Step(Point):
         self.parents = parents
         self.labels = dict(labels)
         self.side = None if side is None else Side.parse(side)
-        ensure(side is None or self.side is not None, f"{type(self).__name__}: side={cited(side)}; say side=LEFT or side=RIGHT.")
+        hint = did_you_mean(str(side).upper(), [*Side.__members__]) if self.side is None else ""
+        ensure(side is None or self.side is not None, f"{type(self).__name__}: side={cited(side)}; say side=LEFT or side=RIGHT.{hint}")
         self.near = position(near, f"{type(self).__name__}(near=...)")
         self.drawn_at = position(at, f"{type(self).__name__}(at=...)")
 

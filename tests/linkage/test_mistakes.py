@@ -271,3 +271,43 @@ def test_the_remedies_for_a_stroke_that_moves_nothing_work():
     step = made(head + "    B = Dyad(A, O, AB=0.45 + S, OB=0.3, side=RIGHT)\n")
     pins = made(head + '    B = Pin(near=(0.38, 0.5))\n    arm = Link("O B", OB=0.3)\n    ram = Link("A B", AB=0.45 + S)\n')
     assert np.allclose(step().sweep(5)["B"], pins().sweep(5)["B"], rtol=0, atol=1e-14)
+
+
+TILT = """
+    S = Stroke(0.0, 0.3)
+    O, A = Ground(0, 0.6), Ground(0.35, 0.15)
+    B = Dyad(A, O, {lengths}, side=RIGHT)
+    load = Weight(B, mass=400)
+"""
+RIGHT_LENGTHS = "AB=0.55 + S, OB=0.5"
+
+
+@for_all(
+    ("lengths", "line", "words"),
+    [
+        ("AB=500 + S, OB=300", "", r"Are all lengths in m\? 500 m would be 500 \* mm"),
+        ("AB=550 + S, OB=500", "", r"Are all lengths in m\? 550 m would be 550 \* mm"),
+        ("AB=1.4 + S, OB=0.3", "", "or lengthen OB"),
+        (RIGHT_LENGTHS, "case = LoadCase(scale={load: 2})", r'scale=\{load: ...\} names the load itself; .* scale=\{"load": 2.0\}'),
+        (RIGHT_LENGTHS, "C = Dyad(A, O, AC=0.4, OC=0.5, side='rihgt')", "side='rihgt'; .* Did you mean RIGHT"),
+        (RIGHT_LENGTHS, "pull = Force(B, 8 * kN)", r"Force: 8000.0 is not a vector; .* it is \(0, -8 \* kN\)"),
+        (RIGHT_LENGTHS, "hung = Pulley(B, radius=80, side=LEFT)", r"radius=80 m is more than any pulley has; write 80 \* mm"),
+    ],
+)  # fmt: skip
+def test_a_length_or_a_load_is_asked_about_in_its_own_words(lengths, line, words):
+    names = {**NAMES, "kN": linkage.units.kN}
+    with pytest.raises(linkage.LinkageError, match=words):
+        exec(f"class Machine(Mechanism):{TILT.format(lengths=lengths)}    {line}\nMachine().sweep(S=0.0)", names)
+
+
+def test_a_name_that_is_nearly_right_or_a_heading_of_a_table_is_answered_with_the_right_one():
+    machine = made(TILT.format(lengths=RIGHT_LENGTHS))
+    with pytest.raises(AttributeError, match=r"Weight has no attribute 'mas'\. Did you mean mass"):
+        _ = machine().plan.members["load"].mas
+    motion = machine().sweep(3)
+    for ask in (lambda: motion["B_y"], lambda: motion.ratio("B_y"), lambda: machine().evaluate(["B_y"], S=0.1)):
+        with pytest.raises(DefinitionError, match=r'The coordinate is motion\.y\("B"\), in requests y\("B"\)'):
+            ask()
+    assert np.array_equal(motion.y("B"), motion["B"][1])
+    with pytest.raises(DefinitionError, match="Did you mean B"):
+        _ = motion["B_z"]

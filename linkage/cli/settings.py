@@ -13,7 +13,7 @@ import numpy as np
 
 from ..errors import AssemblyError, DefinitionError, SingularError, ensure, known_name, unknown
 from ..language import said, said_of
-from ..loads import DIRECTIONS, PLAIN, PLAIN_CASE, Acting, Case, LoadCase
+from ..loads import DIRECTIONS, OWN_LOADS, PLAIN, PLAIN_CASE, Acting, Case, LoadCase
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, Over, Request, columns_of, out_of_reach, stroke_measure, stroke_unit
 from ..plan import Plan, plan_measure
@@ -305,7 +305,7 @@ def motion_along(machine: Mechanism, count: int, at: At | Motion = NOTHING) -> t
 def strokes_given(machine: Mechanism, options: Namespace) -> dict[str, FloatArray]:
     """Return the strokes that `--at` gives, each an array of values, shape (n,) [m or rad]."""
     found, plan = {}, machine.plan
-    for text in options.strokes:
+    for text in (each for given in options.strokes for each in re.split(r",(?=[^,]*=)", given)):  # `S=50mm,W=0` as for `--over`
         name, values = pair(text, "--at", "S=0.6,650mm")
         known_name("Stroke", name, plan.strokes, where=plan.title)
         found[name] = np.array([si_value(value, stroke_measure(plan, name), f"--at {name}") for value in values.split(",")])
@@ -320,7 +320,8 @@ def acting_of(machine: Mechanism, options: Namespace) -> Acting:
 
     In a judgement a case or a direction that is not given means all that occur.
     """
-    case, title, cases = options.case, machine.plan.title, machine.plan.of_kind(LoadCase)
+    title, cases = machine.plan.title, machine.plan.of_kind(LoadCase)
+    case = PLAIN_CASE if options.case == OWN_LOADS else options.case
     if case not in (None, PLAIN_CASE, *cases):
         remedy = "" if cases else f" {title} declares none; write {case} = LoadCase({case!r}, scale=...)."
         raise DefinitionError(f"{unknown('Load case', case, [PLAIN_CASE, *cases], where=title)}{remedy}")

@@ -51,8 +51,8 @@ def show_command(options: Namespace) -> int:
     check_asked(options)
     machine = machine_of(options)
     over, given = overs_of(machine, options.over), strokes_given(machine, options)
-    for text in options.strokes:
-        ensure("," not in text, f"--at {text}: numbers are filled in at one pose; give one value.")
+    is_one = all(len(values) == 1 for values in given.values())
+    ensure(is_one, f"--at {', '.join(options.strokes)}: numbers are filled in at one pose; give one value.")
     at = {name: float(values[0]) for name, values in given.items()}
     if options.modes:
         return show_modes(machine, at, None if options.output is None else picture(options, machine))

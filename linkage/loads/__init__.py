@@ -7,6 +7,7 @@ a moment turns its link counter-clockwise; a support pushes its point along its 
 
 from ..star import declare_public
 from .acting import (
+    OWN_LOADS,
     PLAIN,
     PLAIN_CASE,
     Acting,

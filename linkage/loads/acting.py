@@ -21,6 +21,8 @@ from .element import AS_IT_RUNS, DIRECTIONS, FRICTIONLESS, ForceElement, Load, P
 from .point import gravity_vector
 
 PLAIN_CASE = "plain"
+OWN_LOADS = "own loads"
+"""What the plain case is called in tables of forces; it is taken as its name."""
 """The name of the machine's own loads, without a load case."""
 STEEPEST = 0.5 * pi * (1.0 + 1e-9)
 
@@ -255,6 +257,8 @@ class Acting:
             known_name("Direction", self.direction, DIRECTIONS)
         if self.drive is not None:
             object.__setattr__(self, "drive", name_of(self.drive))
+        if isinstance(self.case, str) and self.case == OWN_LOADS:
+            object.__setattr__(self, "case", PLAIN_CASE)
         for name, given in (("rates", self.rates), ("accelerations", self.accelerations)):
             if given is not None and given != AS_IT_RUNS:
                 require_type(f"Acting({name}", given, Mapping, f"a value for each stroke is expected, such as {name}=dict(S=0.05)")

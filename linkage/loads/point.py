@@ -380,8 +380,8 @@ class LinkMass(OnBody):
         The mass [kg], a design variable.
     at : tuple of float, optional
         The centre (along, across) [m] in the body's axes: from the first point that is named here towards the second, and to the left of
-        that, of `"O B T"` from O towards B. By default it lies in the middle of the points named. Each then bears an equal share, so that the mass of a cylinder or a telescope goes out with its
-        ends.
+        that; of `"O B T"` from O towards B. By default it lies in the middle of the points named. Each then bears an equal share, so
+        that the mass of a cylinder or a telescope goes out with its ends.
     gravity : tuple of float, optional
         The gravity (x, y) [m/s2], as for a Weight.
     inertia : float or quantity, optional

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from ..checks import is_listed
 from ..errors import DefinitionError, SingularError, cited, ensure, errors_of, known_name, unknown
-from ..loads import AS_IT_RUNS, FRICTIONLESS, PLAIN_CASE, Acting, Case, Damper, HasLoads, LoadCase, Loads
+from ..loads import AS_IT_RUNS, FRICTIONLESS, OWN_LOADS, PLAIN_CASE, Acting, Case, Damper, HasLoads, LoadCase, Loads
 from ..loads.acting import check_factor, shut_members
 from ..loads.element import AT_REST, SENSES, ForceElement, Friction, Load, Poses, Push, Rate, Rates, TwoPinned, check_together
 from ..motion import Motion, rates_of, require_motion
@@ -160,9 +160,6 @@ def applied_elements(plan: Plan, acting: Acting, without: str = "") -> list[Appl
     return found
 
 
-OWN_LOADS = "own loads"
-
-
 def case_of(plan: Plan, case: Case) -> LoadCase:
     """Return the load case that is meant; the plain one for None and "plain"."""
     if case is None or (isinstance(case, str) and case == PLAIN_CASE):
@@ -171,8 +168,6 @@ def case_of(plan: Plan, case: Case) -> LoadCase:
         return case
     cases = plan.of_kind(LoadCase)
     titled = {each.label: each for each in cases.values()}
-    if case == OWN_LOADS and case not in titled | cases:  # as tables of forces print the plain one
-        return LoadCase(OWN_LOADS)
     return (titled | cases)[known_name("Load case", case, [*dict.fromkeys((PLAIN_CASE, *cases, *titled))], where=plan.title)]
 
 

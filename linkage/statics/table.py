@@ -9,6 +9,7 @@ from typing import Any, Protocol, TypeAlias, cast, overload, runtime_checkable
 
 import numpy as np
 
+from ..checks import require_type
 from ..errors import DefinitionError, cited, ensure, unwarned
 from ..language import noted, said, translated
 from ..loads import FRICTIONLESS, Acting
@@ -148,6 +149,7 @@ def max_table(results: Results, over: OverLike = None, acting: Acting | None = N
 
 def judged_table(judge: Judge) -> tuple[PinLoad, ...]:
     """Return, for every joint, its largest force over all that a judge looks at, in all that acts there."""
+    require_type("judged_table", judge, Judge, "a judge is expected; of a machine it is max_table(machine)")
     with unwarned():
         pose = judge.sample_pose
         if pose is None:

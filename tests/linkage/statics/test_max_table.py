@@ -84,7 +84,9 @@ def test_a_machine_has_the_largest_of_all_cases_directions_and_places():
 def test_fewer_cases_or_a_smaller_box_are_never_worse():
     machine = Grab()
     rows = max_table(machine)
-    for each in (max_table(machine, acting=Acting(case="calm")), max_table(machine, over=Over(S=(0.05, 0.2), T=0.1))):
+    plain, own = (max_table(machine, acting=Acting(case=case)) for case in ("plain", "own loads"))  # the name that rows print
+    assert [row.force for row in own] == [row.force for row in plain]
+    for each in (plain, max_table(machine, acting=Acting(case="calm")), max_table(machine, over=Over(S=(0.05, 0.2), T=0.1))):
         assert all(row.force <= whole.force * (1.0 + 1e-9) for row, whole in zip(each, rows, strict=True))
     (held,) = {row.strokes["T"] for row in max_table(machine, over=Over(S=(0.05, 0.2), T=0.1))}
     assert held == 0.1

@@ -21,9 +21,9 @@ from .element import AS_IT_RUNS, DIRECTIONS, FRICTIONLESS, ForceElement, Load, P
 from .point import gravity_vector
 
 PLAIN_CASE = "plain"
+"""The name of the machine's own loads, without a load case."""
 OWN_LOADS = "own loads"
 """What the plain case is called in tables of forces; it is taken as its name."""
-"""The name of the machine's own loads, without a load case."""
 STEEPEST = 0.5 * pi * (1.0 + 1e-9)
 
 
@@ -108,9 +108,10 @@ class LoadCase(Member):
         loads = [name for name, member in members.items() if isinstance(member, ForceElement)]
         where = f"{title}.{self.name}"
         for name in self.scale:
-            own = name_of(name)
-            remedy = f'write its name in quotes, scale={{"{own}": 2.0}}'
-            ensure(isinstance(name, str), f"{where}: scale={{{own}: ...}} names the load itself; {remedy}.")
+            if not isinstance(name, str):
+                own = name_of(name)
+                what = f"{where}: scale={{{own}: ...}} names the load itself"
+                raise DefinitionError(f'{what}; write its name in quotes, scale={{"{own}": 2.0}}.')
         for name in self.mentioned:
             known_name("Load", name, loads, where=where)
         for name in self.scale:

@@ -19,9 +19,10 @@ import numpy as np
 from ..errors import known_name
 from ..loads import PinFriction
 from ..motion import Motion
-from ..pictures.layout import props
+from ..pictures.labels import half_of, offsets
+from ..pictures.layout import label_free, props
 from ..pictures.scene import DrawnMark, Places, Scene
-from ..pictures.shapes import left_of, polar
+from ..pictures.shapes import left_of, polar, segment
 from ..program import FloatArray
 from ..quantities import body_name, joined_names
 from ..units import mm
@@ -115,7 +116,8 @@ def pose_parts(motion: Motion, pose: int) -> Iterator[Part]:
     for track in scene.tracks:
         yield Polyline("frame" if track.fixed else "bodies", track.name, np.array([at[name] for name in track.ends]))
     yield from mark_parts("bodies", scene.blocks, there)
-    for corners, points in zip(scene.hulls, scene.bodies, strict=True):  # an outline, and centre lines from pin to pin
+    bodies = sorted(zip(scene.hulls, scene.bodies, strict=True), key=lambda each: len(each[0]) < 3)  # bars lie on plates
+    for corners, points in bodies:  # an outline, and centre lines from pin to pin
         name, places = body_name(points), np.array([at[point] for point in corners])
         yield outline_around(name, places, ROUND * size)
         if len(corners) > 1:
@@ -132,9 +134,13 @@ def pose_parts(motion: Motion, pose: int) -> Iterator[Part]:
     for name in motion.plan.points:  # pins of their bearing's radius where friction declares one; other points are small
         declared = float(np.ravel(bearings[name].number(motion, "radius"))[0]) / mm if name in bearings else 0.0
         yield Circle("pins", name, at[name], declared or (PIN if name in scene.pins else 0.5 * PIN) * size)
-    for name in motion.plan.points:
-        yield Lettering("text", name, at[name] + 0.9 * size, name, 1.6 * size)
-    yield from dimension_parts(scene, at, size)
+    crowd = label_free(scene, [there])[0]
+    font = 1.6 * size
+    for name, spot in offsets(motion.plan.points, [there], [crowd], 1.0 / mm, 1.2 * size, font).items():
+        half = half_of(name, font)
+        crowd = np.concatenate([crowd, mm * (at[name] + spot + half * [[-1.0, 0.0], [-0.5, 0.0], [0.0, 0.0], [0.5, 0.0], [1.0, 0.0]])])
+        yield Lettering("text", name, at[name] + spot - half * [1.0, 0.75], name, font)
+    yield from dimension_parts(scene, at, size, crowd / mm)
 
 
 def path_parts(motion: Motion, points: Sequence[str]) -> tuple[Part, ...]:
@@ -166,31 +172,23 @@ def mark_parts(layer: str, marks: Iterable[DrawnMark], at: Places) -> Iterator[P
             yield Polyline(layer, mark.name, drawn / mm, closed=line.closed)
 
 
-def dimension_parts(scene: Scene, at: Places, size: float) -> Iterator[Part]:
-    """Yield the lengths that a label gives, each once, read from the left; the longer of two along one line stands further out."""
+def dimension_parts(scene: Scene, at: Places, size: float, crowd: FloatArray) -> Iterator[Part]:
+    """Yield the lengths that a label gives, each once, read from the left, its line and its text where least of a crowd [mm] stands."""
     labelled = scene.motion.plan.table.lengths
     pairs = [each for each in combinations(scene.motion.plan.points, 2) if frozenset(each) in labelled]
-    placed: list[tuple[FloatArray, FloatArray, float]] = []
+    ways = [side * (1.0 + 0.75 * step) * STAND_OFF * size for step in range(6) for side in (1.0, -1.0)]
     for P, Q in sorted(pairs, key=lambda pair: float(np.hypot(*(at[pair[1]] - at[pair[0]])))):
-        name, start, end = joined_names(P, Q), at[P], at[Q]
+        name, (start, end) = getattr(labelled[frozenset((P, Q))], "variable", body_name((P, Q))), sorted((at[P], at[Q]), key=tuple)
         if not np.hypot(*(end - start)) > 0.0:
             continue
-        if (end[0], end[1]) < (start[0], start[1]):
-            start, end = end, start
-        aside = STAND_OFF * size
-        while any(aside == other and along_one_line((start, end), (a, b), size) for a, b, other in placed):
-            aside += 0.75 * STAND_OFF * size
-        placed.append((start, end, aside))
-        yield Measured("dimensions", name, start, end, aside, HEIGHT * size)
-
-
-def along_one_line(one: tuple[FloatArray, FloatArray], other: tuple[FloatArray, FloatArray], size: float) -> bool:
-    """Return whether two stretches lie along one line and overlap; closer than a size [mm] counts as on it."""
-    along = (one[1] - one[0]) / (np.hypot(*(one[1] - one[0])) or 1.0)
-    across = left_of(along)
-    off = [abs(float((place - one[0]) @ across)) for place in other]
-    reach = sorted(float((place - one[0]) @ along) for place in other)
-    return max(off) < size and reach[0] < float((one[1] - one[0]) @ along) and reach[1] > 0.0
+        along, high = (end - start) / np.hypot(*(end - start)), HEIGHT * size
+        half, middle = 0.35 * high * len(f"{name} = 1234.5") * along, 0.5 * (start + end) + 1.1 * high * left_of(along)
+        row = [segment(start, end, size), segment(middle - half, middle + half, 0.5 * size)]
+        tried = [[points + way * left_of(along) for points in row] for way in ways]
+        near = [[np.mean((np.hypot(*(each[:, None] - crowd).T) < high).any(axis=0)) for each in rows] for rows in tried]
+        place = int(np.argmin(np.array(near) @ [1.0, 3.0] + 0.03 * np.arange(len(ways))))
+        crowd = np.concatenate([crowd, *tried[place]])
+        yield Measured("dimensions", name, start, end, ways[place], high)
 
 
 # SVG: words as words, a group for each pose and layer, parts by their members' names.

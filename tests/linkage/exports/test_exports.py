@@ -36,12 +36,16 @@ from linkage import (
 )
 from linkage.cli import main
 from linkage.exports.calculation import Calculation, live_results
+from linkage.exports.drawing import Circle, Lettering, Measured, pose_parts
 from linkage.exports.formula_text import cell_names, formula
 from linkage.exports.workbook import from_si, to_si
+from linkage.pictures.labels import half_of
 from linkage.pictures.layout import props
 from linkage.pictures.scene import Scene
 from linkage.reports import results, run_of, stroke_middles
 from linkage.units import UNITS, deg, kgf_cm2, mm
+from mechanisms.at_work.excavator import Excavator
+from mechanisms.at_work.telehandler import Telehandler
 from mechanisms.classics.stephenson_two import StephensonTwo
 from mechanisms.header_balancer import HeaderBalancer
 from mechanisms.mower_lift import MowerLift
@@ -404,6 +408,24 @@ def test_a_drawing_has_the_machine_in_millimetres(tmp_path):
     assert_allclose([(x, y) for x, y, *_ in path], hitch.sweep(101)["G"].T / mm, rtol=0, atol=1e-9)
     lengths = {each.dxf.text.split(" = ")[0]: each.get_measurement() for each in space.query('DIMENSION[layer=="dimensions"]')}
     assert lengths["OB"] == pytest.approx(300.0) and lengths["MK"] == pytest.approx(880.0)
+
+
+@for_all("machine", [ThreePointHitch, Excavator, Telehandler])
+def test_names_on_a_drawing_cover_neither_pins_nor_each_other(machine):
+    parts = [*pose_parts(machine().at(**stroke_middles(machine())), 0)]
+    names = [each for each in parts if isinstance(each, Lettering)]
+    middles = np.array([each.place + half_of(each.text, each.height) * [1.0, 0.75] for each in names])
+    halves = np.array([half_of(each.text, each.height) for each in names])
+    for other in range(len(names)):
+        apart = np.abs(middles - middles[other]) >= halves + halves[other]
+        assert apart.any(axis=1).sum() == len(names) - 1
+    pins = np.array([each.centre for each in parts if isinstance(each, Circle)])
+    assert not (np.abs(middles[:, None] - pins) < halves[:, None]).all(axis=2).any()
+
+
+def test_dimensions_on_a_drawing_have_the_names_that_the_designer_gave():
+    named = {each.name for each in pose_parts(Excavator().at(**stroke_middles(Excavator())), 0) if isinstance(each, Measured)}
+    assert {"boom.BA", "tool.LM"} <= named and named - {*Excavator().dimensions} == {"boom.E arm.F", "boom.CD", "arm.G tool.H"}
 
 
 @for_all("machine", [ThreePointHitch, HeaderBalancer, MowerLift])

@@ -56,13 +56,12 @@ class DrawingReader:
         circles = [*self.entities_on(("CIRCLE",), "pins")] or [*self.entities_on(("CIRCLE",), "", "links")]
         ground = [*self.entities_on(("CIRCLE",), "ground")]
         hatches = [corners_of(each) for each in self.entities_on(("HATCH",), *ROLES, "")]
-        words = [(text_of(each), (each.dxf.insert.x, each.dxf.insert.y)) for each in self.entities_on(("TEXT", "MTEXT"), *ROLES, "")]
+        words = [(text_of(each), each) for each in self.entities_on(("TEXT", "MTEXT"), *ROLES, "")]
         for circle in (*circles, *ground):
             place, radius = (float(circle.dxf.center.x), float(circle.dxf.center.y)), float(circle.dxf.radius)
             if any(dist(place, centre) <= radius for centre, _ in self.pins.values()):
                 continue  # a pin and its washer
-            near = [(dist(at, place), word) for word, at in words if word]
-            far, word = min(near, default=(0.0, ""))
+            far, word = min(((way_to(each, word, place), word) for word, each in words if word), default=(0.0, ""))
             key = f"P{len(self.pins) + 1}"
             is_hatched = any(hatch and surrounds(place, hatch) for hatch in hatches)
             self.found.add_point(key, word if far <= 4.0 * radius and word else key, *place, circle in ground or is_hatched)
@@ -144,6 +143,14 @@ def corners_of(entity: Any) -> list[Place]:
     except (DXFError, ValueError, ArithmeticError):
         return []
     return [(float(each.x), float(each.y)) for border in borders for each in border.flattening(inf, CHORDS)]
+
+
+def way_to(entity: Any, word: str, place: tuple[float, float]) -> float:
+    """Return how far a place lies from a text, taken as level, on its line or, of several lines, below its insertion."""
+    is_plain = entity.dxftype() == "TEXT"
+    high = float(entity.dxf.height if is_plain else entity.dxf.char_height)
+    x, y = float(entity.dxf.insert.x), float(entity.dxf.insert.y) - (0.0 if is_plain else high)
+    return dist(place, (min(max(place[0], x), x + 0.7 * high * len(word)), min(max(place[1], y), y + high)))
 
 
 def text_of(entity: Any) -> str:

@@ -20,9 +20,10 @@ class OnLink(Step):
     P, Q : Point or str
         Two points of the body.
     side : Side or str, optional
-        The side of P -> Q on which X lies; the angle is then positive. Without it the angle is counter-clockwise from PQ.
+        The side of P -> Q on which X lies; the angle is then positive. Without it the angle is counter-clockwise from PQ. X on the line
+        PQ has none.
     near : tuple of float, optional
-        Instead of the side, the place (x, y) of X in a sketch [m].
+        With the third side QX, instead of the side: the place (x, y) of X in a sketch [m].
     at : tuple of float, optional
         The place (x, y) of X in a drawing [m], from which lengths and angles are measured that are not given.
     **labels : float or quantity
@@ -56,6 +57,19 @@ class OnLink(Step):
             raise DefinitionError(f"{self.sentence()}: give the third side or the angle, not both.")
         if self.QX is not UNBOUND and self.side is None and self.near is None and self.drawn_at is None:
             raise self.needs_side("a triangle of three sides lies on either side")
+        if self.QX is UNBOUND and self.drawn_at is None:
+            self.check_choice()
+
+    def check_choice(self) -> None:
+        """Raise DefinitionError where a side or a place is given that chooses nothing, since the point lies in one way alone."""
+        third, angle = (next(iter(slot.spellings)) for slot in self.slots()[1:])
+        if self.QPX is UNBOUND and (self.side is not None or self.near is not None):
+            word = "near" if self.side is None else "side"
+            why = f"it lies on the line {self.P}{self.Q} without an angle or a third side, and {word}= chooses nothing"
+            raise DefinitionError(f"{self.sentence()}: {why}; give {angle} or {third}, or leave {word} out.")
+        if self.near is not None:
+            why = f"{angle} says where it lies, and near= chooses nothing"
+            raise DefinitionError(f"{self.sentence()}: {why}; say side=LEFT or side=RIGHT, or leave near out.")
 
     def in_radians(self) -> tuple[Quantity, ...]:
         return () if self.QPX is UNBOUND else (self.QPX,)

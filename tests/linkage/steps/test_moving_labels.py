@@ -129,12 +129,15 @@ def test_gradients_are_differences(machine):
         (OnLink("A", "D"), "AX"),
         (OnLink("A", "D", AX=0.3, DX=0.9), "side"),
         (OnLink("A", "D", AX=0.3, DX=0.9, DAX=0.2, side=LEFT), "not both"),
+        (OnLink("A", "D", AX=0.3, side=LEFT), "line AD .* side= chooses nothing; give DAX or DX, or leave side out"),
+        (OnLink("A", "D", AX=0.3, near=(1.0, 2.0)), "line AD .* near= chooses nothing; give DAX or DX, or leave near out"),
+        (OnLink("A", "D", AX=0.3, DAX=0.2, near=(1.0, 2.0)), "near= chooses nothing; say side=LEFT or side=RIGHT, or leave near out"),
         (SliderDyad("A", "rail", AX=1.0), "side"),
         (Dyad("A", "D", AX=0.9, DX=0.9), "side"),
         (Crank("O", angle=0.3), "OX"),
     ],
 )
-def test_step_that_lacks_a_number_says_which(step, words):
+def test_step_that_lacks_a_number_or_has_one_word_too_many_says_which(step, words):
     with pytest.raises(DefinitionError, match=words):
         made(X=step)
 

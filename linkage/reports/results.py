@@ -91,7 +91,8 @@ def case_shown(machine: Mechanism, place: Domain, acting: Acting = PLAIN) -> Cas
 def worst_answer(machine: Mechanism, motion: Motion, place: Domain, acting: Acting) -> tuple[str, Answer | None]:
     """Return the column that a machine is about, as it changes over a motion, and where it is worst over an `Over`; "" and None for none.
 
-    Its worst side is that of its limit; of what may be without a limit, such as a reserve, the least; else the greatest.
+    Its worst side is that of its limit; of what may be without a limit, such as a reserve, the least; else the greater in size: a cylinder
+    pulls as hard as it pushes.
     """
     with unwarned():
         try:
@@ -99,11 +100,12 @@ def worst_answer(machine: Mechanism, motion: Motion, place: Domain, acting: Acti
             if column.request is None:
                 return "", None
             limit = tuple(machine.featured().limits.get(column.name, ()))
-            is_least = may_be_unlimited(column.request)
+            sides = (least,) if may_be_unlimited(column.request) else (most, least)
             if limit:
-                is_least = limit[2:] == ("below",)
-            side = (least if is_least else most)(cast(MeasuredQuantity, column.request))
-            return column.name, machine.judge(place.over, acting).lost_allowed().answer(side)
+                sides = (least,) if limit[2:] == ("below",) else (most,)
+            asked = [side(cast(MeasuredQuantity, column.request)) for side in sides]
+            answers = machine.judge(place.over, acting).lost_allowed().answers(asked)
+            return column.name, max(answers, key=lambda answer: np.nan_to_num(abs(answer.value), nan=-1.0))
         except LinkageError:
             return "", None
 

@@ -196,6 +196,21 @@ def test_a_table_of_several_boxes_says_where_other_strokes_are_held(capsys, monk
         assert capsys.readouterr().out.count("; T where reserve arm is worst") == 2
 
 
+class OfAThrust(Lift):
+    """A box of both strokes, about a thrust that has no limit."""
+
+    field = Over(S=(0.05, 0.20), T=(0.04, 0.15), cases=["heavy"])
+    about = Featured("thrust arm")
+
+
+def test_a_thrust_is_worst_where_it_is_greatest_in_size():
+    machine, (run,) = OfAThrust(), runs_of(OfAThrust())
+    S, asked = np.linspace(0.05, 0.20, 7), thrust("arm", case="heavy")
+    pulls = machine.at(S=S[:, None], T=np.linspace(0.04, 0.15, 7))[asked]
+    assert run.worst == "thrust arm" and run.case == "heavy" and pulls.max() < 0.0
+    assert machine.at(S=S, **run.held)[asked].min() <= pulls.min() * (1.0 - 1e-9)
+
+
 class OnWheels(OfPaths):
     """The same on a frame with two axles, which tips where its arm reaches far under the heavy load, and is not judged there."""
 

@@ -3,6 +3,7 @@
 import doctest
 import json
 import re
+import shlex
 import subprocess
 import sys
 import threading
@@ -23,7 +24,7 @@ DOCS = ROOT / "docs"
 sys.path.insert(0, str(DOCS))
 from made import examples, gallery, searches, written_pages  # noqa: E402
 
-from linkage.cli.entry import BUILT_IN  # noqa: E402
+from linkage.cli.entry import BUILT_IN, main  # noqa: E402
 from linkage.plugins import COMMANDS, entry_points  # noqa: E402
 from tests.for_all import for_all  # noqa: E402
 from tests.tools.catalogues import messages  # noqa: E402
@@ -331,6 +332,17 @@ def test_a_machine_has_a_page(name, tmp_path):
     for picture in (f"machines/{name}.png", f"machines/{name}_curve.png", f"extra/thumbs/{name}.png"):
         assert imread(tmp_path / picture).std() > 0.01
     assert "<script" in (tmp_path / "extra" / "live" / f"{name}.html").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("words", ["list table new save", pytest.param("", marks=pytest.mark.slow)], ids=["quick", "all"])
+def test_the_commands_of_the_first_page_run(tmp_path, monkeypatch, words):
+    """All but the one that serves a page, and those of files that a reader has; the files that a command writes are there for the next."""
+    monkeypatch.chdir(tmp_path)
+    block = (ROOT / "README.md").read_text(encoding="utf-8").partition("## On the command line")[2].split("```")[1]
+    lines = [shlex.split(line, comments=True)[1:] for line in block.splitlines() if line.startswith("hydrolinkage")]
+    others = {"board", "heights.csv", "search.toml", "bar.toml"}
+    asked = [line for line in lines if line[0] in (words.split() or line) and others.isdisjoint(line)]
+    assert len(asked) >= 4 and [line for line in asked if main(line) > ("--check" in line)] == []
 
 
 def test_commands_tell_of_themselves(tmp_path):

@@ -199,7 +199,9 @@ def motions_at(machine: Mechanism, options: Namespace) -> list[tuple[Run | None,
             steps = [{run.stroke: stroke_steps(machine, run, options.count, every)} for run in runs]
             motions = [with_gaps(machine, {**run.held, **values}) for run, values in zip(runs, steps, strict=True)]
         else:
-            ensure(every is None, f"--every {every}: steps are of one stroke, and the rows run along a path; give --count.")
+            name, stroke = next(iter(machine.strokes.items()))
+            remedy = f"give --count, or run one stroke, such as --over {name}={stroke.start:.4g}:{stroke.end:.4g}"
+            ensure(every is None, f"--every {every}: steps are of one stroke, and the rows run along a path; {remedy}.")
             motions = [run_with_gaps(machine, run, options.count) for run in runs]
         if len(runs) > 1:
             runs = tuple(replace(run, title=run.title or each.over.words(each)) for run, each in zip(runs, motions, strict=True))

@@ -211,7 +211,9 @@ def test_a_table_runs_along_the_machines_path(said, own):
     code, _, complaint = said("table", "mower_lift", "--every", "100")
     assert code == 2 and "this step is longer than the stroke S; write its unit" in complaint
     code, _, complaint = said("table", "crane.py", "--every", "1deg")
-    assert code == 2 and "the rows run along a path; give --count" in complaint
+    assert code == 2 and "the rows run along a path; give --count, or run one stroke, such as --over a=0:1." in complaint
+    rows = strokes_in(said("table", "crane.py", "--csv", "-", "--every", "0.5rad", "--over", "a=0:1")[1])
+    assert [a for a, _ in rows] == [0.0, 28.64789, 57.29578]
 
 
 def test_a_judgement_looks_at_all_that_is_left_open(own):

@@ -13,6 +13,7 @@ from ..errors import AssemblyError, SingularError, ensure, unknown, unwarned
 from ..language import noted, said, translated
 from ..loads import Case, ForceElement, LoadCase, Loads
 from ..motion import Motion
+from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import joined_names
 from ..reports import case_along, in_case_words
@@ -226,14 +227,19 @@ def load_groups(forces: ForcesAt) -> Iterator[tuple[str, str, FloatArray, FloatA
 
 def mass_centre(forces: ForcesAt, element: str) -> FloatArray | None:
     """Return the centre of a body's own mass that is declared beside its points, shape (2,) [m]; None for any other element."""
-    plan = forces.found.motion.plan
+    found = centre_beside(forces.found.motion.plan, element)
+    if found is None:
+        return None
+    (P, Q), away = (forces.place(name) for name in found[:2]), found[2]
+    along = (Q - P) / np.hypot(*(Q - P))
+    return np.asarray(P + away[0] * along + away[1] * left_of(along))
+
+
+def centre_beside(plan: Plan, element: str) -> tuple[str, str, tuple[float, float]] | None:
+    """Return where the centre of a body's own mass lies beside its points: from the first of two towards the second, and to the left."""
     found = plan.of_kind(ForceElement).get(element)
-    for glyph in found.glyphs(plan.members) if found is not None else ():
-        if glyph.away is not None:
-            P, Q = (forces.place(name) for name in glyph.points[:2])
-            along = (Q - P) / np.hypot(*(Q - P))
-            return np.asarray(P + glyph.away[0] * along + glyph.away[1] * left_of(along))
-    return None
+    glyphs = found.glyphs(plan.members) if found is not None else ()
+    return next(((*glyph.points[:2], glyph.away) for glyph in glyphs if glyph.away is not None), None)
 
 
 def drawn_body(found: PinForces, name: str) -> str:

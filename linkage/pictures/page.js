@@ -165,11 +165,17 @@ function arrow(each) {
   return (at) => {
     const { x, y } = each, k = pull.scale, f = [pose.values[x]?.[0] * k, -pose.values[y]?.[0] * k], long = hypot(...f), head = min(9, 0.5 * long);
     if (!showsForces || !(long > 1)) { set(line, { d: "" }); number.said = ""; return; }
-    const d = [f[0] / long, f[1] / long], tip = [at[point][0] + f[0], at[point][1] + f[1]], neck = [tip[0] - head * d[0], tip[1] - head * d[1]], w = 0.38 * head;
-    set(line, { d: broken([at[point], neck, [neck[0] - w * d[1], neck[1] + w * d[0]], tip, [neck[0] + w * d[1], neck[1] - w * d[0]], neck]) });
+    const d = [f[0] / long, f[1] / long], from = centred(each, at), tip = [from[0] + f[0], from[1] + f[1]], neck = [tip[0] - head * d[0], tip[1] - head * d[1]], w = 0.38 * head;
+    set(line, { d: broken([from, neck, [neck[0] - w * d[1], neck[1] + w * d[0]], tip, [neck[0] + w * d[1], neck[1] - w * d[0]], neck]) });
     Object.assign(number, { said: shown(hypot(pose.values[x][0], pose.values[y][0]), data.force, 3), anchor: tip, way: d });
-    arrows.push([at[point], tip]);
+    arrows.push([from, tip]);
   };
+}
+/* Where a load acts: at its point, or at the centre of a mass beside it. */
+function centred({ point, beside }, at) {
+  if (!beside) return at[point];
+  const [to, along, left] = beside, [x, y] = spot(pose, point, 0), [u, v] = spot(pose, to, 0), r = hypot(u - x, v - y), dx = (u - x) / r, dy = (v - y) / r;
+  return px(x + along * dx - left * dy, y + along * dy + left * dx);
 }
 const pull = { scale: 0, most: 0 };
 function pullScale() {

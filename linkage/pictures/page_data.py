@@ -168,7 +168,7 @@ class PageRequests:
         for name, member in speakers(self.plan, Tabled).items():
             for what, request in member.gauges(self.plan).items():
                 self.by_name |= situated_requests(f"gauge {name} {what}", request, self.situations) if what in GAUGES else {}
-        for k, (_, x, y, _) in enumerate(self.arrows):
+        for k, (_, x, y, *_) in enumerate(self.arrows):
             self.by_name |= situated_requests(f"arrow {k} x", x, self.situations) | situated_requests(f"arrow {k} y", y, self.situations)
 
 
@@ -261,8 +261,10 @@ def page_data(requests: PageRequests, live: LiveText) -> PageData:
         **unit_tables({*(each[3] for each in dims), *(str(each[1]) for each in columns)}, {*asked, *(each["unit"] for each in strokes)}),
         "joints": [{"point": name, "row": rows[key]} for name in requests.motion._joints if (key := f"joint {name}") in rows],
         "arrows": [
-            {"point": index[point], "x": x, "y": y} | ({"load": 1} if is_load else {})
-            for k, (point, _, _, is_load) in enumerate(requests.arrows)
+            {"point": index[point], "x": x, "y": y}
+            | ({"load": 1} if is_load else {})
+            | ({"beside": [index[centre[1]], *centre[2]]} if centre else {})
+            for k, (point, _, _, is_load, centre) in enumerate(requests.arrows)
             for x, y in [[situated_rows(f"arrow {k} {axis}", live, len(requests.situations)) for axis in "xy"]]
             if x is not None and y is not None
         ],

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Any, TypeVar, cast
+from typing import Any, TypeAlias, TypeVar, cast
 
 import numpy as np
 
@@ -17,8 +17,11 @@ from ..motion.requests import bound
 from ..program import FloatArray
 from ..reports import Run, at_its_rates, case_shown, request_in_case
 from ..statics import AnyMotion, JointForce, LawRequest, TracedMotion, applied_loads, ground_loads, pin_force, pin_forces, rates_in
+from .force_arrows import centre_beside
 
 AnyRequest = TypeVar("AnyRequest")
+Centre: TypeAlias = tuple[str, str, tuple[float, float]] | None
+PageArrow: TypeAlias = tuple[str, Request, Request, bool, Centre]
 
 
 @dataclass(frozen=True)
@@ -58,17 +61,23 @@ def situated_rows(name: str, live: LiveText, count: int) -> int | list[int] | No
 
 
 def load_part(kind: str, name: Any, axis: int, motion: AnyMotion, acting: Acting) -> FloatArray:
-    """Return a part of the ground's force, by its place, or of an element's loads at a point, over a motion in a situation [N]."""
+    """Return a part of the ground's force, by its place, or of an element's loads at a point, over a motion [N].
+
+    At the point "" it is all of the element's loads.
+    """
     if kind == "ground":
         return cast(FloatArray, ground_loads(motion, acting)[name].force[axis])
-    loads = [each for each in applied_loads(motion, acting, rates_in(motion, acting)).loads if (each.element, each.point) == name]
+    element, point = name
+    applied = applied_loads(motion, acting, rates_in(motion, acting)).loads
+    loads = [each for each in applied if each.element == element and point in ("", each.point)]
     return cast(FloatArray, sum((each.force[axis] for each in loads), np.zeros(motion.shape)))
 
 
-def force_arrows(machine: Mechanism, motion: Motion, situations: Sequence[PageSituation]) -> list[tuple[str, Request, Request, bool]]:
-    """Return the forces that can be drawn: their points, their parts [N], and whether it is a load; those at pins and supports come first.
+def force_arrows(machine: Mechanism, motion: Motion, situations: Sequence[PageSituation]) -> list[PageArrow]:
+    """Return the forces that can be drawn, those at pins and supports first: points, parts [N], whether each is a load, its centre.
 
-    A load that acts in one of the situations alone, as the couple of what is accelerated, is among them.
+    A mass acts at a centre of its own beside its point. A load that acts in one of the situations alone, as the couple of what is
+    accelerated, is among them.
     """
     plan, poses = machine.plan, motion.moved({name: value[motion.reached][:1] for name, value in motion.strokes.items()})
     try:
@@ -87,12 +96,17 @@ def force_arrows(machine: Mechanism, motion: Motion, situations: Sequence[PageSi
             bound(plan, joint_part(joint, forces, "x")).nodes(kept)
     except UntracedError:  # which parts pull is found pose by pose: the loads alone are drawn
         told = []
-    found = [(each.point, joint_part(each, forces, "x"), joint_part(each, forces, "y"), False) for each in told]
-    ground = [("ground", k, each.point) for k, each in enumerate(ground_loads(poses, PLAIN) if loads else ())]
-    for kind, name, point in [*ground, *(("load", each, each[1]) for each in loads)]:
+    found = [(each.point, joint_part(each, forces, "x"), joint_part(each, forces, "y"), False, None) for each in told]
+    asked: dict[tuple[str, object], tuple[str, Centre]] = {}
+    if loads:
+        asked = {("ground", k): (each.point, None) for k, each in enumerate(ground_loads(poses, PLAIN))}
+    for element, point in loads:
+        centre = centre_beside(plan, element)
+        asked["load", (element, "" if centre else point)] = (centre[0] if centre else point, centre)
+    for (kind, name), (point, centre) in asked.items():
         keys = ((kind, name, axis) for axis in (0, 1))
         x, y = (LawRequest(formula=partial(load_part, *key), text=f"{kind} {name}", known=key, acting=PLAIN) for key in keys)
-        found.append((point, x, y, kind == "load"))
+        found.append((point, x, y, kind == "load", centre))
     return found
 
 

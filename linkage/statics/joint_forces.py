@@ -270,6 +270,8 @@ class PinForces(Shown):
 
         Those on the frame balance where it stands on supports; elsewhere their sum is what the ground has to hold. One that acts
         elsewhere than at a point, such as at the mesh of two gears, goes by its joint, `A (mesh)`; `place` of that joint tells where.
+        What a load gives is added to the pin's force at its point. The mass of a body with a centre of its own counts at the body's first
+        two points, by forces of the same sum and moment. The force of a pin alone is among `joints`.
 
         Parameters
         ----------

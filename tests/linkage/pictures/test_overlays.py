@@ -44,6 +44,7 @@ from linkage.pictures.force_arrows import ForceQuestion, forces_at_pose
 from linkage.pictures.gap_marks import assumed_pairs
 from linkage.pictures.lever_arms import lever_arms, moment_about
 from linkage.pictures.overlays import asked_poles, pole_marks, pole_rates
+from linkage.pictures.page_forces import PageSituation, force_arrows
 from mechanisms.at_work.excavator import Excavator
 from mechanisms.classics.four_bar import FourBar
 from mechanisms.classics.roberts import Roberts
@@ -229,6 +230,10 @@ def test_own_mass_is_drawn_at_its_centre_of_gravity_and_a_moment_as_a_curve():
     tail, vector = arrows(figure, "load own ")["load own on ABP"]
     assert_allclose(tail, centre, atol=1e-9)
     assert abs(vector[0]) < 1e-9 and vector[1] < 0.0
+    on_page = [each for each in force_arrows(Press(), Press().sweep(3), [PageSituation(None)]) if "own" in str(each[1])]
+    ((point, x, y, is_load, beside),) = on_page
+    assert point == "A" and is_load and beside == ("A", "B", (0.2, 0.05))
+    assert_allclose([motion[x], motion[y]], [0.0, -30.0 * 9.80665], atol=1e-9)
     assert named(figure, "moment drag")["moment drag on CB value"].get_text() == "0.250 kNm drag"
     curve = np.array(named(figure, "moment drag")["moment drag on CB"].get_xydata())
     turn = curve - 0.5 * (motion["C"] + motion["B"])

@@ -136,7 +136,7 @@ def pose_parts(motion: Motion, pose: int) -> Iterator[Part]:
         yield Circle("pins", name, at[name], declared or (PIN if name in scene.pins else 0.5 * PIN) * size)
     crowd = label_free(scene, [there])[0]
     font = 1.6 * size
-    spots = offsets(motion.plan.points, [there] * 2, [crowd] * 2, 1.0 / mm, 1.2 * size, font)  # of two poses: near, as no line leads there
+    spots = offsets([*motion.plan.points], [there] * 2, [crowd] * 2, 1.0 / mm, 1.2 * size, font)  # as of two poses: near
     for name, spot in spots.items():
         half = half_of(name, font)
         crowd = np.concatenate([crowd, mm * (at[name] + spot + half * [[-1.0, 0.0], [-0.5, 0.0], [0.0, 0.0], [0.5, 0.0], [1.0, 0.0]])])

@@ -105,15 +105,16 @@ class LoadCase(Member):
         DefinitionError
             A name is no load of the class.
         """
-        loads = [name for name, member in members.items() if isinstance(member, ForceElement)]
+        loads = {name: member for name, member in members.items() if isinstance(member, ForceElement)}
         where = f"{title}.{self.name}"
-        for name in self.scale:
-            if not isinstance(name, str):
-                own = name_of(name)
-                what = f"{where}: scale={{{own}: ...}} names the load itself"
-                raise DefinitionError(f'{what}; write its name in quotes, scale={{"{own}": 2.0}}.')
+        keys: list[object] = [*self.scale]
+        for key in keys:
+            if isinstance(key, Member):
+                what = f"{where}: scale={{{key.name}: ...}} names the load itself"
+                raise DefinitionError(f'{what}; write its name in quotes, scale={{"{key.name}": 2.0}}.')
         for name in self.mentioned:
-            known_name("Load", name, loads, where=where)
+            if name not in loads:
+                raise unknown("Load", name, [each for each, load in loads.items() if load.scales], where)
         for name in self.scale:
             check_factor(self, name, members[name], where)
         shut_members(self, members, where)

@@ -763,16 +763,28 @@ def check_kinds(plan: Plan, measures: Iterable[Measure], constraints: Iterable[C
             if isinstance(side, FixedNumber) and side.measures not in ("", "angle") and kind == kind_called("number"):
                 what = f"a plain number does not compare with {article(side.measures)} {side.measures}"
                 raise DefinitionError(f"{plan.title}: {constraint}: {what}; write the limit without a unit.")
-            if isinstance(side, FixedNumber) and not side.measures and kind == kind_called("pressure") and 0.0 < abs(side.value) < FAINTEST:
-                raise DefinitionError(f"{plan.title}: {constraint}: {side} Pa is next to nothing; write {side} * bar if these are bar.")
+            if isinstance(side, FixedNumber) and not side.measures and is_faint(side.value) and kind == kind_called("pressure"):
+                raise DefinitionError(f"{plan.title}: {constraint}: {bar_hint(side)}")
+
+
+def is_faint(limit: object) -> bool:
+    """Return whether a plain number would be next to nothing as a pressure [Pa]."""
+    return is_number(limit) and not isinstance(limit, Amount) and 0.0 < abs(limit) < FAINTEST
+
+
+def bar_hint(limit: object) -> str:
+    """Return what is said of such a limit."""
+    return f"{limit} Pa is next to nothing; write {limit} * bar if these are bar."
 
 
 def check_condition(plan: Plan, condition: PoseCondition) -> None:
-    """Raise DefinitionError where a condition on poses compares a quantity with an amount of another kind: `y("G") <= 20 * deg`."""
+    """Raise DefinitionError where a condition on poses compares with an amount of another kind, `y("G") <= 20 * deg`, or no pressure."""
     for side, other in ((condition.left, condition.right), (condition.right, condition.left)):
         kind = kind_of_quantity(plan, side) if isinstance(other, Amount) else None
         if kind is not None and kind.is_sure and kind.name and (kind.name, getattr(other, "measures", "")) != ("number", "angle"):
             require_measure(other, kind.name, f"{plan.title}: {condition}: {words_of(side)}")
+        if is_faint(other) and kind_of_quantity(plan, side) == kind_called("pressure"):
+            raise DefinitionError(f"{plan.title}: {condition}: {bar_hint(other)}")
 
 
 def measure_unit(plan: Plan, measure: Measure | Constraint) -> str:

@@ -85,4 +85,6 @@ def test_a_pump_and_its_line_are_written_in_litres_a_minute_and_without_what_the
     assert from_dict(tomllib.loads(text))().plan.table.defaults["supply.flow"] == 99 * litre / minute
     with pytest.raises(DefinitionError, match=r"150 Pa is next to nothing; write 150 \* bar if these are bar"):
         Press().answers([most(pressure("lift")) <= 150])
+    with pytest.raises(DefinitionError, match=r"150 Pa is next to nothing; write 150 \* bar if these are bar"):
+        Press().answers([most("lift")], over=Over(S=(0.0, 0.3), only=[pressure("lift") <= 150]))
     assert str(most(pressure("lift")) <= 150 * bar) == "most(pressure(lift)) <= 150 bar"

@@ -82,7 +82,8 @@ class ConditionSpare:
         return self.gain > 0.0
 
     def __str__(self) -> str:
-        value, limit = (show(0.0 if abs(each) < NOISE else each, self.units) for each in (self.left, self.right))
+        sides = [0.0 if abs(each) < NOISE else each for each in (self.left, self.right)]
+        value, limit = ("not limited" if np.isnan(each) else show(each, self.units) for each in sides)
         said = f"{in_units(self.constraint, self.units)}: {value}"
         if not isinstance(self.constraint.right, FixedNumber):
             said += f" against {limit}"

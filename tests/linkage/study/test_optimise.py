@@ -1,6 +1,7 @@
 """The search for better dimensions: against closed forms, brute force, the multipliers' meaning, and what must be refused."""
 
 import json
+from dataclasses import replace
 from itertools import cycle
 
 import numpy as np
@@ -108,6 +109,7 @@ def test_the_best_least_lever_is_that_of_the_closed_form():
     assert_allclose(best.value, at_best.min(), rtol=1e-9)
     assert best.active
     assert best.active[0].spare == pytest.approx(0.0, abs=1e-9)
+    assert str(replace(best.conditions[0], left=np.nan, gain=0.0)).endswith(": not limited")
 
 
 def test_an_optimum_is_not_beaten_by_random_designs_and_holds_between_the_poses():

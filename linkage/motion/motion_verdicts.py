@@ -21,7 +21,7 @@ from ..verdict import Remark, Verdict
 from . import stroke_search
 from .answer import NONE_LOST, Answer, share_text
 from .judge import Domain, Judge, Question, measures_of
-from .limits import BoxLimits, Limits, LoopMargin, StrokeLimits, angle_text, place_text, places_text, timed_texts
+from .limits import BoxLimits, Limits, LoopMargin, StrokeLimits, angle_text, place_text, places_text, span_text, stroke_unit, timed_texts
 from .measures import Condition, Measure, conditions_of, least, reachable
 from .motion import Motion, require_motion
 from .over import Over
@@ -258,7 +258,20 @@ def assembly_verdicts(judge: Judge) -> list[Verdict]:
         text = said("over {spans} {share} cannot be assembled, deepest {place}: {why}", spans=spans, **deepest).rstrip(".")
         remedy = said('what follows holds for the rest. Shorten a stroke, or declare Over(..., lost="allowed").')
         text = said("{lost}; its Over allows that.", lost=text) if ok else f"{text}; {remedy}"
+    beyond = ", ".join(f"{name} = {span}" for name, span in strokes_exceeded(judge).items())
+    text = f"{text} {said('It runs beyond the declared {strokes}.', strokes=beyond)}" if beyond else text
     return [Verdict("assembly", ok, text, answer=answer)]
+
+
+def strokes_exceeded(judge: Judge) -> dict[str, str]:
+    """Return the declared ends, in words, of the strokes that something runs beyond by more than a thousandth."""
+    found = {}
+    for name, stroke in judge.plan.strokes.items():
+        low, high = sorted((stroke.start, stroke.end))
+        run = np.concatenate([np.ravel(place.motion.strokes[name]) for place in judge.places])
+        if np.any((run < low - 1e-3 * (high - low)) | (run > high + 1e-3 * (high - low))):
+            found[name] = span_text([low, high], stroke_unit(judge.plan, name))
+    return found
 
 
 def nearest_dead_points(limits: StrokeLimits, span: tuple[float, float]) -> Iterator[tuple[bool, float, str]]:

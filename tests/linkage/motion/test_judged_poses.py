@@ -92,3 +92,14 @@ def test_designs_of_a_batch_have_the_same_poses_judged():
     only = judged_poses(machine.judge(Over(only=[x("T") <= 1.5])), motion)
     assert only.shape == (2, 7)
     assert_array_equal(only, motion["T"][0] <= 1.5)
+
+
+def test_what_runs_beyond_its_stroke_says_so():
+    class Far(Reach):
+        far = Over(alpha=(0.0, 120 * deg), beta=0.0, slide=(0.0, 2.001))
+
+    class Near(Reach):
+        near = Over(alpha=(90 * deg, 0.0), beta=0.0, slide=1.0)
+
+    assert Far().verdicts()[0].sentence.endswith("slide = 0 to 2.001 m. It runs beyond the declared alpha = 0 to 90 deg.")
+    assert "beyond" not in Near().verdicts()[0].sentence

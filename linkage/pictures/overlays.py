@@ -210,7 +210,8 @@ class Overlay:
         for arm in self.arms:
             texts += arm.draw(ax)
             covered.append(np.repeat(arm.line.covered, arrows.ARROW, axis=0))
-        sheet_note(ax, self.sentences)
+        is_kept = self.sentences == [f"{said('At this pose:')} {said('all kept')}."]
+        sheet_note(ax, self.sentences, style.INK if is_kept else style.ACCENT)
         for layer in self.layers:
             covered.append(np.repeat(arrows.scale_bar(ax, layer, layer.scale(self.sheet), np.concatenate(covered)), arrows.ARROW, axis=0))
         everything = np.concatenate(covered)
@@ -219,12 +220,12 @@ class Overlay:
             arrows.add_keys(ax, layer)
 
 
-def sheet_note(ax: Axes, sentences: Sequence[str]) -> None:
-    """Write sentences in a warning colour into the sheet's upper left corner."""
+def sheet_note(ax: Axes, sentences: Sequence[str], colour: str = style.ACCENT) -> None:
+    """Write sentences, in a warning colour if nothing else is said, into the sheet's upper left corner."""
     if sentences:
         across = int(ax.get_position(original=True).width * figure_of(ax).get_figwidth() * 72.0 / (0.5 * style.SMALL))
         lines = [line for sentence in sentences for line in textwrap.wrap(sentence, across)]
-        look: Keywords = {"fontsize": style.SMALL, "color": style.ACCENT, "ha": "left", "va": "top", "zorder": 21.0, "gid": "note"}
+        look: Keywords = {"fontsize": style.SMALL, "color": colour, "ha": "left", "va": "top", "zorder": 21.0, "gid": "note"}
         box = {"facecolor": style.PAPER, "edgecolor": "none", "alpha": 0.85, "pad": 0.0}
         ax.text(0.012, 0.985, "\n".join(lines), transform=ax.transAxes, bbox=box, **look)
 

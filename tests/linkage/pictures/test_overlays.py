@@ -39,6 +39,7 @@ from linkage import (
 )
 from linkage.motion import whole_body
 from linkage.motion.gaps import shape_named
+from linkage.pictures import style
 from linkage.pictures.arrows import significant
 from linkage.pictures.force_arrows import ForceQuestion, forces_at_pose
 from linkage.pictures.gap_marks import assumed_pairs
@@ -269,6 +270,12 @@ class Dead(Mechanism):
     O = Ground(0.8, 0.0)
     B = Dyad(A, O, AB=S, OB=0.3, side=LEFT)
     load = Weight(B, mass=100.0)
+
+
+def test_what_a_pose_keeps_is_no_warning():
+    poses = (ThreePointHitch(**given).at(S=0.1) for given in ({}, {"circuit.pressure": 20e5}))
+    kept, short = (named(draw(motion, forces=True), "note")["note"].get_color() for motion in poses)
+    assert kept == style.INK and short == style.ACCENT
 
 
 def test_a_refused_pose_says_why():

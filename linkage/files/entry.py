@@ -42,7 +42,7 @@ EXAMPLES = {"point": ("A", "O"), "guide": ("rail", "post"), "vector": ("AB",), "
 class Argument:
     """An argument of a class, its key in a file, and its default, Parameter.empty where it must be given.
 
-    One as it is by default `may_go` unwritten: all of a frozen dataclass, which prints without; else numbers and what is nothing.
+    One as it is by default `may_go` unwritten: all of a frozen dataclass, which prints without; else what is nothing, or 1.
     """
 
     name: str
@@ -91,7 +91,7 @@ def arguments_of(cls: type[Any]) -> tuple[Argument, ...]:
         if is_spread or each.kind in (Parameter.POSITIONAL_OR_KEYWORD, Parameter.KEYWORD_ONLY):
             factory = factories.get(each.name, MISSING)
             default = each.default if factory is MISSING else factory()
-            is_nothing = isinstance(default, (int, float)) or (isinstance(default, (str, tuple)) and not default)
+            is_nothing = isinstance(default, (int, float, str, tuple)) and (not default or (default == 1.0 and default is not True))
             may_go = is_nothing or (is_dataclass(cls) and default is not None and default is not Parameter.empty)
             found.append(Argument(each.name, each.name, kind_of(cls, each, said), default, may_go))
     return tuple(found)

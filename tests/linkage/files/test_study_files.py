@@ -648,7 +648,7 @@ def test_settings_that_are_nowhere_end_with_one(here, said):
         ('OB = "1.0 to 1.2 m", A = "w', 'OB = "1 to 1.2 m by 5 mm", A = "w', "survey.vary.OB: a study looks between the steps"),
         ('OB = "1.0 to 1.2 m", A = "w', 'OC = "1 to 1.2 m", A = "w', "survey.vary.OC: Dimension 'OC' is unknown"),
         ('quantity = "lift"\n    vary', 'quantity = "least(lift)"\n    vary', "zone.quantity: 'least(lift)' has no value at every pose"),
-        ("<= 54.16 kN", "== 54.16 kN", "tolerance.subject_to.1: Boom: most(drive_force(case=bumpy)) == 54160: no machine keeps"),
+        ("<= 54.16 kN", "== 54.16 kN", "tolerance.subject_to.1: Boom: most(drive_force(case=bumpy)) == 54.16 kN: no machine keeps"),
         ('OB = "0.1 mm", A', 'OB = "0.1 deg", A', "tolerance.tolerances.OB: '0.1 deg' is an angle"),
         ('"0.1 mm", BOT', '"-0.1 mm", BOT', "tornado.tolerances.OB:"),
         ('strokes = { S = "100 mm" }', "", "tornado.strokes: say the pose, strokes = { S = ... }"),

@@ -436,8 +436,8 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         """Return the pressure on the side that works, shape (...) [Pa gauge]; 0 where the other side holds.
 
         While it moves in its working direction, or the one named, with what its one LiftCircuit says: efficiencies and back pressure.
-        Of a cylinder that a FloatCircuit feeds it is the line's pressure. DefinitionError where several circuits have it: name one,
-        `circuit.pressure_for(motion)`.
+        Of a cylinder that a FloatCircuit feeds it is the line's pressure, of one with a pump's line for each side that of the side that
+        holds. DefinitionError where several circuits have it otherwise: name one, `circuit.pressure_for(motion)`.
         """
         return pressure_of(self, motion, situation_of("pressure", loads=loads, **situation))
 
@@ -499,19 +499,23 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         return np.where(along > 0.0, found, least) + 0.0 * thrust
 
     def columns(self, motion: Motion) -> list[Column]:
-        """Return its thrust without friction and, unless several circuits have it, its pressure and its reserve, for the table."""
+        """Return its thrust without friction, its pressure and its reserve, for the table; not the last two where circuits differ in them."""
         return self.columns_in(motion)
 
     def columns_in(self, motion: Motion, case: Case = None, direction: str | None = None) -> list[Column]:
         require_poses(motion)
         acting = Acting(case=case, direction=direction)
         found = [Column(noted("thrust"), member_thrust(motion, self, acting), "kN")]
-        if len(circuits_of(self, motion.plan)) > 1:
+        lines = circuits_of(self, motion.plan)
+        if len(lines) > 1 and not (lines := lines_by_side(self, motion.plan)):
             return found
         found.append(Column(noted("pressure"), pressure_of(self, motion, acting), "bar", 2))
-        circuit = circuit_having(self, motion.plan)
-        reserve = None if circuit is None else circuit.reserve_of(self, motion, acting)
-        return found if reserve is None else [*found, Column(noted("reserve"), reserve, "", 3)]
+        uses = [each.use_of(self, motion, acting) for each in lines]
+        used = [each for each in uses if each is not None]
+        if not used:
+            return found
+        use = reduce(np.maximum, used)
+        return [*found, Column(noted("reserve"), np.asarray(1.0 / only_where(use > 0.0, use))[()], "", 3)]
 
     def questions(self, judge: Judge) -> list[Question]:
         """Return its least and greatest length, and the utilisation of its rod."""
@@ -554,12 +558,14 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
             return [Verdict.refused("cylinder", error)]
 
     def gauges(self, plan: Plan) -> dict[str, Request]:
-        circuits = circuits_of(self, plan)
+        circuits, by_side = circuits_of(self, plan), lines_by_side(self, plan)
         read: dict[str, Reading] = {name: partial(self.length_set, name) for name in self.lengths_given}
         if len(circuits) == 1:
             read |= circuits[0].gauges_of(self, plan)
         found: dict[str, Request] = {name: LawRequest(text=f"{self.name} {name}", formula=each) for name, each in read.items()}
-        if len(circuits) <= 1:
+        if by_side:
+            found["most"] = LawRequest(text=f"{self.name} most", formula=partial(most_of_side, self), acting=Acting(), mover=self.name)
+        if len(circuits) <= 1 or by_side:
             in_case = partial(pressure_of, self)
             found["pressure"] = LawRequest(text=f"{self.name} pressure", formula=in_case, acting=Acting(), mover=self.name)
         return found
@@ -846,7 +852,7 @@ class Cylinder(BarrelAndRod, Ram):
         """
         found, others = works_by_lines(self, members), lines_of(self, members)
         both = (each for each in circuits_among(members) if each.has_both_sides(members))
-        if found is None and self.works is None and any(self.name in map(label, each.references) for each in both):
+        if not others and self.works is None and any(self.name in map(label, each.references) for each in both):
             found = "both"
         beside = self.works in SIDES and all(line.kind_in(members) == "given" and each.side != self.works for line, each in others)
         if found is None or beside:  # a tank or gas on its other side leaves the side that it says to a pump
@@ -1227,10 +1233,21 @@ def pressure_of(cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array:
     if held is not None:
         return pressure_of(held[1], held[0], acting)
     motion = held_in_case(motion, acting)
+    by_side = lines_by_side(cylinder, motion.plan)
+    if by_side:
+        return reduce(np.maximum, [line.pressure_in(cylinder, motion, acting) for line in by_side])
     circuit = circuit_having(cylinder, motion.plan)
     if circuit is not None:
         return circuit.pressure_in(cylinder, motion, acting)
     return np.maximum(cylinder.sized(motion, acting.direction).pressure_for(line_thrust(cylinder, None, motion, acting)), 0.0)
+
+
+def most_of_side(cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array:
+    """Return the highest pressure [Pa] of the line that holds a cylinder which each side has on a line of its own."""
+    first, second = lines_by_side(cylinder, motion.plan)
+    limits = [line.gauges_of(cylinder, motion.plan)["most"](motion) for line in (first, second)]
+    holds = first.pressure_in(cylinder, motion, acting) >= second.pressure_in(cylinder, motion, acting)
+    return np.where(holds, *limits)
 
 
 def circuit_having(cylinder: Ram, plan: Declared, is_needed: bool = True) -> Circuit | None:
@@ -1255,6 +1272,13 @@ def circuits_of(cylinder: Ram, plan: Declared) -> list[Circuit]:
     found = [each for each in plan.of_kind(Circuit).values() if is_among(cylinder, each.members(plan.members))]
     other = [line for line, chamber in lines_of(cylinder, plan.members) if chamber.side != cylinder.side and cylinder.side in SIDES]
     return [each for each in found if not is_among(each, other)] if other else found
+
+
+def lines_by_side(cylinder: Ram, plan: Declared) -> list[Circuit]:
+    """Return the lines of pumps that have one side each of a cylinder that works with both; none where it is fed otherwise."""
+    own = circuits_of(cylinder, plan)
+    sides = [each.as_worked(as_in(plan, cylinder), plan.members).side for each in own]
+    return own if sorted(sides) == sorted(SIDES) else []
 
 
 Feeds: TypeAlias = "Reference | Sequence[Reference]"
@@ -1519,6 +1543,10 @@ class Circuit(OnLines, HasVerdicts):
         found = (found_in(members, each, title) if is_named(each) else each for each in self.references)
         return tuple(each for each in found if isinstance(each, Ram))
 
+    def as_worked(self, cylinder: Ram, members: NamedMembers) -> Ram:
+        """Return one of its cylinders as it works by this line: of one that works with both sides, with the side that this one has."""
+        return cylinder
+
     def gauges_of(self, cylinder: Ram, plan: Plan) -> dict[str, Reading]:
         """Return its limits for one of its cylinders on a live page: the `most` pressure it may have [Pa]."""
         return {}
@@ -1562,8 +1590,8 @@ class Circuit(OnLines, HasVerdicts):
         """Return the highest pressure with which it pushes a cylinder out against a stop [Pa gauge]; None where no pump does."""
         return None
 
-    def reserve_of(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array | None:
-        """Return the greatest rod force of one of its cylinders over the needed one, shape (...); None where no pump feeds it."""
+    def use_of(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array | None:
+        """Return the needed rod force of one of its cylinders over the greatest, shape (...); None where no pump feeds it."""
         return None
 
 
@@ -1608,8 +1636,7 @@ def works_by_lines(cylinder: Ram, members: NamedMembers) -> Works | None:
         return None
     of_lines = [each for each, _ in named]
     if any(cylinder.name in map(label, each.bare) and each not in of_lines for each in circuits_among(members)):
-        left = side_left(cylinder, members)  # on a circuit that names the cylinder alone that side works
-        return None if left in [chamber.side for _, chamber in named] else left
+        return None  # a circuit that names the cylinder alone is on the side that it says to work with
     by_kind = [(line, chamber) for kind in KINDS for line, chamber in named if line.kind_in(members) == kind]
     first = by_kind[0][0].kind_in(members)
     working = [(line, chamber) for line, chamber in by_kind if line.kind_in(members) == first]

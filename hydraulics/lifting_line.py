@@ -368,9 +368,11 @@ class LiftLine(Circuit):
     def pressure_out(self, cylinder: Ram, motion: AnyMotion) -> Array | None:
         return self.relief_pressure(motion) if self._pushes_out(cylinder, motion.plan.members) else None
 
-    def reserve_of(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array | None:
-        is_held = self.kind_open(motion.plan.members) == "held"
-        return self.reserve(motion, cylinder=cylinder, acting=acting) if is_held else None
+    def use_of(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array | None:
+        if self.kind_open(motion.plan.members) != "held":
+            return None
+        work = self.work(motion, cylinder=cylinder, acting=acting)
+        return np.asarray(work.force / self.most(motion, work))[()]
 
     def unit_in(self, judge: Judge) -> str:
         """Return the unit in which its pressures are shown: that of the dimension which its pump's pressure follows, else bar."""

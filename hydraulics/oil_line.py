@@ -307,10 +307,11 @@ class OilLine(PumpLine, GasLine):
 
     def rams(self, motion: Poses) -> tuple[Ram, ...]:
         members = motion.plan.members
-        found = self.members(members)
-        if self.kind_in(members) != "held":
-            return found
-        return tuple(ram.on_side(own_side(self, ram, members)) if ram.side == "both" else ram for ram in found)
+        return tuple(self.as_worked(ram, members) for ram in self.members(members))
+
+    def as_worked(self, cylinder: Ram, members: NamedMembers) -> Ram:
+        has_one_side = cylinder.side == "both" and self.kind_in(members) == "held"
+        return cylinder.on_side(own_side(self, cylinder, members)) if has_one_side else cylinder
 
     def among(self, members: NamedMembers) -> OilLine:
         return self.renewed(kind_of_line=self.kind_in(members))
@@ -382,10 +383,17 @@ class OilLine(PumpLine, GasLine):
         for other in (each for each in circuits_among(members) if not same(each, self)):
             theirs = [(ram.name, chamber.side) for ram, chamber in other.filling(members)]
             shared = next((each for each in own if each in theirs), None)
+            first, second = (each for each in members if each in (self.name, other.name))
             if shared is not None:
-                first, second = (each for each in members if each in (self.name, other.name))
                 what = f"two pressures in {shared[0]}'s {shared[1]} side: {first} and {second} both have it"
-                raise DefinitionError(f"{title}: {what}. A chamber has one line; join the two, or take it out of one.")
+                by_itself = f"{other.name} has the side that {shared[0]} works with; take one of the two out"
+                remedy = "join the two, or take it out of one" if isinstance(other, OilLine) else by_itself
+                raise DefinitionError(f"{title}: {what}. A chamber has one line; {remedy}.")
+            beside = next((name for name, _ in theirs if name in [each for each, _ in own]), None)
+            if beside is not None and self.kind_open(members) == "held" and not isinstance(other, OilLine):
+                what = f"{first} and {second} both drive {beside}, and {type(other).__name__} knows of no pump on the other side"
+                remedy = f"give each side an OilLine, {beside}.piston_side and {beside}.rod_side"
+                raise DefinitionError(f"{title}: {what}; {remedy}.")
             mine, its = self.block, getattr(other, "block", None)
             if mine is not None and mine is its:
                 remedy = "join the lines, or give each its own, AccumulatorBlock([Accumulator(...)])"

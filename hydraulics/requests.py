@@ -39,6 +39,7 @@ from .cylinders import (
     found_in,
     in_stages,
     line_thrust,
+    lines_by_side,
     thrust_request,
 )
 from .inputs import Array, only_where, proper_share
@@ -96,6 +97,12 @@ def circuit_with(plan: Plan, ram: Ram, circuit: Circuits, word: str) -> LiftLine
     ensure(not feeding, f"{plan.title}: {ram.name} is on {len(feeding)} circuits; say circuit= one of {', '.join(feeding)}.")
     remedy = f"declare one, circuit = LiftCircuit({ram.name}, pressure=...)"
     raise DefinitionError(f"{plan.title}: {word}({ram.name}): no LiftCircuit has it, whose pump and relief count; {remedy}.")
+
+
+def cylinder_on(cylinder: str | Ram, circuit: Circuits, plan: Plan, word: str) -> Ram:
+    """Return a cylinder as it works by the circuit that is meant."""
+    ram = cylinder_in(cylinder, plan)
+    return circuit_with(plan, ram, circuit, word).as_worked(ram, plan.members)
 
 
 def circuit_request(
@@ -191,24 +198,26 @@ def pressure_request(
     def examine(plan: Plan) -> None:
         if line_in(cylinder, plan) is None and circuit:
             circuit_with(plan, cylinder_in(cylinder, plan), circuit, "pressure")
-        elif line_in(cylinder, plan) is None:
+        elif line_in(cylinder, plan) is None and not lines_by_side(cylinder_in(cylinder, plan), plan):
             circuit_having(cylinder_in(cylinder, plan), plan)
 
     def directions(plan: Plan) -> tuple[str, ...]:
-        return cylinder_in(cylinder, plan).driven if is_needed and line_in(cylinder, plan) is None else DIRECTIONS
+        return cylinder_on(cylinder, circuit, plan, "pressure").driven if is_needed and line_in(cylinder, plan) is None else DIRECTIONS
 
     def pieces(request: LawRequest, plan: Plan) -> tuple[SmoothPiece, ...]:
         if line_in(cylinder, plan) is not None:
             return (SmoothPiece(request),)
         on_side = partial(pressure_request, cylinder, request.situation, circuit, is_needed=is_needed)
         ram = cylinder_in(cylinder, plan)
-        sides = [side] if side else [DRIVING.get(request.situation.direction or "", "")] if is_needed else ram.own_sides
+        own = cylinder_on(cylinder, circuit, plan, "pressure").side if circuit and ram.side == "both" else ""
+        sides = [own] if own in SIDES else ram.own_sides
+        sides = [side] if side else [DRIVING.get(request.situation.direction or "", "")] if is_needed else sides
         plan = plan_in_case(plan, request.situation)
         members = plan.members
         if not side and not is_needed and any(is_among(ram, each.feeds(members)) for each in circuits_among(members)):
             return in_stages(cylinder, plan, SmoothPiece(request, ram.side))
-        own = circuit_having(ram, plan, False)
-        if not (side or circuit) and own is not None and own.kind_in(members) == "closed":
+        line = circuit_having(ram, plan, False)
+        if not (side or circuit) and line is not None and line.kind_in(members) == "closed":
             return in_stages(cylinder, plan, SmoothPiece(request))
         return in_stages(cylinder, plan, *(SmoothPiece(on_side(each), each, below=on_side(each, below=True)) for each in sides))
 
@@ -294,11 +303,11 @@ def reserve_request(cylinder: str | Ram, acting: Acting, circuit: Circuits = "",
         return np.asarray(sense * thrust / (k_m * most))[()]
 
     def directions(plan: Plan) -> tuple[str, ...]:
-        return cylinder_in(cylinder, plan).driven
+        return cylinder_on(cylinder, circuit, plan, "reserve").driven
 
     def pieces(request: LawRequest, plan: Plan) -> tuple[SmoothPiece, ...]:
         acting = request.situation
-        if acting.direction not in cylinder_in(cylinder, plan).driven:
+        if acting.direction not in directions(plan):
             return in_stages(cylinder, plan, SmoothPiece(request))
         inverse = circuit_request("reserve", cylinder, acting, circuit, use, after=("its inverse",))
         inverse = replace(inverse, cases_in=partial(moves_in, cylinder))

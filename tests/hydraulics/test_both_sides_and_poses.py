@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from hydraulics import Accumulator, AccumulatorBlock, Cylinder, FloatCircuit, LiftCircuit, fits
+from hydraulics import Accumulator, AccumulatorBlock, Cylinder, FloatCircuit, LiftCircuit, OilLine, Pump, fits, pressure, reserve
 from linkage import LEFT, RIGHT, Dyad, Ground, Mechanism, OnLink, Stroke, Weight, report
 from linkage.errors import DefinitionError
-from linkage.motion import least, most, reachable
+from linkage.motion import least, most, pose_sentence, reachable
 from linkage.units import bar, litre, minute, mm
 
 
@@ -69,3 +69,48 @@ def test_a_report_of_gas_beside_a_pump_tells_pin_forces_against_a_stop(tmp_path)
     report(Helped(), str(tmp_path / "helped.md"), count=3)
     text = (tmp_path / "helped.md").read_text(encoding="utf-8")
     assert "Largest pin forces at the relief pressure" in text and "not calculated" not in text
+
+
+class Hung(Mechanism):
+    """A load that a cylinder holds from above, by its annulus."""
+
+    S = Stroke(0.0, 0.3)
+    O, A = Ground(0.0, 1.0), Ground(0.1, 1.8)
+    B = Dyad(A, O, AB=0.6 + S, OB=0.5, side=LEFT)
+    G = OnLink(O, B, OG=1.0)
+    load = Weight(G, mass=2000)
+    ram = Cylinder(A, B, bore=63 * mm, rod=36 * mm, works="both")
+    supply = Pump(160 * bar, flow=40 * litre / minute)
+
+
+class OnTwoLines(Hung):
+    out, back = OilLine("ram.piston_side", "supply"), OilLine("ram.rod_side", "supply")
+
+
+class OnOneCircuit(Hung):
+    back = LiftCircuit("ram", "supply")
+
+
+def test_a_line_for_each_side_works_one_way_at_every_door():
+    two, one = OnTwoLines(), OnOneCircuit()
+    poses = [each.at(S=0.3) for each in (two, one)]
+    assert np.isnan(OnTwoLines.out.reserve(poses[0])) and np.isnan(poses[0][reserve("ram", circuit="out")])
+    asked = [least(reserve("ram", circuit="out")), most(pressure("ram", circuit="out")), least(reserve("ram", circuit="back"))]
+    idle, none, low = two.answers(asked)
+    assert np.isnan(idle.value) and none.value == 0.0
+    found = one.answers([least(reserve("ram")), most(pressure("ram"))])
+    assert low.value == pytest.approx(found[0].value, rel=1e-12)
+    assert two.answers([most(pressure("ram"))])[0].value == pytest.approx(found[1].value, rel=1e-12)
+    sentence = pose_sentence(poses[0])
+    assert "out" not in sentence and sentence.replace(" back", "") == pose_sentence(poses[1])
+    told = {each.rule: each for each in two.verdicts()}
+    assert told["lifting out"].ok is None and told["lifting back"].ok is False
+
+
+def test_a_table_has_the_pressure_and_the_reserve_of_a_cylinder_with_a_line_for_each_side():
+    columns = [machine.ram.columns(machine().sweep(5)) for machine in (OnTwoLines, OnOneCircuit)]
+    assert [each.name for each in columns[0]] == ["thrust", "pressure", "reserve"]
+    for two, one in zip(*columns, strict=True):
+        assert two.values == pytest.approx(one.values, rel=1e-14)
+    gauges = OnTwoLines.ram.gauges(OnTwoLines().plan)
+    assert OnTwoLines().sweep(5)[gauges["most"]] == pytest.approx(np.full(5, 160 * bar))

@@ -1,5 +1,7 @@
 """Oil lines: published and hand-worked pressures, and what one line shares."""
 
+from itertools import product
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -330,3 +332,22 @@ def test_what_several_laws_read_of_a_closed_line_is_traced_once_and_counts_for_e
             assert_allclose(together[name][0], values, rtol=1e-14)
             assert together[name][1] == rests
     assert 0 < counted.count("TracedMotion") <= 2 * 3  # the twin that knows laws apart, the program, and what is read here; not by cylinder
+
+
+def test_a_circuit_and_a_line_never_share_a_chamber_nor_drive_a_cylinder_by_two_pumps():
+    pumps = {"lift": LiftCircuit("ram", pressure=200 * bar), "shared": LiftCircuit("ram", Pump(200 * bar))}
+    singles = pumps | {"gas": FloatCircuit("ram", vessel(), charge_pressure=90 * bar)}
+    put = {"pump": Pump(160 * bar), "tank": Tank(5 * bar), "nothing": None}
+    for works, single, (what, on), order in product((None, "piston", "rod"), singles, put.items(), (1, -1)):
+        ram = Cylinder("O", "P", bore=80 * mm, rod=50 * mm, works=works)
+        own, other = ("rod", "piston") if works == "rod" else ("piston", "rod")
+        for side in (own, other):
+            line = OilLine(f"ram.{side}_side", *([] if on is None else [on]))
+            members = {"ram": ram} | dict([("one", singles[single]), ("two", line)][::order])
+            structure = ("Doubled", (Press,), {"line": None, "supply": None} | members)
+            if side == own or what == "pump":
+                match = "two pressures in ram's .* side: .*the side that ram works with" if side == own else "both drive ram"
+                with pytest.raises(DefinitionError, match=match):
+                    type(*structure)
+            elif what == "tank":
+                assert type(*structure)().plan.members["ram"].side == own

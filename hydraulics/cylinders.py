@@ -499,7 +499,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         return np.where(along > 0.0, found, least) + 0.0 * thrust
 
     def columns(self, motion: Motion) -> list[Column]:
-        """Return its thrust without friction, its pressure and its reserve, for the table; not the last two where circuits differ in them."""
+        """Return its thrust without friction and, unless circuits differ in them, its pressure and its reserve, for the table."""
         return self.columns_in(motion)
 
     def columns_in(self, motion: Motion, case: Case = None, direction: str | None = None) -> list[Column]:

@@ -510,11 +510,14 @@ class LiftingCylinder:
             for each, side in zip(found, words, strict=True)
             if each.value > TO_ROUNDING * limit
         ]
-        stands = ", ".join(parts) or said("neither side holds pressure")
+        worst = max(found, key=lambda each: each.value)
+        if not parts:
+            none = said("the {side} holds no pressure", side=words[0]) if len(order) == 1 else said("neither side holds pressure")
+            return Verdict("holding", True, said("with the pump off, {stands}.", stands=none), answer=worst)
+        stands = ", ".join(parts)
         given, pump = self.show(limit), not circuit.relieves(self.judge.plan)
         valve = said("the relief valve's {limit}", limit=given)
-        valve = said("the pump's {limit}, since no relief valve is declared", limit=given) if pump else valve
-        worst = max(found, key=lambda each: each.value)
+        valve = said("the pump's {limit}, since no relief valve is on this line", limit=given) if pump else valve
         if all(each.ok for each in found):
             text = said("with the pump off, {stands}: not above {valve}.", stands=stands, valve=valve)
             return Verdict("holding", True, text, answer=worst)

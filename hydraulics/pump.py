@@ -15,22 +15,22 @@ import numpy as np
 from linkage.checks import require_type
 from linkage.errors import one_word, unknown
 from linkage.frozen import immutable
-from linkage.language import noted
+from linkage.language import noted, said
 from linkage.loads import Acting, Parameter
 from linkage.mechanism import Mechanism
 from linkage.motion import HasVerdicts, Judge, Motion
-from linkage.quantities import NamedMembers, Reference, is_member_or_name, name_of
-from linkage.verdict import Verdict
+from linkage.quantities import NamedMembers, Reference, is_member_or_name, name_of, needs, of_kind
+from linkage.verdict import Remark, Verdict
 
 from .consumers import lines_on
 from .cycle import PumpCycle, checked, pump_sections, pump_verdicts
-from .cylinders import OnLines
+from .cylinders import OnLines, Ram, circuits_among
 from .inputs import check_pressures, follows
 from .sharing import SHARINGS
 from .working import Demand, PumpMotion, worked
 
 
-class Supply(OnLines):
+class Supply(OnLines, HasVerdicts):
     """The base of supplies on an oil line: a pressure, gauge [Pa], and further numbers of a pump."""
 
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"pressure": "bar"})
@@ -42,9 +42,28 @@ class Supply(OnLines):
         super().__post_init__()
         check_pressures(self, self.called, () if isinstance(self, Tank) else ("pressure",))
 
+    def verdicts(self, judge: Judge) -> list[Verdict]:
+        """Return the remark that no line has it, where that is so.
+
+        Parameters
+        ----------
+        judge : Judge
+            The judge of the machine over its domains.
+
+        Returns
+        -------
+        list of Verdict
+            The verdicts.
+        """
+        members = judge.plan.members
+        if any(self.name in needs(line) for line in circuits_among(members)):
+            return []
+        says = {"name": self.name, "ram": next(iter(of_kind(members, Ram)), "lift")}
+        return [Remark(said("{name} is on no line and does nothing; put it on one: OilLine({ram}.piston_side, {name}).", **says))]
+
 
 @immutable
-class Pump(Supply, HasVerdicts):
+class Pump(Supply):
     """A pump: `supply = Pump(180 * bar, flow=60 * litre / minute)`; it holds a line, whose pressure follows the pose.
 
     It may be on several lines, `OilLine(ram.piston_side, supply)`, `LiftCircuit(ram, supply)`, which then share it. It gives the highest
@@ -112,7 +131,7 @@ class Pump(Supply, HasVerdicts):
         super().examine(members, title)
 
     def verdicts(self, judge: Judge) -> list[Verdict]:
-        """Return whether it meets the demands of its lines, over the paths in time that a judge looks at, where it has several lines.
+        """Return whether it meets the demands of its lines over the paths in time, where it has several lines; and that it has none.
 
         Parameters
         ----------
@@ -124,7 +143,7 @@ class Pump(Supply, HasVerdicts):
         list of Verdict
             The verdicts.
         """
-        return pump_verdicts(self, judge)
+        return [*super().verdicts(judge), *pump_verdicts(self, judge)]
 
     def sections(self, judge: Judge) -> list[Any]:
         """Return the section of a report on the demands of its lines over the paths in time, and on its energy.

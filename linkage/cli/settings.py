@@ -120,13 +120,13 @@ POSES = 21
 def judged_code(verdicts: Sequence[Verdict], options: Namespace) -> int:
     """Return the exit code of a judgement: with `--check` 1 where a verdict fails.
 
-    Rules that say nothing do not fail; how many there are is said.
+    Rules that say nothing do not fail; they are named, with the reason.
     """
     if not options.check:
         return 0
-    silent = sum(each.is_rule and each.ok is None for each in verdicts)
+    silent = [f"{each.heading}: {each.sentence}" for each in verdicts if each.is_rule and each.ok is None]
     if silent:
-        say_remark(said_of(silent, "{n} rule says nothing: nothing is left to judge.", "{n} rules say nothing: nothing is left to judge."))
+        say_remark(said_of(len(silent), "{n} rule says nothing. {rules}", "{n} rules say nothing. {rules}", rules=" ".join(silent)))
     return FAILED if any(each.ok is False for each in verdicts) else 0
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar
 
@@ -340,7 +340,7 @@ def transmission_remarks(judge: Judge) -> list[Remark]:
 
 
 def member_verdicts(judge: Judge, fault: str = "") -> list[Verdict]:
-    """Return the verdicts of members that judge themselves; with their names where several follow the same rule.
+    """Return the verdicts of members that judge themselves; with their names where they share a rule with others.
 
     Those that ask for forces where these are refused for a `fault` say nothing.
     """
@@ -351,8 +351,15 @@ def member_verdicts(judge: Judge, fault: str = "") -> list[Verdict]:
         except DefinitionError:
             if not fault:
                 raise
-    count = Counter(rule for _, rule in {(name, verdict.rule) for name, verdict in found})
-    return [(verdict if count[verdict.rule] == 1 else verdict.named(name)).said_by(name) for name, verdict in found]
+    named = told_apart((name, verdict.rule) for name, verdict in found if verdict.is_rule)
+    return [(verdict.named(name) if name in named else verdict).said_by(name) for name, verdict in found]
+
+
+def told_apart(rules: Iterable[tuple[str, str]]) -> frozenset[str]:
+    """Return the members whose rules bear their names, of some that each follow a rule: those that share one with another member."""
+    followed = set(rules)
+    count = Counter(rule for _, rule in followed)
+    return frozenset(name for name, rule in followed if count[rule] > 1)
 
 
 def batch_verdicts(judge: Judge, fault: str = "") -> list[Verdict]:
@@ -541,9 +548,9 @@ def answers_at(judge: Judge) -> tuple[dict[str, Answer], list[str]]:
                 asked += [(name, rule, condition) for rule, condition in member.conditions(judge).items()]
             except LinkageError:
                 continue
-        count, found, unknown = Counter(rule for _, rule, _ in asked), dict[str, Answer](), list[str]()
+        named, found, unknown = told_apart((name, rule) for name, rule, _ in asked), dict[str, Answer](), list[str]()
         for name, rule, condition in asked:
-            heading = heading_of(rule if count[rule] == 1 else f"{rule} {name}")
+            heading = heading_of(f"{rule} {name}" if name in named else rule)
             try:
                 measures = measures_of(judge.plan, conditions_of([condition], None)[0])
                 found[heading] = replace(judge.answer(condition), measures=measures)

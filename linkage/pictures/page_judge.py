@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Hashable, Mapping, Sequence
 from contextlib import suppress
 from functools import cached_property, reduce
@@ -17,7 +16,7 @@ from ..mechanism import Mechanism
 from ..motion import Column, Condition, HasVerdicts, Instants, LiveText, PageWords, Request, RequestLike, least, most, speakers
 from ..motion.judge import Domain, Judge, SearchRow, leaf_key, measures_of
 from ..motion.measures import At, CombinedMeasure, Constraint, FixedNumber, Integral, Leaf, Measure, conditions_of, dimension_value
-from ..motion.motion_verdicts import NEAR, verdict_questions
+from ..motion.motion_verdicts import NEAR, told_apart, verdict_questions
 from ..motion.over import ALLOWED
 from ..motion.requests import NodeRequest, bound, is_of_force
 from ..plan import Plan
@@ -84,7 +83,7 @@ class LiveQuestions:
     def rules(self) -> dict[str, tuple[str, Condition, PageWords]]:
         """Return the rules of the machine's members that are plain conditions, with the member and how it is said.
 
-        A rule has the member's name where several have the same one.
+        A rule has the member's name where that shares one with another.
         """
         found = []
         for name, member in speakers(self.machine.plan, HasVerdicts).items():
@@ -93,8 +92,8 @@ class LiveQuestions:
             except LinkageError:
                 continue
             found += [(name, rule, one, words.get(rule, PLAIN_WORDS)) for rule, one in conditions.items()]
-        count = Counter(rule for _, rule, _, _ in found)
-        return {rule if count[rule] == 1 else f"{rule} {name}": (name, one, words) for name, rule, one, words in found}
+        named = told_apart((name, rule) for name, rule, _, _ in found)
+        return {f"{rule} {name}" if name in named else rule: (name, one, words) for name, rule, one, words in found}
 
     def ask(self, rule: str, member: str, condition: Condition, words: PageWords = PLAIN_WORDS) -> None:
         """Note a question and its pieces; nothing where it cannot be split, or plain words where these cannot."""

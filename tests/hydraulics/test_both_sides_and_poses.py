@@ -3,10 +3,24 @@
 import numpy as np
 import pytest
 
-from hydraulics import Accumulator, AccumulatorBlock, Cylinder, FloatCircuit, LiftCircuit, OilLine, Pump, fits, pressure, reserve
+from hydraulics import (
+    Accumulator,
+    AccumulatorBlock,
+    Cylinder,
+    FloatCircuit,
+    LiftCircuit,
+    OilLine,
+    Pump,
+    Relief,
+    Tank,
+    fits,
+    pressure,
+    reserve,
+)
 from linkage import LEFT, RIGHT, Dyad, Ground, Mechanism, OnLink, Stroke, Weight, report
 from linkage.errors import DefinitionError
 from linkage.motion import least, most, pose_sentence, reachable
+from linkage.motion.motion_verdicts import told_apart
 from linkage.units import bar, litre, minute, mm
 
 
@@ -105,6 +119,7 @@ def test_a_line_for_each_side_works_one_way_at_every_door():
     assert "out" not in sentence and sentence.replace(" back", "") == pose_sentence(poses[1])
     told = {each.rule: each for each in two.verdicts()}
     assert told["lifting out"].ok is None and told["lifting back"].ok is False
+    assert told["holding out"].sentence == "with the pump off, the piston side holds no pressure."
 
 
 def test_a_table_has_the_pressure_and_the_reserve_of_a_cylinder_with_a_line_for_each_side():
@@ -114,3 +129,19 @@ def test_a_table_has_the_pressure_and_the_reserve_of_a_cylinder_with_a_line_for_
         assert two.values == pytest.approx(one.values, rel=1e-14)
     gauges = OnTwoLines.ram.gauges(OnTwoLines().plan)
     assert OnTwoLines().sweep(5)[gauges["most"]] == pytest.approx(np.full(5, 160 * bar))
+
+
+def test_a_pump_a_valve_or_a_tank_on_no_line_is_remarked():
+    class Spare(OnTwoLines):
+        valve, spare, tank, other = Relief(200 * bar), Pump(180 * bar), Tank(), Relief(150 * bar)
+        out = OilLine("ram.piston_side", "supply", "other")
+
+    judge, members = Spare().judge(), Spare().plan.members
+    told = {name: members[name].verdicts(judge) for name in ("valve", "spare", "tank", "other", "supply")}
+    assert [name for name, found in told.items() if found] == ["valve", "spare", "tank"]
+    assert told["valve"][0] == "valve is on no line and does nothing; put it on one: OilLine(ram.piston_side, valve)."
+
+
+def test_who_shares_one_rule_is_named_in_all_of_its_rules():
+    rules = [("lifts", "lifting"), ("lifts", "lowering"), ("out", "lifting"), ("valve", "setting"), ("valve", "setting")]
+    assert told_apart(rules) == {"lifts", "out"}

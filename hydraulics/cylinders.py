@@ -1247,7 +1247,7 @@ def most_of_side(cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array:
     first, second = lines_by_side(cylinder, motion.plan)
     limits = [line.gauges_of(cylinder, motion.plan)["most"](motion) for line in (first, second)]
     holds = first.pressure_in(cylinder, motion, acting) >= second.pressure_in(cylinder, motion, acting)
-    return np.where(holds, *limits)
+    return np.where(holds, limits[0], limits[1])
 
 
 def circuit_having(cylinder: Ram, plan: Declared, is_needed: bool = True) -> Circuit | None:

@@ -5,7 +5,7 @@ Each is the cylinder's or the circuit's own method, read pose by pose: `motion[p
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Mapping
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial, reduce
 from operator import add
@@ -210,7 +210,7 @@ def pressure_request(
         on_side = partial(pressure_request, cylinder, request.situation, circuit, is_needed=is_needed)
         ram = cylinder_in(cylinder, plan)
         own = cylinder_on(cylinder, circuit, plan, "pressure").side if circuit and ram.side == "both" else ""
-        sides = [own] if own in SIDES else ram.own_sides
+        sides: Sequence[str] = [own] if own in SIDES else ram.own_sides
         sides = [side] if side else [DRIVING.get(request.situation.direction or "", "")] if is_needed else sides
         plan = plan_in_case(plan, request.situation)
         members = plan.members

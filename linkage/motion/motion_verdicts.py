@@ -60,6 +60,8 @@ class HasVerdicts(Member):
 
     headed: ClassVar[str] = "{name}"
     """What a page calls it above its verdicts, in English as the catalogues have it."""
+    for_machine: ClassVar[frozenset[str]] = frozenset()
+    """Those of its rules that it says for the whole machine."""
 
     def questions(self, judge: Judge) -> list[Question]:
         """Return the questions of its verdicts, so that one pass over the machine answers those of all members.
@@ -351,15 +353,17 @@ def member_verdicts(judge: Judge, fault: str = "") -> list[Verdict]:
         except DefinitionError:
             if not fault:
                 raise
-    named = told_apart((name, verdict.rule) for name, verdict in found if verdict.is_rule)
-    return [(verdict.named(name) if name in named else verdict).said_by(name) for name, verdict in found]
+    named = told_apart(((name, verdict.rule) for name, verdict in found if verdict.is_rule), members)
+    return [(verdict.named(name) if (name, verdict.rule) in named else verdict).said_by(name) for name, verdict in found]
 
 
-def told_apart(rules: Iterable[tuple[str, str]]) -> frozenset[str]:
-    """Return the members whose rules bear their names, of some that each follow a rule: those that share one with another member."""
+def told_apart(rules: Iterable[tuple[str, str]], members: Mapping[str, HasVerdicts]) -> set[tuple[str, str]]:
+    """Return those of the rules of members that bear their names: who shares a rule with another is named in all that are its own."""
     followed = set(rules)
     count = Counter(rule for _, rule in followed)
-    return frozenset(name for name, rule in followed if count[rule] > 1)
+    sharing = {name for name, rule in followed if count[rule] > 1}
+    own = {(name, rule) for name, rule in followed if name in sharing and rule not in members[name].for_machine}
+    return own | {(name, rule) for name, rule in followed if count[rule] > 1}
 
 
 def batch_verdicts(judge: Judge, fault: str = "") -> list[Verdict]:
@@ -548,9 +552,10 @@ def answers_at(judge: Judge) -> tuple[dict[str, Answer], list[str]]:
                 asked += [(name, rule, condition) for rule, condition in member.conditions(judge).items()]
             except LinkageError:
                 continue
-        named, found, unknown = told_apart((name, rule) for name, rule, _ in asked), dict[str, Answer](), list[str]()
+        named = told_apart(((name, rule) for name, rule, _ in asked), speakers(judge.plan, HasVerdicts))
+        found, unknown = dict[str, Answer](), list[str]()
         for name, rule, condition in asked:
-            heading = heading_of(f"{rule} {name}" if name in named else rule)
+            heading = heading_of(f"{rule} {name}" if (name, rule) in named else rule)
             try:
                 measures = measures_of(judge.plan, conditions_of([condition], None)[0])
                 found[heading] = replace(judge.answer(condition), measures=measures)

@@ -92,8 +92,8 @@ class LiveQuestions:
             except LinkageError:
                 continue
             found += [(name, rule, one, words.get(rule, PLAIN_WORDS)) for rule, one in conditions.items()]
-        named = told_apart((name, rule) for name, rule, _, _ in found)
-        return {f"{rule} {name}" if name in named else rule: (name, one, words) for name, rule, one, words in found}
+        named = told_apart(((name, rule) for name, rule, _, _ in found), speakers(self.machine.plan, HasVerdicts))
+        return {f"{rule} {name}" if (name, rule) in named else rule: (name, one, words) for name, rule, one, words in found}
 
     def ask(self, rule: str, member: str, condition: Condition, words: PageWords = PLAIN_WORDS) -> None:
         """Note a question and its pieces; nothing where it cannot be split, or plain words where these cannot."""

@@ -184,7 +184,7 @@ class ChargedLine(Axle):
 
 
 class Pumped(Press):
-    line = LiftCircuit("ram", pressure=200 * bar, flow=100 * litre / minute, mechanical_efficiency=0.9)
+    supply, line = None, LiftCircuit("ram", pressure=200 * bar, flow=100 * litre / minute, mechanical_efficiency=0.9)
 
 
 class PumpedLine(Press):

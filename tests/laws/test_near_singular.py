@@ -20,12 +20,14 @@ from linkage import (
     SingularWarning,
     Stroke,
     Weight,
+    least,
     mm,
     pin_forces,
     ratio,
     x,
     y,
 )
+from mechanisms.crane import ChainCrane
 from tests.for_all import first_daily, for_all
 
 from .exactly import exactly, off, off_by_parts, pins_exactly
@@ -256,3 +258,14 @@ def test_a_cylinder_next_to_its_dead_point_is_right_told_or_refused():
             else:
                 assert found == pytest.approx(held_by(phi), rel=max([1e-10, *warned])), away
     assert count >= 6
+
+
+def test_loads_that_cancel_are_zero_at_every_door_however_short_a_direction_is():
+    crane = ChainCrane()  # its arm is folded: nothing pushes; T lies along YK, which is 45 mm long here
+    place = {"phi": crane["phi_0"], "psi": crane["phi_0"], "t": 2.52}
+    asked = thrust("fold", case="lifting")
+    with pytest.warns(SingularWarning, match="T takes a direction between points"):
+        (bulk,) = crane.evaluate([asked], **{name: np.full(3, value) for name, value in place.items()}, unreachable="nan")
+    with warnings.catch_warnings(action="ignore"):
+        assert_allclose(bulk, crane.at(**place)[asked], atol=1e-9)
+    assert not crane.answers([least(thrust("fold"))])[0].lost.share

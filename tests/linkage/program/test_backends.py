@@ -15,6 +15,7 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
 from linkage import LEFT, Crank, DefinitionError, Dyad, Ground, LinkageError, Mechanism, Stroke
+from linkage.plan.trace import NEAR
 from linkage.program import LANGUAGES, Graph, Kernel, Level, RunOptions, interpret, jacobian, solve_arrays
 from linkage.program import kernel as kernel_module
 from linkage.program.cache import CompiledFile, compiled
@@ -51,10 +52,11 @@ def given(machine, poses, beyond=0.3, seed=3):
 
 
 def firm(machine, inputs):
-    """Return the poses where no loop stands near a dead point, and rounding is not magnified."""
+    """Return the poses where no loop stands near a dead point, no direction near nothing, and rounding is not magnified."""
     with np.errstate(all="ignore"):
         sines = [np.ravel(sine) for sine in machine.plan.read(inputs).sines.values()]
-    return ~(abs(math.prod(sines, start=np.ones(1))) < 0.05)
+    nearness = Kernel([machine.plan.trace.nearness(machine.plan.members)])(inputs).values[0, 0]
+    return ~(abs(math.prod(sines, start=np.ones(1))) < 0.05) & ~(nearness < NEAR**2)
 
 
 def agree(found, wanted, firm=True):

@@ -124,7 +124,7 @@ def run_blocks(subject: ReportSubject, run: Run) -> Iterator[Block]:
     if text:
         yield f"{words[:1].upper()}{words[1:]}: {text[:1].lower()}{text[1:]}" if words else text
     if run.worst:
-        yield said("{strokes} are held where {column} is at its worst.", strokes=", ".join(run.held), column=heading_of(run.worst))
+        yield said("Held where {column} is at its worst: {strokes}.", strokes=", ".join(run.held), column=heading_of(run.worst))
 
 
 def curve_blocks(

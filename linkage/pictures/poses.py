@@ -37,6 +37,8 @@ from .symbols import arrow_between
 MANY = 1_000_000
 """Poses of a path: more do not fit into a picture."""
 
+ON_PATH = 6
+"""So many covered points a place of a path counts for, where the values of forces and velocities are placed."""
 FILLED = 1.0 / 3.0
 """The sheet holds the whole travel where what is drawn fills so much of its width and height; else it holds what is drawn."""
 
@@ -132,7 +134,8 @@ def draw_strokes(machine: Mechanism, at: object, path: Sequence[str], count: int
     if overlays.forces is not None and overlays.is_free_body(whole):
         return draw_free_body(shown, last, overlays.forces)
     paths = np.concatenate([np.empty((0, 2)), *(whole.places[name].T for name in path)])
-    drawn = grown(Scene(shown, swept).box(), paths[np.isfinite(paths).all(axis=1)], 3.0 * whole.size)
+    paths = paths[np.isfinite(paths).all(axis=1)]
+    drawn = grown(Scene(shown, swept).box(), paths, 3.0 * whole.size)
     (left, right, bottom, top), (x0, x1, y0, y1) = drawn, whole.box()
     is_filled = min((right - left) / (x1 - x0), (top - bottom) / (y1 - y0)) >= FILLED
     box = whole.box() if is_filled else drawn
@@ -148,7 +151,7 @@ def draw_strokes(machine: Mechanism, at: object, path: Sequence[str], count: int
         poses = Scene(shown)
         faint = [cloud(whole, poses.at(pose))[::3] for pose in poses.reached[:-1]]
         at = poses.at(last)
-        laid.draw(ax, whole.size, np.concatenate([*label_free(whole, [at]), surrounding_points(whole, at), *faint]))
+        laid.draw(ax, whole.size, np.concatenate([*label_free(whole, [at]), surrounding_points(whole, at), *faint, *[paths] * ON_PATH]))
         footnote(figure, laid.sense)
     write_heading(figure, ax, shown, moving)
     lost = int(np.count_nonzero(~swept.reached))

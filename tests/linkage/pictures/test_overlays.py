@@ -255,6 +255,13 @@ def test_forces_over_the_bold_pose_of_several():
     figure = draw(machine, at=[0.0, 0.1], forces=True, path=["G"])
     tail, _ = arrows(figure, "load load")["load load on FKG"]
     assert_allclose(tail, machine.at(S=0.1)["G"], atol=1e-12)
+    renderer, (ax,) = FigureCanvasAgg(figure).get_renderer(), figure.axes
+    path = ax.transData.transform(machine.sweep(301)["G"].T)
+    values = [text for text in ax.texts if text.get_text().endswith(("kN", "load"))]
+    assert len(values) > 3
+    for text in values:
+        (left, bottom), (right, top) = text.get_window_extent(renderer).get_points()
+        assert not ((path > (left, bottom)) & (path < (right, top))).all(axis=1).any(), text.get_text()
 
 
 def test_no_load_is_said():

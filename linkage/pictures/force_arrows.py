@@ -239,7 +239,7 @@ def centre_beside(plan: Plan, element: str) -> tuple[str, str, tuple[float, floa
     """Return where the centre of a body's own mass lies beside its points: from the first of two towards the second, and to the left."""
     found = plan.of_kind(ForceElement).get(element)
     glyphs = found.glyphs(plan.members) if found is not None else ()
-    return next(((*glyph.points[:2], glyph.away) for glyph in glyphs if glyph.away is not None), None)
+    return next(((glyph.points[0], glyph.points[1], glyph.away) for glyph in glyphs if glyph.away is not None), None)
 
 
 def drawn_body(found: PinForces, name: str) -> str:

@@ -96,7 +96,7 @@ def force_arrows(machine: Mechanism, motion: Motion, situations: Sequence[PageSi
             bound(plan, joint_part(joint, forces, "x")).nodes(kept)
     except UntracedError:  # which parts pull is found pose by pose: the loads alone are drawn
         told = []
-    found = [(each.point, joint_part(each, forces, "x"), joint_part(each, forces, "y"), False, None) for each in told]
+    found: list[PageArrow] = [(each.point, joint_part(each, forces, "x"), joint_part(each, forces, "y"), False, None) for each in told]
     asked: dict[tuple[str, object], tuple[str, Centre]] = {}
     if loads:
         asked = {("ground", k): (each.point, None) for k, each in enumerate(ground_loads(poses, PLAIN))}

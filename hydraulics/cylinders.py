@@ -1340,6 +1340,7 @@ class Circuit(OnLines, HasVerdicts):
 
     argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"cylinder": "load"})
     headed: ClassVar[str] = noted("Line {name}")
+    named_in_all: ClassVar[bool] = True
     _is_shut: ClassVar[bool] = False
     """Whether a load case shuts it; told by the case."""
 

@@ -60,8 +60,8 @@ class HasVerdicts(Member):
 
     headed: ClassVar[str] = "{name}"
     """What a page calls it above its verdicts, in English as the catalogues have it."""
-    for_machine: ClassVar[frozenset[str]] = frozenset()
-    """Those of its rules that it says for the whole machine."""
+    named_in_all: ClassVar[bool] = False
+    """Whether all its rules bear its name where one does."""
 
     def questions(self, judge: Judge) -> list[Question]:
         """Return the questions of its verdicts, so that one pass over the machine answers those of all members.
@@ -358,11 +358,11 @@ def member_verdicts(judge: Judge, fault: str = "") -> list[Verdict]:
 
 
 def told_apart(rules: Iterable[tuple[str, str]], members: Mapping[str, HasVerdicts]) -> set[tuple[str, str]]:
-    """Return those of the rules of members that bear their names: who shares a rule with another is named in all that are its own."""
+    """Return those of the rules of members that bear their names: those that several follow, and all of who is named in all."""
     followed = set(rules)
     count = Counter(rule for _, rule in followed)
     sharing = {name for name, rule in followed if count[rule] > 1}
-    own = {(name, rule) for name, rule in followed if name in sharing and rule not in members[name].for_machine}
+    own = {(name, rule) for name, rule in followed if name in sharing and members[name].named_in_all}
     return own | {(name, rule) for name, rule in followed if count[rule] > 1}
 
 

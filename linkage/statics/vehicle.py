@@ -465,7 +465,6 @@ class AxleLoad(Tabled, HasVerdicts):
     section = noted("Vehicle")
     caption = noted("Axle loads, over all that the machine runs")
     headed = noted("Axle {name}")
-    for_machine = frozenset({"slipping"})
 
     @classmethod
     def of(cls, support: Support, plan: Plan) -> AxleLoad | None:

@@ -87,8 +87,8 @@ def test_answers_and_curves_have_their_units_and_instants():
 
 
 def test_seals_that_are_too_slow_are_told_over_paths_in_time_alone():
-    def told(machine, rule="speed", **over):
-        return {verdict.rule: (verdict.ok, str(verdict)) for verdict in machine.verdicts(**over)}.get(rule)
+    def told(machine, **over):
+        return {verdict.rule: (verdict.ok, str(verdict)) for verdict in machine.verdicts(**over)}.get("speed")
 
     ok, text = told(Arm())
     assert not ok and "lift moves with 150 mm/s" in text and "its seals allow 100 mm/s" in text
@@ -103,7 +103,7 @@ def test_seals_that_are_too_slow_are_told_over_paths_in_time_alone():
         fold = Cylinder(E, L, bore=0.05, rod=0.028, max_speed=0.1)
         go = Over.path(S=UP, U=0.1)
 
-    assert told(Folded(), "speed fold") == (True, "ok   speed fold: fold stands still over the paths in time.")
+    assert told(Folded()) == (True, "ok   speed: fold stands still over the paths in time.")
 
 
 def test_a_pump_that_is_too_small_is_told_over_paths_in_time_alone():

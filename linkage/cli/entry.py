@@ -84,7 +84,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             warnings.showwarning = say_warning
             return execute(list(sys.argv[1:] if argv is None else argv))
     except (LinkageError, BrokenPipeError) as error:
-        if isinstance(error, BrokenPipeError) or isinstance(error.__cause__, BrokenPipeError):
+        if any(isinstance(each, BrokenPipeError) for each in (error, error.__cause__)):
             close_stdout()
             return PIPE_CLOSED
         return fail(*(str(error).splitlines() if isinstance(error, FileError) else [str(error)]))

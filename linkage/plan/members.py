@@ -161,7 +161,7 @@ class Members:
 
     def _check_kinds(self, name: str, member: Member) -> None:
         """Raise DefinitionError where a point, a vector, a quantity or an amount is given for another kind, as in `20 * mm + phi`."""
-        if isinstance(member, Stroke) and (isinstance(member.start, Amount) or isinstance(member.end, Amount)):
+        if isinstance(member, Stroke) and any(isinstance(end, Amount) for end in (member.start, member.end)):
             require_measure((member.start, member.end), self.known_stroke_kind(name), f"{self.title}: {name}")
         for each, value in member.strokes.items() if isinstance(member, Drawn) else ():
             if each in self.strokes and isinstance(value, Amount):

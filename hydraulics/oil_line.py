@@ -310,6 +310,20 @@ class OilLine(PumpLine, GasLine):
         return tuple(self.as_worked(ram, members) for ram in self.members(members))
 
     def as_worked(self, cylinder: Ram, members: NamedMembers) -> Ram:
+        """Return a cylinder as this line works it: where it is held by a line on each side, on this line's own side alone.
+
+        Parameters
+        ----------
+        cylinder : Ram
+            One of the line's cylinders.
+        members : mapping
+            The machine's members by name.
+
+        Returns
+        -------
+        Ram
+            The same cylinder, or one that works on the line's side.
+        """
         has_one_side = cylinder.side == "both" and self.kind_in(members) == "held"
         return cylinder.on_side(own_side(self, cylinder, members)) if has_one_side else cylinder
 

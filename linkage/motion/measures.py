@@ -773,7 +773,7 @@ def is_faint(limit: object) -> bool:
 
 
 def bar_hint(limit: object) -> str:
-    """Return what is said of such a limit."""
+    """Return the words for a pressure limit that is next to nothing: bar were meant."""
     return f"{limit} Pa is next to nothing; write {limit} * bar if these are bar."
 
 

@@ -13,13 +13,13 @@ from ..errors import AssemblyError, SingularError, ensure, unknown, unwarned
 from ..language import noted, said, translated
 from ..loads import Case, ForceElement, LoadCase, Loads
 from ..motion import Motion
-from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import joined_names
 from ..reports import case_along, in_case_words
 from ..statics import JointForce, PinForces, pin_forces
 from ..units import current_system, shown_in
 from .arrows import NOTHING_THERE, ArrowLayer, TurningArrow, VectorArrow
+from .scene import centre_beside
 from .shapes import left_of
 from .strokes import pose_words
 from .style import part_of_points
@@ -233,13 +233,6 @@ def mass_centre(forces: ForcesAt, element: str) -> FloatArray | None:
     (P, Q), away = (forces.place(name) for name in found[:2]), found[2]
     along = (Q - P) / np.hypot(*(Q - P))
     return np.asarray(P + away[0] * along + away[1] * left_of(along))
-
-
-def centre_beside(plan: Plan, element: str) -> tuple[str, str, tuple[float, float]] | None:
-    """Return where the centre of a body's own mass lies beside its points: from the first of two towards the second, and to the left."""
-    found = plan.of_kind(ForceElement).get(element)
-    glyphs = found.glyphs(plan.members) if found is not None else ()
-    return next(((glyph.points[0], glyph.points[1], glyph.away) for glyph in glyphs if glyph.away is not None), None)
 
 
 def drawn_body(found: PinForces, name: str) -> str:

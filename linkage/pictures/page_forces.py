@@ -17,7 +17,7 @@ from ..motion.requests import bound
 from ..program import FloatArray
 from ..reports import Run, at_its_rates, case_shown, request_in_case
 from ..statics import AnyMotion, JointForce, LawRequest, TracedMotion, applied_loads, ground_loads, pin_force, pin_forces, rates_in
-from .force_arrows import centre_beside
+from .scene import centre_beside
 
 AnyRequest = TypeVar("AnyRequest")
 Centre: TypeAlias = tuple[str, str, tuple[float, float]] | None

@@ -17,7 +17,7 @@ from ..checks import require
 from ..errors import DefinitionError, ensure
 from ..loads import ForceElement, Glyph, Halves, TwoPoint
 from ..motion import Motion, Over, require_motion
-from ..plan import WIDE, member_sides
+from ..plan import WIDE, Plan, member_sides
 from ..program import FloatArray
 from ..quantities import Quantity, Where, is_whole, joined_names, needs
 from ..steps import Arrow, Guide, Point
@@ -739,3 +739,10 @@ def united(bodies: list[tuple[str, ...]]) -> Iterator[tuple[tuple[str, ...], ...
         pins = sharing[one, other], sharing[one, third], sharing[other, third]
         if all(pins) and len(set().union(*pins)) == 3:
             yield one, other, third
+
+
+def centre_beside(plan: Plan, element: str) -> tuple[str, str, tuple[float, float]] | None:
+    """Return where the centre of a body's own mass lies beside its points: from the first of two towards the second, and to the left."""
+    found = plan.of_kind(ForceElement).get(element)
+    glyphs = found.glyphs(plan.members) if found is not None else ()
+    return next(((glyph.points[0], glyph.points[1], glyph.away) for glyph in glyphs if glyph.away is not None), None)

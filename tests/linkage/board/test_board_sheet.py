@@ -525,7 +525,7 @@ def test_what_could_not_be_opened_again_is_not_drawn(chromium, empty):  # noqa: 
         board.tab.locator("#take").click()
         for tool, place in (("pin", (525, 475)), ("bar", (525, 475)), ("fix", (525, 475))):
             board.use(tool, place)
-            assert "up to 200 entries" in board.text("#message") and len(board.drawing["points"]) == 200, tool
+            assert "at most 200 entries" in board.text("#message") and len(board.drawing["points"]) == 200, tool
         board.use("move", "P7")
         board.tab.locator("#fields").get_by_role("button", name="Duplicate").click()
         board.choose("P7")

@@ -98,8 +98,7 @@ class Grid:
     @cached_property
     def flat(self) -> dict[str, Any]:
         """The inputs as a kernel takes them: designs (m,), poses (n,) or (m, n)."""
-        poses = self._flat_of(self._of_poses)
-        return {**self.flat_designs, **poses, **self.solved.inputs} if self.plan.solved or not self._is_plain else {**self.designs, **poses}
+        return {**self.flat_designs, **self._flat_of(self._of_poses), **self.solved.inputs}
 
     @cached_property
     def solved(self) -> GroupSolution:

@@ -519,12 +519,19 @@ def pose_sentence(motion: Motion) -> str:
     if not found and not unknown:
         return ""
     faults = [f"{rule} {pose_value(each)}" for rule, each in found.items() if each.ok is False]
+    if near and not faults and not unknown:
+        return all_kept_here()
     kept = said("all kept") if not unknown else said("{n} kept", n=len(found)) if found else ""
     here = ", ".join(faults) or kept
     parts = [] if near else [said("outside what is judged")]
     parts += [here if near else f"{said('if it were judged:')} {here}"] if here else []
     parts += [said("{n} not followed here: {rules}", n=len(unknown), rules=", ".join(unknown))] if unknown else []
     return f"{said('At this pose:')} {'; '.join(parts)}."
+
+
+def all_kept_here() -> str:
+    """Return what `pose_sentence` says where every rule is followed and kept."""
+    return f"{said('At this pose:')} {said('all kept')}."
 
 
 INSTANT = 1e-9

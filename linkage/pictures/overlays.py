@@ -14,6 +14,7 @@ from matplotlib.axes import Axes
 from ..errors import SingularError, unwarned
 from ..language import said, said_of, translated
 from ..motion import Motion, pose_sentence, rates_of, whole_body
+from ..motion.motion_verdicts import all_kept_here
 from ..program import FloatArray
 from ..statics import loose_movements
 from ..steps import Link
@@ -188,8 +189,8 @@ class Overlay:
         """Return points along the arrows, where no name should stand, shape (n, 2) [m]; `size` is that of a pin [m]."""
         lines = [np.empty((0, 2)), *(arrows.arrow_points(layer, layer.scale(self.sheet), size) for layer in self.layers)]
         lines += [gap.outer(0.0) for gap in self.gaps] + [arm.line.covered for arm in self.arms]
-        left, right, _, top = self.box(size)
         if self.note_share:  # the remarks
+            left, right, _, top = self.box(size)
             lines.append(np.array([*product(np.arange(left, right, size), np.arange(top, top - self.note_share * (right - left), -size))]))
         return np.concatenate([*lines, *(mark.at[None] for mark in self.marks if mark.is_near(self.sheet))])
 
@@ -210,8 +211,7 @@ class Overlay:
         for arm in self.arms:
             texts += arm.draw(ax)
             covered.append(np.repeat(arm.line.covered, arrows.ARROW, axis=0))
-        is_kept = self.sentences == [f"{said('At this pose:')} {said('all kept')}."]
-        sheet_note(ax, self.sentences, style.INK if is_kept else style.ACCENT)
+        sheet_note(ax, self.sentences, style.INK if self.sentences == [all_kept_here()] else style.ACCENT)
         for layer in self.layers:
             covered.append(np.repeat(arrows.scale_bar(ax, layer, layer.scale(self.sheet), np.concatenate(covered)), arrows.ARROW, axis=0))
         everything = np.concatenate(covered)

@@ -15,7 +15,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import ArrayLike
 
-from linkage.errors import DefinitionError, ensure
+from linkage.errors import DefinitionError, FormerName, ensure
 from linkage.frozen import immutable
 from linkage.program import is_traced
 from linkage.quantities.quantity import plain
@@ -38,6 +38,8 @@ class Gas(ABC):
 
     temperature: float
     """K; the charges of accumulators are stated at it."""
+
+    spelled = FormerName("source_text")
 
     @property
     def source_text(self) -> str:

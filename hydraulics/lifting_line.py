@@ -19,7 +19,7 @@ from typing import Any, Unpack, cast
 import numpy as np
 from numpy.typing import ArrayLike
 
-from linkage.errors import DefinitionError, UntracedError, one_word, unwarned
+from linkage.errors import DefinitionError, FormerName, UntracedError, one_word, unwarned
 from linkage.frozen import immutable
 from linkage.language import said, with_and
 from linkage.loads import AS_IT_RUNS, SENSES, Acting, ActingKeywords, Case, Loads, situation_of
@@ -256,6 +256,8 @@ class LiftLine(Circuit):
         self.check_pump(motion.plan)
         pump = self._pressure_set(motion, "pressure")
         return np.minimum(pump, self._pressure_set(motion, "relief")) if self.relieves(motion.plan) else pump
+
+    held = FormerName("relief_pressure")
 
     def relief_pressure(self, motion: Poses) -> Array:
         """Return the pressure at which the relief valve opens [Pa], the pump's where none is given."""

@@ -8,7 +8,7 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, S
 from contextlib import contextmanager
 from difflib import get_close_matches
 from traceback import extract_tb
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -242,3 +242,19 @@ def unknown(kind: str, name: object, known: Iterable[str], where: str = "", *, m
     place = f" in {where}" if where else ""
     listing = ", ".join(names) if names else "none"
     return DefinitionError(f"{kind} {cited(name)} is unknown{place}.{hint} Known: {listing}.", member=member)
+
+
+class FormerName:
+    """An attribute by the name that it had before: it gives what has the new name, with a warning, for one release."""
+
+    def __init__(self, name: str) -> None:
+        self._name = name
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._former = f"{owner.__name__}.{name}"
+
+    def __get__(self, holder: object, owner: type | None = None) -> Any:
+        if holder is None:
+            return self
+        warnings.warn(f"{self._former} is {self._name} now; the old name goes with the next release.", FutureWarning, stacklevel=2)
+        return getattr(holder, self._name)

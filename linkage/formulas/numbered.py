@@ -15,7 +15,7 @@ import numpy as np
 import sympy
 
 from ..checks import is_class_of, require, require_type, require_whole
-from ..errors import DefinitionError, ensure, known_name
+from ..errors import DefinitionError, FormerName, ensure, known_name
 from ..frozen import immutable
 from ..language import translated
 from ..loads import Case
@@ -462,6 +462,8 @@ class Equations(Sequence[Equation], Shown):
         headings = self.headings
         sheet = [each.sheet(self._listing.names.latex, values, shown) for each in self._items]
         return [replace(each, heading=headings[each.number]) if each.number in headings else each for each in sheet]
+
+    together = FormerName("iterated_pins")
 
     @property
     def iterated_pins(self) -> tuple[str, ...]:

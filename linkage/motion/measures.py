@@ -22,7 +22,7 @@ from typing import Any, ClassVar, NoReturn, TypeAlias, TypeGuard
 import numpy as np
 
 from ..checks import require, require_number, require_type
-from ..errors import DefinitionError, LawError, UntracedError, article, cited, ensure
+from ..errors import DefinitionError, FormerName, LawError, UntracedError, article, cited, ensure
 from ..loads import Acting, Case, LoadCase
 from ..plan import Plan, plan_measure, require_kind
 from ..program import FloatArray
@@ -50,6 +50,7 @@ class Measure(Arithmetic):
     """One number of a design. Measures add and multiply; compared with one another or a number they make a condition."""
 
     __hash__ = object.__hash__
+    of = FormerName("from_leaves")
 
     @property
     @abstractmethod

@@ -530,7 +530,7 @@ def pose_sentence(motion: Motion) -> str:
 
 
 def all_kept_here() -> str:
-    """Return what `pose_sentence` says where every rule is followed and kept."""
+    """Return the sentence of a pose where every rule is followed and kept."""
     return f"{said('At this pose:')} {said('all kept')}."
 
 

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..checks import is_listed, require
-from ..errors import DefinitionError, cited, ensure, known_name, unknown
+from ..errors import DefinitionError, FormerName, cited, ensure, known_name, unknown
 from ..frozen import FrozenDict
 from ..language import said
 from ..loads import PLAIN_CASE, Case, LoadCase
@@ -343,6 +343,8 @@ class Over(Member):
             what = f"{plan.title}: {self}: {followed.name or followed} depends on the stroke {behind} itself"
             raise DefinitionError(f"{what}; give a quantity of the design.")
         return number(followed)
+
+    kept = FormerName("condition_mask")
 
     def condition_mask(self, motion: MotionLike) -> Mask:
         """Return the mask of poses that are asked for: those that keep all conditions, and those of which nothing says that they do not.

@@ -12,8 +12,10 @@ import pytest
 import hydraulics
 import linkage
 import mechanisms
-from linkage import Mechanism
+from hydraulics import LiftCircuit, isothermal
+from linkage import Mechanism, equations, most
 from mechanisms.classics.four_bar import FourBar
+from mechanisms.mower_lift import MowerLift
 from tests.tools.sources import nodes, sources
 
 DOCS = Path(__file__).parents[2] / "docs"
@@ -126,3 +128,15 @@ def test_no_docstring_begins_with_return_what():
     functions = [(path, each) for path, text in sources().items() for each in nodes(text)[ast.FunctionDef]]
     begun = [(path, each.name) for path, each in functions if (ast.get_docstring(each) or "").lower().startswith("return what")]
     assert begun == []
+
+
+def test_former_names_give_the_new_ones_with_a_warning():
+    lift = MowerLift()
+    motion, line = lift.sweep(3), next(iter(lift.plan.of_kind(LiftCircuit).values()))
+    pairs = [
+        (line, "held", "relief_pressure"), (motion.over, "kept", "condition_mask"), (isothermal, "spelled", "source_text"),
+        (equations(lift), "together", "iterated_pins"), (most("G_y"), "of", "from_leaves"),
+    ]  # fmt: skip
+    for holder, former, new in pairs:
+        with pytest.warns(FutureWarning, match=rf"\.{former} is {new} now"):
+            assert getattr(holder, former) == getattr(holder, new), former

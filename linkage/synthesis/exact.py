@@ -531,10 +531,11 @@ def exact_links(u: complex, v: complex, p: ComplexArray, s: ComplexArray, free_u
 
     def step(state: FloatArray) -> FloatArray:
         rod = 1.0 + complex(*state[2:]) * s - complex(*state[:2]) * p
-        values = 0.5 * (abs(rod) ** 2)
+        turned = complex(*state[2:]) * (s[1:] - s[0]) - complex(*state[:2]) * (p[1:] - p[0])
+        over = 0.5 * (turned.conj() * (rod[1:] + rod[0])).real  # how far the halved squares are apart, to the last digits of that
         by = np.stack([-(rod.conj() * p).real, (rod.conj() * p).imag, (rod.conj() * s).real, -(rod.conj() * s).imag], axis=1)
         change = np.zeros(4)
-        change[own] = np.linalg.lstsq((by[1:] - by[0])[:, own], values[0] - values[1:], rcond=None)[0]
+        change[own] = np.linalg.lstsq((by[1:] - by[0])[:, own], -over, rcond=None)[0]
         return change
 
     found = refined(state, step)

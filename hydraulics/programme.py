@@ -110,12 +110,7 @@ def demand_read(given: object, until: float) -> Demand:
 def speeds_over_time(path: Path) -> tuple[dict[Reference, Demand], float]:
     """Return the demands of a table, linear between its rows, and its end; its headings are "time, s" and "boom.ram, m/s"."""
 
-    def measures_of(name: str) -> tuple[str]:
-        what = 'a heading with its unit is expected, in quotes where commas part the columns, such as "boom.ram, m/s"'
-        ensure(name, f"{path.name}: {what}.")
-        return ("time" if name == "time" else "speed",)
-
-    columns = measured_columns(path, path.name, measures_of)
+    columns = measured_columns(path, path.name, lambda name: ("time" if name == "time" else "speed",))
     time = columns.pop("time", [])
     if len(time) < 2 or not columns:
         raise DefinitionError(f'{path.name}: two rows and the columns "time, s" and of a cylinder are expected, such as "boom.ram, m/s".')

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import re
 from argparse import Namespace
 from collections.abc import Mapping
@@ -12,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..disk import read
 from ..errors import DefinitionError, FileError
 from ..files.criterion import quantity_said
+from ..files.source import csv_rows, heading_read
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, RequestLike, Target, stroke_measure
 from ..motion.measures import measure_of
@@ -33,12 +31,8 @@ PAGE = ".html"
 ALONG = (*PICTURES, *FILMS, PAGE)
 """What may show a path."""
 MOST_PLACES = 100_000
-SIZE = 1 << 26
-"""Bytes of a path's file."""
 STAYS = 1e-9
 """Of its range: a stroke that changes by no more along a path is held."""
-HEADING = re.compile(r"\s*(?P<name>.*?)\s*(?:,\s*(?P<unit>[^,\[\]()]+?)|\[\s*(?P<bracketed>[^\]]*?)\s*\])?\s*")
-"""A heading as tables have it, `M_x, mm`, or with its unit in square brackets."""
 
 
 @Command(
@@ -82,11 +76,10 @@ def follow_command(options: Namespace) -> int:
 
 def path_targets(machine: Mechanism, file: str) -> dict[str, Target]:
     """Return the targets of a CSV file, by their names; FileError with the line for one that cannot be read."""
-    text = read(file, SIZE).decode("utf-8-sig", "replace")
-    first = text.partition("\n")[0]
-    delimiter = max(";\t,", key=first.count)
-    rows = [row for row in csv.reader(io.StringIO(text), delimiter=delimiter) if any(cell.strip() for cell in row)]
-    headings, *places = rows or [[]]
+    try:
+        (_, headings), *places = [*csv_rows(Path(file))] or [(0, list[str]())]
+    except DefinitionError as error:
+        raise FileError(str(error)) from None
     if not places:
         raise FileError(f"{file}: a first line such as M_x [mm];M_y [mm] and a row for each place are expected.")
     if len(places) > MOST_PLACES:
@@ -94,36 +87,34 @@ def path_targets(machine: Mechanism, file: str) -> dict[str, Target]:
     asked = [heading_quantity(machine, file, heading) for heading in headings]
     kinds = [measure_of(machine.plan, quantity) for _, quantity, _ in asked]
     values = np.empty((len(headings), len(places)))
-    for number, row in enumerate(places):
+    for number, (line, row) in enumerate(places):
         if len(row) != len(headings):
             what = f"{len(row)} values for {len(headings)} headings; a heading with a comma has quotes"
-            raise FileError(f"{file}, place {number + 1}: {what}.")
+            raise FileError(f"{file}, line {line}: {what}.")
         for column, cell in enumerate(row):
             try:
-                values[column, number] = parse(f"{cell.strip()} {asked[column][2]}".strip(), kinds[column])
+                values[column, number] = parse(f"{cell} {asked[column][2]}".strip(), kinds[column])
             except DefinitionError as error:
-                raise FileError(f"{file}, place {number + 1}, {headings[column].strip()}: {error}") from None
+                raise FileError(f"{file}, line {line}, {headings[column]}: {error}") from None
     return {name: Target(quantity, value, unit=unit) for (name, quantity, unit), value in zip(asked, values, strict=True)}
 
 
 def heading_quantity(machine: Mechanism, file: str, heading: str) -> tuple[str, RequestLike, str]:
     """Return a heading's name, its quantity, and its unit, "" of SI: `x(M) [mm]`, `M_x, mm`, `tilt`; FileError for anything else."""
-    match = HEADING.fullmatch(heading.lstrip("'"))
-    name, unit = (match["name"], match["unit"] or match["bracketed"] or "") if match else (heading.strip(), "")
-    sign = {"°": "deg"}.get(unit, unit)
-    if sign and sign not in UNITS:
+    name, unit = heading_read(heading)
+    if unit and unit not in UNITS:
         known = units_of("length") + units_of("angle")
-        raise FileError(f"{file}: {heading.strip()}: the unit {sign} is unknown; known are {', '.join(known)} and others.")
+        raise FileError(f"{file}: {heading}: the unit {unit} is unknown; known are {', '.join(known)} and others.")
     point = re.fullmatch(r"(.+)[._]([xy])", name)
     if name not in machine.plan.members and point and point[1] in machine.plan.points:
-        return name, (x if point[2] == "x" else y)(point[1]), sign
+        return name, (x if point[2] == "x" else y)(point[1]), unit
     if name in machine.strokes:
-        return name, name, sign
+        return name, name, unit
     try:
         quantity: RequestLike = quantity_said(name, machine)
     except DefinitionError as error:
-        raise FileError(f"{file}: {heading.strip()}: {error}") from None
-    return name, quantity, sign
+        raise FileError(f"{file}: {heading}: {error}") from None
+    return name, quantity, unit
 
 
 def strokes_said(machine: Mechanism, option: str, texts: list[str]) -> Mapping[str, float] | None:

@@ -12,11 +12,11 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from io import StringIO
-from math import isfinite
+from math import isfinite, nan
 from pathlib import Path
 from typing import Any, NoReturn
 
-from ..disk import check_name, read
+from ..disk import read
 from ..errors import DefinitionError, FileError, ensure, known_name
 from ..units import UNITS, Amount
 from .names import NAME_LENGTH, Keywords, shortened
@@ -151,14 +151,13 @@ DELIMITERS = (";", "\t", ",")
 
 def csv_rows(path: Path) -> Iterator[tuple[int, list[str]]]:
     """Yield the rows of a CSV file with their lines, as `text_rows` does those of its text."""
-    check_name(path)
     try:
-        ensure(path.stat().st_size <= MOST_BYTES, f"{path.name} is larger than {MOST_BYTES // 1_000_000} MB; give fewer points.")
-        text = path.read_text(encoding="utf-8-sig")
-    except OSError as error:
-        raise DefinitionError(f"{path.name} cannot be read: {error.strerror}; paths start from the file's own folder.") from None
+        text = read(path, MOST_BYTES + 1).decode("utf-8-sig")
+    except FileError as error:
+        raise DefinitionError(str(error)) from None
     except UnicodeDecodeError:
         raise DefinitionError(f"{path.name} is no text in UTF-8; save it as CSV UTF-8.") from None
+    ensure(len(text) <= MOST_BYTES, f"{path.name} is larger than {MOST_BYTES // 1_000_000} MB; give fewer points.")
     yield from text_rows(path.name, text)
 
 
@@ -183,26 +182,54 @@ def text_rows(name: str, text: str) -> Iterator[tuple[int, list[str]]]:
         raise DefinitionError(f"{name}, line {reader.line_num}: it cannot be read as a table of rows: {error}.") from None
 
 
-def measured_columns(path: Path, what: str, measures_of: Callable[[str], Collection[str]]) -> dict[str, list[Amount]]:
-    """Return the columns of a table by name, whose headings are names with units, "boom.ram, m/s".
+HEADING = re.compile(r"(?P<name>.+?)(?:(?P<mark>\s\(|\s*[\[,/])\s*(?P<unit>[^\[\](),]+?)\s*[\])]?)?")
+
+
+def heading_read(heading: str) -> tuple[str, str]:
+    """Return the name and the unit of a column's heading: `x(M) [mm]`, `M_x, mm`, `phi (deg)`, `x/mm`; "" where it says no unit."""
+    text = heading.strip().lstrip("'")
+    found = HEADING.fullmatch(text)
+    if found is None or found["unit"] is None:
+        return text, ""
+    unit = {"°": "deg"}.get(found["unit"], found["unit"])
+    is_said = found["mark"].strip() in ("[", ",") or unit in UNITS  # x(M) and a/b are names
+    return (found["name"], unit) if is_said else (text, "")
+
+
+def unit_factor(unit: str, measures: Collection[str], where: str) -> float:
+    """Return the factor of a heading's unit to SI; DefinitionError for one that is unknown or measures something else ("": anything)."""
+    known_name("Unit", unit, UNITS, where=where)
+    fits = ", ".join(name for name, (_, what) in UNITS.items() if what in measures)
+    ensure(UNITS[unit][1] in measures or "" in measures, f"{where}: {unit} measures {UNITS[unit][1]}; use one of {fits}.")
+    return float(UNITS[unit][0])
+
+
+def measured_columns(
+    path: Path, what: str, measures_of: Callable[[str], Collection[str]], *, gaps: bool = False
+) -> dict[str, list[Amount]]:
+    """Return the columns of a table by name, whose headings are names with units, "boom.ram, m/s" or `R_y [mm]`.
 
     `measures_of` says what a column of a name may measure; one that may measure nothing is passed over. `what` begins what is refused.
-    DefinitionError for a file that cannot be read, a name that stands twice, another unit, and for anything but a number.
+    With `gaps` an empty cell is NaN. DefinitionError for a file that cannot be read, a name that stands twice, a unit that is missing or
+    measures something else, and for anything but a number.
     """
     (_, headings), *rows = [*csv_rows(path)] or [(0, list[str]())]
+    ensure(rows, f"{what}: a line of headings and at least one of numbers are expected.")
     found: dict[str, list[Amount]] = {}
     for place, heading in enumerate(headings):
-        name, _, unit = heading.rpartition(", ")
+        name, unit = heading_read(heading)
         measures = measures_of(name)
         if not measures:
             continue
-        known_name("Unit", unit, UNITS, where=f"{what}: {heading}")
-        ensure(UNITS[unit][1] in measures, f"{what}: {heading}: a unit of {' or '.join(measures)} is expected.")
-        ensure(name not in found, f"{what}: {heading}: {name} stands twice; keep one column.")
+        where = f"{what}: {heading}"
+        ensure(unit, f'{where}: a heading with its unit is expected, in quotes where commas part the columns, such as "boom.ram, m/s".')
+        by = unit_factor(unit, measures, where)
+        ensure(name not in found, f"{where}: {name} stands twice; keep one column.")
+        found[name] = []
         for line, row in rows:
             text = row[place] if place < len(row) else ""
-            ensure(is_numeral(text), f"{what}: {heading}: in line {line} {shortened(text)} is no number.")
-            found.setdefault(name, []).append(Amount(float(text) * float(UNITS[unit][0]), UNITS[unit][1]))
+            ensure(is_numeral(text) or (gaps and not text), f"{where}: in line {line} {shortened(text)} is no number.")
+            found[name].append(Amount(float(text or nan) * by, UNITS[unit][1]))
     return found
 
 

@@ -23,7 +23,7 @@ from typing import Annotated, Any, TypeAlias
 
 import numpy as np
 
-from ..errors import DefinitionError, ensure, known_name, unknown
+from ..errors import DefinitionError, ensure, known_name
 from ..frozen import immutable
 from ..motion import outside, stroke_measure
 from ..motion.measures import Condition, Measure, measure_of, words_of
@@ -37,11 +37,11 @@ from ..study.space import point_regions, size_of_machine
 from ..study.survey import Progress
 from ..surroundings import Outline
 from ..synthesis import FunctionTask, PathTask, PoseTask, synthesise
-from ..units import UNITS, factor, units_of
+from ..units import UNITS, factor
 from . import study_file
 from .criterion import condition_said, measure_said, quantity_said
 from .names import Keywords, entry_as, require_entry, shortened
-from .source import Mistakes, csv_rows, each_of, is_numeral
+from .source import Mistakes, csv_rows, each_of, heading_read, is_numeral, unit_factor
 from .study_file import FindMachine, Read, Settings, StudyHead, amount_said
 
 # A search as a file: what is least or greatest, what may vary, and what must be kept.
@@ -390,7 +390,6 @@ SYNTHESIS: Mapping[str, Read] = {
 #     30.0, 60.0, 12
 
 
-_HEADING = re.compile(r"(?P<name>[^\[(,/]*?)\s*(?:[\[(,/]\s*(?P<unit>[^\])]*?)\s*[\])]?)?\Z")
 
 
 @dataclass(frozen=True)
@@ -464,24 +463,15 @@ def headings_read(
 ) -> dict[str, tuple[int, float]]:
     """Return where each column stands, and the factor of its unit; DefinitionError where one is missing."""
     found: dict[str, tuple[int, float]] = {}
-    heads = [match for cell in cells if (match := _HEADING.match(cell.strip()))]
+    heads = [*map(heading_read, cells)]
     for column in columns:
-        for place, head in enumerate(heads):
-            if head["name"] in column.names and column.name not in found:
-                by, unit = units.get(column.measures, 1.0), head["unit"]  # without one that which is said for what the column measures
+        for place, (name, unit) in enumerate(heads):
+            if name in column.names and column.name not in found:
+                by = units.get(column.measures, 1.0)  # without a unit that which is said for what the column measures
                 if unit:
-                    by = factor(known_unit(f"{path.name}, line 1, {head['name']}", unit, column.measures))
+                    by = unit_factor(unit, (column.measures,), f"{path.name}, line 1, {name}")
                 found[column.name] = place, by
         if column.name not in found and not column.optional:
             named = " or ".join(column.names)
             raise DefinitionError(f"{path.name}, line 1: there is no column {named}; its headings are {', '.join(cells)}.")
     return found
-
-
-def known_unit(what: str, unit: str, measures: str) -> str:
-    """Return a unit of the right kind; DefinitionError for another one."""
-    if unit not in UNITS:
-        raise DefinitionError(f"{what}: {unknown('Unit', unit, UNITS)}")
-    if measures and UNITS[unit][1] != measures:
-        raise DefinitionError(f"{what}: {unit} measures {UNITS[unit][1]}; use one of {', '.join(units_of(measures))}.")
-    return unit

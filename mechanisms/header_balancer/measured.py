@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-import csv
-from collections.abc import Iterator, Mapping, Sequence
-from math import isfinite
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import numpy as np
 
 from linkage import DefinitionError, FileError, Motion
-from linkage.disk import read
 from linkage.errors import cited
+from linkage.files.source import measured_columns
 from linkage.frozen import immutable
 from linkage.language import said, said_of
 from linkage.program import FloatArray
-from linkage.units import UNITS, show, units_of
+from linkage.units import show
 from linkage.verdict import Verdict
 
 from .following import HeaderState, stroke_of
@@ -94,47 +92,14 @@ def read_measured(path: str | Path) -> Mapping[str, FloatArray]:
     FileError
         The file cannot be read; the line is named.
     """
+    path, kinds = Path(path), {**CURVES, **PLACES}
     try:
-        lines = read(path).decode("utf-8-sig").splitlines()
-    except UnicodeDecodeError:
-        raise FileError(f"{path}: the file is not UTF-8 text; save it in that encoding.") from None
-    delimiter = ";" if lines and ";" in lines[0] else ","
-    rows = [row for row in csv.reader(lines, delimiter=delimiter, skipinitialspace=True) if row]
-    if len(rows) < 2:
-        raise FileError(f"{path}: a line of headings and at least one of numbers are expected.")
-    known = {index: column for index, heading in enumerate(rows[0]) if (column := _heading(heading, path)) is not None}
-    names = [name for name, _ in known.values()]
-    if not set(names) & set(PLACES) or not set(names) & set(CURVES):
-        raise FileError(f"{path}, line 1: a column R_y or h and one of {', '.join(CURVES)} are needed; found: {', '.join(rows[0])}.")
-    table: dict[str, list[float]] = {name: [] for name in names}
-    for number, row in enumerate(rows[1:], 2):
-        for index, (name, factor) in known.items():
-            table[name].append(factor * _number(row, index, f"{path}, line {number}", delimiter))
-    return {name: np.array(values) for name, values in table.items()}
-
-
-def _heading(text: str, path: str | Path) -> tuple[str, float] | None:
-    """Return a heading's name and the factor to SI of its unit; None for a column that means nothing here."""
-    name, _, unit = text.replace("[", ",").replace("]", "").partition(",")
-    name, unit = name.strip(), unit.strip()
-    kind = {**CURVES, **PLACES}.get(name)
-    if kind is None:
-        return None
-    if unit not in UNITS or UNITS[unit][1] != kind:
-        fit = ", ".join(units_of(kind))
-        raise FileError(f"{path}, line 1: {text!r}: the unit of {name} is one of {fit}.")
-    return name, UNITS[unit][0]
-
-
-def _number(row: Sequence[str], index: int, where: str, delimiter: str) -> float:
-    text = row[index].strip() if index < len(row) else ""
-    try:
-        value = float(text.replace(",", ".") if delimiter == ";" else text) if text else np.nan
-    except ValueError:
-        raise FileError(f"{where}: {text!r} is not a number.") from None
-    if text and not isfinite(value):
-        raise FileError(f"{where}: {text!r} is not a finite number.")
-    return value
+        found = measured_columns(path, str(path), lambda name: [kinds[name]] if name in kinds else (), gaps=True)
+    except DefinitionError as error:
+        raise FileError(str(error)) from None
+    if not set(found) & set(PLACES) or not set(found) & set(CURVES):
+        raise FileError(f"{path}, line 1: a column R_y or h and one of {', '.join(CURVES)} are needed; found: {', '.join(found)}.")
+    return {name: np.array(values, float) for name, values in found.items()}
 
 
 def deviations(motion: Motion, measured: Mapping[str, FloatArray]) -> list[Deviation]:

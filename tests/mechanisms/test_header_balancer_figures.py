@@ -138,9 +138,9 @@ def test_too_large_a_deviation_fails_and_is_drawn(tmp_path):
     ("text", "words"),
     [
         ("R_y, mm\n", "at least one of numbers"),
-        ('"R_y, mm","F_R up, kgf"\n1,two\n', "line 2: 'two' is not a number"),
-        ('"R_y, mm","F_R up, kgf"\n1,inf\n', "line 2: 'inf' is not a finite"),
-        ('"R_y, kgf","F_R up, kgf"\n1,2\n', "the unit of R_y"),
+        ('"R_y, mm","F_R up, kgf"\n1,two\n', "in line 2 'two' is no number"),
+        ('"R_y, mm","F_R up, kgf"\n1,inf\n', "in line 2 'inf' is no number"),
+        ('"R_y, kgf","F_R up, kgf"\n1,2\n', "R_y, kgf: kgf measures force; use one of m, mm"),
         ('"R_y, mm","speed, m"\n1,2\n', "one of F_R up"),
     ],
 )

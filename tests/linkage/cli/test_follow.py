@@ -55,10 +55,12 @@ def test_the_strokes_along_a_path_are_a_table_that_is_a_path_again(tmp_path, loa
     assert values[:, 2] == pytest.approx(np.linspace(1000.0, 2400.0, 11)) and values[:, 3] == pytest.approx(np.zeros(11), abs=1e-9)
     again = tmp_path / "again.csv"
     strokes = "".join(f"{row[0]},{row[1]}\n" for row in rows[1:])
-    path = written(tmp_path, 'lift,"dump, m"\n' + strokes, "again_path.csv")
-    assert main(["follow", loader, "E_y", "tilt", "--path", path, "--csv", str(again)]) == 0
-    found = np.array(table_of(again)[1:], float)
-    assert found[:, :2] == pytest.approx(values[:, :2], abs=1e-12)
+    commas = strokes.replace(",", ";").replace(".", ",")
+    for text in ('lift,"dump, m"\n' + strokes, "# as a spreadsheet of another country writes it\nlift (m);dump/m\n" + commas):
+        path = written(tmp_path, text, "again_path.csv")
+        assert main(["follow", loader, "E_y", "tilt", "--path", path, "--csv", str(again)]) == 0
+        found = np.array(table_of(again)[1:], float)
+        assert found[:, :2] == pytest.approx(values[:, :2], abs=1e-12)
     capsys.readouterr()
 
 
@@ -95,9 +97,9 @@ BAD = {
     "nothing": ("", "a first line such as M_x [mm];M_y [mm] and a row for each place are expected"),
     "no such quantity": ("T_z;tilt\n1;0\n", "path.csv: T_z: "),
     "no such unit": ("T_y [furlong];tilt\n1;0\n", "the unit furlong is unknown"),
-    "no number": ("T_y;tilt\n1.2;flat\n", "place 1, tilt: 'flat' is not a value"),
-    "a unit of another kind": ("T_y [deg];tilt\n1.2;0\n", "place 1, T_y [deg]: '1.2 deg' is an angle where a value of kind length"),
-    "too few values": ("T_y;tilt\n1.2;0\n1.3\n", "place 2: 1 values for 2 headings"),
+    "no number": ("T_y;tilt\n1.2;flat\n", "line 2, tilt: 'flat' is not a value"),
+    "a unit of another kind": ("T_y [deg];tilt\n1.2;0\n", "line 2, T_y [deg]: '1.2 deg' is an angle where a value of kind length"),
+    "too few values": ("T_y;tilt\n1.2;0\n1.3\n", "line 3: 1 values for 2 headings"),
     "one target too few": ("T_y\n1.2\n", 'hold one of them, hold={"dump": 0.965}'),
 }
 

@@ -136,8 +136,8 @@ def test_what_a_file_gets_wrong_is_refused_in_words(tmp_path):
     (tmp_path / "machine.toml").write_text(HEAD + 'csv = "rows.csv"\nb = 0.1')
     for headings, last, words in [
         ('"time, s","a, m"', "oops", "in line 3 'oops' is no number"),
-        ('"time, mm","a, m"', "0.2", "time, mm: a unit of time is expected"),
-        ('"time, s","a, bar"', "0.2", "a, bar: a unit of length or angle is expected"),
+        ('"time, mm","a, m"', "0.2", "time, mm: mm measures length; use one of s, min"),
+        ('"time, s","a, bar"', "0.2", "a, bar: bar measures pressure; use one of m, mm"),
         ('"time, s","a, mn"', "0.2", "Unit 'mn' is unknown in csv = rows.csv: a, mn"),
     ]:
         (tmp_path / "rows.csv").write_text(f"{headings}\n0,0.1\n1,{last}\n")

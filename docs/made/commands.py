@@ -20,26 +20,26 @@ HEAD = """# Commands
 
 def make(path: Path) -> None:
     """Write the page."""
-    overview = help_of()
+    overview = printed("--help")
     parts = [HEAD, block(overview)]
     for name in names_in(overview):
-        parts.append(f"\n## {name}\n\n{block(help_of(name))}")
+        parts.append(f"\n## {name}\n\n{block(printed(name, '--help'))}")
     path.write_text("".join(parts), encoding="utf-8")
 
 
-def help_of(*words: str) -> str:
-    """Return what a command says of itself, in lines of some width."""
+def printed(*words: str) -> str:
+    """Return what a command prints, in lines of some width."""
     said = io.StringIO()
     before = {name: os.environ.get(name) for name in ("COLUMNS", "NO_COLOR")}
     os.environ |= {"COLUMNS": str(WIDTH + 2), "NO_COLOR": "1"}
     try:
         with contextlib.redirect_stdout(said):
-            code = main([*words, "--help"])
+            code = main(words)
     finally:
         for name, value in before.items():
             os.environ.pop(name) if value is None else os.environ.__setitem__(name, value)
     if code:
-        raise RuntimeError(f"{' '.join(words)} --help: {said.getvalue()}")
+        raise RuntimeError(f"{' '.join(words)}: {said.getvalue()}")
     return said.getvalue().rstrip()
 
 

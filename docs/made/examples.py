@@ -71,7 +71,7 @@ def needed(examples: list[doctest.Example]) -> list[doctest.Example]:
         nodes = [node for statement in body for node in ast.walk(statement)]
         names = [node for node in nodes if isinstance(node, ast.Name)]
         loaded = {node.id for node in names if isinstance(node.ctx, ast.Load)}
-        sets = {node.id for node in names if not isinstance(node.ctx, ast.Load)}
+        sets = {node.id for node in names if not isinstance(node.ctx, ast.Load)} - {"_"}  # what is put there is done for its effect
         sets |= {node.name for node in nodes if isinstance(node, ast.ClassDef | ast.FunctionDef)}
         changed = {node.value.id for node in nodes if isinstance(node, ast.Subscript | ast.Attribute) and changes(node)}
         acts = any(isinstance(node, ast.Import | ast.ImportFrom) for node in nodes) or not (example.want or sets)

@@ -7,17 +7,18 @@ import re
 import textwrap
 import warnings
 from collections.abc import Iterable, Iterator
+from html import escape
 from importlib.metadata import EntryPoint, entry_points
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from linkage import LinkageError, Mechanism, Motion, Verdict, draw, equations, page, plot
-from linkage.reports import design_rows, stroke_rows
+from linkage import LinkageError, Mechanism, Verdict, draw, equations, page, plot
+from linkage.reports import design_rows, motion_over, run_of, stroke_rows
 
+from .commands import block, printed
 from .formulas import formula
 
 WIDE = 100
@@ -71,7 +72,7 @@ def thumb(machine: Mechanism) -> Figure:
     figure = Figure(figsize=THUMB, dpi=150, facecolor="white")
     FigureCanvasAgg(figure)
     ax = figure.add_axes((0.0, 0.0, 1.0, 1.0))
-    motion = middle(machine, 5)
+    motion = motion_over(machine, run_of(machine), np.linspace(0.0, 1.0, 5))
     reached = np.flatnonzero(motion.reached.ravel())
     draw(motion, ax=ax, pose=int(reached[reached.size // 2]))
     ax.grid(False)
@@ -81,17 +82,9 @@ def thumb(machine: Mechanism) -> Figure:
     return figure
 
 
-def middle(machine: Mechanism, count: int) -> Motion:
-    """Return the motion along the first stroke, the others held in their middle; NaN out of reach."""
-    first, *others = machine.strokes.items()
-    values: dict[str, Any] = {name: 0.5 * (stroke.start + stroke.end) for name, stroke in others}
-    values[first[0]] = np.linspace(first[1].start, first[1].end, count)
-    return machine.at(unreachable="nan", **values)
-
-
 def text(name: str, machine: Mechanism) -> str:
     """Return a machine's page."""
-    return "\n".join(part for parts in (head(name, machine), numbers(machine), told(machine), source(machine)) for part in parts)
+    return "\n".join(part for parts in (head(name, machine), numbers(machine), told(name, machine), source(machine)) for part in parts)
 
 
 def head(name: str, machine: Mechanism) -> Iterator[str]:
@@ -116,8 +109,7 @@ def numbers(machine: Mechanism) -> Iterator[str]:
     yield "## Strokes and dimensions\n"
     yield table(("stroke", "range"), stroke_rows(machine))
     yield table(("dimension", "value", "of the step"), design_rows(machine))
-    bodies = f"{len(machine.links)} bodies, the frame included"
-    yield f"Mobility {machine.mobility} by rank, {machine.gruebler} by Gruebler's count; {bodies}.\n"
+    yield f"{len(machine.links)} bodies, the frame included.\n"
 
 
 def table(heads: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
@@ -127,16 +119,11 @@ def table(heads: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
     return "\n".join([f"| {' | '.join(names)} |", "|" + " --- |" * len(names), *body, ""]) if body else ""
 
 
-def told(machine: Mechanism) -> Iterator[str]:
+def told(name: str, machine: Mechanism) -> Iterator[str]:
     """Yield the construction, the limits, the verdicts and the equations."""
     yield "## Construction\n"
     yield f"What `print(machine.plan)` says:\n\n```python\n{wrapped(str(machine.plan))}\n```\n"
-    motion = middle(machine, 31)
-    try:
-        limits = wrapped(str(motion.limits()))
-    except LinkageError as error:
-        limits = wrapped(str(error))
-    yield f"## Limits\n\nWhat `print(motion.limits())` says:\n\n```text\n{limits}\n```\n"
+    yield f"## Limits\n\nWhat `hydrolinkage limits {name}` says:\n\n{block(wrapped(printed('limits', name)))}"
     verdicts = machine.verdicts()
     if verdicts:
         yield f"## Verdicts\n\n{verdict_list(verdicts)}\n"
@@ -147,8 +134,9 @@ def verdict_list(verdicts: Iterable[Verdict]) -> str:
     """Return verdicts as a list, each rule marked as kept or not."""
     rows = ['<ul class="verdicts">']
     for each in verdicts:
-        kind = "" if not each.is_rule else ' class="ok"' if each.ok else ' class="fails"'
-        rows.append(f"<li{kind}>{as_html(str(each))}</li>")
+        kind = "" if each.ok is None else ' class="ok"' if each.ok else ' class="fails"'
+        said = escape(str(each), quote=False).replace("\n", "<br>")
+        rows.append(f"<li{kind}>{said}</li>")
     return "\n".join([*rows, "</ul>"])
 
 
@@ -181,19 +169,14 @@ def source(machine: Mechanism) -> Iterator[str]:
     yield f"```python\n{textwrap.dedent(inspect.getsource(kind)).rstrip()}\n```\n\n</details>\n"
 
 
-def wrapped(text: str, width: int = WIDE) -> str:
-    """Return text whose lines have at most so many characters, the rest of a long one set in."""
+def wrapped(text: str) -> str:
+    """Return text whose lines have at most `WIDE` characters, the rest of a long one set in."""
     found = []
     for line in text.splitlines():
         indent = " " * (len(line) - len(line.lstrip()) + 4)
-        parts = textwrap.wrap(line, width, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False, drop_whitespace=True)
+        parts = textwrap.wrap(line, WIDE, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False, drop_whitespace=True)
         found += parts or [""]
     return "\n".join(found)
-
-
-def as_html(text: str) -> str:
-    """Return plain text for a page."""
-    return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;").replace("\n", "<br>")
 
 
 def as_markdown(text: str) -> str:

@@ -15,9 +15,9 @@ def executed(path: Path) -> Any:
     from nbclient import NotebookClient
 
     notebook = nbformat.read(path, as_version=4)
-    NotebookClient(notebook, timeout=300, kernel_name="python3", resources={"metadata": {"path": str(path.parents[1])}}).execute(
-        env=os.environ | {"PYTHONPATH": str(path.parents[1])}
-    )
+    folder, quiet = str(path.parents[1]), ["--log-level=ERROR"]  # a kernel warns of its own ports, which only this machine sees
+    client = NotebookClient(notebook, timeout=300, kernel_name="python3", resources={"metadata": {"path": folder}}, extra_arguments=quiet)
+    client.execute(env=os.environ | {"PYTHONPATH": folder})
     return notebook
 
 

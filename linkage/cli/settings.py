@@ -110,11 +110,11 @@ def judged_over(machine: Mechanism, options: Namespace) -> list[Over | Motion] |
     chosen = overs_of(machine, options.over)
     if chosen or not options.strokes:
         return [*chosen] if chosen else None
-    return [machine.at(unreachable="nan", **poses_at(machine, options, getattr(options, "count", POSES)))]
+    return [machine.at(unreachable="nan", **poses_at(machine, options, getattr(options, "count", None)))]
 
 
 POSES = 21
-"""Poses over a stroke of which a command does not say how many."""
+"""Poses over a stroke of which a command does not say how many; of more than three strokes a grid has POSES**3 at most."""
 
 
 def judged_code(verdicts: Sequence[Verdict], options: Namespace) -> int:
@@ -230,12 +230,12 @@ def stroke_steps(machine: Mechanism, run: Run, count: int, every: str | None) ->
     return values if abs(values[-1] - end) < 1e-6 * step else np.append(values, end)
 
 
-def poses_at(machine: Mechanism, options: Namespace, count: int) -> dict[str, FloatArray]:
+def poses_at(machine: Mechanism, options: Namespace, count: int | None = None) -> dict[str, FloatArray]:
     """Return the strokes of all that `--at` leaves open, arrays of one shape: strokes not given go over their ranges."""
     given = strokes_given(machine, options)
-    return stroke_grid(machine, given | {
-        name: np.linspace(stroke.start, stroke.end, count) for name, stroke in machine.strokes.items() if name not in given
-    })  # fmt: skip
+    free = {name: stroke for name, stroke in machine.strokes.items() if name not in given}
+    count = count or int(POSES ** (3 / max(3, len(free))))
+    return stroke_grid(machine, given | {name: np.linspace(stroke.start, stroke.end, count) for name, stroke in free.items()})
 
 
 def stroke_grid(machine: Mechanism, axes: Mapping[str, FloatArray]) -> dict[str, FloatArray]:

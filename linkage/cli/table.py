@@ -232,7 +232,7 @@ def limits_command(options: Namespace) -> int:
     """Print how far a machine goes."""
     machine = settings.machine_of(options)
     ensure(machine.strokes, f"{machine.plan.title} has no stroke, so there is nothing that goes; declare one, S = Stroke(0, 0.25).")
-    motion = machine.at(unreachable="nan", **settings.poses_at(machine, options, settings.POSES))
+    motion = machine.at(unreachable="nan", **settings.poses_at(machine, options))
     over = settings.judged_over(machine, options)
     print(limits_over(motion, settings.overs_of(machine, options.over) or [Over()]))
     print(f"mobility {machine.mobility}; Gruebler count {machine.gruebler}", *machine.four_bars, sep="\n")

@@ -174,6 +174,12 @@ def test_limits_of_any_machine(said):
     assert code == 1 and "FAIL assembly" in out and "FAIL dead points" in out
 
 
+def test_limits_of_many_strokes_need_no_grid_of_all(said):
+    """Six strokes: a grid of 21 poses each would be 86 million."""
+    code, out, err = said("limits", "forwarder", "--at", "phi=40deg")
+    assert (code, err) == (0, "") and "swing: declared -30 to 30 deg, with phi = 40 deg," in out and "mobility 6" in out
+
+
 def test_capacity_of_any_machine(said):
     code, out, err = said("capacity", "loader.py", "--count", "3", "--csv", "-")
     motion, pump = loader().sweep(3), loader().plan.members["pump"]

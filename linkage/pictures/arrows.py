@@ -253,8 +253,15 @@ class PlacedWording:
         """Return how far the text would be from the nearest of some points [pixels] at each of its spots, shape (n,)."""
         return np.asarray(distance_to_box(points - self.spots[:, None], self.half).min(axis=1))
 
-    def keep_from(self, others: Sequence[PlacedWording]) -> None:
-        """Note the spots at which it would be nearer to other texts' objects than to its own."""
+    def covering(self, points: FloatArray) -> FloatArray:
+        """Return how many of some points the text would cover [pixels] at each of its spots, shape (n,)."""
+        low, high, (x, y) = self.spots - self.half, self.spots + self.half, points.T
+        inside = (x > low[:, :1]) & (x < high[:, :1]) & (y > low[:, 1:]) & (y < high[:, 1:])
+        return np.asarray(np.count_nonzero(inside, axis=1), float)
+
+    def keep_from(self, others: Sequence[PlacedWording], points: FloatArray) -> None:
+        """Note the spots at which it would be nearer to other texts' objects than to its own, and how many points each would cover."""
+        self.covered = self.covering(points)
         same = [len(each.mark) == len(self.mark) and np.allclose(each.mark, self.mark, atol=NEARER) for each in others]
         marks = [each.mark for each, is_same in zip(others, same, strict=True) if not is_same]
         near = self.distances(np.concatenate(marks)) if marks else np.full(len(self.spots), np.inf)
@@ -280,15 +287,16 @@ class PlacedWording:
         return np.asarray(nearest[:, None] + ALONG_LEADER * (self.anchor - nearest)[:, None])
 
     def choose(self, boxes: Sequence[FloatArray], points: FloatArray, lines: FloatArray, inside: Bbox) -> None:
-        """Choose the spot that costs least. `lines` are the other leading lines, shape (k, 2, 2) [pixels]."""
+        """Choose the spot that costs least. `points` are along other texts' leading lines, `lines`, shape (k, 2, 2) [pixels]."""
         texts = np.array(boxes).reshape(-1, 4)
         low, high = (self.spots - self.half)[:, None], (self.spots + self.half)[:, None]
         over = ((low < texts[:, 2:]) & (texts[:, :2] < high)).all(axis=2).sum(axis=1)
-        covered = ((points > low) & (points < high)).all(axis=2).sum(axis=1)
+        covered = self.covered + self.covering(points)
         outside = ((low < inside.min) | (high > inside.max)).any(axis=(1, 2))
-        costs = COVERED_TEXT * over + 1.0 * covered + OFF_SHEET * outside + self.strays + 0.04 * np.arange(len(self.spots))
-        inner = (self.leaders[:, :, None] > texts[:, :2]) & (self.leaders[:, :, None] < texts[:, 2:])
-        costs[FIRST_LED:] += LEADING + CROSSED_TEXT * np.any(np.all(inner, axis=3), axis=1).sum(axis=1)
+        costs = COVERED_TEXT * over + covered + OFF_SHEET * outside + self.strays + 0.04 * np.arange(len(self.spots))
+        x, y = self.leaders[..., :1], self.leaders[..., 1:]
+        inner = (x > texts[:, 0]) & (x < texts[:, 2]) & (y > texts[:, 1]) & (y < texts[:, 3])
+        costs[FIRST_LED:] += LEADING + CROSSED_TEXT * inner.any(axis=1).sum(axis=1)
         costs[FIRST_LED:] += CROSSED_LEADER * lines_cross(self.leaders[:, [0, -1]][:, None], lines).sum(axis=1)
         self.place = int(np.argmin(costs))
 
@@ -322,13 +330,13 @@ def place_wordings(ax: Axes, texts: Sequence[Wording], covered: FloatArray) -> N
         mark = each.at[None] if each.mark is None else each.mark
         chosen.append(PlacedWording(text, np.asarray(ax.transData.transform(mark)), size, each.way))
     for one in chosen:
-        one.keep_from(chosen)
+        one.keep_from(chosen, points)
 
     def settle(one: PlacedWording) -> None:
         others = [other for other in chosen if other is not one and other.place >= 0]
         leaders = [other.leader for other in others if len(other.leader)]
         lines = np.array([*led, *(each[[0, -1]] for each in leaders)]).reshape(-1, 2, 2)
-        one.choose([*boxes, *(other.box for other in others)], np.concatenate([points, *leaders]), lines, inside)
+        one.choose([*boxes, *(other.box for other in others)], np.concatenate([points[:0], *leaders]), lines, inside)
 
     for one in chosen * AGAIN:
         settle(one)

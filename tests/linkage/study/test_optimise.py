@@ -95,12 +95,12 @@ def arm(A, r, q):
 
 
 def test_the_best_least_lever_is_that_of_the_closed_form():
-    best = optimise(Lever(), maximise=least(ratio(distance("A", "B"))), vary={"A.x": (0.3, 1.2), "OB": (0.1, 0.4)}, subject_to=[
+    best = optimise(Lever(), maximise=least(ratio(distance("A", "B"))), vary={"A.x": (0.3, 1.2), "OB": (0.1, 0.4)}, starts=2, subject_to=[
         most(distance("A", "B")) - least(distance("A", "B")) <= 0.3,
     ])  # fmt: skip
     # by hand: a fine grid of the two lengths
     A, r = np.meshgrid(np.linspace(0.3, 1.2, 901), np.linspace(0.1, 0.4, 601), indexing="ij")
-    q = np.linspace(60, 120, 61)[:, None, None] * deg
+    q = np.linspace(60, 120, 13)[:, None, None] * deg
     low, high = (np.sqrt(A * A + r * r - 2.0 * A * r * np.cos(end * deg)) for end in (60, 120))
     worth = np.where(high - low <= 0.3, arm(A, r, q).min(axis=0), 0.0)
     assert best.value >= worth.max() - 1e-9
@@ -114,12 +114,12 @@ def test_the_best_least_lever_is_that_of_the_closed_form():
 
 def test_an_optimum_is_not_beaten_by_random_designs_and_holds_between_the_poses():
     limits = [TRAVEL >= 0.65, most(buckling("lift")) <= 0.5, most(pin_force("O")) <= 15 * kN, least(transmission("B")) >= 20 * deg]
-    best = optimise(Boom(), minimise=most(pressure("lift")), vary=VARY, subject_to=limits, starts=3)
+    best = optimise(Boom(), minimise=most(pressure("lift")), vary=VARY, subject_to=limits, starts=2)
     problem = best.problem
-    unit = np.random.default_rng(1).random((4000, 5))
+    unit = np.random.default_rng(1).random((1500, 5))
     value, missing, reached = problem.merits((), unit)
     kept = (reached == 1.0) & (missing <= 0.0)
-    assert kept.sum() > 40
+    assert kept.sum() > 15
     assert best.value <= value[kept].min() * (1.0 + 1e-9)
     fine = best.machine.sweep(4001)
     assert_allclose(np.max(fine[pressure("lift")]), best.value, rtol=1e-6)
@@ -220,8 +220,9 @@ def test_robust_counts_each_number_as_bad_as_tolerances_make_it():
     assert_allclose(best.value, np.min(motion[reserve("lift")] - 2.0 * sigma), rtol=1e-6)
 
 
-def test_a_front_holds_designs_of_which_none_is_better_in_both():
+def test_a_front_holds_designs_of_which_none_is_better_in_both(monkeypatch):
     pytest.importorskip("pymoo")
+    monkeypatch.setattr("linkage.study.pareto.POINTS", 4)
     front = optimise(Boom(), minimise=[most(pressure("lift"))], maximise=[TRAVEL], vary={"A": around(60 * mm), "OB": (0.25, 0.35)})
     values = front.values * [1.0, -1.0]
     for one in values:
@@ -263,7 +264,7 @@ def test_choices_alone_are_all_looked_at():
 
 def test_steps_are_kept_and_no_design_on_steps_beats_it(tmp_path):
     vary = {"OB": (0.25, 0.35, 0.01), "A.y": (-0.06, 0.06)}
-    best = optimise(Boom(), minimise=most(pressure("lift")), vary=vary, subject_to=[TRAVEL <= 0.64])
+    best = optimise(Boom(), minimise=most(pressure("lift")), vary=vary, subject_to=[TRAVEL <= 0.64], starts=2)
     best.designs_csv(tmp_path / "designs.csv")
     best.designs_jsonl(tmp_path / "designs.jsonl")
     lines = (tmp_path / "designs.csv").read_text().splitlines()
@@ -297,7 +298,7 @@ def test_rounding_says_what_it_costs_and_keeps_the_conditions():
 def test_a_multiplier_is_what_giving_way_gains():
     def search(travel, high):
         vary, limits = {"A": around(60 * mm), "OB": (0.25, high)}, [at(y("G"), S=0.25) - at(y("G"), S=0.0) >= travel]
-        return optimise(Boom(), minimise=most(pressure("lift")), vary=vary, subject_to=limits, starts=2)
+        return optimise(Boom(), minimise=most(pressure("lift")), vary=vary, subject_to=limits, starts=1)
 
     best = search(0.73, 0.28)
     (kept,) = best.conditions
@@ -351,7 +352,7 @@ def test_a_design_that_is_refused_counts_as_one_that_cannot_be(also):
 # -- derivatives, of any machine -----------------------------------------------------------------------------------
 
 
-@for_all("seed", range(2), slow=range(2, 12))
+@for_all("seed", range(1), slow=range(1, 12))
 def test_rows_have_the_derivatives_of_central_differences(seed):
     machine = random_machine(seed).machine()()
     plan = machine.plan
@@ -526,7 +527,7 @@ def test_a_search_goes_on_where_it_stopped(tmp_path):
         if count == 2:
             raise StoppedError
 
-    ask = dict(maximise=least(reserve("lift")), vary=VARY, subject_to=[TRAVEL >= 0.5], starts=4)
+    ask = dict(maximise=least(reserve("lift")), vary=VARY, subject_to=[TRAVEL >= 0.5], starts=3)
     with pytest.raises(StoppedError):
         optimise(Boom(), **ask, folder=tmp_path, progress=stop)
     lines = (tmp_path / "search.jsonl").read_text().splitlines()

@@ -146,9 +146,9 @@ def test_more_designs_are_never_worse_and_a_folder_goes_on_beyond_a_limit(tmp_pa
 
 def test_an_infinite_derivative_is_no_error():
     """The root of a bore that may be zero; the lift of a boom that ends in its dead point, where G's travel has no finite derivative."""
-    root = optimise(Boom(), minimise=at("lift.bore") ** 0.5, vary={"lift.bore": (0.0, 0.1)}, starts=2)
+    root = optimise(Boom(), minimise=at("lift.bore") ** 0.5, vary={"lift.bore": (0.0, 0.1)}, starts=1)
     assert root.value == pytest.approx(0.0, abs=1e-3)
-    dead = optimise(Boom(), maximise=most("tilt") - least("tilt"), vary={"OB": (0.05, 0.6)}, starts=2)
+    dead = optimise(Boom(), maximise=most("tilt") - least("tilt"), vary={"OB": (0.05, 0.6)}, starts=1)
     dead.machine.sweep(201)
 
 
@@ -291,9 +291,9 @@ def test_alternatives_are_each_in_its_own_unit_and_those_of_brute_force():
 
 
 def test_forces_and_lengths_give_way_in_their_units():
-    limits = [RISE >= 0.9, most(pressure("lift")) <= 60 * bar, most(pin_force("O")) <= 10 * kN]
+    limits = [RISE >= 0.9, most(pin_force("O")) <= 10 * kN]
     with pytest.raises(InfeasibleError) as caught:
-        optimise(Boom(), minimise=most(pressure("lift")), vary={"OB": (0.25, 0.35)}, subject_to=limits, starts=1)
+        optimise(Boom(), minimise=at("OB"), vary={"OB": (0.25, 0.35)}, subject_to=limits, starts=1)
     said = str(caught.value)
     assert " mm short" in said
     assert "kN too much" in said

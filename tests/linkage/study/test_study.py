@@ -1,5 +1,7 @@
 """Zones over boxes of settings and settings by roots, against known functions, dense samples and the eager motion."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -73,7 +75,7 @@ def test_paired_finds_the_pins_of_groups():
 
 def test_zone_of_a_machine_with_a_group():
     found = zone(Triad(), lambda motion: motion.y("G"), {"AB": (0.098, 0.102)}, phi=[0.0, 0.3])
-    direct = Triad(AB=np.linspace(0.098, 0.102, 201)).at(phi=[0.0, 0.3]).y("G")
+    direct = Triad(AB=np.linspace(0.098, 0.102, 41)).at(phi=[0.0, 0.3]).y("G")
     assert_allclose(found.low, direct.min(axis=0), rtol=1e-10)
     assert_allclose(found.high, direct.max(axis=0), rtol=1e-10)
 
@@ -139,7 +141,7 @@ def test_least_tilt_is_inside_the_box_and_not_at_a_corner():
 def test_no_random_sample_beats_the_zone(quantity):
     S = np.linspace(0.0, 0.25, 11)
     found = zone(ThreePointHitch(), quantity, BOX, S=S)
-    motion = ThreePointHitch(**sampled(BOX, 60_000, 3)).at(S=S)
+    motion = ThreePointHitch(**sampled(BOX, 20_000, 3)).at(S=S)
     samples = motion[quantity] if isinstance(quantity, str) else quantity(motion)
     assert (found.low <= samples.min(axis=0)).all() and (samples.max(axis=0) <= found.high).all()
     assert (samples.min(axis=0) - found.low < 0.03 * (found.high - found.low)).all()
@@ -194,10 +196,17 @@ def test_default_strokes_are_the_whole_stroke():
     assert (len(found.low), found.strokes["S"][0], found.strokes["S"][-1]) == (51, 0.0, 0.25)
 
 
+WIDE = {"MK": (0.3, 0.96), "CD": (0.3, 0.68)}
+
+
+@cache
+def wide_zone():
+    return zone(ThreePointHitch(), "tilt", WIDE, S=[0.0, 0.1, 0.2])
+
+
 def test_what_cannot_be_assembled_is_masked_and_told():
-    over = {"MK": (0.3, 0.96), "CD": (0.3, 0.68)}
-    found = zone(ThreePointHitch(), "tilt", over, S=[0.0, 0.1, 0.2])
-    direct = ThreePointHitch(**sampled(over, 20_000, 5)).at(S=[0.0, 0.1, 0.2], unreachable="nan")
+    found = wide_zone()
+    direct = ThreePointHitch(**sampled(WIDE, 4_000, 5)).at(S=[0.0, 0.1, 0.2], unreachable="nan")
     assert not found.complete.any() and (found.reached > 0.5).all()
     assert (found.low <= np.nanmin(direct["tilt"], axis=0)).all() and (np.nanmax(direct["tilt"], axis=0) <= found.high).all()
     (text,) = found.remarks
@@ -207,8 +216,7 @@ def test_what_cannot_be_assembled_is_masked_and_told():
 
 def test_angles_do_not_jump_inside_a_zone():
     """The mast may turn past 90 deg of tilt, where its direction passes 180 deg: the zone goes on."""
-    found = zone(ThreePointHitch(), "tilt", {"MK": (0.3, 0.96), "CD": (0.3, 0.68)}, S=[0.2])
-    assert found.high[0] > np.pi / 2
+    assert wide_zone().high[-1] > np.pi / 2
 
 
 def test_nothing_reachable_gives_no_zone_but_a_sentence():

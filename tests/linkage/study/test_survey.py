@@ -16,6 +16,7 @@ from linkage import AssemblyError, DefinitionError, FileError, StudyError
 from linkage.program import fixed_backend
 from linkage.program.numba_backend import NumbaLoop
 from linkage.study import survey
+from mechanisms.classics.four_bar import FourBar
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.for_all import first_daily, for_all
 from tests.linkage.study.survey_measures import failing, far_points, group_designs, hitch_designs, logged, travel
@@ -126,14 +127,20 @@ def test_back_end_is_held_whatever_was_done_before(monkeypatch):
         assert elsewhere == [kernel.fused], "another thread is not held"
 
 
-def test_numba_on_request():
+def cranks(count):
+    """Return a four-bar, whose one step compiles soon, and cranks of it."""
+    return FourBar(), {"OA": np.linspace(0.03, 0.04, count)}
+
+
+@for_all(("designs", "measure"), [(cranks, far_points)], slow=[(hitch_designs, travel)])
+def test_numba_on_request(designs, measure):
     pytest.importorskip("numba")
-    hitch, over = hitch_designs(300)
-    numpy, numba = (survey(hitch, over, travel, backend=name) for name in ("numpy", "numba"))
+    machine, over = designs(300)
+    numpy, numba = (survey(machine, over, measure, backend=name) for name in ("numpy", "numba"))
     for name in numpy:
         assert_allclose(numba[name], numpy[name], rtol=1e-9, atol=1e-11)
     with ThreadPoolExecutor(2) as pool:
-        same(survey(hitch, over, travel, backend="numba", executor=pool), numba)
+        same(survey(machine, over, measure, backend="numba", executor=pool), numba)
 
 
 @first_daily(1, ("designs", "measure"), [(group_designs, far_points), (hitch_designs, travel)])
@@ -412,5 +419,5 @@ def beside_results(count):
 def test_memory_is_bounded_by_the_batch(monkeypatch):
     monkeypatch.setattr(BATCHES, "AIM", 1e-3)
     monkeypatch.setattr(BATCHES, "LEAST", 5e-4)
-    few, many = (min(beside_results(count) for _ in range(2)) for count in (50_000, 200_000))
-    assert many < few + 1_000_000, "four times as many designs: their inputs alone are 1.2 MB more"
+    few, many = (min(beside_results(count) for _ in range(2)) for count in (20_000, 80_000))
+    assert many < few + 400_000, "four times as many designs: their inputs alone are 480 kB more"

@@ -41,15 +41,18 @@ def spawned():
 
 
 @pytest.fixture(scope="module")
-def client(tmp_path_factory):
-    """A process of dask on this machine. Its linear algebra has as many threads as this one's: NumPy 1 rounds by their number."""
+def client(request, tmp_path_factory):
+    """A thread of dask, or a process where one is asked for. Its linear algebra has this one's threads: NumPy 1 rounds by their number."""
     dask, distributed = pytest.importorskip("dask"), pytest.importorskip("distributed")
-    options = {"n_workers": 1, "threads_per_worker": 1, "processes": True, "dashboard_address": None, "silence_logs": 50}
+    options = {"n_workers": 1, "threads_per_worker": 1, "dashboard_address": None, "silence_logs": 50}
+    options["processes"] = getattr(request, "param", False)
     folder = tmp_path_factory.mktemp("dask")
     alike = dask.config.set({"distributed.nanny.pre-spawn-environ": {}})
     with alike, distributed.LocalCluster(local_directory=str(folder), **options) as cluster, distributed.Client(cluster) as client:
         yield client
 
+
+PROCESS = pytest.mark.parametrize("client", [True], indirect=True, ids=["process"])
 
 # -- the same to the last bit -------------------------------------------------------------------------------
 
@@ -82,6 +85,7 @@ def test_spawned_processes_give_what_one_process_gives(small, wanted, spawned, g
     same(survey(*given, measure, executor=spawned), wanted(measure))
 
 
+@pytest.mark.parametrize("client", [False, pytest.param(True, marks=pytest.mark.slow)], indirect=True, ids=["thread", "process"])
 @FIRST
 def test_dask_gives_what_one_process_gives(small, wanted, client, given, measure):
     same(survey(*given, measure, executor=client.get_executor()), wanted(measure))
@@ -178,6 +182,7 @@ if __name__ == "__main__":
 """
 
 
+@PROCESS
 @pytest.mark.slow
 def test_classes_of_a_script_are_sent_by_dask(client, tmp_path):
     script = tmp_path / "script.py"
@@ -220,6 +225,7 @@ def test_pool_whose_worker_was_killed_tells_and_another_goes_on(small, tmp_path)
     same(found, survey(hitch, over, travel))
 
 
+@PROCESS
 @pytest.mark.slow
 def test_dask_goes_on_when_a_worker_is_killed(small, client, tmp_path):
     hitch, over = hitch_designs(1280)

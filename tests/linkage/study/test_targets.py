@@ -151,7 +151,7 @@ def settings_drawn(machine, random, count):
     return {}, {}
 
 
-@for_all("seed", range(2), slow=range(2, 8))
+@for_all("seed", range(1), slow=range(1, 8))
 def test_the_setting_of_a_random_machine_is_found(seed):
     machine, random = random_mechanism(seed)(), np.random.default_rng(seed)
     box, setting = settings_drawn(machine, random, 2 + seed % 2)

@@ -65,7 +65,7 @@ def found_again(seed):
     return found
 
 
-@for_all("seed", range(2), slow=range(2, 3))
+@for_all("seed", range(1), slow=range(1, 3))
 def test_a_bar_is_found_from_five_of_its_points(seed):
     found = found_again(seed)
     for each in found.solutions:
@@ -91,7 +91,7 @@ def test_no_solution_is_missed_that_a_search_finds():
         return np.concatenate([np.diff(a), np.diff(b)])
 
     hits = set()
-    for _ in range(60):
+    for _ in range(25):
         end = root(off, np.concatenate([random.normal(size=4), random.uniform(-3, 3, 4)]), method="lm")
         state = end.x
         x, y = complex(*state[:2]), complex(*state[2:4])
@@ -153,7 +153,7 @@ def pairs_of(bar, phi, zeros):
 CASES = [(3, "follower", (0.0, 0.0)), (4, "follower", (0.0, 0.8)), (4, "crank", (-1.3, 0.0)), (5, "follower", (0.4, -2.2))]
 
 
-@for_all("seed", range(2), slow=range(2, 5))
+@for_all("seed", range(1), slow=range(1, 5))
 @for_all(("count", "free", "zeros"), CASES)
 def test_a_bar_is_found_from_pairs_of_its_angles(count, free, zeros, seed):
     bar, phi = bar_at(100 * count + seed, count, 2.0)

@@ -1,6 +1,7 @@
 """Synthesis: published tasks by an evaluator of its own, tasks that a known machine does, conditions, and what is no answer."""
 
 import csv
+from functools import cache
 
 import numpy as np
 import pytest
@@ -59,8 +60,13 @@ def judged(answer, points):
     return answer.error / SQUARE_MM
 
 
+@cache
+def eighteen_points():
+    return synthesise(Bar(), path=PathTask(np.array(papers.EIGHTEEN) * mm, of="P"), vary=box(50 * mm), timed="steps", starts=16)
+
+
 def test_eighteen_points_at_equal_steps_are_met_better_than_any_design_read():
-    found = synthesise(Bar(), path=PathTask(np.array(papers.EIGHTEEN) * mm, of="P"), vary=box(50 * mm), timed="steps")
+    found = eighteen_points()
     assert judged(found.best, papers.EIGHTEEN) <= 0.00902889
     steps = np.diff(np.unwrap(found.best.strokes))
     assert_allclose(np.abs(steps), 20 * deg, atol=1e-12)
@@ -167,7 +173,7 @@ def test_a_known_bar_is_found_again_from_its_untimed_path():
     known = FourBar(OA=0.036, AB=0.11, CB=0.085, AP=0.05)
     points = known.at(phi=np.linspace(0.3, 5.5, 14))["P"].T
     vary = {"OA": (0.01, 0.08), "AB": (0.05, 0.2), "CB": (0.05, 0.2), "AP": (0.01, 0.12), "BAP": (-1.5, 1.5), "C": around(30 * mm)}
-    found = synthesise(FourBar(), path=PathTask(points, of="P"), vary=vary, timed=False)
+    found = synthesise(FourBar(), path=PathTask(points, of="P"), vary=vary, timed=False, starts=16)
     assert found.best.most <= 1e-9
     assert_allclose(found.machine.at(phi=found.best.strokes)["P"].T, points, rtol=0, atol=2e-9)
     found.machine.sweep(721)
@@ -183,7 +189,7 @@ def test_a_known_hitch_is_found_again_along_its_stroke():
         dict(path=PathTask(poses["G"].T, of="G")),
         dict(motion=PoseTask(*poses["F"], poses.angle("F", "K"), of="F K", at=strokes)),
     ):
-        found = synthesise(ThreePointHitch(), vary=vary, **task)
+        found = synthesise(ThreePointHitch(), vary=vary, starts=4, **task)
         assert found.best.most <= 1e-9
         timed = next(iter(task.values())).at is not None
         for name, value in (("MK", 0.83), ("CD", 0.60), ("OB", 0.31)) if timed else ():
@@ -233,7 +239,7 @@ def test_what_cannot_run_is_no_answer():
     """A triple rocker: no length in the box lets anything turn fully."""
     vary = {"OA": (0.058, 0.062), "AB": (0.058, 0.062), "CB": (0.068, 0.072), "BAP": (-1.0, 1.0)}
     points = [(0.03, 0.06), (0.02, 0.07), (0.01, 0.075)]
-    found = synthesise(FourBar(), path=PathTask(points, of="P"), vary=vary)
+    found = synthesise(FourBar(), path=PathTask(points, of="P"), vary=vary, starts=8)
     assert not found.solutions and not np.isfinite(found.error)
     assert found.misses and all("cannot be assembled between phi" in each.why for each in found.misses)
     assert "no machine that runs was found" in str(found)
@@ -258,7 +264,7 @@ def test_dimensions_at_an_end_of_the_box_are_named():
 
 
 def test_a_table_and_a_drawing(tmp_path):
-    found = synthesise(Bar(), path=PathTask(np.array(papers.EIGHTEEN) * mm, of="P"), vary=box(50 * mm), timed="steps", starts=16)
+    found = eighteen_points()
     found.csv(tmp_path / "answers.csv")
     with open(tmp_path / "answers.csv", newline="", encoding="utf-8") as stream:
         rows = list(csv.DictReader(stream))
@@ -333,10 +339,10 @@ def bar_task(count, **task):
     points = FourBar(OA=0.036, AB=0.11, CB=0.085, AP=0.05).at(phi=np.linspace(0.3, 3.5, count))["P"].T
     vary = {"OA": (0.01, 0.08), "AB": (0.05, 0.2), "CB": (0.05, 0.2), "AP": (0.01, 0.12), "BAP": (-1.5, 1.5), "C": around(30 * mm)}
     path = PathTask(np.repeat(points, task.pop("each", 1), axis=0) * task.pop("unit", 1.0), of="P")
-    return synthesise(FourBar(), path=path, vary=vary, starts=6, **task)
+    return synthesise(FourBar(), path=path, vary=vary, starts=4, **task)
 
 
-@for_all(("count", "each"), [(1, 1), (5, 2)], slow=[(1, 3), (2, 1)])
+@for_all(("count", "each"), [(5, 2)], slow=[(1, 1), (1, 3), (2, 1)])
 def test_few_points_and_points_given_twice(count, each):
     found = bar_task(count, each=each)
     assert found.best.most <= 1e-10
@@ -385,7 +391,7 @@ def test_a_dimension_that_moves_nothing_makes_no_other_machine():
 @first_daily(1, "values", [[0.030, 0.036, 0.040], (0.030, 0.040, 0.002)])
 def test_choices_and_steps_hold_the_known_bar(values):
     points = FourBar(OA=0.036, AB=0.11).at(phi=np.linspace(0.3, 3.5, 8))["P"].T
-    found = synthesise(FourBar(), path=PathTask(points, of="P"), vary={"OA": values, "AB": (0.08, 0.14)}, starts=6)
+    found = synthesise(FourBar(), path=PathTask(points, of="P"), vary={"OA": values, "AB": (0.08, 0.14)}, starts=2)
     assert found.best.most <= 1e-10 and abs(found.machine["OA"] - 0.036) <= 1e-12
 
 

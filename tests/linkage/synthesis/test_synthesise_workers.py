@@ -26,7 +26,7 @@ def bits(found):
 
 def searched(**options):
     """Return a search of some stages, with a condition and choices."""
-    given = {"path": TASK, "vary": VARY, "subject_to": [least(transmission("B")) >= 55 * deg], "starts": 6, "seed": 1} | options
+    given = {"path": TASK, "vary": VARY, "subject_to": [least(transmission("B")) >= 55 * deg], "starts": 3, "seed": 1} | options
     return synthesise(Bar(), **given)
 
 
@@ -89,7 +89,7 @@ def test_what_is_torn_is_searched_again(alone, tmp_path):
     ("other", "words"),
     [
         ({"seed": 2}, "seed .1 there, 2 here"),
-        ({"starts": 7}, "starts .6 there, 7 here"),
+        ({"starts": 7}, "starts .3 there, 7 here"),
         ({"path": PathTask(np.array(papers.FIVE)[:4] * mm, of="P", at=papers.FIVE_AT[:4])}, "points .5 there, 4 here"),
         ({"path": PathTask(np.array(papers.FIVE) * 2 * mm, of="P", at=papers.FIVE_AT)}, "their values"),
         ({"path": PathTask(np.array(papers.FIVE) * mm, of="B", at=papers.FIVE_AT)}, "PathTask of P there, PathTask of B here"),
@@ -103,7 +103,7 @@ def test_a_folder_of_another_task_is_refused(tmp_path, monkeypatch, other, words
 
     monkeypatch.setattr(task_search.TaskSearch, "run", lambda self, stages: None)
     searched(folder=tmp_path)
-    assert json.loads((tmp_path / "study.json").read_text())["starts"] == 6
+    assert json.loads((tmp_path / "study.json").read_text())["starts"] == 3
     searched(folder=tmp_path)
     with pytest.raises(DefinitionError, match=f"holds another study; it differs in .*{words}"):
         searched(folder=tmp_path, **other)

@@ -1,5 +1,7 @@
 """The error of a task as a measure: what a synthesis makes least, against distances found by brute force, and its derivatives."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -32,10 +34,15 @@ def task_of(kind):
     }[kind]
 
 
+@cache
+def searched(kind):
+    word, task = task_of(kind)
+    return synthesise(FourBar(), vary=BOX, starts=4, **{word: task})
+
+
 @pytest.mark.parametrize("kind", ["path", "untimed", "function", "poses"])
 def test_the_measure_of_an_answer_is_its_error(kind):
-    word, task = task_of(kind)
-    found = synthesise(FourBar(), vary=BOX, starts=4, **{word: task})
+    found = searched(kind)
     place = len(found.solutions) - 1
     for each in {0, place}:
         answer = found.solutions[each]
@@ -56,7 +63,7 @@ def nearest(machine, point):
 
 
 def test_an_untimed_error_counts_by_the_distance_from_the_path_and_has_its_derivatives():
-    found = synthesise(FourBar(), path=PathTask(POINTS, of="P"), vary=BOX, starts=4)
+    found = searched("untimed")
     best, step = found.best.machine, 1e-5
     total = found.measure()
     for name in ("OA", "BAP", "AB", "C.y"):  # of the first two the error is least
@@ -72,13 +79,13 @@ def test_an_untimed_error_counts_by_the_distance_from_the_path_and_has_its_deriv
 
 
 def test_bands_of_an_error_are_those_of_machines_one_by_one():
-    found = synthesise(FourBar(), path=PathTask(POINTS, of="P"), vary=BOX, starts=4)
+    found = searched("untimed")
     kept = [each**0.5 <= found.best.most + 0.02 * mm for each in found.point_measures()]
-    study = monte_carlo(found.machine, {"rms": (found.measure() / 5) ** 0.5}, {"OA": 0.1 * mm, "CB": 0.1 * mm}, subject_to=kept, count=64)
-    errors = [sum(nearest(study.design(place), point) for point in POINTS) for place in range(64)]
+    study = monte_carlo(found.machine, {"rms": (found.measure() / 5) ** 0.5}, {"OA": 0.1 * mm, "CB": 0.1 * mm}, subject_to=kept, count=24)
+    errors = [sum(nearest(study.design(place), point) for point in POINTS) for place in range(24)]
     assert_allclose(study["rms"].mean, np.mean(np.sqrt(np.array(errors) / 5)), rtol=1e-4)
     assert_allclose(study["rms"].nominal, found.best.rms, rtol=1e-6)
-    most = [max(np.sqrt(nearest(study.design(place), point)) for point in POINTS) for place in range(64)]
+    most = [max(np.sqrt(nearest(study.design(place), point)) for point in POINTS) for place in range(24)]
     assert 0.1 < study.yield_rate < 0.95
     assert_allclose(study.good, np.array(most) <= found.best.most + 0.02 * mm)
 

@@ -112,7 +112,7 @@ class Narrow:
 def test_a_full_disk_leaves_the_old_file_and_nothing_beside_it(write, name, tmp_path, monkeypatch, capsys):
     file = tmp_path / name
     file.write_bytes(b"a good one")
-    for room in (0, 10, 150):
+    for room in (0, 150):
         with monkeypatch.context() as patch:
             FullDisk(patch, room)
             with pytest.raises(FileError, match=r"disk is full|the command failed"):
@@ -191,7 +191,7 @@ def test_the_name_never_stands_for_less_than_a_whole_file(tmp_path):
     done = threading.Event()
 
     def writing():
-        for _ in range(25):
+        for _ in range(8):
             for content in contents:
                 with replacing(file) as stream:
                     stream.write(content)
@@ -213,6 +213,7 @@ def test_text_is_written_as_it_is(tmp_path):
     assert (tmp_path / "a").read_bytes() == "é\r\nü\n".encode()
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not sys.platform.startswith("linux") or not hasattr(os, "geteuid") or os.geteuid() != 0, reason="mounts a small disk")
 @EVERY_WRITER
 def test_a_disk_that_is_really_full(write, name, tmp_path, capsys):
@@ -279,6 +280,7 @@ def test_standard_output_by_its_name(tmp_path):
     assert [each.name for each in tmp_path.iterdir()] == ["out.csv"]
 
 
+@pytest.mark.slow
 @posix
 def test_a_reader_that_has_gone_is_no_mistake():
     args, options = command("table", "four_bar", "--csv", "/dev/stdout", "--count", "20000")

@@ -333,7 +333,7 @@ def test_sizes_that_no_float_can_square(size):
     st.one_of(st.floats(), st.integers(-5, 50), st.lists(st.floats(-2, 2), max_size=5), st.text(max_size=3), st.none()),
     st.sampled_from(["raise", "nan"]),
 )
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=8, deadline=None)
 def test_anything_given_is_either_used_or_refused_in_words(dimensions, strokes, unreachable):
     with warnings.catch_warnings():
         warnings.simplefilter("error")

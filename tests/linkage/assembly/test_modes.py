@@ -81,7 +81,7 @@ def pasted(machine, code):
     return names["Other"]
 
 
-FEW = ("grapple", "inverted_slider_crank", "scotch_yoke", "three_point_hitch", "toggle_press")
+FEW = ("inverted_slider_crank", "scotch_yoke", "three_point_hitch")
 
 
 @for_all(

@@ -131,13 +131,14 @@ def compare_texts(board, sketch, folder):
 
 
 def test_python_and_toml_are_letter_by_letter_what_python_writes(board, tmp_path):
+    """A third of them every day."""
     cases = {"boom": BOOM, "pump": PUMP} | {name: each for name, each in plan_sketches(False).items() if name.endswith("board")}
-    check_all([(name, (board, sketch, tmp_path)) for name, sketch in cases.items()], compare_texts)
+    check_all([(name, (board, sketch, tmp_path)) for name, sketch in [*cases.items()][::3]], compare_texts)
 
 
 @pytest.mark.slow
 def test_all_machines_with_a_sketch_are_written_alike(board, tmp_path):
-    cases = plan_sketches(True) | {name: sketch_of(shipped.MACHINES[name]) for name in (*DAILY, *OTHERS)}
+    cases = plan_sketches(True) | {name: sketch_of(shipped.MACHINES[name]) for name in (*DAILY, *OTHERS)} | {"boom": BOOM, "pump": PUMP}
     check_all([(name, (board, sketch, tmp_path)) for name, sketch in cases.items()], compare_texts)
 
 
@@ -188,7 +189,7 @@ def test_whatever_numbers_a_drawing_has_python_is_written_alike(board, tmp_path)
 
 def test_toml_says_angles_sizes_and_lengths_alike(board, tmp_path):
     pick = random.Random(5)
-    for seed in range(4):
+    for seed in (0, 3):
         start, bore = pick.choice([0.0, pick.uniform(0.01, 0.3)]), pick.choice([0.063, 0.1, pick.uniform(0.05, 0.2)])
         drive = SketchDrive("cylinder", ("A", "B"), start, start + pick.uniform(0.02, 0.1), start, bore, 0.5 * bore)
         wide = {f"P{n}": (1.5 + 0.1 * n, pick.uniform(0.5, 0.7)) for n in range(5 * seed)} if seed == 3 else {}
@@ -240,14 +241,16 @@ def compare_poses(board, sketch, count=25):
 
 
 def test_sketches_opened_moved_and_exported_have_the_poses_of_the_board(board):
+    """A third of them every day."""
     cases = {**plan_sketches(False), "boom": BOOM, "pump": PUMP} | {name: sketch_of(shipped.MACHINES[name]) for name in DAILY}
     assert len(cases) > 30
-    check_all([(name, (board, sketch)) for name, sketch in cases.items()], compare_poses)
+    check_all([(name, (board, sketch)) for name, sketch in [*cases.items()][::3]], compare_poses)
 
 
 @pytest.mark.slow
 def test_all_sketches_have_the_poses_of_the_board(board):
-    cases = plan_sketches(True) | {name: sketch_of(shipped.MACHINES[name]) for name in OTHERS}
+    cases = plan_sketches(True) | {name: sketch_of(shipped.MACHINES[name]) for name in (*DAILY, *OTHERS)}
+    cases |= {"boom": BOOM, "pump": PUMP} | {f"{kind} {seed}": machine_at_random(kind, seed) for kind in KINDS for seed in (1, 2)}
     check_all([(name, (board, sketch)) for name, sketch in cases.items()], compare_poses)
 
 
@@ -329,8 +332,7 @@ KINDS = {
 
 
 def test_machines_at_random_run_as_in_python(board):
-    cases = [(f"{kind} {seed}", (board, machine_at_random(kind, seed))) for kind in KINDS for seed in range(3)]
-    check_all(cases, compare_poses)
+    check_all([(kind, (board, machine_at_random(kind, 0))) for kind in KINDS], compare_poses)
 
 
 def test_no_link_is_stretched_and_no_branch_leaps(board):
@@ -350,8 +352,8 @@ def test_no_link_is_stretched_and_no_branch_leaps(board):
         for name, place in answer["posed"]["points"].items():
             assert place == answer["dragged"]["points"][name]
     assert 10 < ended < 70
-    counts = [compare_poses(board, sketch, 41) for sketch in sketches[:6]]
-    assert sum(counts) > 100
+    counts = [compare_poses(board, sketch, 41) for sketch in sketches[:2]]
+    assert sum(counts) > 30
 
 
 def test_what_is_out_of_reach_names_the_link_and_how_short_it_is(board):

@@ -37,10 +37,9 @@ def empty(tmp_path_factory):
 class Board(Shown):
     """A board in a browser, its sheet by places in mm."""
 
-    def __enter__(self):
+    def __exit__(self, *error):
         self("localStorage.clear()")
-        self.again()
-        return self
+        super().__exit__(*error)
 
     def again(self):
         """Load the page anew, as a tab that was closed does."""

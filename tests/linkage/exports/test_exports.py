@@ -56,7 +56,8 @@ from tests.linkage.exports.workbooks import by_office, drawing, needs_office, nu
 from tests.tools.sources import sources
 
 POSES = 7
-PAPERS = {"hitch": ThreePointHitch, "header": HeaderBalancer, "mower": MowerLift}
+PAPERS = {"mower": MowerLift, "header": HeaderBalancer, "hitch": ThreePointHitch}
+DAILY = first_daily(2, "name", PAPERS)
 SHIPPED = shipped.MACHINES
 OTHERS = ("hitch", "header")
 """Those that LibreOffice is asked about under `slow`, in a run of their own: it takes seconds for each."""
@@ -76,11 +77,16 @@ class Turned(Mechanism):
     rubbing = PinFriction(O, radius=12 * mm, coefficient=0.1)
 
 
+class Books(dict):
+    """The workbooks of the papers' machines, each made when it is asked for."""
+
+    def __missing__(self, name):
+        return self.setdefault(name, export(PAPERS[name](), self["folder"] / f"{name}.xlsx", count=POSES))
+
+
 @pytest.fixture(scope="module")
 def books(tmp_path_factory):
-    """The workbooks of the papers' machines."""
-    folder = tmp_path_factory.mktemp("books")
-    return {name: export(machine(), folder / f"{name}.xlsx", count=POSES) for name, machine in PAPERS.items()}
+    return Books(folder=tmp_path_factory.mktemp("books"))
 
 
 @pytest.fixture(scope="module")
@@ -138,7 +144,7 @@ def new_value(path, dimension, value):
 # -- workbooks ---------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", PAPERS)
+@DAILY
 def test_values_in_the_workbook_are_the_engines(books, name):
     machine = PAPERS[name]()
     motion = machine.sweep(POSES)
@@ -155,14 +161,14 @@ def test_values_in_the_workbook_are_the_engines(books, name):
             assert_allclose(numbers[points[f"{point}_{axis}"]], getattr(motion, axis)(point), rtol=0, atol=1e-12)
 
 
-@pytest.mark.parametrize("name", PAPERS)
+@DAILY
 def test_every_result_of_the_papers_machines_is_a_formula(books, name):
     sheet = written(books[name])["Results"]
     plain = [cell.value for cell, first in zip(sheet[1], sheet[4], strict=True) if not str(first.value).startswith("=")]
     assert plain == (["of pin O"] if name == "header" else [])
 
 
-@pytest.mark.parametrize("name", PAPERS)
+@DAILY
 def test_the_calculation_has_the_numbers_and_the_order_of_the_equations(books, name):
     sheet = written(books[name])["Calculation"]
     titles = [(cell.value, below.value) for cell, below in zip(sheet[1], sheet[4], strict=True) if cell.value and cell.value[-2].isdigit()]
@@ -339,15 +345,15 @@ def test_the_same_design_gives_the_same_bytes(tmp_path):
     assert all(ZipFile(one).read(name) == ZipFile(other).read(name) for name in names)
 
 
-def test_a_chart_shows_what_the_machine_is_about(books):
-    for name, machine in PAPERS.items():
-        chart = written(books[name])["Chart"]._charts[0]
-        wanted = machine().featured().column
-        titles = [cell.value for cell in stored(books[name])["Results"][1]]
-        drawn = chart.series[0].yVal.numRef.f
-        assert drawn.startswith("Results!$") and (
-            not wanted or titles[written(books[name])["Results"][f"{drawn.split('$')[1]}1"].column - 1] == wanted
-        )
+@DAILY
+def test_a_chart_shows_what_the_machine_is_about(books, name):
+    chart = written(books[name])["Chart"]._charts[0]
+    wanted = PAPERS[name]().featured().column
+    titles = [cell.value for cell in stored(books[name])["Results"][1]]
+    drawn = chart.series[0].yVal.numRef.f
+    assert drawn.startswith("Results!$") and (
+        not wanted or titles[written(books[name])["Results"][f"{drawn.split('$')[1]}1"].column - 1] == wanted
+    )
 
 
 def test_formulas_have_the_signs_and_the_order_of_a_spreadsheet():

@@ -300,7 +300,7 @@ def test_what_only_the_product_of_its_parts_suspects_is_looked_at_by_a_compiled_
     assert not closely
 
 
-@for_all("part", range(2), slow=range(2, 4))
+@for_all("part", range(1), slow=range(1, 4))
 def test_a_coarse_look_passes_nothing_that_loses_digits(part):
     passed = 0
     for seed in range(8 * part, 8 * part + 8):

@@ -70,7 +70,7 @@ def told(machine):
     return [each for each in verdicts if each.rule == "dead points"]
 
 
-@first_daily(3, "seed", range(40))
+@first_daily(2, "seed", range(40))
 def test_a_dead_point_at_an_end_is_told_and_no_mark_contradicts_its_words(seed):
     rng = np.random.default_rng(seed)
     frame, arm, bent = rng.uniform(0.3, 0.9), rng.uniform(0.2, 0.9), rng.choice([0.0, rng.uniform(-0.6, 0.6)])

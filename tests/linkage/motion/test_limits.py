@@ -275,7 +275,7 @@ def in_line(O, A):
     return np.sort(np.array([away, away + np.pi]) % (2.0 * np.pi))
 
 
-@for_all("seed", range(2), slow=range(2, 8))
+@for_all("seed", range(1), slow=range(1, 8))
 def test_a_cylinder_beside_a_crank_has_its_dead_points_where_three_pins_are_in_line(seed):
     rng = np.random.default_rng(seed)
     O, A = rng.uniform(-1.0, 1.0, (2, 2))

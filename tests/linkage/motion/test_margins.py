@@ -75,7 +75,7 @@ def of(found, step="D"):
     return next(each for each in found if each.step == step)
 
 
-@for_all("seed", range(2), slow=range(2, 568))
+@for_all("seed", range(1), slow=range(1, 568))
 @for_all("k", [1, 2, 3])
 def test_holes_are_found(seed, k):
     """Each where it is; its machine with the links longer by as much has none."""

@@ -36,7 +36,7 @@ def test_an_unknown_name_says_who_wants_it():
         construction_order({"B": [], "C": ["Bb"]}, "Arm")
 
 
-@for_all("seed", range(2), slow=range(2, 5))
+@for_all("seed", range(1), slow=range(1, 5))
 def test_members_in_any_order_make_the_same_machine(seed):
     written = random_mechanism(seed, strokes=2)
     members = list(written.plan.members.items())

@@ -85,7 +85,7 @@ def along_edges(corners, count=60):
     return np.concatenate([a + shares * (b - a) for a, b in zip(corners, np.roll(corners, -1, axis=0), strict=True)])
 
 
-@for_all("seed", range(2), slow=range(2, 12))
+@for_all("seed", range(1), slow=range(1, 12))
 def test_the_gap_of_outlines_against_points_along_them(seed):
     rng = np.random.default_rng(seed)
     one, other = star(rng, int(rng.integers(4, 13))), star(rng, int(rng.integers(3, 9)))
@@ -350,7 +350,7 @@ def test_the_least_gap_of_many_pairs_is_that_of_all_of_them(seed):
 # -- where they come nearest -------------------------------------------------------------------------------
 
 
-@for_all("seed", range(2), slow=range(2, 6))
+@for_all("seed", range(1), slow=range(1, 6))
 def test_the_nearest_places_are_as_far_apart_as_the_gap(seed):
     """The same number as the program's, between a place of the one and a place of the other; moved by it they just touch."""
     rng = np.random.default_rng(40 + seed)

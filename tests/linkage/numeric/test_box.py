@@ -69,7 +69,7 @@ def check_waves(seed, k, poses):
         assert (sense * values).max() <= value + 1e-6 * np.ptp(values)
 
 
-@for_all("seed", range(3), slow=range(3, 60))
+@for_all("seed", range(2), slow=range(2, 60))
 @for_all("k", [1, 2, 3])
 def test_no_random_pose_betters_a_sum_of_waves(k, seed):
     check_waves(seed, k, 10_000)
@@ -90,7 +90,7 @@ def bell(top, matrix):
 @pytest.mark.parametrize("k", [4, 5, 6])
 def test_more_strokes(k):
     """A skewed bell, and a plane: its top is in a corner."""
-    for seed in range(4):
+    for seed in range(2):
         rng = np.random.default_rng([seed, k])
         top, turn = rng.uniform(size=k), np.linalg.qr(rng.normal(size=(k, k)))[0]
         matrix = turn @ np.diag(rng.uniform(0.5, 3.0, k)) @ turn.T

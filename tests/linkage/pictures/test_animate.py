@@ -175,6 +175,6 @@ def test_what_cannot_be_written_is_said_in_words(tmp_path):
 
 def test_an_html_file_is_the_live_page(tmp_path):
     heard = []
-    file = animate(MowerLift(), tmp_path / "lift.html", column="kz", trace=["G"], progress=lambda *each: heard.append(each))
-    assert file.read_text(encoding="utf-8") == page_html(MowerLift(), column="kz", trace=["G"], at={})
+    file = animate(FourBar(), tmp_path / "bars.html", column="psi", trace=["C"], progress=lambda *each: heard.append(each))
+    assert file.read_text(encoding="utf-8") == page_html(FourBar(), column="psi", trace=["C"], at={})
     assert heard == [(1, 2), (2, 2)]

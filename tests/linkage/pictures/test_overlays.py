@@ -1,5 +1,6 @@
 """Forces, velocities and poles over a mechanism: arrows as statics and kinematics say, in one scale, with values that can be read."""
 
+from functools import cache
 from importlib.metadata import entry_points
 from itertools import combinations, product
 from operator import attrgetter
@@ -41,7 +42,7 @@ from linkage.motion import whole_body
 from linkage.motion.gaps import shape_named
 from linkage.pictures import style
 from linkage.pictures.arrows import significant
-from linkage.pictures.force_arrows import ForceQuestion, ForcesAt, force_layer, forces_at_pose
+from linkage.pictures.force_arrows import ForceQuestion, forces_at_pose
 from linkage.pictures.gap_marks import assumed_pairs
 from linkage.pictures.lever_arms import lever_arms, moment_about
 from linkage.pictures.overlays import asked_poles, pole_marks, pole_rates
@@ -118,11 +119,17 @@ def scale_of(figure, unit):
 # -- forces ------------------------------------------------------------------------------------------------
 
 
+@cache
+def with_forces(kind):
+    """Return a machine's motion at a pose, and its picture with the forces, which several tests read."""
+    motion = pose_of(kind())
+    return motion, draw(motion, forces=True)
+
+
 @first_daily(2, "machine", [Press, *sorted([*LOADED, Tipper], key=lambda each: each is not ThreePointHitch)], ids=attrgetter("__name__"))
 def test_arrows_are_the_pin_forces_and_loads_in_one_scale(machine):
-    motion = pose_of(machine())
-    found = forces_at_pose(motion, 0, ForceQuestion()).found
-    figure = draw(motion, forces=True)
+    motion, figure = with_forces(machine)
+    found = pin_forces(motion)
     drawn, size = arrows(figure, "force "), max(float(joint.size) for joint in found.joints if joint.has_force)
     unit, factor = ("kN", 1e3) if named(figure, "scale kN") else ("N", 1.0)
     scale = scale_of(figure, unit) / factor
@@ -142,18 +149,6 @@ def test_arrows_are_the_pin_forces_and_loads_in_one_scale(machine):
     assert_allclose(
         total, scale * sum(acting.force for _, acting in found._loads), atol=(1e-9 + 0.012 * dots(figure, "load ")) * scale * size
     )
-
-
-@first_daily(3, "machine", [Press, *sorted([*LOADED, Tipper], key=lambda each: each is not ThreePointHitch)], ids=attrgetter("__name__"))
-def test_a_force_on_a_page_acts_on_the_body_on_which_it_is_drawn(machine):
-    motion = pose_of(machine())
-    drawn = force_layer(ForcesAt(pin_forces(motion), 0)).arrows
-    for each in force_arrows(machine(), motion, [PageSituation(None)]):
-        if each.by:
-            words = "" if each.by == "frame" else f"on {each.on}"
-            there = [one.vector for one in drawn if one.name.startswith(f"force {each.point} ") and one.text.endswith(words)]
-            shown = np.array([float(np.ravel(motion[part])[0]) for part in (each.x, each.y)])
-            assert any(np.allclose(shown, one, atol=1e-9 * np.hypot(*one)) for one in there) or not np.hypot(*shown) > 1e-6, each.point
 
 
 def test_axle_loads_stand_at_the_supports_of_the_frame():
@@ -183,8 +178,7 @@ def test_the_free_body_of_a_vehicle_closes():
 
 def test_force_of_the_hitch_by_hand():
     """MK is a two-force bar: its pins' forces lie along it; about F the load and MK alone turn FKG."""
-    motion = pose_of(ThreePointHitch())
-    figure = draw(motion, forces=True)
+    motion, figure = with_forces(ThreePointHitch)
     found = arrows(figure, "force ")
     (tail, pull) = next(value for name, value in found.items() if name.startswith("force M "))
     bar = motion["K"] - motion["M"]
@@ -198,7 +192,7 @@ def test_force_of_the_hitch_by_hand():
     assert_allclose(tail, motion["M"], atol=1e-12)
 
 
-@pytest.mark.parametrize("machine", [ThreePointHitch, Press], ids=lambda machine: machine.__name__)
+@first_daily(1, "machine", [Press, ThreePointHitch], ids=lambda machine: machine.__name__)
 def test_a_free_body_closes(machine):
     """The arrows on each body are in balance, forces and moments about a place anywhere; the polygon ends where it began."""
     motion = pose_of(machine())
@@ -235,8 +229,7 @@ def turning_of(line):
 
 
 def test_own_mass_is_drawn_at_its_centre_of_gravity_and_a_moment_as_a_curve():
-    motion = pose_of(Press())
-    figure = draw(motion, forces=True)
+    motion, figure = with_forces(Press)
     A, B = motion["A"], motion["B"]
     along = (B - A) / np.hypot(*(B - A))
     centre = A + 0.2 * along + 0.05 * np.array([-along[1], along[0]])
@@ -244,9 +237,9 @@ def test_own_mass_is_drawn_at_its_centre_of_gravity_and_a_moment_as_a_curve():
     assert_allclose(tail, centre, atol=1e-9)
     assert abs(vector[0]) < 1e-9 and vector[1] < 0.0
     on_page = [each for each in force_arrows(Press(), Press().sweep(3), [PageSituation(None)]) if "own" in str(each[1])]
-    (own,) = on_page
-    assert own.point == "A" and own.is_load and own.centre == ("A", "B", (0.2, 0.05)) and own.on == "own"
-    assert_allclose([motion[own.x], motion[own.y]], [0.0, -30.0 * 9.80665], atol=1e-9)
+    ((point, x, y, is_load, beside),) = on_page
+    assert point == "A" and is_load and beside == ("A", "B", (0.2, 0.05))
+    assert_allclose([motion[x], motion[y]], [0.0, -30.0 * 9.80665], atol=1e-9)
     assert named(figure, "moment drag")["moment drag on CB value"].get_text() == "0.250 kNm drag"
     curve = np.array(named(figure, "moment drag")["moment drag on CB"].get_xydata())
     turn = curve - 0.5 * (motion["C"] + motion["B"])
@@ -254,7 +247,7 @@ def test_own_mass_is_drawn_at_its_centre_of_gravity_and_a_moment_as_a_curve():
 
 
 def test_values_cover_neither_names_nor_each_other():
-    figure = draw(pose_of(ThreePointHitch()), forces=True)
+    figure = with_forces(ThreePointHitch)[1]
     renderer = FigureCanvasAgg(figure).get_renderer()
     boxes = {text.get_text(): text.get_window_extent(renderer) for text in figure.axes[0].texts if text.get_text()}
     assert len(boxes) > 15
@@ -592,7 +585,7 @@ class Stacked(ThreePointHitch):
     edge = Outline([(0.0, 0.0), (0.2, 0.0), (0.2, 0.1), (0.0, 0.1)], on=("E", "D"))
 
 
-@for_all("machine", [Excavator, ThreePointHitch, Stacked], ids=lambda machine: machine.__name__)
+@for_all("machine", [ThreePointHitch, Stacked], slow=[Excavator])
 def test_without_planes_what_is_built_together_is_left_out(machine):
     """No pair that is looked at shares a pin; what crosses in all poses is named and not looked at, and nothing else is."""
     motion = machine().at(**{name: stroke.start for name, stroke in machine().strokes.items()}, unreachable="nan")

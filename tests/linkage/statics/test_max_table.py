@@ -64,7 +64,7 @@ WAYS = [("frictionless", None), *product(("extending", "retracting"), ("S", "T")
 
 def test_a_machine_has_the_largest_of_all_cases_directions_and_places():
     machine = Grab()
-    grid = np.meshgrid(np.linspace(0.0, 0.25, 41), np.linspace(0.0, 0.3, 41), indexing="ij")
+    grid = np.meshgrid(np.linspace(0.0, 0.25, 21), np.linspace(0.0, 0.3, 21), indexing="ij")
     seen = brute(machine, machine.at(S=grid[0], T=grid[1]), [None, "calm"], WAYS)
     rows = {(row.point, row.on, row.by, row.kind): row for row in max_table(machine)}
     assert rows.keys() == seen.keys()

@@ -86,7 +86,7 @@ def walked(points, radii, senses, weights):
     return total
 
 
-@for_all("seed", range(2), slow=range(2, 5))
+@for_all("seed", range(1), slow=range(1, 5))
 def test_the_length_is_kept_and_the_tension_is_its_energy(seed):
     machine = varied(seed)
     chain, motion = machine.plan.members["chain"], machine().at(**STROKES)
@@ -101,7 +101,7 @@ def test_the_length_is_kept_and_the_tension_is_its_energy(seed):
     assert_allclose(motion.ratio("D", wrt="chain.length")[1] * mass["D"] * g0, slope, rtol=1e-8, atol=1e-8 * np.abs(slope).max())
 
 
-@for_all("seed", range(2), slow=range(2, 5))
+@for_all("seed", range(1), slow=range(1, 5))
 def test_virtual_work_is_equilibrium(seed):
     machine = varied(seed)
     motion = machine().at(**STROKES)
@@ -160,7 +160,7 @@ def test_two_masses_on_one_rope():
     assert_allclose(driving_force(motion), 20 * g0, rtol=1e-12)  # down where the lighter one hangs, which the drive pushes down
 
 
-@for_all("seed", range(2), slow=range(2, 3))
+@for_all("seed", range(1), slow=range(1, 3))
 def test_a_given_pull_does_its_work_on_the_path(seed):
     rng = np.random.default_rng(seed)
     falls = rng.uniform(1, 2)

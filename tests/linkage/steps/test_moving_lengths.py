@@ -1,6 +1,7 @@
 """Lengths that follow where a point is: a cam, a rope's end, a stop that goes along. Everything that reads a machine reads these."""
 
 import warnings
+from functools import cache
 
 import numpy as np
 import pytest
@@ -61,6 +62,7 @@ STEPS = {
 CASES = [pytest.param(step, name, id=f"{step}-{name}") for step in STEPS for name in FOLLOWED]
 
 
+@cache
 def machine_of(step, name):
     """Return a lever with a weight on a point X whose length follows something."""
     return type("Following", (Lever,), {"X": STEPS[step](FOLLOWED[name]), "load": Weight("X", mass=10.0)})
@@ -100,7 +102,7 @@ def test_gradients_and_kernels(step, name):
     assert_allclose([pose(each)[2:] for each in S], expected.T, rtol=1e-12, atol=1e-14)
 
 
-@for_all(("step", "name"), CASES)
+@for_all(("step", "name"), CASES[::3], slow=CASES)
 def test_files_mobility_and_limits(step, name):
     kind = machine_of(step, name)
     motion = kind().sweep(5)

@@ -162,7 +162,8 @@ class Grid:
 
     def inputs_at(self, mask: Mask) -> dict[str, FloatArray]:
         """Return the inputs at some poses, shape (n,)."""
-        return {name: np.broadcast_to(value, self.shape)[mask] for name, value in self.inputs.items()}
+        count, given = np.count_nonzero(mask), self.inputs.items()
+        return {name: np.broadcast_to(value, self.shape)[mask] if value.ndim else np.full(count, value) for name, value in given}
 
     def read_at(self, mask: Mask) -> ArrayReading:
         """Return the eager reading of some poses."""

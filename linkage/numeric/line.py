@@ -39,6 +39,7 @@ CLOSE = 1e-13  # of a leg, or of a box: how narrow a bracket gets, and how near 
 BORDERS = 32  # of each function and design, at most
 NOISE, ROUNDED = 1e-10, 1e-12  # of the range of the values, and of their size: a sample that rises less above its neighbours hides nothing
 EPS, LOWEST = float(np.finfo(float).eps), float(np.finfo(float).min)
+CUTS = 512  # of what lies about a few borders, at a time
 HALVINGS, LEVEL = 48, 2  # steps towards a border; more samples than these as high as the highest are a level stretch
 SEEN, REFUSED = 1e-9, 1e-5  # of a leg: how near a value must keep growing, to a border and to a refused pose
 PLATEAU = 2.0**-12  # of the distance at which a value stopped growing: where it is level from there on numbers went no nearer
@@ -256,23 +257,21 @@ def stretches(mask: Mask) -> list[tuple[int, int]]:
 
 
 def last_holding(
-    holds: Callable[[FloatArray], Mask], inside: npt.ArrayLike, outside: npt.ArrayLike, close: float = 0.0, parts: int = FINE - 1
+    holds: Callable[[FloatArray], Mask], inside: npt.ArrayLike, outside: npt.ArrayLike, close: float = 0.0, parts: int = 0
 ) -> tuple[FloatArray, FloatArray]:
     """Return the last places (...) at which something holds, and the next ones, at which it does not, at most `close` apart.
 
     It holds `inside` and not `outside`; `holds` is asked of the places (..., n) that cut what lies between into so many parts, again and
-    again, by itself to the last digit.
+    again. By itself it goes to the last digit, and a few borders are cut into more parts: a question costs more than its places.
     """
     inside, outside = np.array(inside, float), np.array(outside, float)
-    while np.max(np.abs(outside - inside)) > close:
+    parts = parts or (FINE - 1 if close else min(max(MANY // max(inside.size, 1), FINE - 1), CUTS))
+    while np.any((np.abs(outside - inside) > close) & (np.nextafter(inside, outside) != outside)):
         t = inside[..., None] + (outside - inside)[..., None] * np.linspace(0.0, 1.0, parts + 1)
         fails = ~holds(t)
         fails[..., -1] = True
         first = np.maximum(np.argmax(fails, axis=-1)[..., None], 1)
-        ends = [np.asarray(np.take_along_axis(t, first - back, axis=-1)[..., 0]) for back in (1, 0)]
-        if np.array_equal(ends, [inside, outside]):
-            break
-        inside, outside = ends
+        inside, outside = (np.asarray(np.take_along_axis(t, first - back, axis=-1)[..., 0]) for back in (1, 0))
     return inside, outside
 
 

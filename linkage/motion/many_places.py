@@ -150,15 +150,15 @@ class ManyPlaces:
         k, places = self.solved, self.places
         unit, wanted = start.unit.copy(), goals[start.place]
         met, going, lost = np.zeros(len(unit), bool), np.arange(len(unit)), np.zeros(len(unit), bool)
-        low, high = -outs[:k] - FAR, 1.0 + outs[:k] + FAR
+        low, high = (-outs[:k] - FAR)[:, None], (1.0 + outs[:k] + FAR)[:, None]
         for _ in range(iterations):
             if not len(going):
                 break
             values, slopes = self.seen_in(unit[going], None if order is None else order[going])
             off = places.off(values, wanted[going])
-            here = (np.abs(off) <= self.tolerance).all(axis=1)
+            here = (np.abs(off.T, order="C") <= self.tolerance[:, None]).all(axis=0)  # in rows of all poses, which NumPy runs along
             step = solved_systems(slopes[:, :, :k], off)
-            size = np.abs(step).max(axis=1)
+            size = np.abs(step.T, order="C").max(axis=0)
             good = np.isfinite(size)
             step *= np.minimum(1.0, LEAP / np.where(size > 0.0, size, 1.0))[:, None]
             near = here | (size <= SURE)
@@ -166,7 +166,8 @@ class ManyPlaces:
             unit[going[good & ~here], :k] -= step[good & ~here]
             met[going[near]] = True
             going = going[good & ~near]
-            out = ((unit[going, :k] < low) | (unit[going, :k] > high)).any(axis=1)
+            at = unit[going].T[:k].copy()
+            out = ((at < low) | (at > high)).any(axis=0)
             lost[going[out]] = True
             going = going[~out]
         left = ~met & ~lost if damped == "unsettled" else ~met & bool(damped)

@@ -156,16 +156,15 @@ class LevelLines:
         self, height: FloatArray, good: FloatArray, bad: FloatArray, start: PlacePoses, turn: Index
     ) -> tuple[FloatArray, FloatArray]:
         """Return how far each pose gets on its line with the spare strokes of its turn standing (r,) [m], and the poses there (r, k)."""
-        unit, near, far = start.unit.copy(), good[start.place], bad[start.place]
-        for each in np.unique(turn):
-            many, order = self.turns[each]
-            rows, outs = np.flatnonzero(turn == each), np.zeros(unit.shape[1])
-            base = unit[rows][:, order]
-            for _ in range(HALVED):
-                middle = 0.5 * (near[rows] + far[rows])
-                goals = np.column_stack([middle, height[start.place[rows]], np.tile(self.rest, (len(rows), 1))])
-                found, met = many.settled(PlacePoses(np.arange(len(rows)), base), goals, outs, damped=False)
-                base = np.where(met[:, None], found.unit, base)
-                near[rows], far[rows] = np.where(met, middle, near[rows]), np.where(met, far[rows], middle)
-            unit[np.ix_(rows, order)] = base
+        near, far, outs = good[start.place], bad[start.place], np.zeros(start.unit.shape[1])
+        order = np.array([each for _, each in self.turns])[turn]
+        base, unit = np.take_along_axis(start.unit, order, axis=1), np.empty_like(start.unit)
+        for _ in range(HALVED):
+            middle = 0.5 * (near + far)
+            goals = np.column_stack([middle, height[start.place], np.tile(self.rest, (len(middle), 1))])
+            at = PlacePoses(np.arange(len(middle)), base)
+            found, met = self.many.settled(at, goals, outs, damped=False, order=order if len(self.turns) > 1 else None)
+            base = np.where(met[:, None], found.unit, base)
+            near, far = np.where(met, middle, near), np.where(met, far, middle)
+        np.put_along_axis(unit, order, base, axis=1)
         return near, unit

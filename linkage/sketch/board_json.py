@@ -10,7 +10,7 @@ from typing import Any
 from ..errors import DefinitionError, FileError
 from ..files.names import shortened
 from ..quantities import is_name
-from .found import WORDS, FoundMachine, ensure_file, json_list, json_table, printable
+from .found import WORDS, FoundMachine, printable
 from .machine_sketch import MachineSketch, Place, SketchDrive, SketchSlide, SketchWeight, plain_entry
 
 BOARD = 1
@@ -31,7 +31,7 @@ def board_json(sketch: MachineSketch) -> str:
 
 def read_board(found: FoundMachine, data: Mapping[str, Any]) -> None:
     """Read a file of the board: its sketch as it is, and its points and links for drives that are asked for."""
-    ensure_file(data["board"] == BOARD, f"{found.file}: it is of another board, {shortened(data['board'])}; bring hydrolinkage up to date.")
+    found.ensure(data["board"] == BOARD, f"it is of another board, {shortened(data['board'])}; bring hydrolinkage up to date.")
     try:
         found.board_sketch = BoardReader(found, data).sketch()
     except DefinitionError as error:
@@ -65,31 +65,31 @@ class BoardReader:
 
     def entries(self, part: str) -> dict[str, Any]:
         """Return a table of members, whose names are legal."""
-        table = json_table(self.data.get(part, {}), self.found.file, part)
-        ensure_file(len(table) <= 1000, f"{self.found.file}: {part} has {len(table)} entries, more than a drawing has.")
+        table = self.found.table(self.data.get(part, {}), part)
+        self.found.ensure(len(table) <= 1000, f"{part} has {len(table)} entries, more than a drawing has.")
         return {self.name(name): each for name, each in table.items()}
 
     def tables(self, part: str) -> dict[str, Mapping[str, Any]]:
         """Return a table of tables."""
-        return {name: json_table(each, self.found.file, name) for name, each in self.entries(part).items()}
+        return {name: self.found.table(each, name) for name, each in self.entries(part).items()}
 
     def name(self, given: object) -> str:
         """Return a name that a member may have."""
         is_legal = is_name(given) and given not in WORDS and not str(given).startswith("_")
-        ensure_file(is_legal, f"{self.found.file}: {shortened(given)} is no name for a part of a machine; take letters, digits and _.")
+        self.found.ensure(is_legal, f"{shortened(given)} is no name for a part of a machine; take letters, digits and _.")
         return str(given)
 
     def texts(self, given: object, what: str, least: int = 0) -> tuple[str, ...]:
         """Return a list of texts, at least so many."""
-        items = json_list(given, self.found.file, what)
+        items = self.found.list_of(given, what)
         is_text = all(isinstance(each, str) for each in items) and len(items) >= least
-        ensure_file(is_text, f"{self.found.file}: {what} is no list of {f'{least} names or more' if least else 'texts'}.")
+        self.found.ensure(is_text, f"{what} is no list of {f'{least} names or more' if least else 'texts'}.")
         return tuple(items)
 
     def place(self, name: str, given: object) -> Place:
         """Return the two coordinates of a point."""
-        numbers = [self.found.number(each, name) for each in json_list(given, self.found.file, name)]
-        ensure_file(len(numbers) == 2, f"{self.found.file}: the point {name} has no two coordinates [x, y].")
+        numbers = [self.found.number(each, name) for each in self.found.list_of(given, name)]
+        self.found.ensure(len(numbers) == 2, f"the point {name} has no two coordinates [x, y].")
         return numbers[0], numbers[1]
 
     def number(self, name: str, table: Mapping[str, Any], key: str) -> float:
@@ -102,22 +102,22 @@ class BoardReader:
         if not isinstance(along, list):
             return SketchSlide(str(table.get("point")), self.number(name, table, "along"))
         ends = self.texts(along, f"what {name} slides along", 2)
-        ensure_file(len(ends) == 2, f"{self.found.file}: {name} slides along two points or at an angle.")
+        self.found.ensure(len(ends) == 2, f"{name} slides along two points or at an angle.")
         return SketchSlide(str(table.get("point")), (ends[0], ends[1]))
 
     def weight(self, name: str, table: Mapping[str, Any]) -> SketchWeight:
         """Return a weight."""
         mass = self.number(name, table, "mass")
-        ensure_file(mass >= 0.0, f"{self.found.file}: the mass of {name} is {mass:g} kg; give 0 or more.")
+        self.found.ensure(mass >= 0.0, f"the mass of {name} is {mass:g} kg; give 0 or more.")
         return SketchWeight(str(table.get("point")), mass)
 
     def drive(self, name: str, table: Mapping[str, Any]) -> SketchDrive:
         """Return the sketch of a drive."""
         kind, ends = str(table.get("kind")), self.texts(table.get("ends"), f"the ends of {name}", 2)
         is_known = kind in ("crank", "cylinder") and len(ends) == 2
-        ensure_file(is_known, f"{self.found.file}: {name} is no crank and no cylinder with two ends.")
+        self.found.ensure(is_known, f"{name} is no crank and no cylinder with two ends.")
         start, end, drawn = (self.number(name, table, key) for key in ("start", "end", "drawn"))
         sizes = [self.number(name, table, key) for key in ("bore", "rod") if table.get(key) is not None]
         is_whole = not sizes or (kind == "cylinder" and len(sizes) == 2 and 0.0 < sizes[1] < sizes[0])
-        ensure_file(is_whole, f"{self.found.file}: the rod of {name} is not thinner than its bore; give both in metres.")
+        self.found.ensure(is_whole, f"the rod of {name} is not thinner than its bore; give both in metres.")
         return SketchDrive(kind, (ends[0], ends[1]), start, end, drawn, *sizes)

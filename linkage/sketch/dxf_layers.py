@@ -9,7 +9,7 @@ from typing import Any
 
 from ..errors import ensure, unknown
 from ..surroundings import dxf_entities
-from .found import FoundDrive, FoundMachine, ensure_file
+from .found import FoundDrive, FoundMachine
 from .machine_sketch import Place, line_angle
 
 ROLES = "pins", "links", "ground", "slides", "crank", "cylinder"
@@ -66,7 +66,7 @@ class DrawingReader:
             is_hatched = any(hatch and surrounds(place, hatch) for hatch in hatches)
             self.found.add_point(key, word if far <= 4.0 * radius and word else key, *place, circle in ground or is_hatched)
             self.pins[key] = place, radius
-        ensure_file(self.pins, f"{self.found.file}: there is no circle on the layers of pins; a circle is a pin, see --layer pins=NAME.")
+        self.found.ensure(self.pins, "there is no circle on the layers of pins; a circle is a pin, see --layer pins=NAME.")
         lines = ("LINE", "LWPOLYLINE", "POLYLINE")
         for each in [*self.entities_on(lines, "links")] or [*self.entities_on(lines, "")]:
             self.read_link(each)
@@ -125,7 +125,7 @@ class DrawingReader:
             return
         pivot, arm = (P, Q) if self.found.points[P].fixed else (Q, P)
         is_fixed = self.found.points[pivot].fixed
-        ensure_file(is_fixed, f"{self.found.file}: the crank {P} {Q} has no fixed pin; hatch one, or put it on the layer ground.")
+        self.found.ensure(is_fixed, f"the crank {P} {Q} has no fixed pin; hatch one, or put it on the layer ground.")
         if not any({P, Q} <= {*points} for _, points in self.found.links):
             self.found.add_link("", [pivot, arm])
         self.found.drives.append(FoundDrive("crank", (pivot, arm)))

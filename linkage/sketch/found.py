@@ -31,6 +31,9 @@ SMALL, LARGE = 5e-3, 100.0
 """A machine that is drawn smaller or larger than this [m] is likely to have another unit."""
 SHOWN_ITEMS = 8
 
+JsonTable: TypeAlias = Mapping[str, Any]
+"""An object of a JSON file."""
+
 
 @dataclass
 class FoundPoint:
@@ -68,23 +71,28 @@ class FoundMachine:
     drives: list[FoundDrive] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     left_out: list[str] = field(default_factory=list)
-    line: int = 0
-    """The line that is read, where the file has lines."""
+    part: str = ""
+    """The line or the joint that is read, where the file has such."""
     board_sketch: MachineSketch | None = None
     """The sketch, where the file holds it as it is: points and links above are its own."""
 
     @property
     def here(self) -> str:
-        """The file, and the line that is read."""
-        return f"{self.file}, line {self.line}" if self.line else self.file
+        """The file, and the part that is read."""
+        return f"{self.file}, {self.part}" if self.part else self.file
 
     # -- what readers say --------------------------------------------------------------------------------
 
     def add_point(self, key: str, name: object, x: object, y: object, fixed: bool = False) -> None:
         """Enter a point; FileError for one that is there, and for coordinates that are no finite numbers."""
-        ensure_file(key not in self.points, f"{self.here}: the point {shortened(key)} stands twice; each point has a name of its own.")
+        self.ensure(key not in self.points, f"the point {shortened(key)} stands twice; each point has a name of its own.")
         place = self.number(x, f"x of {shortened(key)}"), self.number(y, f"y of {shortened(key)}")
         self.points[key] = FoundPoint(str(name) or key, place, fixed)
+
+    def ensure(self, holds: object, message: str) -> None:
+        """Raise FileError with the place that is read and a message, unless something holds."""
+        if not holds:
+            raise FileError(f"{self.here}: {message}")
 
     def number(self, given: object, where: str) -> float:
         """Return a finite number of the file; FileError for anything else."""
@@ -92,9 +100,26 @@ class FoundMachine:
             value = float(given) if isinstance(given, (int, float, str)) and not isinstance(given, bool) else inf
         except (ValueError, OverflowError):
             value = inf
-        is_finite = isfinite(value) and abs(value) < 1e12
-        ensure_file(is_finite, f"{self.here}, {where}: {shortened(given)} is no finite number; correct it in the file.")
+        if not (isfinite(value) and abs(value) < 1e12):
+            raise FileError(f"{self.here}, {where}: {shortened(given)} is no finite number; correct it in the file.")
         return value
+
+    def table(self, given: object, what: str) -> JsonTable:
+        """Return a table of a JSON file; FileError for anything else."""
+        self.ensure(isinstance(given, dict), f"{what} is no table {{...}}.")
+        return given  # type: ignore[return-value]
+
+    def list_of(self, given: object, what: str) -> list[Any]:
+        """Return a list of a JSON file; FileError for anything else, and for one that is too long for a drawing."""
+        self.ensure(isinstance(given, list) and len(given) <= 1000, f"{what} is no list [...] of up to 1000 entries.")
+        return given  # type: ignore[return-value]
+
+    def unpacked(self, letters: str) -> bytes:
+        """Return the text in the letters of an address, base 64; FileError where they are damaged."""
+        try:
+            return urlsafe_b64decode(letters + "=" * (-len(letters) % 4))
+        except (Error, ValueError):
+            raise FileError(f"{self.file}: the address is damaged; copy it whole.") from None
 
     def known(self, key: object, what: str) -> str:
         """Return the key of a point; FileError for any other."""
@@ -166,9 +191,7 @@ class FoundMachine:
 
     def sketch(self, title: str) -> MachineSketch:
         """Return the sketch; FileError where there is nothing, or no unit."""
-        ensure_file(
-            self.unit is not None, f"{self.file}: the file has no unit of length; say what 1 of it is when you import it, --scale 1mm."
-        )
+        self.ensure(self.unit is not None, "the file has no unit of length; say what 1 of it is when you import it, --scale 1mm.")
         assert self.unit is not None
         self.straighten()
         used = {key for _, points in self.links for key in points} | {key for key, _ in self.slides}
@@ -176,11 +199,11 @@ class FoundMachine:
         used |= {each for drive in self.drives for each in drive.ends}
         loose = [key for key, point in self.points.items() if key not in used and not point.fixed]
         self.left_out += [f"the point {shortened(self.points.pop(key).name, quote=False)}, which is on no link" for key in loose]
-        ensure_file(self.points, f"{self.file}: it holds no points that a link joins.")
+        self.ensure(self.points, "it holds no points that a link joins.")
         taken = set(WORDS)
         names, labels = self.point_names(taken)
         size, unit = self.size * self.unit, self.unit
-        ensure_file(isfinite(size) and size > 1e-9, f"{self.file}: all points stand at one place ({show(size, 'mm')}); look at --scale.")
+        self.ensure(isfinite(size) and size > 1e-9, f"all points stand at one place ({show(size, 'mm')}); look at --scale.")
         if not SMALL <= size <= LARGE:
             self.notes.append(f"The machine is {show(size, 'mm')} wide; if that is not meant, say what 1 of the file is, --scale 1mm.")
         places = {names[key]: (noiseless(point.place[0] * unit), noiseless(point.place[1] * unit)) for key, point in self.points.items()}
@@ -229,13 +252,13 @@ class FoundMachine:
                 continue
             (ax, ay), (bx, by), (x, y) = (self.points[each].place for each in (*along, key))
             base = hypot(bx - ax, by - ay)
-            ensure_file(base > 0.0, f"{self.file}: the slide of {self.points[key].name} has both ends at one place.")
+            self.ensure(base > 0.0, f"the slide of {self.points[key].name} has both ends at one place.")
             off = ((bx - ax) * (y - ay) - (by - ay) * (x - ax)) / base
             if abs(off) <= 1e-12 * self.size:
                 continue
-            ensure_file(
+            self.ensure(
                 abs(off) <= OFF_LINE * self.size,
-                f"{self.file}: {self.points[key].name} is {abs(off):.4g} away from the line of its slide; move it there in the drawing.",
+                f"{self.points[key].name} is {abs(off):.4g} away from the line of its slide; move it there in the drawing.",
             )
             self.points[key].place = x + off * (by - ay) / base, y - off * (bx - ax) / base
             self.notes.append(f"{self.points[key].name} is moved by {abs(off):.2g} of the file onto its slide.")
@@ -279,33 +302,3 @@ def few(items: Sequence[str], between: str) -> str:
 def printable(text: str) -> str:
     """Return a text in one line of printable characters, not too long."""
     return "".join(each if each.isprintable() else " " for each in text)[:1000]
-
-
-def unpacked(file: str, letters: str) -> bytes:
-    """Return the text in the letters of an address, base 64; FileError where they are damaged."""
-    try:
-        return urlsafe_b64decode(letters + "=" * (-len(letters) % 4))
-    except (Error, ValueError):
-        raise FileError(f"{file}: the address is damaged; copy it whole.") from None
-
-
-def ensure_file(holds: object, message: str) -> None:
-    """Raise FileError with a message unless something holds."""
-    if not holds:
-        raise FileError(message)
-
-
-JsonTable: TypeAlias = Mapping[str, Any]
-"""An object of a JSON file."""
-
-
-def json_table(given: object, file: str, what: str) -> JsonTable:
-    """Return a table of a JSON file; FileError for anything else."""
-    ensure_file(isinstance(given, dict), f"{file}: {what} is no table {{...}}.")
-    return given  # type: ignore[return-value]
-
-
-def json_list(given: object, file: str, what: str) -> list[Any]:
-    """Return a list of a JSON file; FileError for anything else, and for one that is too long for a drawing."""
-    ensure_file(isinstance(given, list) and len(given) <= 1000, f"{file}: {what} is no list [...] of up to 1000 entries.")
-    return given  # type: ignore[return-value]

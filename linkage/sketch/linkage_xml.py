@@ -9,7 +9,7 @@ from xml.etree.ElementTree import Element, ParseError, SubElement, XMLPullParser
 
 from ..errors import FileError, ensure
 from ..units import inch, mm
-from .found import FoundDrive, FoundMachine, ensure_file
+from .found import FoundDrive, FoundMachine
 from .machine_sketch import MachineSketch, written
 
 DEEPEST = 8
@@ -24,8 +24,8 @@ DRAWING = 1
 
 def read_linkage_xml(found: FoundMachine, text: str) -> None:
     """Read connectors, links, slides between two connectors, inputs and actuators."""
-    root = parsed_xml(found.file, text)
-    ensure_file(root.tag == "linkage2", f"{found.file}: it begins with <{root.tag}>, and a file of Linkage with <linkage2>.")
+    root = parsed_xml(found, text)
+    found.ensure(root.tag == "linkage2", f"it begins with <{root.tag}>, and a file of Linkage with <linkage2>.")
     program = root.find("program")
     shown = "Millimeters" if program is None else program.get("units", "Millimeters")
     found.unit = SHOWN.get(shown.lower(), SHOWN["millimeters"])
@@ -34,7 +34,7 @@ def read_linkage_xml(found: FoundMachine, text: str) -> None:
     for key, each in connectors.items():
         found.add_point(key, each.get("name") or f"P{key}", each.get("x", ""), each.get("y", ""), each.get("anchor") == "true")
     is_one = len(connectors) == sum(not is_drawn(each) for each in root.findall("connector"))
-    ensure_file(is_one, f"{found.file}: two connectors have one id; give each its own.")
+    found.ensure(is_one, "two connectors have one id; give each its own.")
     for each in (*root.findall("Link"), *root.findall("element")):
         if not is_drawn(each):
             read_element(found, each)
@@ -73,10 +73,10 @@ def is_drawn(element: Element) -> bool:
     return element.get("layer", "").isdigit() and int(element.get("layer", "")[:9]) == DRAWING
 
 
-def parsed_xml(file: str, text: str) -> Element:
+def parsed_xml(found: FoundMachine, text: str) -> Element:
     """Return the root of an XML text; FileError for entities, for too deep an one, and for other text."""
     has_types = "<!" in text.replace("<!--", "")
-    ensure_file(not has_types, f"{file}: it declares a document type or entities, which are not read; take that line out.")
+    found.ensure(not has_types, "it declares a document type or entities, which are not read; take that line out.")
     parser: Any = XMLPullParser(("start", "end"))
     root: Element | None = None
     depth = 0
@@ -86,11 +86,11 @@ def parsed_xml(file: str, text: str) -> Element:
             for event, element in parser.read_events():
                 root = element if root is None else root
                 depth += 1 if event == "start" else -1
-                ensure_file(depth <= DEEPEST, f"{file}: elements stand more than {DEEPEST} deep in each other; a file of Linkage has 3.")
+                found.ensure(depth <= DEEPEST, f"elements stand more than {DEEPEST} deep in each other; a file of Linkage has 3.")
         parser.close()
     except (ParseError, ValueError) as error:
-        raise FileError(f"{file}: it is no XML: {error}.") from None
-    ensure_file(root is not None, f"{file}: it is empty.")
+        raise FileError(f"{found.file}: it is no XML: {error}.") from None
+    found.ensure(root is not None, "it is empty.")
     assert root is not None
     return root
 

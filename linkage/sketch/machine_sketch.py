@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from itertools import permutations
 from math import atan2, dist, isfinite
 from typing import Any
 
@@ -176,7 +177,8 @@ class MachineSketch:
         cranks = {drive.ends[1]: (name, drive) for name, drive in self.drives.items() if drive.kind == "crank"}
         turned = {frozenset(drive.ends) for _, drive in cranks.values()}
         found: dict[str, Any] = {"name": self.name, "doc": " ".join(self.notes)} if self.notes else {"name": self.name}
-        found["strokes"] = {name: [drive.start, stroke_end(drive)] for name, drive in self.drives.items()}
+        ends = {name: in_unit(drive.end, "deg") if drive.kind == "crank" else drive.end for name, drive in self.drives.items()}
+        found["strokes"] = {name: [drive.start, ends[name]] for name, drive in self.drives.items()}
         found["drawn"] = {"sketch": {name: drive.drawn for name, drive in self.drives.items()}}
         found["ground"] = {name: [*self.points[name]] for name in self.fixed}
         found["points"] = {
@@ -222,9 +224,8 @@ class MachineSketch:
 
     def labels(self, points: Iterable[str]) -> dict[str, float]:
         """Return the given lengths among some points [m], by their labels."""
-        names = [*points]
-        pairs = (joined_names(P, Q) for P in names for Q in names if P != Q)
-        return {label: self.lengths[label] for label in pairs if label in self.lengths}
+        labels = (joined_names(*pair) for pair in permutations(points, 2))
+        return {label: self.lengths[label] for label in labels if label in self.lengths}
 
     def to_class(self) -> type[Mechanism]:
         """Return the class of mechanism in the parts-list form; lengths not given are measured from the coordinates.
@@ -286,7 +287,10 @@ class MachineSketch:
             With round lengths it does not close where it is drawn.
         """
         ensure(isfinite(step) and step > 0.0, f"{self.name}: lengths are rounded to {step!r}; give a length above zero, such as 1mm.")
-        pairs = [pair for points in (*self.links.values(), *(each.ends for each in self.drives.values())) for pair in sides_of(points)]
+        bodies = *self.links.values(), *(each.ends for each in self.drives.values())
+        pairs = [
+            (points[0], each) for points in bodies for each in points[1:]
+        ]  # from the first point: so angles stay, a flat body does not bend
         free = [pair for pair in pairs if not {*pair} <= {*self.fixed}]
         lengths = {joined_names(P, Q): round(self.length(P, Q) / step) * step for P, Q in free}
         for drive in self.drives.values():
@@ -304,11 +308,6 @@ class MachineSketch:
         most = max(moved, key=lambda each: moved[each])
         note = f"Lengths are rounded to {show(step, 'mm')}; {most} moves most, by {show(moved[most], 'mm', 3)}."
         return replace(put, points=settled, notes=(*self.notes, note))
-
-
-def sides_of(points: tuple[str, ...]) -> Iterator[tuple[str, str]]:
-    """Yield the distances of a body that are made round: from its first point, so that its angles stay and a flat one does not bend."""
-    yield from ((points[0], each) for each in points[1:])
 
 
 def grid(place: Place, step: float) -> Place:
@@ -348,11 +347,6 @@ def plain_entry(entry: Any) -> Any:
     if isinstance(entry, dict):
         return {name: plain_entry(each) for name, each in entry.items()}
     return [*map(plain_entry, entry)] if is_listed(entry) else plain(entry)
-
-
-def stroke_end(drive: SketchDrive) -> float | str:
-    """Return the end of a stroke as a file holds it: in degrees where that is an angle [rad] and exact, else as it is."""
-    return in_unit(drive.end, "deg") if drive.kind == "crank" else drive.end
 
 
 def python_number(value: float | str) -> str:

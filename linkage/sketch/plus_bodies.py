@@ -7,17 +7,17 @@ from math import cos, sin
 from zlib import crc32
 
 from ..units import parse
-from .found import FoundDrive, FoundMachine, JsonTable, ensure_file, json_list, json_table, unpacked
+from .found import FoundDrive, FoundMachine, JsonTable
 
 ENVELOPE = "pmks2:"
 SLIDES = "prismatic", "pin-in-slot"
 
 
-def json_in_address(file: str, text: str) -> bytes:
+def json_in_address(found: FoundMachine, text: str) -> bytes:
     """Return the JSON in an address `pmks2:<crc>.<letters>`; FileError where it is damaged."""
     check, _, letters = text.strip().removeprefix(ENVELOPE).partition(".")
-    raw = unpacked(file, letters)
-    ensure_file(f"{crc32(raw):08x}" == check, f"{file}: the address is damaged, its check does not fit; copy it whole.")
+    raw = found.unpacked(letters)
+    found.ensure(f"{crc32(raw):08x}" == check, "the address is damaged, its check does not fit; copy it whole.")
     return raw
 
 
@@ -30,8 +30,8 @@ class BodyReader:
     """One document on its way into a `FoundMachine`."""
 
     def __init__(self, found: FoundMachine, data: JsonTable) -> None:
-        self.found, self.file = found, found.file
-        found.unit = parse(f"1 {json_table(data.get('units'), self.file, 'units').get('length')}", "length")
+        self.found = found
+        found.unit = parse(f"1 {self.found.table(data.get('units'), 'units').get('length')}", "length")
         self.bodies = self.by_id(data, "bodies")
         self.attachments = self.by_id(data, "attachments")
         self.joints = self.by_id(data, "joints")
@@ -46,30 +46,30 @@ class BodyReader:
 
     def by_id(self, data: JsonTable, name: str) -> dict[str, JsonTable]:
         """Return the tables of a list by their ids."""
-        tables = [json_table(each, self.file, f"an entry of {name}") for each in json_list(data.get(name, []), self.file, name)]
+        tables = [self.found.table(each, f"an entry of {name}") for each in self.found.list_of(data.get(name, []), name)]
         found = {str(each.get("id")): each for each in tables}
-        ensure_file(len(found) == len(tables), f"{self.file}: two of {name} have one id.")
+        self.found.ensure(len(found) == len(tables), f"two of {name} have one id.")
         return found
 
     def joint_of(self, table: JsonTable) -> str:
         """Return the id of the joint whose coordinate a driver or a limit is about."""
-        return str(json_table(table.get("coordinate"), self.file, "a coordinate").get("jointId"))
+        return str(self.found.table(table.get("coordinate"), "a coordinate").get("jointId"))
 
     def entry(self, table: Mapping[str, JsonTable], key: object, what: str) -> JsonTable:
         """Return the entry of an id; FileError where there is none."""
-        ensure_file(isinstance(key, str) and key in table, f"{self.file}: there is no {what} {key!r}.")
+        self.found.ensure(isinstance(key, str) and key in table, f"there is no {what} {key!r}.")
         return table[str(key)]
 
     def pose(self, body: object) -> tuple[float, float, float]:
         """Return where a body is, x and y in the file's units, its angle [rad]."""
-        given = json_table(self.entry(self.bodies, body, "body").get("pose"), self.file, "a pose")
+        given = self.found.table(self.entry(self.bodies, body, "body").get("pose"), "a pose")
         x, y, angle = (self.found.number(given.get(name, 0.0), f"{name} of {body}") for name in ("x", "y", "angle"))
         return x, y, angle
 
     def place(self, attachment: JsonTable) -> tuple[float, float]:
         """Return where an attachment is, in the file's units."""
         x, y, angle = self.pose(attachment.get("bodyId"))
-        point = json_table(attachment.get("point"), self.file, "a point")
+        point = self.found.table(attachment.get("point"), "a point")
         u, v = (self.found.number(point.get(name), f"{name} of {attachment.get('label')}") for name in "xy")
         return x + u * cos(angle) - v * sin(angle), y + u * sin(angle) + v * cos(angle)
 
@@ -81,7 +81,7 @@ class BodyReader:
 
     def frame(self, joint: JsonTable, side: str) -> tuple[str, str, float]:
         """Return the attachment, the body and the angle [rad] of a side of a joint."""
-        given = json_table(joint.get(f"frame{side}"), self.file, "a frame")
+        given = self.found.table(joint.get(f"frame{side}"), "a frame")
         attachment = str(given.get("attachmentId"))
         body = str(self.entry(self.attachments, attachment, "attachment").get("bodyId"))
         return attachment, body, self.pose(body)[2] + self.found.number(given.get("angle", 0.0), "the angle of a frame")
@@ -134,9 +134,9 @@ class BodyReader:
         point = self.found.known(self.root(mover), "a slide")
         for each in (carrier, body):
             is_held = each in self.world or self.root(each) in bodies
-            ensure_file(is_held, f"{self.file}: the slide {joint.get('label') or key} is of a body that nothing else holds.")
+            self.found.ensure(is_held, f"the slide {joint.get('label') or key} is of a body that nothing else holds.")
         moves = joint.get("kind") != "prismatic" or body not in self.world
-        ensure_file(moves, f"{self.file}: the slide {joint.get('label') or key} is of the frame on the frame; name the body that slides.")
+        self.found.ensure(moves, f"the slide {joint.get('label') or key} is of the frame on the frame; name the body that slides.")
         along = self.found.slot(point, angle, None if carrier in self.world else bodies[self.root(carrier)])
         self.found.add_slide(point, angle, along, bodies[self.root(body)] if joint.get("kind") == "prismatic" else None)
         if key in self.drivers:
@@ -147,7 +147,7 @@ class BodyReader:
         """Return how far a driven joint goes, in the file's units or rad: from where it is driven from to its limit; None without one."""
         if key not in self.limits:
             return None
-        profile = json_table(self.drivers[key].get("profile"), self.file, "a profile")
+        profile = self.found.table(self.drivers[key].get("profile"), "a profile")
         initial = self.found.number(profile.get("initial", 0.0), "where a driver begins")
         return self.found.number(self.limits[key].get("upper"), "a limit") - initial
 
@@ -159,7 +159,7 @@ class BodyReader:
     def cylinder(self, given: JsonTable) -> None:
         """Enter a cylinder between its mounts; without a driver it holds nothing and is left out."""
         ends = [self.found.known(end, f"the cylinder {given.get('label')}") for end in self.mounts(given)]
-        ensure_file(len(ends) == 2, f"{self.file}: the cylinder {given.get('label')} has no two mounts.")
+        self.found.ensure(len(ends) == 2, f"the cylinder {given.get('label')} has no two mounts.")
         key = str(given.get("internalJoint"))
         if key in self.drivers:
             self.found.drives.append(FoundDrive("cylinder", (ends[0], ends[1]), self.reach(key), str(given.get("label") or "")))
@@ -168,6 +168,6 @@ class BodyReader:
 
     def crank(self, joint: JsonTable, driver: JsonTable) -> None:
         """Enter a crank about a pin of the frame."""
-        profile = json_table(driver.get("profile"), self.file, "a profile")
+        profile = self.found.table(driver.get("profile"), "a profile")
         backwards = self.found.number(profile.get("speed", 1.0), "a speed") < 0.0
         self.found.turn(self.found.known(self.root(self.frame(joint, "A")[0]), "a driver"), backwards)

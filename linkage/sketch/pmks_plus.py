@@ -14,7 +14,7 @@ import numpy as np
 
 from ..numeric.convex import corner_turn
 from ..units import parse
-from .found import FoundDrive, FoundMachine, JsonTable, ensure_file, json_list
+from .found import FoundDrive, FoundMachine, JsonTable
 from .machine_sketch import line_angle
 
 DIGITS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_-"
@@ -57,12 +57,12 @@ class PlusLink:
 def read_plus(found: FoundMachine, joints: Sequence[PlusJoint], links: Sequence[PlusLink], clockwise: bool = False) -> None:
     """Enter joints and links; a pin and a slide that a block holds together become one joint."""
     known = {joint.key: joint for joint in joints}
-    ensure_file(len(known) == len(joints), f"{found.file}: two joints have one name.")
+    found.ensure(len(known) == len(joints), "two joints have one name.")
     for link in links:
-        ensure_file(all(key in known for key in link.keys), f"{found.file}: the link {link.name} names a joint that is not there.")
+        found.ensure(all(key in known for key in link.keys), f"the link {link.name} names a joint that is not there.")
         if link.block and len(link.keys) == 2:
             pin, slide = sorted(link.keys, key=lambda key: known[key].slides)
-            ensure_file(known[slide].slides and not known[pin].slides, f"{found.file}: the block {link.name} holds no pin and slide.")
+            found.ensure(known[slide].slides and not known[pin].slides, f"the block {link.name} holds no pin and slide.")
             held, line = known[pin], known.pop(slide)
             known[pin] = replace(line, key=pin, name=held.name, rigid=held.rigid or line.rigid, drives=held.drives or line.drives)
     for joint in known.values():
@@ -72,21 +72,16 @@ def read_plus(found: FoundMachine, joints: Sequence[PlusJoint], links: Sequence[
             found.add_link(link.name, link.keys)
     for joint in known.values():
         if joint.slides and not enter_cylinder(found, joint, known):
-            slide_plus(found, joint)
+            angle, along = joint.angle, joint.line or joint.angle
+            if joint.line is not None:
+                angle = line_angle(*(found.points[found.known(key, "a slot")].place for key in joint.line))
+            on = [points for _, points in found.links if joint.key in points]
+            found.add_slide(joint.key, angle, along, on[0] if joint.rigid and on else None)
+            if joint.drives:
+                found.push(joint.key, angle, along)
     for joint in known.values():
         if joint.drives and not joint.slides:
             found.turn(joint.key, clockwise)
-
-
-def slide_plus(found: FoundMachine, joint: PlusJoint) -> None:
-    """Enter a slide: of a pin, or of all links at it where these may not turn on it."""
-    angle, along = joint.angle, joint.line or joint.angle
-    if joint.line is not None:
-        angle = line_angle(*(found.points[found.known(key, "a slot")].place for key in joint.line))
-    on = [points for _, points in found.links if joint.key in points]
-    found.add_slide(joint.key, angle, along, on[0] if joint.rigid and on else None)
-    if joint.drives:
-        found.push(joint.key, angle, along)
 
 
 def enter_cylinder(found: FoundMachine, joint: PlusJoint, known: Mapping[str, PlusJoint]) -> bool:
@@ -121,19 +116,17 @@ def read_short_address(found: FoundMachine, text: str) -> None:
     """Read the text behind the ? of an address, `2P.Ay,1E8.K,0.1011...`; FileError where its checks show damage."""
     body, mark, digest = text.rpartition("*")
     if mark and len(digest) == DIGEST:
-        ensure_file(digest_of(body) == digest, f"{found.file}: the address is damaged, its digest does not fit; copy it whole.")
+        found.ensure(digest_of(body) == digest, "the address is damaged, its digest does not fit; copy it whole.")
     else:
         body = text
     body, check = body[:-1], body[-1:]
-    ensure_file(
-        CHECKS[len(body) % 62] == check, f"{found.file}: the address is damaged, its length does not fit its last letter; copy it whole."
-    )
+    found.ensure(CHECKS[len(body) % 62] == check, "the address is damaged, its length does not fit its last letter; copy it whole.")
     flags, _, _, units, rest = (body.split(".", 4) + [""] * 5)[:5]
-    ensure_file(units[:1] in "012" and units, f"{found.file}: the address has no unit of length; say --scale 1cm.")
+    found.ensure(units[:1] in "012" and units, "the address has no unit of length; say --scale 1cm.")
     found.unit = parse(f"1 {LENGTHS[int(units[0])]}")
     texts = iter(rest.split("."))  # each joint and link ends with a dot, and so does each section
     joint_texts, link_texts = [*takewhile(bool, texts)], [*takewhile(bool, texts)]
-    ensure_file(joint_texts and ".." in rest, f"{found.file}: the address has no joints and links; copy it whole.")
+    found.ensure(joint_texts and ".." in rest, "the address has no joints and links; copy it whole.")
     joints = [short_joint(found, each.split(",")) for each in joint_texts]
     links = [short_link(found, each.split(",")) for each in link_texts]
     read_plus(found, joints, [each for each in links if each is not None], clockwise=bool(whole_of(found, flags) & 1))
@@ -141,9 +134,7 @@ def read_short_address(found: FoundMachine, text: str) -> None:
 
 def short_joint(found: FoundMachine, fields: list[str]) -> PlusJoint:
     """Return a joint: flags and key, name, x, y, angle, then the link and the two joints of its slot."""
-    ensure_file(
-        len(fields) >= 5 and len(fields[0]) > 1, f"{found.file}: a joint of the address has {len(fields)} parts instead of five or more."
-    )
+    found.ensure(len(fields) >= 5 and len(fields[0]) > 1, f"a joint of the address has {len(fields)} parts instead of five or more.")
     bits = DIGITS.find(fields[0][0])
     key, name, (x, y, angle) = fields[0][1:], fields[1], (whole_of(found, each) / 1000.0 for each in fields[2:5])
     quarter = round(angle / RIGHT) * RIGHT
@@ -156,9 +147,7 @@ def short_joint(found: FoundMachine, fields: list[str]) -> PlusJoint:
 
 def short_link(found: FoundMachine, fields: list[str]) -> PlusLink | None:
     """Return a link: kind and key, name, mass, inertia, centre, colour, joints; None for one that is within another."""
-    ensure_file(
-        len(fields) >= 9 and len(fields[0]) > 2, f"{found.file}: a link of the address has {len(fields)} parts instead of nine or more."
-    )
+    found.ensure(len(fields) >= 9 and len(fields[0]) > 2, f"a link of the address has {len(fields)} parts instead of nine or more.")
     keys = fields[7 : 7 + fields[7:].index("")] if "" in fields[7:] else fields[7:]
     return None if fields[0][0] in "Namg4567" else PlusLink(fields[1] or fields[0][2:], tuple(keys), block=fields[0][1] == "P")
 
@@ -166,7 +155,7 @@ def short_link(found: FoundMachine, fields: list[str]) -> PlusLink | None:
 def whole_of(found: FoundMachine, text: str) -> int:
     """Return a whole number of the address; one with a 0 in front is negative. FileError for other letters."""
     is_number = text and {*text} <= {*DIGITS} and len(text) < 12
-    ensure_file(is_number, f"{found.file}: the address holds {text[:20]!r} where a number is expected; copy it whole.")
+    found.ensure(is_number, f"the address holds {text[:20]!r} where a number is expected; copy it whole.")
     value = 0
     for letter in text:
         value = 64 * value + DIGITS.index(letter)
@@ -192,10 +181,10 @@ def read_old_address(found: FoundMachine, text: str) -> None:
     """Read joints, links and settings of an address, `j=a,-1.24,-0.89,ab,R,t,Null,t%0A...&l=...&s=10,false,false,cm`."""
     parts = parse_qs(text, keep_blank_values=True, max_num_fields=20)
     rows = {name: [row.split(",") for row in parts.get(name, [""])[0].splitlines() if row.strip()] for name in "jls"}
-    ensure_file(rows["j"] and rows["l"], f"{found.file}: the address has no joints and links; copy it whole.")
+    found.ensure(rows["j"] and rows["l"], "the address has no joints and links; copy it whole.")
     joints = [old_joint(found, row) for row in rows["j"]]
     links = [PlusLink(row[0], tuple(filter(None, row[6].split("|"))), block=row[1] == "P") for row in rows["l"] if len(row) > 6]
-    ensure_file(len(links) == len(rows["l"]), f"{found.file}: a link of the address has fewer than seven parts; copy it whole.")
+    found.ensure(len(links) == len(rows["l"]), "a link of the address has fewer than seven parts; copy it whole.")
     settings = rows["s"][0] if rows["s"] else []
     if len(settings) > 3 and settings[3] in ("cm", "m", "mm", "in", "inch"):
         found.unit = parse(f"1 {settings[3]}")
@@ -204,27 +193,25 @@ def read_old_address(found: FoundMachine, text: str) -> None:
 
 def old_joint(found: FoundMachine, row: list[str]) -> PlusJoint:
     """Return a joint: key, x, y, links, R or P, fixed, angle [rad], whether it drives."""
-    ensure_file(
-        len(row) >= 8 and row[4] in ("R", "P"), f"{found.file}: a joint of the address has no eight parts with R or P; copy it whole."
-    )
+    found.ensure(len(row) >= 8 and row[4] in ("R", "P"), "a joint of the address has no eight parts with R or P; copy it whole.")
     angle = found.number(row[6], f"the angle of {row[0]}") if row[4] == "P" and row[6] != "Null" else 0.0
     return PlusJoint(row[0], row[0], row[1], row[2], slides=row[4] == "P", fixed=row[5] == "t", drives=row[7] == "t", angle=angle)
 
 
 def read_plus_json(found: FoundMachine, data: JsonTable) -> None:
     """Read rows of joints under "j" and of links under "l"."""
-    joints = [json_joint(found, json_list(row, found.file, "a joint")) for row in json_list(data["j"], found.file, "j")]
+    joints = [json_joint(found, found.list_of(row, "a joint")) for row in found.list_of(data["j"], "j")]
     links = []
-    for row in json_list(data["l"], found.file, "l"):
-        cells = json_list(row, found.file, "a link")
-        ensure_file(len(cells) > 6, f"{found.file}: a link has {len(cells)} cells instead of seven or more.")
+    for row in found.list_of(data["l"], "l"):
+        cells = found.list_of(row, "a link")
+        found.ensure(len(cells) > 6, f"a link has {len(cells)} cells instead of seven or more.")
         links.append(PlusLink(str(cells[1]), tuple(str(joint_number(key)) for key in str(cells[6]).split("|") if key)))
     read_plus(found, joints, links)
 
 
 def json_joint(found: FoundMachine, row: list[Any]) -> PlusJoint:
     """Return a joint: key, name, x, y, kind (0 slides), angle [deg], fixed, whether it drives, speed, welded."""
-    ensure_file(len(row) >= 9, f"{found.file}: a joint has {len(row)} cells instead of nine or more.")
+    found.ensure(len(row) >= 9, f"a joint has {len(row)} cells instead of nine or more.")
     long = len(row) > 12  # the shorter rows, of an earlier version, have no cell of their own for what drives
     weld = row[9] if long else row[8]
     angle = radians(found.number(row[5] or 0, f"the angle of {row[1]}"))

@@ -8,7 +8,7 @@ from math import degrees, radians
 from string import ascii_uppercase
 
 from ..errors import ensure
-from .found import FoundMachine, ensure_file
+from .found import FoundMachine
 from .machine_sketch import MachineSketch, Place, line_angle, written
 
 FRAME = ("ground", "gnd", "grnd", "grd")
@@ -46,6 +46,7 @@ def read_pmks_text(found: FoundMachine, text: str) -> None:
         else:
             joints.append(joint)
             bodies |= {name: [] for name in joint.links if not is_frame(name)}
+    found.part = ""
     for joint in sorted(joints, key=lambda each: each.kind != "R"):  # a slide at a pin of its link is of that pin
         on = joint.links if joint.kind == "R" else [joint.mover]
         pins = [each.key for each in joints if each.kind == "R" and each.place == joint.place and on[0] in each.links]
@@ -70,18 +71,16 @@ def read_pmks_text(found: FoundMachine, text: str) -> None:
 def joint_of(found: FoundMachine, line: str, number: int) -> PmksJoint:
     """Return the joint of a line; FileError for a line that is none."""
     words = re.split(r"[,\s]+", line.strip().strip(","))
-    where = f"{found.file}, joint {number + 1}"
+    found.part = f"joint {number + 1}"
     places = [place for place, word in enumerate(words) if word.upper() in KINDS]
-    ensure_file(
-        places and 1 <= places[-1] <= len(words) - 3, f"{where}: links, R, P, RP or G, then x and y are expected, ground,input,R,0,0."
-    )
+    found.ensure(places and 1 <= places[-1] <= len(words) - 3, "links, R, P, RP or G, then x and y are expected, ground,input,R,0,0.")
     names, kind, rest = words[: places[-1]], words[places[-1]].upper(), words[places[-1] + 1 :]
-    x, y = (found.number(word, where) for word in rest[:2])
+    x, y = (found.number(word, name) for word, name in zip(rest, "xy", strict=False))
     has_angle = len(rest) > 2 and re.match(r"[-+.\d]", rest[2]) is not None
-    ensure_file(kind == "R" or len(names) == len({*names}) == 2, f"{where}: {kind} joins two links.")
-    ensure_file(kind != "P" or not all(map(is_frame, names)), f"{where}: both links of P are the frame; name the link that slides.")
-    ensure_file(kind in ("R", "G") or has_angle, f"{where}: {kind} has the angle of its slide behind x and y [deg].")
-    angle = radians(found.number(rest[2], where)) if has_angle else 0.0
+    found.ensure(kind == "R" or len(names) == len({*names}) == 2, f"{kind} joins two links.")
+    found.ensure(kind != "P" or not all(map(is_frame, names)), "both links of P are the frame; name the link that slides.")
+    found.ensure(kind in ("R", "G") or has_angle, f"{kind} has the angle of its slide behind x and y [deg].")
+    angle = radians(found.number(rest[2], "the angle")) if has_angle else 0.0
     key = ascii_uppercase[number] if number < len(ascii_uppercase) else f"P{number + 1}"
     return PmksJoint(key, kind, names, (x, y), angle, rest[-1][3:4] == "t" and {*rest[-1]} <= {*"tf"})
 

@@ -12,7 +12,7 @@ from ..errors import DefinitionError, FileError
 from ..files.names import shortened
 from ..files.source import delimiter_of, text_rows
 from ..units import DIGITS, parse, units_of
-from .found import FoundDrive, FoundMachine, ensure_file
+from .found import FoundDrive, FoundMachine
 from .machine_sketch import MachineSketch, written
 
 HEADER = re.compile(r"(\w+)\s*(?:\[\s*([^\]]*?)\s*\]|\(\s*([^)]*?)\s*\))?\s*")
@@ -28,65 +28,65 @@ def read_points_csv(found: FoundMachine, text: str) -> None:
         rows = [*text_rows(found.file, text)]
     except DefinitionError as error:
         raise FileError(str(error)) from None
-    ensure_file(rows, f"{found.file}: the table has no rows.")
-    where = f"{found.file}, line {rows[0][0]}"
+    found.ensure(rows, "the table has no rows.")
+    found.part = f"line {rows[0][0]}"
     heads = [HEADER.fullmatch(cell.lower()) for cell in rows[0][1]]
     names = [head[1] if head else "" for head in heads]
-    ensure_file(names == [*COLUMNS], f"{where}: a table of points begins with kind,name,x [mm],y [mm],what.")
+    found.ensure(names == [*COLUMNS], "a table of points begins with kind,name,x [mm],y [mm],what.")
     units = {head[2] or head[3] for head in heads[2:4] if head} - {None}
     if units:
         lengths, others = units_of("length"), ", ".join(sorted(units - {*units_of("length")}))
-        ensure_file(not others, f"{where}: {shortened(others)} is no unit of length; known are {', '.join(lengths)}.")
-        ensure_file(len(units) == 1, f"{where}: x and y have one unit of length, such as [mm].")
+        found.ensure(not others, f"{shortened(others)} is no unit of length; known are {', '.join(lengths)}.")
+        found.ensure(len(units) == 1, "x and y have one unit of length, such as [mm].")
         found.unit = parse(f"1 {units.pop()}", "length")
-    later: list[tuple[str, str, list[str], int]] = []
+    later: list[tuple[str, str, list[str], str]] = []
     for number, row in rows[1:]:
-        found.line, where = number, f"{found.file}, line {number}"
-        ensure_file(len(row) <= len(COLUMNS), f"{where}: {len(row)} cells are too many; names with a comma stand in quotes.")
+        found.part = f"line {number}"
+        found.ensure(len(row) <= len(COLUMNS), f"{len(row)} cells are too many; names with a comma stand in quotes.")
         kind, name, x, y, what = [*row, *[""] * (len(COLUMNS) - len(row))]
         if kind.lower() == "point":
-            ensure_file(name, f"{where}: the point has no name.")
+            found.ensure(name, "the point has no name.")
             is_said = what.lower() in ("", "fixed", "pin")
-            ensure_file(is_said, f"{where}: {shortened(what)} says nothing of a point; it is fixed or a pin.")
+            found.ensure(is_said, f"{shortened(what)} says nothing of a point; it is fixed or a pin.")
             found.add_point(name, name, x, y, what.lower() == "fixed")
         else:
-            ensure_file(kind.lower() in ROWS, f"{where}: {kind or 'nothing'} is none of point, {', '.join(ROWS)}.")
-            later.append((kind.lower(), name, what.split(), number))
-    for kind, name, words, found.line in later:  # points first, in whatever order the rows are
-        ROWS[kind](found, name, words, f"{found.file}, line {found.line}")
-    found.line = 0
+            found.ensure(kind.lower() in ROWS, f"{kind or 'nothing'} is none of point, {', '.join(ROWS)}.")
+            later.append((kind.lower(), name, what.split(), found.part))
+    for kind, name, words, found.part in later:  # points first, in whatever order the rows are
+        ROWS[kind](found, name, words)
+    found.part = ""
 
 
-def read_link(found: FoundMachine, name: str, words: list[str], where: str) -> None:
+def read_link(found: FoundMachine, name: str, words: list[str]) -> None:
     """Read the row of a link."""
     found.add_link(name, words, f"the link {name}".rstrip())
 
 
-def read_slide(found: FoundMachine, name: str, words: list[str], where: str) -> None:
+def read_slide(found: FoundMachine, name: str, words: list[str]) -> None:
     """Read the row of a slide: a point, then two points of its line or the angle of a line of the frame."""
     words = [word for word in words if word.lower() not in ("on", "along", "at")]
-    ensure_file(len(words) in (2, 3), f"{where}: a slide names its point and two points of the line, `C P Q`, or an angle, `C 30deg`.")
+    found.ensure(len(words) in (2, 3), "a slide names its point and two points of the line, `C P Q`, or an angle, `C 30deg`.")
     keys = [found.known(word, "a slide") for word in (words if len(words) == 3 else words[:1])]
-    found.slides.append((keys[0], (keys[1], keys[2]) if len(words) == 3 else value_in(words[1], "angle", where)))
+    found.slides.append((keys[0], (keys[1], keys[2]) if len(words) == 3 else value_in(found, words[1], "angle")))
 
 
-def read_drive(kind: str, found: FoundMachine, name: str, words: list[str], where: str) -> None:
+def read_drive(kind: str, found: FoundMachine, name: str, words: list[str]) -> None:
     """Read the row of a crank or a cylinder: its ends, then how far it goes from the drawn pose, forwards, or back and forwards."""
     measures, example = ("angle", "O A 360deg") if kind == "crank" else ("length", "A B 250mm")
-    ensure_file(len(words) in (2, 3, 4), f"{where}: a {kind} names its two ends and how far it goes, such as `{example}`.")
+    found.ensure(len(words) in (2, 3, 4), f"a {kind} names its two ends and how far it goes, such as `{example}`.")
     P, Q = (found.known(word, f"a {kind}") for word in words[:2])
-    ensure_file(P != Q and not {*words[2:]} & found.points.keys(), f"{where}: a {kind} has two ends, such as `{example}`.")
-    back, *reach = [reach_in(word, measures, where) for word in (["0", *words[2:]] if len(words) < 4 else words[2:])]
+    found.ensure(P != Q and not {*words[2:]} & found.points.keys(), f"a {kind} has two ends, such as `{example}`.")
+    back, *reach = [reach_in(found, word, measures) for word in (["0", *words[2:]] if len(words) < 4 else words[2:])]
     found.drives.append(FoundDrive(kind, (P, Q), reach[0] if reach else None, name, back))
 
 
-def reach_in(text: str, measures: str, where: str) -> float | str:
+def reach_in(found: FoundMachine, text: str, measures: str) -> float | str:
     """Return an angle [rad]; a length as its text, or as a number in the unit of the table where it has no unit of its own."""
-    value = value_in(text, measures, where)
+    value = value_in(found, text, measures)
     return value if measures == "angle" or PLAIN.fullmatch(text) else text
 
 
-ROWS: dict[str, Callable[[FoundMachine, str, list[str], str], None]] = {
+ROWS: dict[str, Callable[[FoundMachine, str, list[str]], None]] = {
     "link": read_link,
     "slide": read_slide,
     "crank": lambda *row: read_drive("crank", *row),
@@ -94,14 +94,14 @@ ROWS: dict[str, Callable[[FoundMachine, str, list[str], str], None]] = {
 }
 
 
-def value_in(text: str, kind: str, where: str) -> float:
+def value_in(found: FoundMachine, text: str, kind: str) -> float:
     """Return a value [SI]; FileError for anything else, and for an angle without a unit, which one would mean in degrees."""
     try:
         value = parse(text, kind)
     except DefinitionError as error:
-        raise FileError(f"{where}: {error}") from None
+        raise FileError(f"{found.here}: {error}") from None
     is_said = kind != "angle" or value == 0.0 or not PLAIN.fullmatch(text)
-    ensure_file(is_said, f"{where}: the angle {text!r} has no unit; write '{text}deg' or '{text}rad'.")
+    found.ensure(is_said, f"the angle {text!r} has no unit; write '{text}deg' or '{text}rad'.")
     return value
 
 

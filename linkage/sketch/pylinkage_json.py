@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import atan2, cos, dist, sin
 
-from .found import TURN, FoundDrive, FoundMachine, JsonTable, ensure_file, json_list, json_table
+from .found import TURN, FoundDrive, FoundMachine, JsonTable
 from .machine_sketch import line_angle
 
 TOLD = 1e-6
@@ -13,11 +13,9 @@ TOLD = 1e-6
 
 def read_pylinkage(found: FoundMachine, data: JsonTable) -> None:
     """Read joints by their parents, or joints and links where the file has these."""
-    joints = [json_table(each, found.file, "a joint") for each in json_list(data["joints"], found.file, "joints")]
+    joints = [found.table(each, "a joint") for each in found.list_of(data["joints"], "joints")]
     if "links" in data:
-        read_joints_and_links(
-            found, joints, [json_table(each, found.file, "a link") for each in json_list(data["links"], found.file, "links")]
-        )
+        read_joints_and_links(found, joints, [found.table(each, "a link") for each in found.list_of(data["links"], "links")])
         return
     for joint in joints:
         enter_joint(found, joint)
@@ -58,10 +56,8 @@ def join_parents(found: FoundMachine, joint: JsonTable) -> None:
     name, kind = str(joint.get("name")), joint.get("type")
     parents = [found.known(parent_name(joint[each]), name) for each in ("joint0", "joint1", "joint2") if joint.get(each) is not None]
     needed = {"Static": 0, "Crank": 1, "Fixed": 2, "Revolute": 2, "Linear": 3, "Prismatic": 3}
-    ensure_file(kind in needed, f"{found.file}: {name} is of the kind {kind!r}, and only {', '.join(needed)} are read.")
-    ensure_file(
-        len(parents) >= needed[str(kind)], f"{found.file}: {name} is a {kind} with {len(parents)} parents instead of {needed[str(kind)]}."
-    )
+    found.ensure(kind in needed, f"{name} is of the kind {kind!r}, and only {', '.join(needed)} are read.")
+    found.ensure(len(parents) >= needed[str(kind)], f"{name} is a {kind} with {len(parents)} parents instead of {needed[str(kind)]}.")
     if kind in ("Crank", "Linear", "Prismatic"):
         found.add_link("", [parents[0], name])
     if kind == "Crank":
@@ -85,17 +81,17 @@ def join_parents(found: FoundMachine, joint: JsonTable) -> None:
 def read_joints_and_links(found: FoundMachine, joints: list[JsonTable], links: list[JsonTable]) -> None:
     """Read joints with positions, and links that name them."""
     for joint in joints:
-        place = json_list(joint.get("position"), found.file, f"the position of {joint.get('id')}")
-        ensure_file(len(place) == 2, f"{found.file}: {joint.get('id')} has no position [x, y].")
+        place = found.list_of(joint.get("position"), f"the position of {joint.get('id')}")
+        found.ensure(len(place) == 2, f"{joint.get('id')} has no position [x, y].")
         found.add_point(str(joint.get("id")), str(joint.get("name") or joint.get("id")), place[0], place[1], joint.get("type") == "ground")
     for link in links:
-        keys = [str(each) for each in json_list(link.get("joints", []), found.file, "the joints of a link")]
+        keys = [str(each) for each in found.list_of(link.get("joints", []), "the joints of a link")]
         if link.get("type") != "ground":
             found.add_link(str(link.get("name") or link.get("id")), keys)
         if link.get("type") in ("driver", "arc_driver"):
             pivot = str(link.get("motor_joint") or next((key for key in keys if key in found.points and found.points[key].fixed), ""))
             arm = [key for key in keys if key != pivot]
-            ensure_file(arm, f"{found.file}: the driver {link.get('id')} has no joint beside its motor.")
+            found.ensure(arm, f"the driver {link.get('id')} has no joint beside its motor.")
             reach = TURN
             if link.get("type") == "arc_driver":
                 begin = link.get("initial_angle") if link.get("initial_angle") is not None else link.get("arc_start", 0.0)
@@ -106,7 +102,7 @@ def read_joints_and_links(found: FoundMachine, joints: list[JsonTable], links: l
     for joint in joints:
         key = str(joint.get("id"))
         if joint.get("type") == "prismatic":
-            axis = json_list(joint.get("axis", [1.0, 0.0]), found.file, f"the axis of {key}")
+            axis = found.list_of(joint.get("axis", [1.0, 0.0]), f"the axis of {key}")
             u, v = (found.number(each, f"the axis of {key}") for each in [*axis, 0.0, 0.0][:2])
             found.slides.append((key, atan2(v, u)))
         if joint.get("type") == "tracker":

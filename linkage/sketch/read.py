@@ -14,7 +14,7 @@ from ..files.names import shortened
 from ..files.source import FILE_BYTES, decoded
 from .board_json import ADDRESS, read_board
 from .dxf_layers import read_dxf
-from .found import FoundDrive, FoundMachine, JsonTable, ensure_file, unpacked
+from .found import FoundDrive, FoundMachine, JsonTable
 from .linkage_xml import read_linkage_xml
 from .machine_sketch import MachineSketch
 from .plus_bodies import ENVELOPE, json_in_address, read_plus_bodies
@@ -113,17 +113,17 @@ def content_of(file: Place, layers: Mapping[str, Sequence[str]]) -> tuple[FoundM
     if suffix == ".dxf":
         read(path, most=0)  # a file that is not there is named in words
         is_small = path.stat().st_size <= DRAWING_BYTES
-        ensure_file(is_small, f"{path.name}: the drawing is larger than {DRAWING_BYTES / 1e6:g} MB; save the machine by itself.")
+        found.ensure(is_small, f"the drawing is larger than {DRAWING_BYTES / 1e6:g} MB; save the machine by itself.")
         read_dxf(found, str(path), layers)
         return found, title
     raw = read(path, FILE_BYTES + 1)
     if suffix == ".json":
         read_json(found, decoded(path.name, raw, True).data)
         return found, found.board_sketch.name if found.board_sketch else title
-    ensure_file(len(raw) <= FILE_BYTES, f"{path.name}: the file is larger than {FILE_BYTES / 1e6:g} MB; a machine is a few kB.")
+    found.ensure(len(raw) <= FILE_BYTES, f"the file is larger than {FILE_BYTES / 1e6:g} MB; a machine is a few kB.")
     content = text_of_bytes(raw)
-    ensure_file(content.strip(), f"{path.name}: the file is empty.")
-    ensure_file("\0" not in content, f"{path.name}: the file is no text.")
+    found.ensure(content.strip(), "the file is empty.")
+    found.ensure("\0" not in content, "the file is no text.")
     readers: dict[str, Callable[[FoundMachine, str], None]] = {".csv": read_points_csv, ".linkage2": read_linkage_xml}
     reader = read_address if is_address(content.strip()) else readers.get(suffix, read_pmks_text)
     reader(found, content.strip())
@@ -140,18 +140,18 @@ def text_of_bytes(raw: bytes) -> str:
 
 def read_address(found: FoundMachine, text: str) -> None:
     """Read a share address."""
-    ensure_file(len(text) <= FILE_BYTES, f"{found.file}: it is longer than {FILE_BYTES} characters.")
+    found.ensure(len(text) <= FILE_BYTES, f"it is longer than {FILE_BYTES} characters.")
     query = address_text(text.strip())
     if ADDRESS in text:
-        read_json(found, address_data(found, unpacked(found.file, text.rpartition(ADDRESS)[2].strip())))
+        read_json(found, address_data(found, found.unpacked(text.rpartition(ADDRESS)[2].strip())))
     elif text.startswith(ENVELOPE):
-        read_json(found, address_data(found, json_in_address(found.file, text)))
+        read_json(found, address_data(found, json_in_address(found, text)))
     elif re.match(r"j=", query):
         read_old_address(found, query)
     else:
         holds = query if WEB.match(query) is None else ""
-        ensure_file(holds, f"{found.file}: there is no machine behind the address; copy it whole, with what stands behind its ?.")
-        ensure_file(SHORT.match(query), f"{found.file}: the address is damaged behind its ?, {shortened(query)}; copy it whole.")
+        found.ensure(holds, "there is no machine behind the address; copy it whole, with what stands behind its ?.")
+        found.ensure(SHORT.match(query), f"the address is damaged behind its ?, {shortened(query)}; copy it whole.")
         read_short_address(found, query)
 
 

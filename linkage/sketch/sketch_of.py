@@ -23,6 +23,8 @@ ONE_TO_ONE = 1e-12
 """A driven length or angle follows its stroke one to one where its slope is 1 to so much."""
 NOT_TOLD = ("point", "link", "guide")
 """Kinds of members that a sketch holds, or that it needs no more."""
+FOUND_ANEW = Dimension, Stroke, Drawn, Group, Slide
+"""What is found anew from a sketch: dimensions are measured, groups are made of pins."""
 
 
 def sketch_of(machine: Mechanism | type[Mechanism], at: Mapping[str, float] | None = None) -> MachineSketch:
@@ -69,19 +71,18 @@ def sketch_of(machine: Mechanism | type[Mechanism], at: Mapping[str, float] | No
     held = {*frame, *(point for points in links.values() for point in points), *(slide.point for slide in slides.values())}
     loose = [name for name in plan.points if name not in held]
     ensure(not loose, f"{title}: the sketch has no word for what holds {', '.join(loose)}; it is on no link and no slide.")
-    weights, rams = dict(hung_weights(design)), dict(rams_of(design, drives))
+    hung = {
+        name: each for name, each in plan.of_kind(Weight).items() if f"{name}.mass" in design.dimensions and each.gravity == Weight.gravity
+    }
+    weights = {name: SketchWeight(name_of(each.point), float(design.dimensions[f"{name}.mass"])) for name, each in hung.items()}
+    rams = dict(rams_of(design, drives))
     drives |= {name: replace(drives[name], bore=bore, rod=rod) for name, (_, bore, rod) in rams.items()}
     told = {*weights, *(name for name, _, _ in rams.values())}
-    others = [name for name, each in plan.members.items() if each.kind not in NOT_TOLD and not is_found_anew(each) and name not in told]
+    others = [
+        name for name, each in plan.members.items() if not isinstance(each, FOUND_ANEW) and each.kind not in NOT_TOLD and name not in told
+    ]
     notes = (f"Not in the sketch of {title}: {', '.join(others)}.",) if others else ()
     return MachineSketch(title, places, frame, links, slides, drives, weights=weights, notes=notes)
-
-
-def hung_weights(design: Mechanism) -> Iterator[tuple[str, SketchWeight]]:
-    """Yield the weights of a number of kilograms that hang straight down, by their names."""
-    for name, each in design.plan.of_kind(Weight).items():
-        if f"{name}.mass" in design.dimensions and each.gravity == Weight.gravity:
-            yield name, SketchWeight(name_of(each.point), float(design.dimensions[f"{name}.mass"]))
 
 
 def rams_of(design: Mechanism, drives: Mapping[str, SketchDrive]) -> Iterator[tuple[str, tuple[str, float, float]]]:
@@ -91,11 +92,6 @@ def rams_of(design: Mechanism, drives: Mapping[str, SketchDrive]) -> Iterator[tu
         stroke = next((stroke for stroke, drive in drives.items() if {*drive.ends} == {*each.ends} and drive.kind == "cylinder"), None)
         if bore and rod and stroke is not None and vars(each).get("count") == 1:
             yield stroke, (name, bore, rod)
-
-
-def is_found_anew(member: object) -> bool:
-    """Return whether a member is found anew from a sketch: dimensions are measured, groups are made of pins."""
-    return isinstance(member, (Dimension, Stroke, Drawn, Group, Slide))
 
 
 def drives_of(design: Mechanism, joints: list[tuple[str, Joint]], strokes: Mapping[str, float]) -> Iterator[tuple[str, SketchDrive]]:

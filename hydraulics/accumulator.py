@@ -131,15 +131,13 @@ class GasBank:
     @property
     def total(self) -> Array:
         """The gas volume with no fluid in, m3: the vessels."""
-        total: Array = reduce(np.add, self.vessels)
-        return total
+        return reduce(np.add, self.vessels)
 
     @property
     def lowest(self) -> Array:
         """The lowest charge of the vessels that are there, Pa: below it the bank holds no fluid."""
         highest = reduce(np.maximum, self.charges)
-        lowest: Array = reduce(np.minimum, (np.where(vessel > 0.0, charge, highest) for charge, vessel in self))
-        return lowest
+        return reduce(np.minimum, (np.where(vessel > 0.0, charge, highest) for charge, vessel in self))
 
     def __iter__(self) -> Iterator[tuple[Array, Array]]:
         """Yield the charge [Pa] and the vessel [m3] of each gas."""
@@ -152,8 +150,7 @@ class GasBank:
     def volume(self, pressure: Array) -> Array:
         """Return the gas volume of the bank [m3] at a pressure [Pa], same shape."""
         # in the order of `total`: equal to it, not nearly, with no fluid in
-        volume: Array = reduce(np.add, (vessel * share for vessel, share in zip(self.vessels, self.gas_shares(pressure), strict=True)))
-        return volume
+        return reduce(np.add, (vessel * share for vessel, share in zip(self.vessels, self.gas_shares(pressure), strict=True)))
 
     def pressure(self, volume: Array) -> Array:
         """Return the pressure [Pa] at a gas volume [m3] above zero and not above `total`, same shape; the inverse of `volume`."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from argparse import Namespace
-from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -172,7 +171,10 @@ def print_cycle(options: Namespace) -> int:
     found = cycle_of_programme(machine, options) if options.program else cycles_judged(machine, options)
     if options.csv != "-":
         for place, (words, cycle, _) in enumerate(found):
-            print(*([""] if place else []), *cycle_lines(words, cycle), sep="\n")
+            head = [*([""] if place else []), *([f"{words}:", ""] if words else [])]
+            says = said("{pump} {sentence}", pump=cycle.pump, sentence=cycle.verdict.sentence)
+            events = ["", *(str(event) for event in cycle.events)] if cycle.events else []
+            print(*head, says, "", *lined_up([line_heads(), *line_rows(cycle)]), "", *lined_up(energy_rows(cycle)), *events, sep="\n")
     if options.csv is not None:
         ensure(len(found) == 1, f"--csv {options.csv}: there are {len(found)} cycles; choose one, --over NAME.")
         write_table(cycle_columns(found[0][1]), len(found[0][1].time), options.csv)
@@ -208,14 +210,6 @@ def cycles_judged(machine: Mechanism, options: Namespace) -> list[tuple[str, Pum
         raise DefinitionError(f"{title}: no path in time that {pump.name} serves; {remedy}.")
     named = ["; ".join(filter(None, (place.over.title, cycle.case))) for place, cycle in found]
     return [(words, cycle, place.motion) for words, (place, cycle) in zip(named, found, strict=True)]
-
-
-def cycle_lines(words: str, cycle: PumpCycle) -> Sequence[str]:
-    """Return a cycle in lines of text: the verdict, lines and energy in tables, the events."""
-    head = [f"{words}:", ""] if words else []
-    events = ["", *(str(event) for event in cycle.events)] if cycle.events else []
-    lines = [*lined_up([line_heads(), *line_rows(cycle)]), "", *lined_up(energy_rows(cycle))]
-    return [*head, said("{pump} {sentence}", pump=cycle.pump, sentence=cycle.verdict.sentence), "", *lines, *events]
 
 
 def draw_cycle(path: Path, cycle: PumpCycle, motion: Motion) -> None:

@@ -20,7 +20,7 @@ from linkage.errors import DefinitionError
 from linkage.frozen import FrozenDict, immutable, read_only, refuses_changes
 from linkage.language import said
 from linkage.loads import PLAIN_CASE, Acting, ForceElement
-from linkage.motion import Instants, Judge, Motion, from_above, require_motion
+from linkage.motion import Instants, Judge, Motion, from_above
 from linkage.motion.grid import recalled
 from linkage.numeric import last_holding
 from linkage.plan import Plan
@@ -28,7 +28,7 @@ from linkage.quantities import name_of
 from linkage.units import show
 from linkage.verdict import Verdict
 
-from .consumers import AT_BORDER, Branch, Consumers, Consumption, in_plan, lines_on, refuse_unpushed
+from .consumers import AT_BORDER, Consumers, Consumption, lines_on, refuse_unpushed
 from .inputs import Array, number_set, one_design, positive
 from .sharing import LEAST_PRESSURE, PumpLimits
 
@@ -147,8 +147,14 @@ class PumpCycle:
         for number, each in enumerate(stretches):
             own = slice(number * (DEGREE + 1), (number + 1) * (DEGREE + 1))
             for place, (part, branches) in enumerate(zip(each.shares, each.consumption.branches, strict=True)):
-                for branch in branches:
-                    add_branch(branch, part, own, flow, need, parts, each.pressure if place in each.blocked else None)
+                for branch in branches:  # its flow, times its consumer's share
+                    name = branch.inlet.line.name
+                    flow[name][own] += part * branch.flow
+                    if branch.inlet.sides is not None:
+                        needed = each.pressure if place in each.blocked else np.maximum(branch.need, 0.0)
+                        need[name][own] = np.maximum(need[name][own], needed)
+                    parts["useful"][own] += part * branch.useful
+                    parts["braked"][own] += part * branch.braked
                 if place < len(cylinders):
                     share[cylinders[place]][own] = part
         flow[pump] = sum((flow[name] for name in lines), flow[pump])
@@ -279,19 +285,6 @@ class PumpCycle:
         return f"<PumpCycle of {self.pump}: {self.duration:.4g} s, {self.litres[self.pump]:.4g} l, {self.energy.pump / 1e3:.4g} kJ>"
 
 
-def add_branch(
-    branch: Branch, part: Array | float, own: slice, flow: Mapping[str, Array], need: Mapping[str, Array], parts: Mapping[str, Array],
-    cut_off: Array | None,
-) -> None:  # fmt: skip
-    """Add a branch's flow over a stretch, times its consumer's share, to the values of its line and to the parts."""
-    name = branch.inlet.line.name
-    flow[name][own] += part * branch.flow
-    if branch.inlet.sides is not None:
-        need[name][own] = np.maximum(need[name][own], np.maximum(branch.need, 0.0) if cut_off is None else cut_off)
-    parts["useful"][own] += part * branch.useful
-    parts["braked"][own] += part * branch.braked
-
-
 def unchanged(arrays: Mapping[str, Array]) -> Mapping[str, Array]:
     """Return arrays by name that do not change."""
     return FrozenDict({name: read_only(each) for name, each in arrays.items()})
@@ -332,17 +325,6 @@ def limits_of(pump: ForceElement, consumers: Consumers, there: Motion) -> PumpLi
 
 
 # A given motion.
-
-
-def checked(pump: ForceElement, motion: Motion, acting: Acting | None) -> PumpCycle:
-    """Return a motion's demands on a pump over time, in the load case that needs most of those that occur."""
-    motion = require_motion(motion)
-    if motion._instants is None or not motion._instants.courses:
-        what = f"{motion.plan.title}: {pump.name or 'a pump'}.check(motion): this motion has no time of its own"
-        raise DefinitionError(f"{what}; sweep the machine over a path in time, Over.path(time=[...], ...).")
-    judge = Judge(motion.plan, motion.designs, [motion], acting)
-    own = in_plan(pump, motion.plan)
-    return max((each for place in judge.places for each in cycles_over(own, place, judge.acting)), key=lambda each: each.stretch)
 
 
 def cycles_over(pump: ForceElement, place: Any, acting: Acting) -> list[PumpCycle]:
@@ -459,13 +441,3 @@ def pump_verdicts(pump: ForceElement, judge: Judge) -> list[Verdict]:
     place, worst = max(found, key=lambda each: each[1].stretch)
     title = f"{place.over.title}: " if len(places) > 1 and place.over.title else ""
     return [Verdict("pump", worst.verdict.ok, title + worst.verdict.sentence)]
-
-
-def pump_sections(pump: ForceElement, judge: Judge) -> list[Any]:
-    """Return the section of a report on a shared pump; none where no path is in time, or where nothing can be said."""
-    try:
-        found = judged_cycles(pump, judge) if is_shared(pump, judge) else []
-    except DefinitionError:  # the verdict says why
-        return []
-    named = [("; ".join(filter(None, (place.over.title, each.case))) if len(found) > 1 else "", each) for place, each in found]
-    return [from_above("hydraulics.cycle_chart:cycle_section")(named)] if found else []

@@ -314,12 +314,6 @@ class LiftLine(Circuit):
         sense = np.sign(thrust) if way == "frictionless" else np.full(np.shape(thrust), 1.0 if way == "extending" else -1.0)
         return Work(thrust, sense, size, k_m, drained)
 
-    def works(self, what: str, motion: AnyMotion, loads: Loads, choice: Choice) -> list[Work]:
-        """Return the work of the named cylinder, or of each; `what` is the asking function."""
-        rams = self.meant(motion, choice.pop("cylinder", None))
-        acting = situation_of(what, loads=loads, **choice)
-        return [self.work_of(ram, motion, acting) for ram in rams]
-
     def rod_force(self, motion: AnyMotion, loads: Loads = None, **choice: Unpack[Choice]) -> Array:
         """Return the rod force in the working direction [N], shape (...): T / k_m against a load, T k_m under one that drives."""
         return self.work(motion, loads, **choice).force
@@ -428,8 +422,10 @@ class LiftLine(Circuit):
 
         Of a line of several cylinders the least, unless one is named.
         """
+        rams = self.meant(motion, choice.pop("cylinder", None))
+        acting = situation_of("reserve", loads=loads, **choice)
         with np.errstate(invalid="ignore"):
-            works = self.works("reserve", motion, loads, choice)
+            works = [self.work_of(ram, motion, acting) for ram in rams]
             return least_of([self.most(motion, work) / only_where(work.force > 0.0, work.force) for work in works])
 
     def capacity(

@@ -23,7 +23,7 @@ from typing import Any, ClassVar, TypeAlias, Unpack, cast
 import numpy as np
 
 from linkage.checks import require_type
-from linkage.errors import DefinitionError, cited, ensure, unknown
+from linkage.errors import DefinitionError, cited, ensure, known_name, unknown
 from linkage.frozen import FrozenDict, immutable
 from linkage.language import said
 from linkage.loads import Acting, ActingKeywords, Declared, ForceElement, Loads, Parameter, Poses, Tie, situation_of, takes_situation
@@ -148,9 +148,6 @@ class OilLine(PumpLine, GasLine):
         self.at, self.filled = at, FrozenDict(filled) if isinstance(filled, Mapping) else filled
         self.put_in, self.make_up, self.charge_pressure = oil, make_up, charge_pressure
         self.seal_friction, self.exponent, self.kind_of_line = seal_friction, exponent, ""
-        self._check()
-
-    def _check(self) -> None:
         for each in self.on:
             is_block = isinstance(each, AccumulatorBlock) or (callable(each) and not isinstance(each, (type, Member)))
             if not is_block and not isinstance(each, (Chamber, str, Ram, Supply)):
@@ -358,9 +355,8 @@ class OilLine(PumpLine, GasLine):
         Member.examine(self, members, title)
         self._examine_others(members, title)
         own = [ram.name for ram, _ in self.filling(members)]
-        lost = next((name for name in self.lengths_told if name not in own), None)
-        if lost is not None:
-            raise unknown("Cylinder", lost, own, where=f"{title}.{self.name}, filled")
+        for name in self.lengths_told:
+            known_name("Cylinder", name, own, where=f"{title}.{self.name}, filled")
 
     def faults(self, members: NamedMembers) -> Iterator[str]:
         filling = self.filling(members)
@@ -508,9 +504,8 @@ class OilLine(PumpLine, GasLine):
         if self.at is None:
             return {}
         if isinstance(self.at, Mapping):
-            lost = next((name for name in self.at if name not in strokes), None)
-            if lost is not None:
-                raise unknown("Stroke", lost, strokes, where=f"{self.name}, at")
+            for name in self.at:
+                known_name("Stroke", name, strokes, where=f"{self.name}, at")
             return {name: one_number(value, f"{self.name}, at: {name}") for name, value in self.at.items()}
         ensure(len(strokes) == 1, f"{self.name} = {self}: the machine has {len(strokes)} strokes; say at=dict({', '.join(strokes)}=...).")
         return {strokes[0]: one_number(self.at, f"{self.name}, at")}

@@ -13,17 +13,17 @@ from typing import Any, ClassVar, Literal, cast
 import numpy as np
 
 from linkage.checks import require_type
-from linkage.errors import one_word, unknown
+from linkage.errors import DefinitionError, known_name, one_word
 from linkage.frozen import immutable
 from linkage.language import noted, said
 from linkage.loads import Acting, Parameter
 from linkage.mechanism import Mechanism
-from linkage.motion import HasVerdicts, Judge, Motion
+from linkage.motion import HasVerdicts, Judge, Motion, from_above, require_motion
 from linkage.quantities import NamedMembers, Reference, is_member_or_name, name_of, needs, of_kind
 from linkage.verdict import Remark, Verdict
 
-from .consumers import lines_on
-from .cycle import PumpCycle, checked, pump_sections, pump_verdicts
+from .consumers import in_plan, lines_on
+from .cycle import PumpCycle, cycles_over, is_shared, judged_cycles, pump_verdicts
 from .cylinders import OnLines, Ram, circuits_among
 from .inputs import check_pressures, follows
 from .sharing import SHARINGS
@@ -126,8 +126,7 @@ class Pump(Supply):
         lines = lines_on(self, members)
         known = [*(each.name for each in lines), *(ram.name for line in lines for ram in line.members(members))]
         for each in map(name_of, cast(Sequence[Reference], self.first)):
-            if each not in known:
-                raise unknown("Line or cylinder on this pump", each, known, where=f"{title}.{self.name}, first")
+            known_name("Line or cylinder on this pump", each, known, where=f"{title}.{self.name}, first")
         super().examine(members, title)
 
     def verdicts(self, judge: Judge) -> list[Verdict]:
@@ -158,7 +157,12 @@ class Pump(Supply):
         list of Section
             The sections.
         """
-        return pump_sections(self, judge)
+        try:
+            found = judged_cycles(self, judge) if is_shared(self, judge) else []
+        except DefinitionError:  # the verdict says why
+            return []
+        named = [("; ".join(filter(None, (place.over.title, each.case))) if len(found) > 1 else "", each) for place, each in found]
+        return [from_above("hydraulics.cycle_chart:cycle_section")(named)] if found else []
 
     # -- in time -------------------------------------------------------------------------------------------
 
@@ -182,7 +186,12 @@ class Pump(Supply):
         DefinitionError
             The motion has no time, no line is on the pump, or it says no flow.
         """
-        return checked(self, motion, acting)
+        motion = require_motion(motion)
+        if motion._instants is None or not motion._instants.courses:
+            what = f"{motion.plan.title}: {self.name or 'a pump'}.check(motion): this motion has no time of its own"
+            raise DefinitionError(f"{what}; sweep the machine over a path in time, Over.path(time=[...], ...).")
+        judge, own = Judge(motion.plan, motion.designs, [motion], acting), in_plan(self, motion.plan)
+        return max((each for place in judge.places for each in cycles_over(own, place, judge.acting)), key=lambda each: each.stretch)
 
     def run(
         self, machine: Mechanism, *, demands: Mapping[Reference, Demand], until: float, start: Mapping[str, float] | Motion | None = None,

@@ -273,8 +273,7 @@ class RamSize(ABC):
         DefinitionError for a lone NaN or an infinite pressure.
         """
         forward = pose_values(pressure, "Cylinder pressure") * self.area
-        thrust: Array = self.sense * (forward - pose_values(back, "Back pressure") * self.back_area)
-        return thrust[()]
+        return np.asarray(self.sense * (forward - pose_values(back, "Back pressure") * self.back_area))[()]
 
     def pressure_for(self, thrust: ArrayLike, back: ArrayLike = 0.0) -> Array:
         """Return the pressure at which all cylinders together give a thrust [N] against a `back` pressure; they broadcast.
@@ -284,10 +283,9 @@ class RamSize(ABC):
         """
         force, against = pose_values(thrust, "Thrust"), pose_values(back, "Back pressure")
         if self.works == "both":
-            pushing: Array = (force + against * self.pull_area) / self.push_area
+            pushing = (force + against * self.pull_area) / self.push_area
             return np.where(force < 0.0, (against * self.push_area - force) / self.pull_area, pushing)[()]
-        pressure: Array = (self.sense * force + against * self.back_area) / self.area
-        return pressure[()]
+        return np.asarray((self.sense * force + against * self.back_area) / self.area)[()]
 
     def behind(self, force: Array) -> Array:
         """Return the pressure on the other side that gives a force, not below zero [N]; infinite where there is none."""
@@ -300,13 +298,11 @@ class RamSize(ABC):
         Of both sides a travel outwards (positive) fills the piston side, one inwards the rod side.
         """
         way = pose_values(travel, "Travel")
-        oil: Array = np.where(way < 0.0, -way * self.pull_area, way * self.push_area) if self.works == "both" else way * self.area
-        return oil[()]
+        return np.where(way < 0.0, -way * self.pull_area, way * self.push_area)[()] if self.works == "both" else (way * self.area)[()]
 
     def speed(self, flow: ArrayLike) -> Array:
         """Return the speed [m/s] in the working direction (of both sides: outwards) at a flow [m3/s] into all cylinders, same shape."""
-        speed: Array = pose_values(flow, "Flow") / self.area
-        return speed[()]
+        return np.asarray(pose_values(flow, "Flow") / self.area)[()]
 
 
 @refuses_changes

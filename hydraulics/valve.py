@@ -15,7 +15,7 @@ from typing import ClassVar, Unpack, cast
 
 import numpy as np
 
-from linkage.errors import DefinitionError, cited, known_name, unknown
+from linkage.errors import DefinitionError, cited, known_name
 from linkage.frozen import immutable
 from linkage.language import said
 from linkage.loads import Acting, ActingKeywords, Case, Loads, Parameter, Poses, situation_of, takes_situation
@@ -104,8 +104,7 @@ class HoldingValve(OnLines, HasVerdicts):
     def examine(self, members: NamedMembers, title: str) -> None:
         known = [each.name for each in circuits_among(members)]
         for each in (self.line, self.pilot):
-            if name_of(each) not in known:
-                raise unknown("Line", name_of(each), known, where=f"{title}.{self.name}")
+            known_name("Line", name_of(each), known, where=f"{title}.{self.name}")
         Member.examine(self, members, title)
 
     def faults(self, members: NamedMembers) -> Iterator[str]:
@@ -315,11 +314,8 @@ class HoldingValve(OnLines, HasVerdicts):
         LiftLine or None
             The line.
         """
-        _, pilot = self.lines(members)
-        for each in (pilot, self.lines(members)[0]):
-            if isinstance(each, LiftLine) and each.kind_open(members) == "held":
-                return each
-        return None
+        held = (each for each in self.lines(members)[::-1] if isinstance(each, LiftLine) and each.kind_open(members) == "held")
+        return next(held, None)
 
     def questions(self, judge: Judge) -> list[Question]:
         return [most(valve_request("load_pressure", self.name, Acting())), most(valve_request("pilot_pressure", self.name, Acting()))]

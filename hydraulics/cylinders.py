@@ -492,10 +492,9 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         goes, at_rest = self.goes(motion, acting), np.asarray(np.maximum(balance, least))[()]
         if (acting.movement == FRICTIONLESS and goes is None) or (self.side not in (side, "both") and self.side != "regenerative"):
             return at_rest
-        if goes is not None:
-            found = pressure_of(self, motion, acting) if circuit is None else circuit.pressure_in(self, motion, acting)
-            return np.where((goes != 0.0) & (along > 0.0), found, at_rest)
         found = pressure_of(self, motion, acting) if circuit is None else circuit.pressure_in(self, motion, acting)
+        if goes is not None:
+            return np.where((goes != 0.0) & (along > 0.0), found, at_rest)
         return np.where(along > 0.0, found, least) + 0.0 * thrust
 
     def columns(self, motion: Motion) -> list[Column]:

@@ -16,7 +16,7 @@ from ..quantities import Axes, Member, Reference, is_number, label, name_of, rea
 from ..quantities.quantity import plain
 from ..steps import Link, Point
 from ..units import Amount, g0, require_measure
-from .element import AT_REST, Array, ForceElement, Friction, Glyph, Load, Parameter, Poses, Rate, Rates, couple, value_text
+from .element import AT_REST, Array, ForceElement, Friction, Glyph, Load, Parameter, Poses, Rates, couple, value_text
 
 DOWN = (0.0, -g0)  # gravity, m/s2
 
@@ -424,8 +424,13 @@ class LinkMass(OnBody):
         r = along * float(self.at[0]) + np.stack([-along[1], along[0]]) * float(self.at[1])
         turning: Array | None = None
         if rates.accelerations is not None:
-            spin, angular = body_turning(motion, P, Q, arm, rates, rates.accelerations)
-            centre = motion.acceleration(P, rates, rates.accelerations) + np.stack([-r[1], r[0]]) * angular - r * spin**2
+            start = motion.acceleration(P, rates, rates.accelerations)
+            moved = motion.velocity(Q, rates) - motion.velocity(P, rates)
+            change = motion.acceleration(Q, rates, rates.accelerations) - start
+            square, stretching = arm[0] ** 2 + arm[1] ** 2, arm[0] * moved[0] + arm[1] * moved[1]
+            spin = (arm[0] * moved[1] - arm[1] * moved[0]) / square
+            angular = (arm[0] * change[1] - arm[1] * change[0] - 2.0 * stretching * spin) / square  # of a line that may stretch
+            centre = start + np.stack([-r[1], r[0]]) * angular - r * spin**2
             x, y = x - centre[0], y - centre[1]
             turning = None if self.inertia is None else self.number(motion, "inertia") * angular
         force = vector(mass, (x, y))
@@ -437,18 +442,6 @@ class LinkMass(OnBody):
 
     def in_gravity(self, gravity: tuple[float, float] | None, slope: float) -> LinkMass:
         return self.renewed(gravity=on_slope(self.gravity if gravity is None else gravity, slope))
-
-
-def body_turning(
-    motion: Poses, P: str, Q: str, arm: Array, rates: Rates, accelerations: Mapping[str, Rate]
-) -> tuple[Array, Array]:
-    """Return the angular velocity [rad/s] and acceleration [rad/s2] of the line P Q, which may stretch; `arm` is Q - P [m]."""
-    moved = motion.velocity(Q, rates) - motion.velocity(P, rates)
-    change = motion.acceleration(Q, rates, accelerations) - motion.acceleration(P, rates, accelerations)
-    square = arm[0] ** 2 + arm[1] ** 2
-    spin = (arm[0] * moved[1] - arm[1] * moved[0]) / square
-    stretching = arm[0] * moved[0] + arm[1] * moved[1]
-    return spin, (arm[0] * change[1] - arm[1] * change[0] - 2.0 * stretching * spin) / square
 
 
 # Dry friction of pins and guides: it acts against the motion, in proportion to the force it helps to make.

@@ -75,7 +75,12 @@ def applied_loads(motion: AnyMotion, acting: Acting, rates: Rates, without: str 
     each_of = [parts_of(each, rates) for each in elements]
     loads = tuple(load for found, _ in each_of for load in found)
     for each in loads:
-        check_points(each, plan, each.element)
+        where = f"{plan.title}: {each.element}"
+        if not is_listed(each.on):
+            raise DefinitionError(f'{where}: on={cited(each.on)} is expected as names of points or of an element, on=("O", "B").')
+        for point in (each.point, *(each.on if len(each.on) > 1 else ())):
+            if name_of(point) not in plan.points:
+                raise unknown("Point", point, plan.points, where=where)
     frictions = [(each.factor, friction) for each in elements if rates.has_friction for friction in each.element.frictions(motion)]
     return AppliedLoads(
         acting, rates, "given loads" if acting.case is None and acting.loads is not None else case_of(plan, acting.case).label,
@@ -122,17 +127,6 @@ def over_poses(motion: AnyMotion, values: ArrayLike, vector: int, name: str, wha
         text = f"{motion.plan.title}: {name} gives no finite {what} at {int(missing.sum())} of {missing.size} poses."
         raise SingularError(text, mask=missing, motion=motion)
     return np.asarray(full, float)
-
-
-def check_points(load: Load, plan: Plan, name: str) -> None:
-    """Raise DefinitionError for a load at a point that there is not."""
-    on: object = load.on
-    if not is_listed(on):
-        what = f"on={cited(on)} is expected as names of points or of an element"
-        raise DefinitionError(f'{plan.title}: {name}: {what}, on=("O", "B").')
-    for point in (load.point, *(on if len(on) > 1 else ())):
-        if name_of(point) not in plan.points:
-            raise unknown("Point", point, plan.points, where=f"{plan.title}: {name}")
 
 
 def member_title(member: TwoPinned) -> str:

@@ -12,7 +12,7 @@ from functools import cached_property, reduce
 import numpy as np
 
 from ..errors import DefinitionError
-from ..loads import Load, TwoPoint
+from ..loads import Load
 from ..plan import Mask
 from ..program import FloatArray
 from ..quantities import Distance, Quantity, name_of
@@ -269,7 +269,8 @@ class System:
             return
         members = [each for each in self.structure.holders.every_cylinder if any(is_among(each, line.cylinders) for line in ties)]
         forms = [self.thrust(next(strut for strut in self.structure.struts if strut.name == member_title(each))) for each in members]
-        given = [self.law_thrust(each) for each in members]
+        laws = [[each.thrust for each in self.structure.thrusts if same(member, each.member)] for member in members]
+        given = [sum(map(self.poses.flattened, each), self.poses.zeros()) for each in laws]
         shares = [share_of(each, ties, [areas(line, self.poses, 1) for line in ties]) for each in members]
         none = self.poses.zeros()
         rows = [[none if each is None else each for each in row] for row in shares]
@@ -281,8 +282,3 @@ class System:
                 others = [forms[row].multiplied(-1.0 * factor) for factor, (row, _) in zip(factors, pivots, strict=True)]
                 right = reduce(np.subtract, (factor * given[row] for factor, (row, _) in zip(factors, pivots, strict=True)), given[place])
                 yield reduce(LinearForm.plus, others, form), right
-
-    def law_thrust(self, member: TwoPoint) -> FloatArray:
-        """Return the thrust that laws put on a member which holds, too (n,)."""
-        own = [each.thrust for each in self.structure.thrusts if same(member, each.member)]
-        return self.poses.flattened(sum(own)) if own else self.poses.zeros()

@@ -5,12 +5,13 @@ The machines are the shipped ones that are registered as `four_bar` and `slider_
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass
 from functools import cached_property
 from math import acos, pi
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeAlias, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -155,8 +156,51 @@ def exact_variant(name: str, side: int, members: Mapping[str, Member], dimension
     return class_like(base, {**text, **members}, reduce)(**dimensions)
 
 
+class HasMachine(Protocol):
+    """What holds a machine."""
+
+    @property
+    def machine(self) -> Mechanism:
+        """The machine."""
+
+
+Found = TypeVar("Found", bound=HasMachine, covariant=True)
+
+
+class FoundMachines(HasSentence, Shown, ABC, Generic[Found]):
+    """The base of what a synthesis finds: its `solutions` run, the best first."""
+
+    if TYPE_CHECKING:
+
+        @property
+        def solutions(self) -> tuple[Found, ...]:
+            """The machines that run, the best first."""
+
+    @property
+    @abstractmethod
+    def sentence(self) -> str:
+        """What was found, in words; those of the StudyError where no machine runs."""
+
+    @property
+    def machines(self) -> tuple[Mechanism, ...]:
+        """The machines that run, the best first."""
+        return tuple(each.machine for each in self.solutions)
+
+    @property
+    def best(self) -> Found:
+        """The first solution; StudyError where there is none, in the words of what was found."""
+        if not self.solutions:
+            raise StudyError(str(self))
+        return self.solutions[0]
+
+    @property
+    def machine(self) -> Mechanism:
+        """The machine of the first solution; StudyError where there is none."""
+        return self.best.machine
+
+
 @dataclass(frozen=True, eq=False, repr=False)
-class ExactSynthesis(HasSentence, Shown):
+class ExactSynthesis(FoundMachines[ExactMachine]):
     """All real machines of a task that exact algebra gives, those that run first by their least transmission angle.
 
     `solutions` run through all points on one branch; `misses` are the others, each with `why`. `complex_count` is how many solutions the
@@ -172,23 +216,6 @@ class ExactSynthesis(HasSentence, Shown):
     def all(self) -> tuple[ExactMachine, ...]:
         """All real solutions, those that run first."""
         return (*self.solutions, *self.misses)
-
-    @property
-    def machines(self) -> tuple[Mechanism, ...]:
-        """The machines that run, the best first."""
-        return tuple(each.machine for each in self.solutions)
-
-    @property
-    def best(self) -> ExactMachine:
-        """The machine with the greatest least transmission angle of those that run; StudyError where none does."""
-        if not self.solutions:
-            raise StudyError(str(self))
-        return self.solutions[0]
-
-    @property
-    def machine(self) -> Mechanism:
-        """The best machine; StudyError where none runs."""
-        return self.best.machine
 
     @property
     def sentence(self) -> str:

@@ -19,7 +19,6 @@ from ..checks import require
 from ..errors import DefinitionError, StudyError, ensure
 from ..frozen import immutable, read_only
 from ..language import said
-from ..mechanism import Mechanism
 from ..motion.regions import Disc, Region, region_of
 from ..numeric.descent import refined
 from ..program import FloatArray
@@ -32,6 +31,7 @@ from .exact import (
     DrivenPiece,
     ExactMachine,
     ExactSynthesis,
+    FoundMachines,
     Pivoted,
     angles_of_reach,
     exact_synthesis,
@@ -166,7 +166,7 @@ class GuidingLink(HasSentence, Shown):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Burmester(HasSentence, Shown):
+class Burmester(FoundMachines[ExactMachine]):
     """The links that guide a body through `poses` (n, 3), and the machines of all pairs of them.
 
     `circle_curve` and `centre_curve` are the branches of the two cubics of four poses, (2, m) each [m], points of the same place belong
@@ -201,21 +201,6 @@ class Burmester(HasSentence, Shown):
     def misses(self) -> tuple[ExactMachine, ...]:
         """The machines that do not run, each with `why`."""
         return self.synthesis.misses
-
-    @property
-    def machines(self) -> tuple[Mechanism, ...]:
-        """The machines that run, the best first."""
-        return self.synthesis.machines
-
-    @property
-    def best(self) -> ExactMachine:
-        """The first solution; StudyError where there is none."""
-        return self.synthesis.best
-
-    @property
-    def machine(self) -> Mechanism:
-        """The machine of the first solution; StudyError where there is none."""
-        return self.synthesis.machine
 
     @property
     def sentence(self) -> str:

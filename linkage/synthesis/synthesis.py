@@ -32,7 +32,7 @@ from ..study.variants import ENDING, is_side
 from ..units import deg, display_unit, factor, mm, show, shown_in
 from ..vectors import Side
 from .defects import TOLD, change_point_words, in_order, order_words
-from .exact import REGISTERED
+from .exact import REGISTERED, FoundMachines
 from .fit import Fit
 from .tasks import PathTask, PoseTask, Task, TaskRows, of_class, squares_near, sum_of_parts, task_named_in, task_of
 
@@ -124,7 +124,7 @@ class RoundedMachine(HasSentence):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Synthesis(HasSentence, Shown):
+class Synthesis(FoundMachines[SynthesisedMachine]):
     """All distinct machines that were found for a task, the best first, each assembled over its whole stroke.
 
     Where several classes were searched, `table` compares them; `start`, `task` and `problem` are then those of the best class.
@@ -167,18 +167,6 @@ class Synthesis(HasSentence, Shown):
     problem: Problem
     fits: tuple[Fit, ...]
     classes: tuple[Synthesis, ...] = ()
-
-    @property
-    def machine(self) -> Mechanism:
-        """The best machine; StudyError where there is none."""
-        return self.best.machine
-
-    @property
-    def best(self) -> SynthesisedMachine:
-        """The best answer; StudyError where there is none, with the nearest miss."""
-        if not self.solutions:
-            raise StudyError(str(self))
-        return self.solutions[0]
 
     @property
     def error(self) -> float:

@@ -360,8 +360,7 @@ def task_of(title: str, given: Sequence[tuple[str, Any, type]]) -> Task:
     said = [(name, value, kind) for name, value, kind in given if value is not None]
     ensure(len(said) == 1, f"{title}: say one task, path=PathTask(...), function=FunctionTask(...) or motion=PoseTask(...).")
     ((name, value, kind),) = said
-    found: Task = require_type(f"{title}: {name}", value, kind, f"a {kind.__name__}(...) is expected")
-    return found
+    return require_type(f"{title}: {name}", value, kind, f"a {kind.__name__}(...) is expected")
 
 
 def timed_as(title: str, task: Task, timed: object) -> Any:

@@ -38,6 +38,10 @@ Moment: TypeAlias = "Callable[[Quantity, Quantity], Quantity | float]"
 
 LENGTHS = ("D_0", "d_0", "hinge_gap", "bush", "dead")
 RIGHT_ANGLE = 90 * deg
+SHARE: Request = reserve("lift")
+"""M_g / M_1: the cylinder's reserve, available over required."""
+ARM_TO_SPARE: Request = abs(ratio("EC")) - (ref("bush") + ref("rod") / 2)
+"""The distance of the cylinder's line from the hinge beyond bush and rod [m]. (2.93)"""
 
 
 def assumed_moment(D: Quantity, arm: Quantity) -> Quantity:
@@ -262,18 +266,6 @@ class Combination:
         return f"{size}: OC {self.low / mm:.1f} to {self.high / mm:.1f} mm, {self.value:.4g} at {self.rho / mm:.1f} mm"
 
 
-def share_of() -> Request:
-    """Return the request for M_g / M_1: the cylinder's reserve, available over required."""
-    share: Request = reserve("lift")
-    return share
-
-
-def arm_to_spare() -> Request:
-    """Return the request for the distance of the cylinder's line from the hinge beyond bush and rod [m]. (2.93)"""
-    spare: Request = abs(ratio("EC")) - (ref("bush") + ref("rod") / 2)
-    return spare
-
-
 def feasible(duty: Duty, objective: str = "even", machine: Grapple | None = None) -> list[Combination]:
     """Return the combinations that keep every condition of (2.95) somewhere, the best first, as a grid of OC of 1 mm shows them.
 
@@ -314,8 +306,8 @@ def looked_at(duty: Duty, designs: Grapple, objective: str) -> tuple[FloatArray,
     """Return the spare of the scarcest condition and the objective of designs, shape (designs,), at some poses."""
     stroke = designs.strokes["theta"]
     stems, way = np.linspace(0.0, stroke.end, 21), np.linspace(stroke.start, stroke.end, 13)
-    share, arm = designs.evaluate([share_of(), abs(ratio("EC"))], theta=stems, unreachable="nan")
-    room, E = designs.evaluate([arm_to_spare(), "E"], theta=way, unreachable="nan")
+    share, arm = designs.evaluate([SHARE, abs(ratio("EC"))], theta=stems, unreachable="nan")
+    room, E = designs.evaluate([ARM_TO_SPARE, "E"], theta=way, unreachable="nan")
     left, right, low, high = duty.box
     (x_E, y_E) = E[..., 0]
     sides = [share.min(axis=-1) - 1.0, room.min(axis=-1), x_E - left, right - x_E, y_E - low, high - y_E]
@@ -325,10 +317,9 @@ def looked_at(duty: Duty, designs: Grapple, objective: str) -> tuple[FloatArray,
 def conditions(duty: Duty, machine: Grapple) -> list[Any]:
     """Return the conditions of (2.95) for `optimise` over the stems; the arm has one peak, so that the open end stands for the rest."""
     left, right, low, high = duty.box
-    spare, share = arm_to_spare(), share_of()
     place = {name: at(coordinate("E"), theta=0.0) for name, coordinate in (("x", x), ("y", y))}
     return [
-        least(share) >= 1.0, least(spare) >= 0.0, at(spare, theta=machine.strokes["theta"].start) >= 0.0,
+        least(SHARE) >= 1.0, least(ARM_TO_SPARE) >= 0.0, at(ARM_TO_SPARE, theta=machine.strokes["theta"].start) >= 0.0,
         place["x"] >= left, place["x"] <= right, place["y"] >= low, place["y"] <= high,
     ]  # fmt: skip
 
@@ -371,7 +362,7 @@ def searched(duty: Duty, machine: Grapple, objective: str, start: Combination) -
     """Return the optimum of one combination, from its best design on the grid."""
     require_type("", start, Combination, "is no combination; give some of feasible(duty)")
     begun = machine.replaced(bore=start.bore, rod=start.rod, S=start.S, side_E=start.side_E, rho=start.rho)
-    greatest, arm = most(share_of()), at(abs(ratio("EC")), theta=0.0)
+    greatest, arm = most(SHARE), at(abs(ratio("EC")), theta=0.0)
     least_rho = max(start.low - ROOM, shortest(machine, start.S) + PLACES[0])
     found = optimise(
         begun, minimise=greatest if objective == "even" else None, maximise=arm if objective == "arm" else None,

@@ -139,8 +139,7 @@ class HeaderState:
     @property
     def circuit(self) -> FloatCircuit:
         """The closed line of the machine."""
-        found: FloatCircuit = self.motion.plan.of_kind(FloatCircuit)["floating"]
-        return found
+        return self.motion.plan.of_kind(FloatCircuit)["floating"]
 
     @property
     def cylinder(self) -> Cylinder:

@@ -299,8 +299,7 @@ def best_change(motion: Motion, names: Sequence[str], steps: FloatArray) -> tupl
 
 def admissible(hitch: Mechanism) -> Mapping[str, Any]:
     """Return the settings that its class admits."""
-    found: Mapping[str, Any] = type(hitch).__dict__.get("admissible") or getattr(hitch, "admissible", {})
-    return found
+    return type(hitch).__dict__.get("admissible") or getattr(hitch, "admissible", {})
 
 
 def tilt_zone(hitch: Mechanism, over: Mapping[str, Any] | None = None, **strokes: Any) -> Zone:

@@ -35,6 +35,7 @@ WRONG = {
     "blank.csv": (",,,\n", "the table has no rows"),
     "binary.txt": ("\0\1\2", "no text"),
     "words.txt": ("hello world\n", "joint 1: links, R, P, RP or G"),
+    "letter.txt": ("ground,arm,R,0,a\n", "letter.txt, joint 1, y: 'a' is no finite number"),
     "slide.txt": ("ground,input,P,0,0\n", "has the angle of its slide"),
     "frame.txt": ("ground,arm,R,0,0\nground,gnd,P,0,0,0\n", "joint 2: both links of P are the frame"),
     "three.txt": ("ground,arm,R,0,0\na,b,a,P,0,0,0\n", "joint 2: P joins two links"),

@@ -249,7 +249,13 @@ def test_poses_may_be_a_task():
     x, y, angle = np.transpose(POSES)
     one, other = burmester(PoseTask(x, y, angle, of="A B"), BELOW), over_region()
     assert len(one.solutions) == len(other.solutions)
-    assert "4 poses" in str(one) and "links" in repr(one) and one.machines
+    assert "4 poses" in str(one) and "links" in repr(one)
+    assert one.best is one.solutions[0] and one.machine is one.machines[0] is one.best.machine
+
+
+def test_without_a_region_three_poses_say_how_machines_are_found():
+    with pytest.raises(StudyError, match="say region= for machines"):
+        burmester(random_poses(3, 3)).machine  # noqa: B018
 
 
 def test_the_picture_has_both_curves_the_poses_and_the_region():

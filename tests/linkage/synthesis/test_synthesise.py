@@ -243,6 +243,7 @@ def test_what_cannot_run_is_no_answer():
     assert not found.solutions and not np.isfinite(found.error)
     assert found.misses and all("cannot be assembled between phi" in each.why for each in found.misses)
     assert "no machine that runs was found" in str(found)
+    assert found.machines == ()
     with pytest.raises(StudyError, match="no machine that runs"):
         found.machine  # noqa: B018
 

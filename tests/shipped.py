@@ -32,7 +32,7 @@ POINTS = {point.name: point for point in entry_points(group="hydrolinkage.machin
 MACHINES = Installed(POINTS)
 AT_WORK = Installed({f"at_work.{point.name}": point for point in entry_points(group="hydrolinkage.machines") if ".at_work" in point.value})
 DAILY = (
-    "arm_drive", "crane_skeleton", "front_loader", "grapple", "header_balancer", "inverted_slider_crank", "mower_lift", "pantograph",
+    "arm_drive", "crane_skeleton", "grapple", "header_balancer", "inverted_slider_crank", "mower_lift", "pantograph",
     "scotch_yoke", "stephenson_three_far", "three_point_hitch", "toggle_press",
 )  # fmt: skip
 OTHERS = tuple(name for name in MACHINES if name not in DAILY)

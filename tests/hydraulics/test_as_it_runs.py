@@ -11,6 +11,7 @@ from hydraulics import Cylinder, LiftCircuit, pressure, reserve, thrust
 from linkage import RIGHT, DefinitionError, Dyad, Ground, Mechanism, OnLink, Over, PinFriction, Stroke, Weight, least, ramp
 from linkage.loads import Acting
 from linkage.units import bar, mm
+from tests.members import told_by
 
 
 class Boom(Mechanism):
@@ -63,10 +64,10 @@ class Raised(Boom):
 
 def test_going_back_is_asked_where_it_goes_back():
     timed, plain = (
-        next(each.answer for each in Boom().verdicts(Boom().sweep(11, over=name)) if each.rule == "lowering") for name in ("work", "back")
+        next(each.answer for each in told_by(Boom(), "line", over=name) if each.rule == "lowering") for name in ("work", "back")
     )
     assert timed.ok and timed.value == pytest.approx(plain.value, rel=1e-9)
-    (nowhere,) = (each for each in Raised().verdicts() if each.rule == "lowering")
+    (nowhere,) = (each for each in told_by(Raised(), "line") if each.rule == "lowering")
     assert nowhere.ok is None and str(nowhere) == "--   lowering: it goes back nowhere over what it runs."
 
 

@@ -22,6 +22,7 @@ from linkage.errors import DefinitionError
 from linkage.motion import least, most, pose_sentence, reachable
 from linkage.motion.motion_verdicts import told_apart
 from linkage.units import bar, litre, minute, mm
+from tests.members import told_by
 
 
 class Turned(Mechanism):
@@ -117,9 +118,9 @@ def test_a_line_for_each_side_works_one_way_at_every_door():
     assert two.answers([most(pressure("ram"))])[0].value == pytest.approx(found[1].value, rel=1e-12)
     sentence = pose_sentence(poses[0])
     assert "out" not in sentence and sentence.replace(" back", "") == pose_sentence(poses[1])
-    told = {each.rule: each for each in two.verdicts()}
-    assert told["lifting out"].ok is None and told["lifting back"].ok is False
-    assert told["holding out"].sentence == "with the pump off, the piston side holds no pressure."
+    out, back = ({each.rule: each for each in told_by(two, name)} for name in ("out", "back"))
+    assert out["lifting"].ok is None and back["lifting"].ok is False
+    assert out["holding"].sentence == "with the pump off, the piston side holds no pressure."
 
 
 def test_a_table_has_the_pressure_and_the_reserve_of_a_cylinder_with_a_line_for_each_side():

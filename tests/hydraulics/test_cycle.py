@@ -15,6 +15,7 @@ from linkage.errors import FileError
 from linkage.pictures.page_data import event_data
 from linkage.units import bar, litre, minute, show
 from tests.hydraulics.test_pump import FLOW, OneBlock, TwoBlocks, pump_of
+from tests.members import told_by
 
 PROGRAMME = """
 until = "3 s"
@@ -136,7 +137,7 @@ def test_the_margin_is_there_from_the_first_instant_and_adds_nothing_to_the_peak
     assert_allclose((cycle.pressure["supply"] - cycle.pressure["line"])[fed], 40 * bar, rtol=1e-12)
     assert_allclose(cycle.pressure["supply"][[0, -1]], cycle.pressure["line"][[0, -1]] + 40 * bar, rtol=1e-12)
     assert_allclose(cycle.peak(cycle.pressure["supply"])[0], cycle.peak(cycle.pressure["line"])[0] + 40 * bar, rtol=1e-9)
-    assert pump_of(machine).sections(machine.judge()) == [] and not [v for v in machine.verdicts() if v.rule == "pump"]
+    assert pump_of(machine).sections(machine.judge()) == [] and not told_by(machine, "supply")
     assert main(["cycle", f"{__file__}:BlockWithMargin"]) == 0 and "of 30 l/min" in capsys.readouterr().out  # of a pump on one line too
 
 
@@ -160,11 +161,11 @@ def test_a_run_keeps_what_its_pump_gave_wherever_it_is_judged():
     assert told.startswith("gives ")  # a motion by itself has no pump: of it is said what it needs
     for motion in (run, pickle.loads(pickle.dumps(run)), machine.sweep(31, over=run.over)):
         assert supply.check(motion).verdict.sentence == told
-        assert told in [each.sentence for each in machine.verdicts(over=motion)]
+        assert told in [each.sentence for each in told_by(machine, "supply", over=motion)]
     other = machine.replaced(**{"one.ram.bore": 1.1 * machine["one.ram.bore"]})
     assert supply.check(other.sweep(31, over=run.over)).verdict.sentence != told  # a path is given to another design
     for kind in (OpenCentreBlocks, MeasuredBlocks):  # and to another machine, which has a pump of that name
-        (said,) = [each.sentence for each in kind().verdicts(over=run.over) if each.heading == "pump"]
+        (said,) = [each.sentence for each in told_by(kind(), "supply", over=run.over) if each.heading == "pump"]
         assert said.startswith("needs ")
 
 

@@ -10,6 +10,7 @@ from linkage.loads import PinFriction, Weight
 from linkage.statics import driving_force
 from linkage.units import bar, cm2, deg, g0, kN, litre, minute, mm
 from tests.for_all import first_daily
+from tests.members import told_by
 
 
 class Lift(Mechanism):
@@ -258,9 +259,9 @@ def test_a_load_that_is_nothing_but_rounding_is_told_as_nothing():
     both, pulling = (Cylinder("A", "B", bore=0.08, rod=0.045, works=works) for works in ("both", "rod"))
     stages = Telescope("A", "B", bores=[0.1, 0.08], strokes=[0.4, 0.4], closed=0.6)
     for A, lift in [((-1.0, -0.3), both), ((-1.0, -0.3), stages), ((1.0, -0.3), pulling)]:
-        found = {each.rule: each for each in type("Own", (Upright,), {"A": Ground(*A), "lift": lift})().verdicts()}
+        found = {each.rule: each for each in told_by(type("Own", (Upright,), {"A": Ground(*A), "lift": lift})())}
         assert not any("e-" in each.sentence for each in found.values()), found
         assert found["lowering"].ok and "presses on neither side" in found["lowering"].sentence
         assert ("never pushed" in found["buckling"].sentence) == (A[0] > 0.0) and " holds up to" in found["holding"].sentence
         assert " where the load drives" not in found["holding"].sentence
-    assert "side" not in {each.rule for each in type("Bare", (Upright,), {"line": None})().verdicts()}
+    assert "side" not in {each.rule for each in told_by(type("Bare", (Upright,), {"line": None})())}

@@ -28,6 +28,7 @@ from linkage import (
 )
 from linkage.loads import Acting
 from linkage.units import bar, litre, minute
+from tests.members import told_by
 
 UP = ramp(0.02, 0.28, speed=0.15, acceleration=0.5)
 
@@ -88,7 +89,8 @@ def test_answers_and_curves_have_their_units_and_instants():
 
 def test_seals_that_are_too_slow_are_told_over_paths_in_time_alone():
     def told(machine, **over):
-        return {verdict.rule: (verdict.ok, str(verdict)) for verdict in machine.verdicts(**over)}.get("speed")
+        found = told_by(machine, *machine.plan.of_kind(Cylinder), **over)
+        return {verdict.rule: (verdict.ok, str(verdict)) for verdict in found}.get("speed")
 
     ok, text = told(Arm())
     assert not ok and "lift moves with 150 mm/s" in text and "its seals allow 100 mm/s" in text
@@ -114,7 +116,7 @@ def test_a_pump_that_is_too_small_is_told_over_paths_in_time_alone():
         go = Over.path(S=ramp(0.28, 0.02, speed=0.25, acceleration=0.5))
 
     def told(machine, **over):
-        return {verdict.rule: (verdict.ok, str(verdict)) for verdict in machine.verdicts(**over)}["oil"]
+        return {verdict.rule: (verdict.ok, str(verdict)) for verdict in told_by(machine, "line", **over)}["oil"]
 
     ok, text = told(Arm())
     assert ok is False and "the cylinders take 45.24 l/min, at 0.3 s" in text and "the pump gives 40 l/min." in text

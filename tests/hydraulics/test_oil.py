@@ -11,6 +11,7 @@ from linkage import LEFT, RIGHT, DefinitionError, Dyad, Force, Ground, Guide, Li
 from linkage.statics import work
 from linkage.units import bar, deg, kN, litre, minute, mm
 from tests.for_all import for_all
+from tests.members import told_by
 
 
 class Press(Mechanism):
@@ -120,9 +121,9 @@ class Unloaded(Levelled):
 
 
 def test_a_closed_line_without_a_load_is_below_what_fills_it_up():
-    (found,) = [each for each in Unloaded().verdicts() if each.rule == "line"]
+    (found,) = [each for each in told_by(Unloaded(), "level") if each.rule == "line"]
     assert found.ok is False and "below 5 bar it runs empty there" in found.sentence
-    assert not [each for each in Unloaded(**{"level.make_up": 0.0}).verdicts() if each.rule == "line"]
+    assert not [each for each in told_by(Unloaded(**{"level.make_up": 0.0}), "level")]
 
 
 class Tilted(Levelled):
@@ -251,7 +252,7 @@ def test_a_tank_on_the_other_side_is_a_back_pressure_while_it_lifts():
         assert getattr(OnTank.line, name)(b) == pytest.approx(getattr(WithBackPressure.line, name)(a), rel=1e-14)
     assert b[reserve("ram")] == pytest.approx(a[reserve("ram")], rel=1e-14)
     assert b[capacity("ram", "P")] == pytest.approx(a[capacity("ram", "P")], rel=1e-12)
-    lifting = [[str(each) for each in machine().verdicts() if each.rule == "lifting"] for machine in (OnTank, WithBackPressure)]
+    lifting = [[str(each) for each in told_by(machine(), "line") if each.rule == "lifting"] for machine in (OnTank, WithBackPressure)]
     assert lifting[0] == lifting[1]
     size = OnTank.ram.size  # it always counts: at rest it presses on the load's side
     assert OnTank.line.holding(b).working == pytest.approx((40 * kN + 5 * bar * size.pull_area) / size.push_area)
@@ -264,7 +265,7 @@ def test_a_regenerative_line_has_bounds_and_holds():
     assert Regenerative.ram.bounds(motion, True)[1] == pytest.approx(200 * bar * area)
     assert Regenerative.line.reserve(motion) == pytest.approx(200 * bar * area / (40 * kN))
     assert np.all(Regenerative.line.holding(motion).other == 0.0)
-    (oil,) = [each for each in Regenerative().verdicts() if each.rule == "oil"]
+    (oil,) = [each for each in told_by(Regenerative(), "line") if each.rule == "oil"]
     assert f"{0.5 * area / litre:.2f} l from end to end, {0.5 * area / (100 * litre / minute):.1f} s" in oil.sentence
 
 

@@ -23,6 +23,7 @@ from linkage import (
 from linkage.files import load, to_toml
 from linkage.units import bar, deg, kN, litre, minute, mm
 from tests.for_all import for_all
+from tests.members import told_by
 
 
 class Press(Mechanism):
@@ -46,7 +47,7 @@ PISTON, ANNULUS = np.pi / 4 * 0.1**2, np.pi / 4 * (0.1**2 - 0.07**2)
 
 
 def verdict(machine, rule):
-    (found,) = [each for each in machine().verdicts() if each.rule == rule]
+    (found,) = [each for each in told_by(machine(), *machine.plan.of_kind(OilLine)) if each.rule == rule]
     return found
 
 
@@ -66,7 +67,8 @@ def test_a_pump_against_a_shut_rod_side():
 
     assert verdict(Strong, "shut").ok is True
     assert verdict(Weak, "shut").ok is False and "its relief valve opens at 390 bar" in verdict(Weak, "shut").sentence
-    assert [each.ok for each in Press().verdicts() if each.rule in ("lifting", "lowering")] == [True, True]  # they are told of what moves
+    told = told_by(Press(), "line")  # of what moves
+    assert [each.ok for each in told if each.rule in ("lifting", "lowering")] == [True, True]
 
 
 def test_shut_sides_carry_what_the_load_asks_with_the_least_that_balances():

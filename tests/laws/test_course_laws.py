@@ -141,7 +141,7 @@ def test_programs_of_the_judge_give_what_the_motion_gives(seed):
         check_programs(machine, over, [most(request) for request in requests])
 
 
-DAILY_MACHINES = ("axle", "hoist_tipper", "wheel_loader")
+DAILY_MACHINES = ("axle", "hoist_tipper", "grapple")
 
 
 @for_all("name", DAILY_MACHINES, slow=[name for name in registered() if name not in DAILY_MACHINES])

@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 from linkage import Crank, Ground, Mechanism, Outline, Part, Planes, Stroke, clearance, gap, mm, ref
 from tests.for_all import first_daily
 
-SEEDS = first_daily(2, "seed", [0, 3, 1, 2, *range(4, 30)])
+SEEDS = first_daily(1, "seed", [0, 3, 1, 2, *range(4, 30)])
 SIZE = 1.5  # m, about how far the outlines reach
 STROKES = {"s": np.linspace(0.0, 1.4, 9)}
 

@@ -23,12 +23,12 @@ def random_machines():
 
 
 def few_random():
-    """Return the random machines of every day: two of one stroke, one of two."""
-    return random_machines()[::4]
+    """Return the random machines of every day: one of one stroke, one of two."""
+    return random_machines()[::8]
 
 
 def other_random():
-    return [machine for place, machine in enumerate(random_machines()) if place % 4]
+    return [machine for place, machine in enumerate(random_machines()) if place % 8]
 
 
 SOME = {"more": few_random, "later": other_random}

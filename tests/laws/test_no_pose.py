@@ -51,7 +51,7 @@ def doors(machine: Mechanism, motion, folder):
     yield "report", lambda: report(machine, folder / "none.md", at={name: [] for name in machine.strokes})
 
 
-@for_all("machine", [Rubbing, LevelledTelehandler, HeaderBalancer, ThreePointHitch])
+@for_all("machine", [Rubbing, HeaderBalancer], slow=[LevelledTelehandler, ThreePointHitch])
 def test_no_pose_has_no_value_and_no_bare_error(machine, tmp_path):
     made, said = machine(), 0
     motion = made.at(**{name: [] for name in made.strokes})

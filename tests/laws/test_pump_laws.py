@@ -24,7 +24,7 @@ def random_wanted(rng):
     return FlowDemands([*flows], [*needs], [*(rng.random(count) < 0.15)], [*rng.integers(0, 2, count)]), limits
 
 
-@for_all("seed", range(200))
+@for_all("seed", range(40), slow=range(40, 200))
 def test_what_one_pump_gives_is_shared_whole_and_in_no_order(seed):
     wanted, limits = random_wanted(np.random.default_rng(seed))
     choose = Choices()

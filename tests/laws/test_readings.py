@@ -98,7 +98,7 @@ EACH_WAY = [(1, 1), (3, 40), (40, 3)]  # floats, blocks along the poses, blocks 
 def shapes(daily):
     """Return machines with numbers of designs and poses: daily a few machines each way and several in every shape, else the rest."""
     several = [ThreePointHitch, *random_machines()[-3:]]
-    looked_at = [*map(MACHINES.get, DAILY), *random_machines()]
+    looked_at = [*map(MACHINES.get, DAILY), *several]
     for machine in filter(is_closed, [*MACHINES.values(), *random_machines()]):
         for shape in SHAPES:
             if daily == (machine in looked_at and (shape in EACH_WAY or machine in several)):

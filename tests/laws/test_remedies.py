@@ -31,6 +31,7 @@ from linkage import LEFT, Dimension, Dyad, Force, Ground, Guide, LoadCase, Mecha
 from linkage.motion import least, most
 from linkage.units import bar, inch, kN, litre, mm, psi, unit_system
 from tests.for_all import for_all
+from tests.members import told_by
 
 SEEDS = (0, 3)
 MANY = (1, 2, *range(4, 40))
@@ -94,8 +95,8 @@ def random_lever(seed):
     return type(f"Lever{seed}", (Base,), dict(ram=ram, **members)), names
 
 
-def by_rule(machine):
-    return {each.rule: each for each in machine.verdicts()}
+def by_rule(machine, *names):
+    return {each.rule: each for each in told_by(machine, *names)}
 
 
 def number(pattern, text, unit=1.0):
@@ -142,7 +143,7 @@ def broken_promises(seed):
         if promised is not None:
             larger = having(**sizes)
             (gained,) = larger.answers([least(reserve("ram"))])
-            if by_rule(larger)["lifting"].ok is not True or abs(float(gained.value) - promised) > 0.00501:
+            if by_rule(larger, "line")["lifting"].ok is not True or abs(float(gained.value) - promised) > 0.00501:
                 broken.append(f"{seed}: {sizes} promise {promised}, and give {gained.value:.5f}")
             if len(sizes) == 1:
                 (short,) = having(**next_smaller(sizes)).answers([least(reserve("ram"))])
@@ -152,14 +153,14 @@ def broken_promises(seed):
     holding = rules["holding"]
     promised = number(r"it is up to (\d+(?:\.\d+)?) bar", holding.sentence, bar)
     if holding.ok is False and promised is not None:
-        held = by_rule(having(**sizes_in(holding.sentence)))["holding"]
+        held = by_rule(having(**sizes_in(holding.sentence)), "line")["holding"]
         found = max(float(each) for each in re.findall(r"holds up to (\d+(?:\.\d+)?) bar", held.sentence)) * bar
         if not (held.ok and abs(found - promised) <= 1e-3 * promised):
             broken.append(f"{seed}: holding promises {promised / bar} bar and gives {held}")
         looked.add("holding")
     rod = number(r"a rod of (\d+(?:\.\d+)?) mm holds", rules["buckling"].sentence, mm)
     if rod is not None:
-        if not by_rule(having(rod=rod))["buckling"].ok:
+        if not by_rule(having(rod=rod), "ram")["buckling"].ok:
             broken.append(f"{seed}: a rod of {rod} m buckles")
         looked.add("buckling")
     push = number(r"must push with up to (\d+(?:\.\d+)?) bar", rules["lowering"].sentence, bar) if "lowering" in rules else None
@@ -171,7 +172,7 @@ def broken_promises(seed):
         missing = number(r"(\d+(?:\.\d+)?) mm with a shorter", length.sentence, mm)
         missing = missing or number(r"(\d+(?:\.\d+)?) mm are missing", length.sentence, mm) or 0.0
         fitting = machine.replaced(**{"ram.closed": machine["ram.closed"] - much, "ram.stroke": machine["ram.stroke"] + missing})
-        if not by_rule(fitting)["length"].ok:
+        if not by_rule(fitting, "ram")["length"].ok:
             broken.append(f"{seed}: {length} and then {by_rule(fitting)['length']}")
         looked.add("length")
     return broken, looked
@@ -231,7 +232,7 @@ def test_a_rod_carries_its_load_over_the_efficiency_and_a_stop_is_told():
         machine = made()
         (found,) = machine.answers([most(buckling("ram"))])
         assert np.isclose(found.value, 3.5 * push / euler(rod, length), rtol=1e-6), made
-        verdicts = machine.verdicts()
+        verdicts = told_by(machine, "ram")
         (verdict,) = (each for each in verdicts if each.rule == "buckling")
         assert f"safety {euler(rod, length) / push:.3g}," in verdict.sentence and verdict.ok == (euler(rod, length) >= 3.5 * push), made
         (remark,) = (each for each in verdicts if each.startswith("Against a stop"))
@@ -245,14 +246,14 @@ def test_a_rod_at_rest_or_going_back_carries_its_load_alone():
         assert np.isclose(Post.ram.buckling_use(motion, direction=direction), alone / share, rtol=1e-9)
     fed = type("Unfed", (Post,), {"pump": None})
     assert np.isclose(fed.ram.buckling_use(fed().at(S=1.2)), alone, rtol=1e-9)
-    assert not [each for each in fed().verdicts() if each.startswith("Against a stop")]
+    assert not [each for each in told_by(fed(), "ram") if each.startswith("Against a stop")]
 
 
 def test_a_rod_that_is_named_holds_and_a_thinner_one_does_not():
     for made, *_ in posts():
         made = type("Heavy", (made,), {"load": Force("P", (0.0, -25 * kN))})
         machine = made()
-        words = next(each.sentence for each in machine.verdicts() if each.rule == "buckling")
+        words = next(each.sentence for each in told_by(machine, "ram") if each.rule == "buckling")
         size = number(r"a (?:rod|stage) of (\d+(?:\.\d+)?) mm holds", words, mm)
         if size is None:
             continue
@@ -278,21 +279,21 @@ def test_the_push_that_lowers_is_what_the_other_side_has_to_have():
     for tank in (0.0, 5 * bar):
         other = {"drain": Tank(tank), "back": OilLine("ram.rod_side", "drain"), "load": Force("G", (0.0, pulls))}
         made = type("Pulled", (Hung,), other)
-        found = by_rule(made())["lowering"]
+        found = by_rule(made(), "line")["lowering"]
         push = number(r"must push with up to (\d+(?:\.\d+)?) bar", found.sentence, bar)
         assert found.ok is False and push > tank
-        assert by_rule(made(**{"drain.pressure": push}))["lowering"].ok
-        assert not by_rule(made(**{"drain.pressure": 0.995 * push}))["lowering"].ok
+        assert by_rule(made(**{"drain.pressure": push}), "line")["lowering"].ok
+        assert not by_rule(made(**{"drain.pressure": 0.995 * push}), "line")["lowering"].ok
 
 
 def test_a_valve_set_as_advised_is_as_usual():
     members = {"load": Force("G", (0.0, (-1.0 if push_of_a_newton()[1] > 1.0 else 1.0) * 60 * kN)), "supply": Pump(250 * bar)}
     made = type("Valved", (Hung,), members | {"valve": HoldingValve("line", pilot="back", setting=130 * bar, ratio=4)})
     (loaded,) = made().answers([most(load_pressure("valve"))])
-    words = by_rule(made())["setting"].sentence
+    words = by_rule(made(), "valve")["setting"].sentence
     advised = number(r"(\d+(?:\.\d+)?) bar(?:, 1.3 times that|\.$)", words, bar)
     assert np.isclose(advised, 1.3 * loaded.value, rtol=5e-4)
-    assert "where 1.3 times is usual" not in by_rule(made(**{"valve.setting": advised}))["setting"].sentence
+    assert "where 1.3 times is usual" not in by_rule(made(**{"valve.setting": advised}), "valve")["setting"].sentence
 
 
 def inch_post(bore, rod):
@@ -316,13 +317,13 @@ def test_remedies_and_offers_are_of_the_units_that_are_chosen():
     for made in (inch_post(2.5 * inch, 1.375 * inch), inch_post(50 * mm, 28 * mm)):
         heavy = type("Heavy", (made,), {"load": Force("P", (0.0, -60 * kN))})
         with unit_system("us"):
-            words = by_rule(heavy())["lifting"].sentence
+            words = by_rule(heavy(), "pump")["lifting"].sentence
             bore = number(r"a bore of (\d+(?:\.\d+)?) in,", words, inch)
             assert min(abs(bore - each) for each in inches) < 1e-6 and "psi" in words, words
             assert heavy(**{"ram.bore": bore}).answers([least(reserve("ram")) >= 1.0])[0].ok
             assert heavy.ram.offers(60 * kN, 2000 * psi)[0].bore in {3.25 * inch, 4 * inch, 5 * inch}
             assert all(each in chosen_series().rods for each in standard_rods(bore))
-        bore = number(r"a bore of (\d+(?:\.\d+)?) mm,", by_rule(heavy())["lifting"].sentence, mm)
+        bore = number(r"a bore of (\d+(?:\.\d+)?) mm,", by_rule(heavy(), "pump")["lifting"].sentence, mm)
         assert round(bore / mm) in (80, 90, 100)
         assert heavy().answers([most(pressure("ram"))])[0].value > 2000 * psi
 
@@ -332,7 +333,7 @@ def on_gas(spelling, charges, rule, exponent):
     block = AccumulatorBlock([Accumulator(volume=(10.0 if rule == "charge" else 2.0) * litre, charge=charge) for charge in charges])
     given = dict(charge_pressure=60 * bar, at=0.0 if rule == "charge" else 0.05, exponent=exponent)
     line = FloatCircuit("ram", block, **given) if spelling == "float" else OilLine("ram.piston_side", block, **given)
-    (verdict,) = (each.sentence for each in type("OnGas", (Bare,), {"line": line})().verdicts() if each.rule == "line")
+    (verdict,) = (each.sentence for each in told_by(type("OnGas", (Bare,), {"line": line})(), "line") if each.rule == "line")
     return verdict
 
 
@@ -373,11 +374,11 @@ def pairs_on_one_line():
 
 def test_what_two_cylinders_on_one_line_need_is_enough_for_both_and_no_more():
     for made, names in pairs_on_one_line():
-        lifting = [each for each in made().verdicts() if each.rule.startswith("lifting ")]
+        lifting = [each for each in told_by(made(), "line") if each.rule.startswith("lifting ")]
         needed = [number(r"It needs (\d+(?:\.\d+)?) bar, at its relief valve as well", each.sentence, bar) for each in lifting]
         assert len(lifting) == 2 and all(each.ok is False and "larger bores on this line" in each.sentence for each in lifting)
         machine = made(**dict.fromkeys(names, max(needed)))
-        assert all(each.ok for each in machine.verdicts() if each.rule.startswith("lifting "))
+        assert all(each.ok for each in told_by(machine, "line") if each.rule.startswith("lifting "))
         for name in ("ram", "aux"):
             (gained,) = machine.answers([least(reserve(name))])
             assert 1.0 <= gained.value < 1.002, (made, name, gained)

@@ -3,6 +3,7 @@
 import csv
 import io
 import re
+from functools import cache
 
 import numpy as np
 from numpy.testing import assert_allclose
@@ -82,8 +83,10 @@ def declaring():
     return {name: machine for name, machine in found.items() if machine.plan.of_kind(Over)}
 
 
-def judged_ends(machine):
-    """Return the least and the greatest value of what is asked of a machine, by the names of its columns [SI]."""
+@cache
+def judged_ends(kind):
+    """Return the least and the greatest value of what is asked of a machine of a class, by the names of its columns [SI]."""
+    machine = kind()
     run = run_of(machine)
     found = results(machine, machine.at(unreachable="nan", **run.divided(3)), "plain")
     asked = {column.name: column.request for column in found if isinstance(column.request, Request)}
@@ -105,10 +108,10 @@ def check_within(name, values, ends, digits=0.0):
     assert not finite.size or np.isnan(high) or finite.max() <= high + near, (name, finite.max(), high)
 
 
-@for_all("machine", [OfPaths, OfCases, OfPoses], slow=lambda: [OfABox, OfATurningBox, LoadedFrontLoader, *declaring().values()])
+@for_all("machine", [OfCases], slow=lambda: [OfPaths, OfPoses, OfABox, OfATurningBox, LoadedFrontLoader, *declaring().values()])
 def test_every_column_of_every_run_lies_within_what_is_judged(machine):
     design = machine()
-    ends, seen = judged_ends(design), 0
+    ends, seen = judged_ends(machine), 0
     for run in runs_of(design):
         motion = design.at(unreachable="nan", **run.over(np.linspace(0.0, 1.0, 41)))
         columns = {column.name: column for column in results(design, motion, run.case)}
@@ -122,10 +125,10 @@ def test_every_column_of_every_run_lies_within_what_is_judged(machine):
 PRINTED = re.compile(r"[−-]?\d+(?:\.\d+)?")
 
 
-@for_all("machine", [OfABox], slow=[OfPaths, OfPoses, LoadedFrontLoader])
+@for_all("machine", [OfCases], slow=[OfABox, OfPaths, OfPoses, LoadedFrontLoader])
 def test_no_printed_value_of_a_report_lies_outside_what_is_judged(machine):
     """The tables of a report, cell by cell, in the units that stand in their headings."""
-    ends, seen = judged_ends(machine()), 0
+    ends, seen = judged_ends(machine), 0
     for block in (block for section in report_document(machine(), count=5).sections for block in section.blocks):
         if isinstance(block, TableBlock) and block.caption.startswith("Results"):
             for heading, cells in zip(block.headings, zip(*block.rows, strict=True), strict=True):
@@ -139,10 +142,10 @@ def test_no_printed_value_of_a_report_lies_outside_what_is_judged(machine):
     assert seen
 
 
-@first_daily(3, "machine", [OfPaths, OfCases, OfATurningBox, OfABox, OfPoses])
+@first_daily(1, "machine", [OfCases, OfPoses, OfATurningBox, OfPaths, OfABox])
 def test_a_table_of_the_command_and_a_plot_show_the_same_runs(machine, capsys, monkeypatch):
     monkeypatch.setattr("linkage.cli.settings.find", lambda name: machine)
-    design, ends = machine(), judged_ends(machine())
+    design, ends = machine(), judged_ends(machine)
     assert main(["table", "ours", "--count", "5", "--csv", "-"]) == 0
     rows = list(csv.DictReader(io.StringIO(capsys.readouterr().out)))
     runs = runs_of(design)

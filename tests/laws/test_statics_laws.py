@@ -66,13 +66,13 @@ def random_machines():
 
 @cache
 def daily():
-    """Return machines that have every kind of member: those of every day but four that add none, and some at work and with a rope."""
-    own = (name for name in DAILY if name not in ("crane_skeleton", "front_loader", "mower_lift", "stephenson_three_far"))
-    at_work = (AT_WORK[f"at_work.{name}"] for name in ("hoist_tipper", "levelled_telehandler", "tail_lift", "wheel_loader"))
+    """Return machines that have every kind of member: those of every day but three that add none, and some at work and with a rope."""
+    own = (name for name in DAILY if name not in ("crane_skeleton", "mower_lift", "stephenson_three_far"))
+    at_work = (AT_WORK[f"at_work.{name}"] for name in ("hoist_tipper", "levelled_telehandler", "tail_lift"))
     return [*map(MACHINES.get, own), *at_work, ChainCrane]
 
 
-def over_all(more=lambda: random_machines()[::2], later=lambda: random_machines()[1::2], among=None):
+def over_all(more=lambda: random_machines()[::4], later=lambda: [*random_machines()[1:4], *random_machines()[5:]], among=None):
     """Run a law of a `machine` over `daily` and what `more()` gives, and over all others of the package and `later()` under `slow`."""
 
     def chosen(machines):

@@ -12,7 +12,7 @@ from tests.laws.plane import PLAIN, cross, size
 from tests.laws.random_machines import random_machine
 from tests.laws.random_oil import random_oil
 
-DAILY, MANY = 3, 60
+DAILY, MANY = 2, 60
 EACH = for_all("seed", range(DAILY), slow=range(DAILY, MANY))
 
 

@@ -169,6 +169,12 @@ def test_limiter_stands_at_its_bound_and_no_other_beyond(along, lifts):
         assert np.all(away[mine] <= 1e-9 * size)
 
 
+@cache
+def plain_field():
+    """Return the field of the excavator alone."""
+    return working_field(Excavator(), "L", RADII, HEIGHTS, **ALONE)
+
+
 class Rubbing(Excavator):
     """The same with friction in its pins."""
 
@@ -179,7 +185,7 @@ class Rubbing(Excavator):
 def test_friction_counts_with_the_direction_of_lifting():
     machine = Rubbing()
     field = working_field(machine, "L", RADII, HEIGHTS, hold={"S3": 0.2})
-    plain = working_field(Excavator(), "L", RADII, HEIGHTS, **ALONE)
+    plain = plain_field()
     assert np.all((field.load <= plain.load + 1e-6) | np.isnan(plain.load)) and np.nanmax(plain.load - field.load) > 10.0
     motion = field.motion()
     circuit = machine.plan.members["boom_line"]
@@ -200,14 +206,13 @@ def test_half_of_all_pressures_and_masses_is_half_of_all():
     names = [f"{name}.mass" for name in machine.plan.of_kind(Weight)]
     names += [f"{line}_line.{what}" for line in ("boom", "arm", "bucket") for what in ("pressure", "relief", "back_pressure")]
     half = machine.replaced(**{name: 0.5 * machine[name] for name in names})
-    whole, found = (working_field(each, "L", RADII, HEIGHTS, **ALONE) for each in (machine, half))
+    whole, found = plain_field(), working_field(half, "L", RADII, HEIGHTS, **ALONE)
     assert_allclose(found.load, 0.5 * whole.load, rtol=1e-12)
     assert np.array_equal(found.limiter, whole.limiter)
 
 
 def test_factors_of_a_rule_are_factors():
-    machine = Excavator()
-    whole = working_field(machine, "L", RADII, HEIGHTS, **ALONE)
+    machine, whole = Excavator(), plain_field()
     ruled = working_field(machine, "L", RADII, HEIGHTS, rule=ISO_10567, **ALONE)
     assert_allclose(ruled.load, 0.87 * whole.load, rtol=1e-13)
     assert_allclose(working_field(machine, "L", RADII, HEIGHTS, rule="ISO 10567", **ALONE).load, ruled.load, rtol=0)
@@ -260,7 +265,7 @@ def test_strokes_to_spare_stand_where_most_is_carried(over):
     assert any("strokes run" in each for each in field.remarks) == (over is not None)
 
 
-@first_daily(1, "seed", range(3))
+@first_daily(1, "seed", [3, 0, 1, 2])
 def test_border_with_a_stroke_to_spare_parts_what_is_reached(seed):
     """A little to either side of the border one place is reached and the other is not, by the cosine rule; the area is that of a grid."""
     rng, crane = np.random.default_rng(seed), Crane()
@@ -277,6 +282,9 @@ def test_border_with_a_stroke_to_spare_parts_what_is_reached(seed):
         return np.all(fits, axis=0).any()
 
     border = field.border
+    ends_of_pieces = border.reshape(-1, 2)
+    gaps = np.hypot(*(ends_of_pieces[:, None] - ends_of_pieces).transpose(2, 0, 1)) + 1e9 * np.eye(len(ends_of_pieces))
+    assert np.quantile(gaps.min(axis=1), 0.99) < 1e-9  # every end of a piece is the end of another one
     size = np.hypot(*(border[:, 1] - border[:, 0]).T)
     for piece in border[rng.choice(len(border), 24, p=size / size.sum())]:
         along = piece[1] - piece[0]
@@ -355,7 +363,7 @@ def test_two_strokes_to_spare_are_no_worse_than_a_grid(seed):
     rng, base = np.random.default_rng(seed), Telehandler()
     machine = base.replaced(**{name: base[name] * rng.uniform(0.85, 1.15) for name in VARIED})
     field = working_field(machine, "T", np.sort(rng.uniform(0.8, 6.5, 6)), np.sort(rng.uniform(-1.0, 5.5, 5)))
-    known = most_of_a_grid(machine, field, 61)
+    known = most_of_a_grid(machine, field, 31)
     assert np.all(field.reached[known >= 0.0]) and np.sum(known > 0.0) > 12
     assert np.all(field.load[known >= 0.0] >= known[known >= 0.0] * (1.0 - 1e-3))
 
@@ -375,8 +383,8 @@ def test_what_is_kept_is_kept_and_branches_are_all_seen():
 def test_random_places_are_rightly_called_reached():
     rng = np.random.default_rng(5)
     machine = Excavator()
-    for _ in range(3):
-        radii, heights = np.sort(rng.uniform(0.3, 3.3, 5)), np.sort(rng.uniform(-2.5, 2.8, 5))
+    for _ in range(2):
+        radii, heights = np.sort(rng.uniform(0.3, 3.3, 4)), np.sort(rng.uniform(-2.5, 2.8, 4))
         field = working_field(machine, "M", radii, heights, **ALONE)
         known = [[strokes_for(machine, [Target(x("M"), a), Target(y("M"), b)], hold={"S3": 0.2}).met for a in radii] for b in heights]
         assert np.array_equal(field.reached, known)
@@ -398,7 +406,7 @@ def test_a_field_is_pickled():
 
 
 def test_places_come_back_in_the_order_they_were_given():
-    one = working_field(Excavator(), "L", RADII, HEIGHTS, **ALONE)
+    one = plain_field()
     other = working_field(Excavator(), "L", RADII[::-1], HEIGHTS[[3, 1, 2]], **ALONE)
     assert np.array_equal(other.load, one.load[[3, 1, 2]][:, ::-1], equal_nan=True)
     assert np.array_equal(other.why, one.why[[3, 1, 2]][:, ::-1])

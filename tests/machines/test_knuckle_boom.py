@@ -7,6 +7,7 @@ from hydraulics import Cylinder, LiftCircuit
 from linkage import LEFT, RIGHT, Dyad, Ground, Mechanism, OnLink, Stroke, Weight, bar, deg, kN, mm, pin_forces
 from tests.machines.machines_b_truth import beside, meet, over, power, slopes, weight
 from tests.mechanisms.free_bodies import FreeBodies
+from tests.members import told_by
 
 
 class KnuckleBoom(Mechanism):
@@ -83,7 +84,7 @@ def test_places_thrusts_and_pins():
 
 def sides(machine):
     """Return what is said of the side that works."""
-    return [each for each in machine.verdicts() if each.rule.startswith("side")]
+    return [each for each in told_by(machine, "ram", "jib") if each.rule.startswith("side")]
 
 
 def test_a_ram_whose_side_holds_no_such_load_is_told():

@@ -9,7 +9,7 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
 from hydraulics import Cylinder
-from linkage import LoadCase, LoadRule, Motion, Part, Target, axle_load, equations, pin_forces, standing, working_field
+from linkage import LoadCase, LoadRule, Motion, Part, Planes, Target, axle_load, equations, pin_forces, standing, working_field
 from linkage.files import load, to_toml
 from linkage.statics import holding, work
 from mechanisms.at_work.excavator import Excavator, HookExcavator
@@ -25,14 +25,15 @@ from mechanisms.crane import Crane
 from mechanisms.grapple import Grapple
 from tests.for_all import for_all
 from tests.machines import plane, test_excavator, test_tipper, test_wheel_loader
+from tests.members import told_by
 
 MACHINES = [
     Excavator, HookExcavator, HoistTipper, LoadedFrontLoader, PloughTractor, SpreaderTractor,
     TailLift, Telehandler, Tipper, WheelLoader,
 ]
 JOINED = [*MACHINES, Forwarder]
-DAILY = (HookExcavator, PloughTractor, TailLift)
-"""Parts, a shipped machine as a part, supports, two lines of oil; telescopes and groups are among the machines of other laws."""
+DAILY = (HookExcavator, PloughTractor)
+"""Parts, a shipped machine as a part, supports; two lines of oil, telescopes and groups are among the machines of other laws."""
 ALL = for_all("machine", DAILY, slow=[machine for machine in MACHINES if machine not in DAILY])
 PRINTED = {"boom": (-0.4737, 1.0923), "arm": (-0.5103, -2.5848), "bucket": (0.7839, -2.8659)}  # rad, at the shortest, at the longest
 
@@ -362,7 +363,7 @@ def test_where_tipping_limits_the_chart_the_rear_axle_carries_nothing(machine):
 def test_the_loaders_bucket_stays_clear_of_lever_and_wheel():
     """The least clearance is that of lever and bucket; where the bucket is curled farther its shell comes nearer, by corners and edges."""
     design = WheelLoader()
-    found = next(each for each in design.verdicts() if "clearance" in each)
+    found = next(each for each in told_by(design, *design.plan.of_kind(Planes)) if "clearance" in each)
     assert found.ok and "PUV and shell" in str(found)
     motion = design.at(**found.answer.strokes)
     N, Z = np.ravel(motion["N"]), np.ravel(motion["Z"])

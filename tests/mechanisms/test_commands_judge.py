@@ -39,7 +39,7 @@ def disagreement(arguments, name, capsys):
     return ""
 
 
-FEW = ("grapple", "hitch --count 2 --over S=0:0.1", "balance header_balancer --table --pressure 40kgf_cm2", "crane arm_drive")
+FEW = ("hitch --count 2 --over S=0:0.1", "crane arm_drive")
 
 
 @for_all("arguments", FEW, slow=[arguments for arguments in COMMANDS if arguments not in FEW])

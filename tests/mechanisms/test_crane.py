@@ -1,5 +1,7 @@
 """The crane's skeleton: the source's example in both readings, masses, positions, the back-broken variant, and what a duty refuses."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -64,12 +66,16 @@ def minimum(machine, vary, equal, kept, starts=12, fixed=None):
     names, fixed = [*equal, *kept], fixed or {}
     asked = ["W_m", *names]
 
-    def table(x):
+    @cache
+    def rows_at(*x):
         steps = np.vstack([x, x + 1e-6 * np.eye(len(x)), x - 1e-6 * np.eye(len(x))])
         there = machine().replaced(**dict(zip(vary, steps.T, strict=True)), **fixed).outputs(*asked)
         rows = np.array([np.broadcast_to(there[name], len(steps)) for name in asked])
         n = len(x)
         return rows[:, 0], (rows[:, 1 : n + 1] - rows[:, n + 1 :]) / 2e-6
+
+    def table(x):
+        return rows_at(*map(float, x))
 
     e = len(equal)
     rules = [
@@ -202,7 +208,7 @@ def brute_force(A_k):
 
 @pytest.mark.parametrize("A_k", [6.9, pytest.param(6.5, marks=pytest.mark.slow)])
 def test_back_broken_skeleton_of_least_mass(A_k):
-    value, x = minimum(BackBrokenSkeleton, BACK, BROKEN, [*BackBrokenSkeleton.conditions(">=")], 5, {"A_k": A_k})
+    value, x = minimum(BackBrokenSkeleton, BACK, BROKEN, [*BackBrokenSkeleton.conditions(">=")], 2, {"A_k": A_k})
     assert x is not None
     assert value * (1.0 - 1e-9) <= brute_force(A_k) <= value * (1.0 + 1e-4)
 

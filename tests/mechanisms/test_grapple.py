@@ -27,6 +27,7 @@ from mechanisms.grapple import (
     travelling,
 )
 from tests.for_all import first_daily, for_all
+from tests.members import told_by
 
 # Example 4 of the specification: computed by its author with closed formulas and a search of his own.
 O = (0.3497067455977797, 0.0854704164223494)
@@ -375,7 +376,7 @@ def test_both_levers_pull_alike_on_the_crosshead():
 
 
 def test_verdicts_of_one_cylinder_on_both_levers():
-    said = "\n".join(CrossheadGrapple().verdicts())
+    said = "\n".join([*told_by(machine := CrossheadGrapple()), *machine.rules(machine.at(theta=0.0))])
     assert "FAIL" not in said and "E stands 70.0 mm over the housing" in said
     assert "FAIL room" in "\n".join((made := CrossheadGrapple(link=0.7)).rules(made.at(theta=0.0)))
     assert "FAIL moment" in "\n".join((made := CrossheadGrapple(bore=0.08)).rules(made.at(theta=0.0)))
@@ -389,12 +390,12 @@ def test_a_duty_of_its_own_makes_a_class_with_its_range():
     motion = machine.at(theta=0.0)
     assert machine.strokes["theta"].end == pytest.approx(-float(motion["closing_angle"]), rel=1e-12)
     assert float(motion["D"]) == pytest.approx(0.6, rel=1e-12)
-    assert "ok   stroke" in "\n".join(machine.verdicts(motion))
+    assert "ok   stroke" in "\n".join(machine.rules(motion))
 
 
 def test_the_shipped_class_tells_that_other_stems_have_another_range():
     machine = Grapple(D_0=0.6)
-    assert "FAIL stroke" in "\n".join(machine.verdicts(machine.at(theta=0.0)))
+    assert "FAIL stroke" in "\n".join(machine.rules(machine.at(theta=0.0)))
 
 
 def test_a_moment_of_ones_own():
@@ -462,15 +463,15 @@ def test_a_cylinder_without_a_place_is_told_with_the_arm_that_has_one():
 
 
 def test_verdicts_say_what_fails():
-    weak = "\n".join((made := Grapple(bore=0.04, rod=0.022)).verdicts(made.at(theta=0.0)))
+    weak = "\n".join((made := Grapple(bore=0.04, rod=0.022)).rules(made.at(theta=0.0)))
     assert "FAIL moment" in weak and "take a greater bore" in weak
-    barred = "\n".join((made := Grapple(bush=0.06)).verdicts(made.at(theta=0.0)))
+    barred = "\n".join((made := Grapple(bush=0.06)).rules(made.at(theta=0.0)))
     assert "FAIL passing" in barred
-    shut = "\n".join((made := Grapple(opening=1.05)).verdicts(made.at(theta=0.0)))
+    shut = "\n".join((made := Grapple(opening=1.05)).rules(made.at(theta=0.0)))
     assert "FAIL opening" in shut and "1.2 to 1.4 is advised" in shut
-    close = "\n".join((made := InnerGrapple(bend=0.0, hinge_gap=0.085, rho=0.14, S=0.2, bore=0.07)).verdicts(made.at(theta=0.0)))
+    close = "\n".join((made := InnerGrapple(bend=0.0, hinge_gap=0.085, rho=0.14, S=0.2, bore=0.07)).rules(made.at(theta=0.0)))
     assert "FAIL room" in close
-    assert "one design at a time" in Grapple().verdicts(Grapple(rho=np.array([0.19, 0.2])).at(theta=0.0))[-1]
+    assert "one design at a time" in Grapple().rules(Grapple(rho=np.array([0.19, 0.2])).at(theta=0.0))[-1]
 
 
 def test_the_load_is_judged_where_it_exists():

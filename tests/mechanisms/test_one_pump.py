@@ -29,7 +29,7 @@ def test_no_verdict_fails_and_files_hold_it(machine):
             assert str(again.plan.members[name]) == str(member)
 
 
-@for_all("machine", [RegenerativePress, PumpedExcavator, PumpedTelehandler], slow=[PumpedForwarder])
+@for_all("machine", [RegenerativePress, PumpedExcavator], slow=[PumpedTelehandler, PumpedForwarder])
 def test_it_runs_on_its_pump(machine):
     design = machine()
     supply = design.plan.members["supply"]

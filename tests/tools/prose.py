@@ -53,6 +53,7 @@ def paragraphs(text):
             own.append(re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", re.sub(r"`[^`]*`", "X", ITEM.sub("", line))).strip())
 
 
+@cache
 def sentences(text):
     """Return the sentences of a page that end in a full stop, each with the number of its words."""
     found = [each.strip() for paragraph in paragraphs(text) for each in END.split(paragraph)]

@@ -122,8 +122,12 @@ INLINE = re.compile(r"(``[^`]*``|`[^`]*`)")
 
 
 def as_restructured(app: Any, what: str, name: str, thing: Any, options: Any, lines: list[str]) -> None:
-    """Let a docstring, which is plain text with `code`, be read as what it says: signs of markup stand for themselves."""
+    """Let a docstring, which is plain text with `code`, be read as what it says: signs of markup stand for themselves.
+
+    Of an attribute napoleon takes what stands before a colon in the first line for a type; so that line ends behind its first word.
+    """
     text = "\n".join(lines)
+    text = text.replace(" ", "\n", 1) if what in ("attribute", "property") else text
     parts = INLINE.split(text)
     parts = [part if part.startswith("`") else plain(part) for part in parts]
     joints = ["\\ " if part.startswith("`") and re.match(r"\w", after) else "" for part, after in zip(parts, [*parts[1:], ""], strict=True)]

@@ -23,6 +23,7 @@ from .formulas import formula
 
 WIDE = 100
 """The most characters in a line of code."""
+NO_BREAK = "\N{NO-BREAK SPACE}"
 MOST_EQUATIONS = 60
 THUMB = (3.2, 2.4)  # inch
 
@@ -113,8 +114,8 @@ def numbers(machine: Mechanism) -> Iterator[str]:
 
 
 def table(heads: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
-    """Return a table; empty where it has no rows."""
-    body = [f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in row)} |" for row in rows]
+    """Return a table, empty where it has no rows; no cell breaks, also on a phone."""
+    body = [f"| {' | '.join(cell.replace('|', chr(92) + '|').replace(' ', NO_BREAK) for cell in row)} |" for row in rows]
     names = list(heads)
     return "\n".join([f"| {' | '.join(names)} |", "|" + " --- |" * len(names), *body, ""]) if body else ""
 
@@ -150,16 +151,9 @@ def equation_lines(machine: Mechanism) -> Iterator[str]:
     if len(written) > MOST_EQUATIONS:
         yield f"## Equations\n\nIt has {len(written)}; `print(equations(machine))` lists them.\n"
         return
-    yield "## Equations\n\nWhat `equations(machine)` gives, in the order in which they are worked out.\n"
-    for row in rows_of(written.latex()):
-        number = re.search(r"\\tag\{(.*?)\}", row)
-        yield formula(re.sub(r"\\tag\{.*?\}|&", "", row), f"({number[1]})" if number else "")
-
-
-def rows_of(latex: str) -> list[str]:
-    """Return the rows of `align` environments, each a formula."""
-    inside = re.findall(r"\\begin\{align\*?\}\n(.*?)\n\\end\{align\*?\}", latex, re.DOTALL)
-    return [row.strip() for part in inside for row in part.split(" \\\\\n")]
+    yield "## Equations\n\n`equations(machine)`, as a notebook shows them: in the order of working out, with the numbers of one pose.\n"
+    yield from map(formula, written.definitions)
+    yield f'<div class="shown">{written._repr_html_()}</div>\n'
 
 
 def source(machine: Mechanism) -> Iterator[str]:

@@ -10,9 +10,13 @@ import json
 import os
 import shutil
 from concurrent.futures import ProcessPoolExecutor
+from functools import cache
 from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
+
+from docutils import nodes
+from sphinx.addnodes import toctree
 
 from . import api, commands, examples, formulas, gallery, machines, notebook, searches
 
@@ -26,6 +30,7 @@ def setup(app: Any) -> dict[str, bool]:
     app.connect("builder-inited", make_unless_kept)
     app.connect("source-read", show_examples)
     app.connect("html-page-context", put_paths)
+    app.connect("html-page-context", list_titles, priority=400)  # before the theme asks for the list
     app.connect("autodoc-process-docstring", api.as_restructured)
     app.add_html_math_renderer("mathml", (formulas.inline, None), (formulas.block, None))
     return {"parallel_read_safe": True, "parallel_write_safe": True}
@@ -75,3 +80,26 @@ def put_paths(app: Any, page: str, template: str, context: dict[str, Any], doctr
         up = "../" * page.count("/")
         for short, place in (("@live/", "live/"), ("@thumbs/", "thumbs/"), ("@machines/", "_generated/machines/")):
             context["body"] = context["body"].replace(f'"{short}', f'"{up}{place}')
+
+
+def list_titles(app: Any, page: str, template: str, context: dict[str, Any], doctree: Any) -> None:
+    """Let the list of all pages be made of their titles alone: the headings below them would be copied for each page, to be left out."""
+    whole, listed = app.env.tocs, context["toctree"]
+
+    def toctree_of_titles(**options: Any) -> str:
+        app.env.tocs = titles_of(app.env)
+        try:
+            return str(listed(**options))
+        finally:
+            app.env.tocs = whole
+
+    context["toctree"] = toctree_of_titles
+
+
+@cache
+def titles_of(env: Any) -> dict[str, nodes.Element]:
+    """Return the contents of each page without its headings: its title, and the pages that it lists."""
+    found = {page: contents.deepcopy() for page, contents in env.tocs.items()}
+    for entry in (entry for contents in found.values() for entry in contents.children if len(entry.children) > 1):
+        entry[1][:] = list(entry[1].findall(toctree))
+    return found

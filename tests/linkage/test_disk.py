@@ -68,8 +68,8 @@ def paged(path):
 
 WRITERS = [
     (lambda path: save(FourBar, path), "bars.toml"), (lambda path: save(FourBar, path), "bars.json"), (written_csv, "bars.csv"),
-    *((drawn, f"bars{kind}") for kind in (".png", ".svg", ".pdf")), (plotted, "curves.jpg"),
-    (moving, "bars.gif"), (filmed, "bars.mp4"), (paged, "bars.html"),
+    (drawn, "bars.png"), (drawn, "bars.pdf"), (moving, "bars.gif"), (filmed, "bars.mp4"), (paged, "bars.html"),
+    *(pytest.param(*each, marks=pytest.mark.slow) for each in ((drawn, "bars.svg"), (plotted, "curves.jpg"))),
 ]  # fmt: skip
 EVERY_WRITER = pytest.mark.parametrize(("write", "name"), WRITERS, ids=lambda value: value if isinstance(value, str) else "")
 
@@ -270,6 +270,7 @@ def command(*words, **options):
     return [sys.executable, "-m", "linkage", *words], {"cwd": Path(__file__).parents[2], **options}
 
 
+@pytest.mark.slow
 @posix
 def test_standard_output_by_its_name(tmp_path):
     args, options = command("table", "four_bar", "--csv", "/dev/stdout", "--count", "3")

@@ -29,8 +29,9 @@ def printed(*lines):
 
 @for_all(
     "lines",
-    [("import linkage, linkage.pictures.film, linkage.formulas.numbered, linkage.reports, linkage.study", STAR)],
+    [("import linkage, linkage.reports, linkage.study", STAR)],
     slow=[
+        ("import linkage, linkage.pictures.film, linkage.formulas.numbered", STAR),
         (FORMULAS, STAR, PICTURES), (STAR, PICTURES, FORMULAS), (PICTURES, FORMULAS, STAR), (PICTURES, STAR, FORMULAS, STAR),
         ("from linkage.pictures import *", "from linkage.formulas import *", STAR),
     ],

@@ -6,7 +6,7 @@ from numpy.testing import assert_allclose
 
 from linkage import AssemblyError, Crank, Dimension, Dyad, Ground, Link, Mechanism, OnLink, Pin, SingularError, Stroke, distance
 from linkage.quantities import ref
-from tests.for_all import for_all
+from tests.for_all import first_daily, for_all
 from tests.linkage.random_parts import group_parts, span_of
 
 
@@ -89,7 +89,7 @@ def test_three_hundred_plates_on_two_equal_rods():
     check_plates(range(300))
 
 
-@pytest.mark.parametrize("seed", [0, 1])
+@first_daily(1, "seed", [0, 1])
 def test_two_equal_groups_do_not_hide_each_other(seed):
     plate = next(each for each in map(Plate, range(100 * seed, 100 * seed + 50)) if each.flat)
     twin = type("Twins", (plate.machine(),), plate.members("2"))

@@ -15,6 +15,7 @@ from linkage import DefinitionError, deg, drawing_board
 from linkage.cli import main
 from linkage.files import load
 from linkage.sketch import MachineSketch
+from tests.for_all import first_daily
 from tests.linkage.pictures.test_page import PHONE, Shown, chromium, data_of, unpacked  # noqa: F401
 
 SWEPT = """() => {
@@ -207,7 +208,7 @@ def test_a_four_bar_by_pointer_and_by_keys_is_the_same(chromium, empty):  # noqa
             assert [each for each in board.asked if not each.startswith("file:")] == [], draw.__name__
 
 
-@pytest.mark.parametrize("draw", [four_bar, front_loader, slider_crank], ids=lambda draw: draw.__name__)
+@first_daily(1, "draw", [front_loader, four_bar, slider_crank], ids=lambda draw: draw.__name__)
 def test_what_is_exported_moves_in_python_as_on_the_board(chromium, empty, draw, tmp_path):  # noqa: F811
     with Board(chromium, empty) as board:
         draw(board)
@@ -485,6 +486,7 @@ def test_a_plate_that_is_pressed_ends_with_enter(chromium, empty):  # noqa: F811
         assert len(board.drawing["links"]) == 4 and board("hydrolinkage.state().pending") == ["J", "K"] and board.said == []
 
 
+@pytest.mark.slow
 def test_beyond_all_reach_no_drive_is_blamed_for_a_hair(chromium, empty):  # noqa: F811
     with Board(chromium, empty) as board:
         bucket(board)
@@ -517,6 +519,7 @@ def test_how_far_a_drive_goes_is_its_dead_point(chromium, empty):  # noqa: F811
         assert f"S goes from 0 mm to {500 - np.hypot(300, 200):.1f} mm" in board.text("#live").replace("\u2009", " ")
 
 
+@pytest.mark.slow
 def test_what_could_not_be_opened_again_is_not_drawn(chromium, empty):  # noqa: F811
     points = {f"P{i}": [0.05 * (i % 20), 0.05 * (i // 20)] for i in range(200)}
     with Board(chromium, empty) as board:

@@ -310,7 +310,7 @@ def test_a_users_cylinder_shows_its_thrust_and_its_pressure(said, own):
 MAGIC = {".png": b"\x89PNG", ".svg": b"<?xml", ".pdf": b"%PDF", ".gif": b"GIF89a"}
 
 
-@pytest.mark.parametrize("suffix", [".png", ".svg", ".pdf"])
+@first_daily(2, "suffix", [".png", ".pdf", ".svg"])
 def test_plot_writes_the_format_of_the_name(said, tmp_path, suffix):
     file = tmp_path / f"curves{suffix}"
     assert said("plot", "mower_lift", "I", "kz", "-o", str(file), "--count", "5") == (0, f"{file}\n", "")

@@ -15,7 +15,7 @@ TASK = """machine = "four_bar"
 [synthesis]
 path = { of = "P", points = "points.csv" }
 vary = { OA = "20 to 60 mm", CB = "50 to 200 mm", AP = "20 to 150 mm", BAP = "0 to 90 deg" }
-starts = 4
+starts = 2
 round = "1 mm"
 
 [outputs]

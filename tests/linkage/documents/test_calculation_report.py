@@ -53,7 +53,6 @@ from linkage.units import bar, display_unit, mm, show
 from mechanisms.classics.jansen import Jansen
 from mechanisms.classics.scotch_yoke import ScotchYoke
 from mechanisms.classics.stephenson_three import StephensonThreeFar
-from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.for_all import first_daily, for_all
 from tests.linkage.known_machines import GrabArms
@@ -194,6 +193,7 @@ def test_a_check_fails_where_a_length_is_not_kept(monkeypatch):
     assert not all(each.ok for each in checks.loops_closed(motion))
 
 
+@pytest.mark.slow
 def test_russian_says_everything_in_russian():
     with language("ru"):
         text = html_text(report_document(ThreePointHitch()))
@@ -220,9 +220,9 @@ def test_russian_says_everything_in_russian():
 
 
 def test_units_are_those_of_the_system():
-    document = report_document(MowerLift(), units="kgf")
+    document = report_document(Lifter(), units="kgf")
     (grid,) = grids(document, "Fx, kgf")
-    (plain,) = grids(report_document(MowerLift()), "Fx, kN")
+    (plain,) = grids(lifter(), "Fx, kN")
     assert float(grid.rows[0][6]) == pytest.approx(float(plain.rows[0][6]) * 1e3 / 9.80665, abs=1.0)
 
 
@@ -448,7 +448,7 @@ def test_markdown_and_its_pictures_are_replaced_whole(tmp_path):
 
 @pytest.mark.skipif(shutil.which("pdftotext") is None, reason="poppler's pdftotext is not installed")
 def test_the_text_of_a_pdf_can_be_selected_in_russian_too(tmp_path):
-    document, path = report_document(MowerLift(), language="ru"), tmp_path / "m.pdf"
+    document, path = report_document(Lifter(), language="ru"), tmp_path / "m.pdf"
     with language("ru"):
         path.write_bytes(pdf(document))
     text = subprocess.run(["pdftotext", "-layout", str(path), "-"], check=True, capture_output=True, text=True).stdout

@@ -279,7 +279,7 @@ def thrusts_in_case(machine, case):
 
 
 @for_all(
-    "machine", [SpreaderTractor, Telehandler], slow=[PloughTractor, DiggingExcavator, PumpedExcavator, Forwarder, WheelLoader, Tipper],
+    "machine", [SpreaderTractor], slow=[Telehandler, PloughTractor, DiggingExcavator, PumpedExcavator, Forwarder, WheelLoader, Tipper],
 )  # fmt: skip
 def test_loads_are_those_of_the_load_case(machine):
     for case in machine.plan.of_kind(LoadCase):

@@ -189,7 +189,7 @@ def test_program_read_by_sympy_has_the_motions_derivatives():
 
     machine, S = One(), sympy.Symbol("S", real=True)
     given = {sympy.Symbol(name, real=True): sympy.Rational(value) for name, value in machine.dimensions.items()}
-    poses = (0.5, 0.61)
+    poses = (0.61,)
     motion = machine.at(S=poses)
     for target in ("C", "lean"):
         closed = [each.subs(given) for each in program_expressions(machine.plan, target)]

@@ -8,7 +8,7 @@ from hydraulics import Cylinder, reserve, thrust
 from linkage import Acting, Crank, Ground, Mechanism, OnLink, Over, Stroke, Weight, at, least, most, pin_force, reachable, y
 from linkage.loads import DIRECTIONS
 from linkage.units import deg, kN, mm
-from tests.for_all import for_all
+from tests.for_all import first_daily, for_all
 from tests.linkage.test_judge import Loader, Rocker, Rubbing
 
 
@@ -121,7 +121,7 @@ def test_a_pose_that_the_question_says_is_asked_there_and_in_all_cases():
     assert alone.value == everywhere.value and alone.case == everywhere.case == "carry"
 
 
-@pytest.mark.parametrize("over", [Over(S=(0.0, 0.38)), Over(S=(0.0, 0.38), lost="allowed"), Over.poses(S=[0.0, 0.2, 0.37])])
+@first_daily(1, "over", [Over(S=(0.0, 0.38)), Over(S=(0.0, 0.38), lost="allowed"), Over.poses(S=[0.0, 0.2, 0.37])])
 def test_each_design_of_a_batch_is_judged_by_itself(over):
     lengths = np.array([0.5, 0.53, 0.6, 1.3])
     questions = [most(y("B")) <= 1.4, least(reserve("lift")) >= 1.0, reachable, most(y("B"))]
@@ -143,7 +143,7 @@ def test_where_nothing_is_asked_nothing_is_said_to_be_kept_or_not():
     assert [each.ok for each in verdicts] == [None] and verdicts[0].startswith("--   assembly: ")
 
 
-@pytest.mark.parametrize("places", [dict(S=[0.1], T=[0.05]), dict(S=[0.1, 0.1], T=[0.05, 0.05]), dict(S=0.1, T=0.05)])
+@first_daily(1, "places", [dict(S=[0.1, 0.1], T=[0.05, 0.05]), dict(S=[0.1], T=[0.05]), dict(S=0.1, T=0.05)])
 def test_a_path_that_stays_is_the_pose_where_it_stays(places):
     questions = [least(reserve("lift")) >= 1.0, most(pin_force("A")), most(thrust("tilt"))]
     stays, there = (Rubbing().answers(questions, over=over) for over in (Over.path(**places), Over.poses(S=[0.1], T=[0.05])))

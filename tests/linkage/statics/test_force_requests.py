@@ -44,7 +44,7 @@ from mechanisms.classics.four_bar import FourBar
 from mechanisms.classics.stephenson_three import StephensonThreeFar
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.for_all import for_all
-from tests.laws.test_statics_laws import moved, over_all, random_machines, weights
+from tests.laws.test_statics_laws import daily, moved, random_machines, shipped, weights
 from tests.linkage.assembly.test_groups import Platform
 
 STROKE = np.linspace(0.0, 0.25, 41)
@@ -73,7 +73,12 @@ def agree(found, wanted, room):
     assert_allclose(found, wanted, rtol=0, atol=room * np.nanmax(np.abs(wanted)))
 
 
-@over_all(lambda: [random_machines()[-1], Platform], later=lambda: random_machines()[:-1])
+def half():
+    """Return half of the machines of every day."""
+    return [*daily()[::2], Platform]
+
+
+@for_all("machine", half, slow=lambda: [each for each in [*shipped(), *random_machines()] if each not in half()])
 def test_requests_are_the_forces_of_every_machine(machine):
     motion, loads = moved(machine, 9, 3), weights(machine)
     for drive in machine.plan.strokes:

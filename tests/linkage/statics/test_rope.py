@@ -31,7 +31,7 @@ from linkage import (
 )
 from linkage.pictures.scene import Scene
 from linkage.units import deg, g0, mm
-from tests.extending.readings import READINGS, Case
+from tests.extending.readings import Case, a_page_is_written, a_report_is_written, marked, numba_says_the_same
 from tests.for_all import for_all
 
 
@@ -299,6 +299,6 @@ CASE = Case(
 )  # fmt: skip
 
 
-@pytest.mark.parametrize("read", READINGS)
+@pytest.mark.parametrize("read", marked(numba_says_the_same, a_page_is_written, a_report_is_written))
 def test_readings_agree(read, tmp_path):
     read(CASE, tmp_path)

@@ -73,7 +73,7 @@ def height(machine, S):
     return machine.at(S=S).y("X")
 
 
-@for_all(("step", "name"), CASES)
+@for_all(("step", "name"), CASES[::2], slow=CASES)
 def test_values_ratios_and_forces(step, name):
     machine, S, h = machine_of(step, name)(), np.linspace(0.02, 0.18, 5), 1e-5
     motion = machine.at(S=S)
@@ -86,7 +86,7 @@ def test_values_ratios_and_forces(step, name):
     assert_allclose(driving_force(places), 10.0 * G * (later.y("X") - earlier.y("X")) / (2 * h), rtol=1e-6, atol=1e-6)
 
 
-@for_all(("step", "name"), CASES)
+@for_all(("step", "name"), CASES[1::2], slow=CASES)
 def test_gradients_and_kernels(step, name):
     kind = machine_of(step, name)
     machine, S, h = kind(), np.linspace(0.02, 0.18, 5), 1e-6

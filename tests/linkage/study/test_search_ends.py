@@ -155,6 +155,7 @@ def test_an_infinite_derivative_is_no_error():
 # -- what binds --------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_bore_that_stands_on_its_rod_is_named():
     holds = most(buckling("lift")) <= 1.0
     best = optimise(Boom(), minimise=at("lift.bore"), vary={"lift.bore": (50 * mm, 0.12)}, subject_to=[holds], starts=1)

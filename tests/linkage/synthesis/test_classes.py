@@ -56,7 +56,7 @@ def rod_path(count=12):
 
 @pytest.fixture(scope="module")
 def found():
-    return synthesise([FourBar, SliderCrank], path=PathTask(rod_path()), starts=16)
+    return synthesise([FourBar, SliderCrank], path=PathTask(rod_path()), starts=8)
 
 
 def test_the_class_that_a_path_is_of_is_found_exactly_and_ranked_first(found):
@@ -170,7 +170,7 @@ def test_machines_that_are_installed_are_the_list_where_none_is_given():
 def test_machines_of_chains_are_classes_like_others():
     points = FourBar().at(phi=np.linspace(0.3, 5.5, 6))["P"].T
     bar = chains(4)[0].inversions[0].machine()
-    found = synthesise([bar, chains(6)[0].inversions[1].machine()], path=PathTask(points), starts=8, timed="steps")
+    found = synthesise([bar, chains(6)[0].inversions[1].machine()], path=PathTask(points), starts=3, timed="steps")
     assert [each.start.plan.title for each in found.classes if each.solutions]
     for each in found.solutions:
         each.machine.sweep(181)

@@ -63,6 +63,7 @@ def test_a_cognate_of_a_cognate_is_the_machine_again():
     assert any(np.allclose(each, sorted(lengths(machine)), rtol=1e-10) for each in again)
 
 
+@pytest.mark.slow
 def test_cognates_of_what_a_synthesis_found():
     """Both cognates of a four-bar through five points go through these."""
     phi = np.radians([20.0, 60.0, 110.0, 170.0, 230.0])

@@ -36,7 +36,8 @@ def resized(judge: Judge, element: Element, sizes: Sizes) -> tuple[Judge, Elemen
         ensure(called in plan.table.spellings, f"{plan.title}: {element.name}.{name} follows an expression and cannot be set alone.")
         owner, sign = plan.table.spellings[called]
         designs[owner] = sign * value
-    return Judge(plan, designs, [place.over for place in judge.places], judge.acting), element
+    overs = [place.over for place in judge.places]
+    return judge._once(("resized", element.name, *sizes.items()), lambda: Judge(plan, designs, overs, judge.acting)), element
 
 
 def can_be_set(judge: Judge, element: ForceElement, sizes: Sizes) -> bool:

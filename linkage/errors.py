@@ -131,15 +131,20 @@ def unwarned() -> Iterator[None]:
         yield
 
 
-def warned_once(make: Callable[[], Result]) -> Result:
-    """Return the result of a function; of its warnings near singular poses only that with the largest expected error is given."""
-    with warnings.catch_warnings(record=True) as heard:
+def heard(make: Callable[[], Result]) -> tuple[Result, list[SingularWarning]]:
+    """Return the result of a function and its warnings near singular poses, which are not given."""
+    with warnings.catch_warnings(record=True) as every:
         warnings.simplefilter("always", SingularWarning)
         made = make()
-    near = [each.message for each in heard if isinstance(each.message, SingularWarning)]
-    for each in heard:
+    for each in every:
         if not isinstance(each.message, SingularWarning):
             warnings.warn_explicit(each.message, each.category, each.filename, each.lineno)
+    return made, [each.message for each in every if isinstance(each.message, SingularWarning)]
+
+
+def warned_once(make: Callable[[], Result]) -> Result:
+    """Return the result of a function; of its warnings near singular poses only that with the largest expected error is given."""
+    made, near = heard(make)
     if near:
         warn(max(near, key=lambda each: (each.estimate == each.estimate, each.estimate)))  # NaN last
     return made

@@ -11,8 +11,8 @@ from collections.abc import Callable, Hashable, Mapping, Sequence
 from contextlib import suppress
 from copy import copy
 from dataclasses import dataclass, field, replace
-from functools import cached_property, reduce
-from typing import Any, TypeAlias
+from functools import cached_property, partial, reduce
+from typing import Any, TypeAlias, TypeVar, cast
 
 import numpy as np
 
@@ -61,6 +61,7 @@ from .search import Span, assembly_error_at, below_zero, extremum, least_margins
 from .strokes import at_values, strokes_over_axes
 
 Question: TypeAlias = "Measure | Condition"
+Made = TypeVar("Made")
 
 INNER = 65
 """Values of the stroke over which `worst` is taken."""
@@ -614,6 +615,14 @@ class Judge:
         self._found: list[dict[Any, tuple[Leaf, list[WorstPiece]]]] = [{} for _ in self.places]
         self._seen: list[Coverage] = [Coverage() for _ in self.places]
         self._lost: dict[Any, LostPlaces] = {}
+        self._made = dict[Hashable, Any]()
+
+    def _once(self, key: Hashable, make: Callable[[], Made]) -> Made:
+        """Return something of these designs, made once; apart where lost places are taken as part of the machine."""
+        key = *(place.over.lost for place in self.places), key
+        if key not in self._made:
+            self._made[key] = make()
+        return cast("Made", self._made[key])
 
     def lost_allowed(self) -> Judge:
         """Return this judge with lost places taken as part of the machine; both share all known results."""
@@ -710,38 +719,39 @@ class Judge:
 
     def answers(self, questions: Sequence[Question]) -> list[Answer]:
         """Return the answers to some questions, the worst over all that the machine runs, in one pass; earlier answers are kept."""
-        held = list[tuple[Question, Sequence[Measure | Constraint]]]()
+        held = list[tuple[Hashable, Question, Sequence[Measure | Constraint]]]()
         for question in questions_of(self.plan, questions):
-            if isinstance(question, Measure):
-                check_kinds(self.plan, [question], [])
-                held.append((question, [question]))
-            else:
-                constraints = conditions_of([question], self.machine)
-                check_kinds(self.plan, [], constraints)
-                held.append((question, constraints))
-        leaves = tuple(dict.fromkeys(leaf for _, each in held for one in each for leaf in leaves_of(one)))
+            measures = [question] if isinstance(question, Measure) else []
+            constraints = [] if measures else conditions_of([question], self.machine)
+            check_kinds(self.plan, measures, constraints)
+            every: list[Measure | Constraint] = [*measures, *constraints]
+            held.append((tuple(each.tree(partial(leaf_key, self.plan)) for each in every) or (question,), question, every))
+        kept = self._once("answers", dict[Hashable, Answer])
+        leaves = tuple(dict.fromkeys(leaf for key, _, each in held if key not in kept for one in each for leaf in leaves_of(one)))
         for number in range(len(self.places)):
             self.find(number, leaves)
-        return [self.assembled_everywhere() if isinstance(question, Reachable) else self.worst(question, each) for question, each in held]
+        found = [
+            kept[key] if key in kept else self.assembled_everywhere() if isinstance(question, Reachable) else self.worst(question, each)
+            for key, question, each in held
+        ]
+        kept.update((key, each) for (key, *_), each in zip(held, found, strict=True) if not each.lost)  # what is lost is told in a language
+        return [replace(each, question=question) for (_, question, _), each in zip(held, found, strict=True)]
 
     def find(self, number: int, leaves: Sequence[Leaf]) -> None:
         """Find the worst of some leaves over one `Over`, by its number, in one pass; known results are reused."""
         place, known = self.places[number], self._found[number]
         asked = {key: leaf for leaf in leaves if (key := leaf_key(self.plan, leaf)) not in known}
         rows = {key: self.search_rows(leaf, self.anywhere if isinstance(leaf, At) else place) for key, leaf in asked.items()}
-        sought = [row for key, each in rows.items() if not isinstance(asked[key], (At, Integral)) for row in each]
+        apart = {At: self.at_pose, Integral: integrated}
+        sought = [row for key, each in rows.items() if type(asked[key]) not in apart for row in each]
         if sought or not self._seen[number].count:
             each_of, seen = place.extremes(sought or [SearchRow(Least(zeros_over), SmoothPiece(zeros_over), Situation(), -1.0)])
             known_seen = self._seen[number]
             self._seen[number] = replace(known_seen, count=known_seen.count + seen.count) if known_seen.count else seen
             found = dict(zip(map(id, sought), each_of, strict=False))
         for key, leaf in asked.items():
-            if isinstance(leaf, At):
-                known[key] = leaf, [self.at_pose(row, place) for row in rows[key]]
-            elif isinstance(leaf, Integral):
-                known[key] = leaf, [integrated(row, place) for row in rows[key]]
-            else:
-                known[key] = leaf, [found[id(row)] for row in rows[key]]
+            one = apart.get(type(leaf))
+            known[key] = leaf, [found[id(row)] if one is None else one(row, place) for row in rows[key]]
 
     def search_rows(self, leaf: Leaf, place: Domain) -> list[SearchRow]:
         """Return the pieces of a leaf over one `Over`, each once."""

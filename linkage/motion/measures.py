@@ -61,6 +61,10 @@ class Measure(Arithmetic):
     def from_leaves(self, value: Callable[[Leaf], Any]) -> Any:
         """Return the number that the values of its leaves make; of anything that adds and multiplies."""
 
+    def tree(self, of_leaf: Callable[[Leaf], Any]) -> Any:
+        """Return it as plain data: of a leaf what `of_leaf` says, a number, or an operator with its two sides."""
+        return self.from_leaves(of_leaf)
+
     @property
     def numbers(self) -> tuple[float, ...]:
         """The numbers in it, in order."""
@@ -160,6 +164,9 @@ class CombinedMeasure(Measure):
             with np.errstate(all="ignore"):
                 return float(OPERATIONS[self.symbol](np.float64(left), np.float64(right)))
         return OPERATIONS[self.symbol](left, right)
+
+    def tree(self, of_leaf: Callable[[Leaf], Any]) -> Any:
+        return self.symbol, self.left.tree(of_leaf), self.right.tree(of_leaf)
 
     @property
     def binds(self) -> int:
@@ -439,6 +446,10 @@ class Constraint(Condition):
     def compared(self) -> tuple[Measure, Measure]:
         """Its two sides."""
         return self.left, self.right
+
+    def tree(self, of_leaf: Callable[[Leaf], Any]) -> Any:
+        """Return it as plain data: its sign with its two sides."""
+        return self.symbol, self.left.tree(of_leaf), self.right.tree(of_leaf)
 
     def short(self, left: Any, right: Any) -> Any:
         """Return how much is missing of it by the numbers of its sides [SI]: zero or below where it is kept, an equation's either way."""

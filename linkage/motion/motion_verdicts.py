@@ -5,6 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar
 
@@ -170,7 +171,8 @@ def verdict_questions(judge: Judge) -> list[Question]:
 def over_time(judge: Judge, asked: Condition) -> Answer | None:
     """Return the answer to a condition over the paths in time that a judge looks at; None where it looks at none."""
     timed = [place.over for place in judge.places if place.instants is not None]
-    return Judge(judge.plan, judge.designs, timed, judge.acting).lost_allowed().answer(asked) if timed else None
+    other = judge._once("over time", lambda: Judge(judge.plan, judge.designs, timed, judge.acting).lost_allowed())
+    return other.answer(asked) if timed else None
 
 
 def valued_everywhere(verdict: Verdict) -> Verdict:
@@ -550,19 +552,25 @@ def over_pose(motion: Motion, cases: Sequence[str] | None) -> Over:
     return Over.path(cases=cases, time=(begin, begin + INSTANT * (last - first)), **courses)
 
 
+def rules_of(judge: Judge) -> dict[str, tuple[str, str, Condition]]:
+    """Return the conditions of all members by their rules, each with its member and the rule alone.
+
+    A rule has the member's name where that shares one with another.
+    """
+    members, found = speakers(judge.plan, HasVerdicts), list[tuple[str, str, Condition]]()
+    for name, member in members.items():
+        with suppress(LinkageError):
+            found += [(name, rule, each) for rule, each in member.conditions(judge).items()]
+    named = told_apart(((name, rule) for name, rule, _ in found), members)
+    return {f"{each[1]} {each[0]}" if each[:2] in named else each[1]: each for each in found}
+
+
 def answers_at(judge: Judge) -> tuple[dict[str, Answer], list[str]]:
     """Return a judge's answers to the conditions of all members, by their rules, and the rules without an answer."""
-    asked = []
+    found, unknown = dict[str, Answer](), list[str]()
     with unwarned():
-        for name, member in speakers(judge.plan, HasVerdicts).items():
-            try:
-                asked += [(name, rule, condition) for rule, condition in member.conditions(judge).items()]
-            except LinkageError:
-                continue
-        named = told_apart(((name, rule) for name, rule, _ in asked), speakers(judge.plan, HasVerdicts))
-        found, unknown = dict[str, Answer](), list[str]()
-        for name, rule, condition in asked:
-            heading = heading_of(f"{rule} {name}" if (name, rule) in named else rule)
+        for rule, (_, _, condition) in rules_of(judge).items():
+            heading = heading_of(rule)
             try:
                 measures = measures_of(judge.plan, conditions_of([condition], None)[0])
                 found[heading] = replace(judge.answer(condition), measures=measures)

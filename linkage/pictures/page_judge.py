@@ -15,8 +15,8 @@ from ..loads import FRICTIONLESS, PLAIN_CASE, Acting
 from ..mechanism import Mechanism
 from ..motion import Column, Condition, HasVerdicts, Instants, LiveText, PageWords, Request, RequestLike, least, most, speakers
 from ..motion.judge import Domain, Judge, SearchRow, leaf_key, measures_of
-from ..motion.measures import At, CombinedMeasure, Constraint, FixedNumber, Integral, Leaf, Measure, conditions_of, dimension_value
-from ..motion.motion_verdicts import NEAR, told_apart, verdict_questions
+from ..motion.measures import At, Constraint, Integral, Leaf, Measure, conditions_of, dimension_value
+from ..motion.motion_verdicts import NEAR, rules_of, verdict_questions
 from ..motion.over import ALLOWED
 from ..motion.requests import NodeRequest, bound, is_of_force
 from ..plan import Plan
@@ -72,28 +72,16 @@ class LiveQuestions:
         with unwarned(), suppress(LinkageError):  # what verdicts ask is looked for in one pass
             judge.answers(verdict_questions(judge))
         with unwarned():
-            for rule, (member, condition, words) in self.rules().items():
+            for rule, (member, own, condition) in rules_of(judge).items():
+                words = PLAIN_WORDS
+                with suppress(LinkageError):
+                    words = speakers(machine.plan, HasVerdicts)[member].page_words(judge).get(own, PLAIN_WORDS)
                 self.ask(rule, member, condition, words)
         for name, given in limits.items():
             column, request, why = columns[name]
             limit, self.units[name] = limit_of(given), column.unit
             if not why:
                 self.ask_limit(name, request, limit)
-
-    def rules(self) -> dict[str, tuple[str, Condition, PageWords]]:
-        """Return the rules of the machine's members that are plain conditions, with the member and how it is said.
-
-        A rule has the member's name where that shares one with another.
-        """
-        found = []
-        for name, member in speakers(self.machine.plan, HasVerdicts).items():
-            try:
-                words, conditions = member.page_words(self.judge), member.conditions(self.judge)
-            except LinkageError:
-                continue
-            found += [(name, rule, one, words.get(rule, PLAIN_WORDS)) for rule, one in conditions.items()]
-        named = told_apart(((name, rule) for name, rule, _, _ in found), speakers(self.machine.plan, HasVerdicts))
-        return {f"{rule} {name}" if (name, rule) in named else rule: (name, one, words) for name, rule, one, words in found}
 
     def ask(self, rule: str, member: str, condition: Condition, words: PageWords = PLAIN_WORDS) -> None:
         """Note a question and its pieces; nothing where it cannot be split, or plain words where these cannot."""
@@ -203,11 +191,15 @@ class LiveQuestions:
         with language("ru"):
             russian, text = heading_of(rule), translated(words.text)
             fails = {symbol: [typeset(each), typeset(translated(each))] for symbol, each in words.fails.items()}
+
+        def placed(leaf: Leaf) -> PageData:
+            return {"leaf": places[leaf]}
+
         told: PageData = ({"words": [typeset(words.text), typeset(text)]} if words.text else {}) | ({"fails": fails} if fails else {})
         if words.measure is not None:
-            told |= {"says": tree(words.measure, places), "saysUnit": live_unit(self.machine.plan, words.measure)}
+            told |= {"says": words.measure.tree(placed), "saysUnit": live_unit(self.machine.plan, words.measure)}
         if words.share is not None:
-            told["share"] = tree(words.share, places)
+            told["share"] = words.share.tree(placed)
         return told | {
             "rule": typeset(rule),
             "ru": typeset(russian),
@@ -216,9 +208,7 @@ class LiveQuestions:
             "isLength": int(measures == "length"),
             "unit": unit,
             "leaves": found,
-            "constraints": [
-                {"symbol": each.symbol, "left": tree(each.left, places), "right": tree(each.right, places)} for each in constraints
-            ],
+            "constraints": [dict(zip(("symbol", "left", "right"), each.tree(placed), strict=True)) for each in constraints],
         }
 
     def piece_data(self, live: LiveText, number: int, row: SearchRow, name: str) -> PageData:
@@ -275,16 +265,6 @@ def live_unit(plan: Plan, asked: Measure | Constraint) -> PageData:
 def unit_data(unit: str) -> PageData:
     """Return the unit that values of a unit are shown in, and its factor."""
     return {"unit": typeset(shown_in(unit)), "factor": factor(shown_in(unit))}
-
-
-def tree(measure: Measure, places: Mapping[Leaf, int]) -> object:
-    """Return a measure as data: a number, the place of a leaf, or an operator with its two sides."""
-    if isinstance(measure, FixedNumber):
-        return measure.value
-    if isinstance(measure, CombinedMeasure):
-        return [measure.symbol, tree(measure.left, places), tree(measure.right, places)]
-    assert isinstance(measure, Leaf)
-    return {"leaf": places[measure]}
 
 
 def over_data(place: Domain, rows: Mapping[tuple[str, int], int]) -> PageData:

@@ -56,9 +56,9 @@ def column_requests(
     outputs = {name: name for name, each in plan.of_kind(Quantity).items() if not isinstance(each, (Stroke, Dimension))}
     plain = points | outputs | {name: name for name in plan.strokes}  # what the columns ask for that every machine has
     found: dict[str, LiveColumn] = {}
-    acting = {} if case is None else {column.name: column for column in results(machine, motion, case)}
+    acting = {} if case in (None, PLAIN_CASE) else {column.name: column for column in results(machine, motion, case)}
     shown = results(machine, motion, PLAIN_CASE) if columns is None else columns
-    wanted = [each.request for each in shown if isinstance(each.request, Request) and (only is None or each.name in only)]
+    wanted = [plain.get(each.name, each.request) for each in shown if only is None or each.name in only]
     known_values = values_together(motion, [request_in_case(each, case) for each in wanted])
     for place, plainly in enumerate(shown):
         column = acting.get(plainly.name, plainly)
@@ -83,10 +83,10 @@ def at_its_rates(motion: Motion, request: RequestLike) -> RequestLike:
     return request if motion.time is None else as_they_run([request], motion._rate_jump is None, True)[0]
 
 
-def values_together(motion: Motion, requests: Iterable[RequestLike]) -> dict[Hashable, FloatArray]:
+def values_together(motion: Motion, requests: Iterable[RequestLike | None]) -> dict[Hashable, FloatArray]:
     """Return the values of requests by their keys, from one program; empty where a pose has to be looked at closely."""
     with suppress(LinkageError):
-        asked = [bound(motion.plan, each) for each in (at_its_rates(motion, one) for one in requests) if isinstance(each, Request)]
+        asked = [bound(motion.plan, at_its_rates(motion, each)) for each in requests if each is not None]
         values, look = Evaluation(motion._grid, tuple(asked)).evaluate()
         return {each.key: own for each, own in zip(asked, values, strict=True)} if look is None else {}
     return {}
@@ -96,11 +96,9 @@ def not_followed(motion: Motion, request: RequestLike, column: Column, known: Ma
     """Return why a program's values differ from a column's, NaN at the same poses, in words; empty where they agree."""
     own, request = np.broadcast_to(np.asarray(column.values, float), motion.shape), at_its_rates(motion, request)
     try:
-        if isinstance(request, Request):
-            together = known.get(bound(motion.plan, request).key)
-            found = motion._requested(request) if together is None else together
-        else:
-            found = motion[request]
+        found = known.get(bound(motion.plan, request).key)
+        if found is None:
+            found = motion._requested(request) if isinstance(request, Request) else motion[request]
     except LinkageError as error:
         return str(error)
     close = CLOSE * float(np.nanmax(np.abs(own), initial=0.0))

@@ -11,7 +11,7 @@ from weakref import ref
 import numpy as np
 
 from ..checks import require_number
-from ..errors import DefinitionError, UntracedError
+from ..errors import DefinitionError, UntracedError, heard, warn
 from ..loads import Acting, ActingKeywords, Loads, TwoPoint, situation_of, takes_situation
 from ..loads.element import AS_IT_RUNS, AT_REST, SENSES, ForceElement, Rate, Rates
 from ..motion import Motion, require_motion
@@ -174,8 +174,12 @@ def member_thrust(motion: AnyMotion, member: TwoPoint, acting: Acting) -> FloatA
     if held is not None:
         return member_thrust(*held, acting)
     made = partial(member_thrust_on, motion, member, acting)
-    is_kept = isinstance(motion, TracedMotion) and is_unchanging(member)
-    return once_in(motion, acting, ("thrust", ref(member), acting.direction), made) if is_kept else made()
+    if not is_unchanging(member):
+        return made()
+    found, near = once_in(motion, acting, ("thrust", plan_of(motion), ref(member)), partial(heard, made))
+    for each in near:  # whoever asks is warned
+        warn(each)
+    return found if is_traced(found) else found.copy()
 
 
 def member_thrust_on(motion: AnyMotion, member: TwoPoint, acting: Acting) -> FloatArray:

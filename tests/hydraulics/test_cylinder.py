@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from hydraulics import Cylinder, CylinderSize, next_bore, next_rod, standard_bores, standard_rods
+from linkage import Crank, Ground, Mechanism, SingularWarning, Stroke, Weight
 from linkage.errors import DefinitionError
 from linkage.units import MPa, bar, kN, mm
 from tests.for_all import for_all
@@ -165,3 +166,20 @@ def test_standard_size_may_miss_by_a_rounded_digit():
     """Sizes out of a file or a sum of lengths: a tenth of a micrometre is no other rod."""
     for off, ok in ((0.0, True), (1e-10, True), (1e-6, False)):
         assert (Cylinder("A", "B", bore=80 * mm, rod=45 * mm + off).standard().ok is True) == ok
+
+
+def test_a_thrust_asked_again_is_the_same_and_warns_again():
+    class Arm(Mechanism):
+        phi = Stroke(-1.0, 1.0)
+        O, A = Ground(0.0, 0.0), Ground(-0.5, 0.0)
+        B = Crank(O, OB=0.4, angle=phi)
+        load = Weight(B, mass=100)
+        ram = Cylinder(A, B, bore=50 * mm, rod=28 * mm)
+
+    motion, found = Arm().at(phi=[2e-5, 0.5]), []
+    for _ in range(2):
+        with pytest.warns(SingularWarning, match="stands still against the drive"):
+            thrust = Arm.ram.thrust(motion)
+        found.append(thrust.tolist())
+        thrust *= 2.0  # what was given is the asker's own
+    assert found[0] == found[1]

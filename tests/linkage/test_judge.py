@@ -488,3 +488,17 @@ def test_places_of_a_path_in_another_unit_are_refused():
     for over in (Over.path(S=[0.0, 200.0], T=0.0), Over.path(S=[0.0, "far"], T=0.0), Over(S=(0.0, "far")), Over.poses(S=[200.0], T=[0.0])):
         with pytest.raises(DefinitionError, match="if these are millimetres"):
             Long().answers([reachable], over=over)
+
+
+def test_what_is_answered_is_looked_for_once(monkeypatch):
+    judge = Loader().judge()
+    asked = [lambda: least(distance("O", "D")) >= 0.5, lambda: most(thrust("lift")) <= 80 * kN, lambda: reachable]
+    first = judge.answers([each() for each in asked])
+    monkeypatch.setattr(type(judge), "candidates", None)  # who judges anew asks for these
+    again = [each() for each in asked]
+    found = judge.answers(again)
+    assert [str(each) for each in found] == [str(each) for each in first]
+    assert all(answer.question is question for answer, question in zip(found, again, strict=True))
+    monkeypatch.undo()
+    other = judge.answer(least(distance("O", "D")) >= 5.0)
+    assert first[0].ok and not other.ok  # another limit is another question

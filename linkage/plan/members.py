@@ -346,10 +346,17 @@ class Members:
         """The lengths that follow other quantities, and so can become negative, each with the member that it places."""
         place = list(self.members).index
         found: list[tuple[str, Member]] = [(max(ends, key=place), length) for ends, length in self.table.lengths.items()]
-        names = self.reaches(*self.points)
-        found += [(name, length) for name in sorted(names, key=place) for part in self.with_parts(name) for length in part.lengths()]
+        names = sorted(self.reaches(*self.points), key=place)
+        found += [(name, length) for name in names for part in self.with_parts(name) for length in part.lengths()]
+        called = {str(length) for _, length in found}
+        found += [(name, self.members[name]) for name in names if name not in called and self.is_inner_length(name)]
         never = (Variable, Number, Length, Distance)
         return tuple((name, length) for name, length in found if isinstance(length, Quantity) and not isinstance(length, never))
+
+    def is_inner_length(self, name: str) -> bool:
+        """Return whether it is the length of a part of a rope, or of a cylinder on a closed line."""
+        owner, _, own = name.rpartition(".")
+        return bool(owner) and self.members[owner].inside.get(own) == "quantity"
 
     def with_parts(self, name: str) -> tuple[Member, ...]:
         """Return a member and its parts that have no name of their own."""

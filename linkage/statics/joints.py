@@ -428,7 +428,10 @@ class Structure:
     def carrier(self, P: str, Q: str, what: str) -> int:
         """Return the body that holds two points."""
         common = [index for index in self.owners(P) if index in self.owners(Q)] or self.halves_with(P, Q)
-        ensure(common, f"{self.plan.title}: {what}: {P} and {Q} do not belong to one body; for forces declare Link({P}, {Q}).")
+        length = self.plan.table.lengths.get(frozenset((P, Q)))
+        follows = length is not None and self.plan.moves(length)
+        remedy = f"{P}{Q} = {length}; name two points that keep their distance" if follows else f"for forces declare Link({P}, {Q})"
+        ensure(common, f"{self.plan.title}: {what}: {P} and {Q} do not belong to one body; {remedy}.")
         return common[0]
 
     def bearer(self, load: Load) -> int:

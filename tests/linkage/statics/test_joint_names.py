@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from linkage import LEFT, RIGHT, DefinitionError, Dyad, Force, Ground, Link, Mechanism, Pin, Stroke, Weight, pin_forces
+from linkage import LEFT, RIGHT, Crank, DefinitionError, Dyad, Force, Ground, Link, Mechanism, OnLink, Pin, Stroke, Weight, pin_forces
 
 
 class Lift(Mechanism):
@@ -32,6 +32,19 @@ def test_what_is_no_body_is_refused(name):
         forces.force("B", on=name)
     with pytest.raises(DefinitionError, match="is unknown in Lift"):
         forces.on_body(name)
+
+
+def test_a_pin_along_two_points_whose_distance_follows_a_stroke_names_what_follows():
+    class Slid(Mechanism):
+        phi, S = Stroke(0.0, 1.0), Stroke(0.0, 0.5)
+        O = Ground(0.0, 0.0)
+        M = Crank(O, OM=1.0, angle=phi)
+        P = OnLink(O, M, OP=1.2 + S)
+        C = OnLink(P, O, PC=0.3 + 0.5 * S)
+        load = Weight(C, mass=10)
+
+    with pytest.raises(DefinitionError, match=r"P and O do not belong to one body; PO = 1.2 \+ S; name two points"):
+        pin_forces(Slid().at(phi=0.5, S=0.1))
 
 
 def test_loads_that_are_given_are_called_so():

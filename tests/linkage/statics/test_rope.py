@@ -9,6 +9,7 @@ from numpy.testing import assert_allclose
 from linkage import (
     LEFT,
     RIGHT,
+    AssemblyError,
     Crank,
     DefinitionError,
     Dyad,
@@ -151,6 +152,20 @@ class Atwood(Mechanism):
     rope = Rope(A, P, Q, "B", length=3.0)
     B = OnGuide(right, at=rope.last)
     one, other = Weight(A, mass=30), Weight(B, mass=50)
+
+
+def test_a_rope_that_is_shorter_than_its_run_reaches_no_pose():
+    class Held(Atwood):
+        """The driven mass draws the other one up to the pin Q, and not beyond."""
+
+        S = Stroke(0.5, 2.6)
+
+    with pytest.raises(AssemblyError, match=r"the length rope.last = -0.25 m is negative. .* It goes from S = 0.5 to 2 m"):
+        Held().at(S=[0.5, 2.25])
+    with pytest.raises(AssemblyError, match=r"the length rope.last = -0.25 m is negative"):
+        Tackle().at(W=-1.0)
+    fault = next(each for each in Held().verdicts() if each.rule == "assembly")
+    assert not fault.ok and "the length rope.last = -0.6 m is negative" in fault
 
 
 def test_two_masses_on_one_rope():

@@ -229,7 +229,7 @@ IN_TIME = {"speed": "mm/s", "acceleration": "m/s2", "power": "kW", "flow": "l/mi
 
 def display_unit(measure: str, length: str = "m") -> str:
     """Return the unit that an "angle", a "length", a "force" or a "pressure" is shown in, a length in that which is said; else ""."""
-    return {"angle": "deg", "length": length, "force": "kN", "pressure": "bar", "time": "s", **IN_TIME}.get(measure, "")
+    return {"angle": "deg", "length": length, "force": "kN", "moment": "Nm", "pressure": "bar", "time": "s", **IN_TIME}.get(measure, "")
 
 
 DIGITS = r"(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"

@@ -56,7 +56,7 @@ from .measures import (
 )
 from .motion import Motion
 from .over import ALLOWED, Over, Run, with_strokes
-from .requests import Request, SmoothPiece, Trait, identity_of, is_of_force
+from .requests import Request, SmoothPiece, Trait, identity_of, is_of_force, measured_in
 from .search import Span, assembly_error_at, below_zero, extremum, least_margins, strokes_moved
 from .strokes import at_values, strokes_over_axes
 
@@ -1037,8 +1037,7 @@ def measures_of(plan: Plan, question: object) -> str:
     measure = question.left if isinstance(question, Constraint) else question
     if not isinstance(measure, Leaf) or isinstance(measure, Integral):
         return ""
-    known = stands_for(plan.members, measure.quantity)
-    return str(getattr(known, "measures", "")) if isinstance(known, (Quantity, Request)) else ""
+    return measured_in(plan, stands_for(plan.members, measure.quantity))
 
 
 def integrated(row: SearchRow, place: Domain) -> WorstPiece:

@@ -32,7 +32,7 @@ from ..steps import Point
 from ..units import IN_TIME, Amount, require_measure, show
 from .limits import stroke_unit
 from .motion import Motion
-from .requests import Combined, NodeRequest, Request, Value, bound, stroke_of
+from .requests import Combined, NodeRequest, Request, Value, bound, measured_in, stroke_of
 
 MeasuredQuantity: TypeAlias = "str | Quantity | Request | Worst | Callable[[Motion], FloatArray]"
 """What has a value at every pose: a named output, a quantity, a request, or a function of a motion."""
@@ -640,7 +640,7 @@ def measure_of(plan: Plan, quantity: object) -> str:
     if isinstance(quantity, Leaf) and not isinstance(quantity, Integral):
         return measure_of(plan, quantity.quantity)
     known = stands_for(plan.members, quantity)
-    found = known.measured(plan) if isinstance(known, Request) else known.measures if isinstance(known, Quantity) else ""
+    found = measured_in(plan, known)
     if found:
         return "" if found in ("moment", "number") else str(found)
     sign, every = operation(known)
@@ -689,7 +689,7 @@ def kind_of_quantity(plan: Plan, quantity: object) -> MeasureKind | None:
         by = kind_of_stroke(plan, stroke_of(plan, known.along[0]))
         return None if inner is None else inner.times(by.to_the(float(known.order)), -1.0)
     if not sign:  # of a moment it is told here, which is shown as a plain number
-        return kind_called((known.measured(plan) if isinstance(known, Request) else "") or measure_of(plan, known))
+        return kind_called(measured_in(plan, known) or measure_of(plan, known))
     kinds = [kind_of_quantity(plan, each) for each in parts if constant_part(each) is None]
     if sign in ("add", "subtract", *CHOOSING, "hypot", "negative"):
         return reduce(lambda one, other: common_kind(plan, words_of(known), one, other), kinds, None)

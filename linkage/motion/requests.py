@@ -484,6 +484,11 @@ LIKE_ITS_PARTS = ("add", "subtract", "negative", "absolute", "minimum", "maximum
 """The functions whose values measure what their parts measure."""
 
 
+def measured_in(plan: Plan, asked: object) -> str:
+    """Return the kind of a quantity's or a request's value in a plan, "" where it is not plain."""
+    return asked.measured(plan) if isinstance(asked, Request) else asked.measures if isinstance(asked, Quantity) else ""
+
+
 @dataclass(frozen=True)
 class Combined(Request):
     """One of NumPy's functions of requests, quantities and numbers, per pose. Bound, its parts are requests and numbers.
@@ -501,7 +506,13 @@ class Combined(Request):
 
     @property
     def measures(self) -> str:
-        known = [each.measures for each in self.parts if not isinstance(each, float)]
+        return self._kind([each.measures for each in self.parts if not isinstance(each, float)])
+
+    def measured(self, plan: Plan) -> str:
+        return self._kind([measured_in(plan, each) for each in self.parts if not isinstance(each, float)])
+
+    def _kind(self, known: list[str]) -> str:
+        """Return the kind of its value from those of its parts, numbers left out."""
         scaled = self.function == "multiply" or (self.function == "divide" and isinstance(self.parts[1], float))
         same = self.function in LIKE_ITS_PARTS or (scaled and len(known) == 1)
         return known[0] if same and len(set(known)) == 1 else ""

@@ -22,7 +22,7 @@ from ..quantities import Coordinate, Dimension, Member, Quantity, Stroke, is_num
 from ..units import decimals, display_unit, factor, shown_in, unit_or_none, unit_sign
 from .limits import stroke_display_unit
 from .motion import Motion, require_motion
-from .requests import Request, RequestLike
+from .requests import Request, RequestLike, measured_in
 
 # A column of results: a name, values over the poses, and the unit to show them in.
 
@@ -99,9 +99,8 @@ class Column:
             what = f"{motion.plan.title}: {request} has two parts at every pose"
             raise DefinitionError(f'{what}, and a column one number; ask for y("G"), ratio(x("G")), or np.hypot of the two.')
         kind = motion.plan.members.get(request) if isinstance(request, str) else request
-        measures = kind.measures if isinstance(kind, (Quantity, Request)) else ""
         title = name or (kind.name if isinstance(kind, Member) else "") or str(request)
-        return cls(title, values, display_unit(measures) if unit is None else unit, digits, request)
+        return cls(title, values, display_unit(measured_in(motion.plan, kind)) if unit is None else unit, digits, request)
 
     @property
     def shown_unit(self) -> str:

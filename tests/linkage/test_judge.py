@@ -11,6 +11,8 @@ from linkage import (
     LEFT,
     RIGHT,
     Acting,
+    Column,
+    Crank,
     DefinitionError,
     Dimension,
     Dyad,
@@ -250,6 +252,21 @@ def test_a_batch_is_told_in_units_and_by_its_designs():
     assert re.fullmatch(r"[0-9.]+ mm to [0-9.]+ mm at S = .*", str(high))
     assert str(whole) == "1 of 2 designs cannot be assembled over the whole motion"
     assert str(Rocker(L0=[0.45, 0.46]).answers([reachable])[0]) == "every place is assembled"
+
+
+def test_the_drive_of_a_crank_is_a_moment_whatever_is_worked_out_with_it():
+    class Jib(Mechanism):
+        phi, out = Stroke(0.0, 1.0), Stroke(0.0, 0.5)
+        O = Ground(0.0, 0.0)
+        B = Crank(O, OB=1.0, angle=phi)
+        T = OnLink(O, B, OT=1.5 + out)
+        load = Weight(T, mass=10)
+
+    turns, pulls = drive_force("phi"), drive_force("out")
+    found = Jib().answers([most(turns), most(abs(turns)), most(1.5 * turns), least(pulls), most(np.minimum(turns, 100.0))])
+    assert [str(each).split(" at ")[0] for each in found] == ["196.133 Nm", "196.133 Nm", "294.2 Nm", "0 kN", "100 Nm"]
+    motion = Jib().sweep(phi=3, out=0.5)
+    assert [Column.of(motion, each).unit for each in (turns, -turns, pulls)] == ["Nm", "Nm", "kN"]
 
 
 def test_no_value_has_one_meaning():

@@ -8,7 +8,7 @@ from typing import Any
 
 from linkage.checks import is_listed, require
 from linkage.errors import DefinitionError, cited, ensure, known_name, unknown
-from linkage.quantities import Member, is_number, label
+from linkage.quantities import Member, is_number, name_of
 from linkage.quantities.quantity import plain
 
 from .gas import ROOM, Gas, Polytropic, RealNitrogen, adiabatic, isothermal, polytropic, real_nitrogen
@@ -75,13 +75,16 @@ def gas_kind() -> Any:
     return Kind(read, lambda value, design, name: written_gas(value))
 
 
-def on_line_kind(block: type[Any], text: Callable[[Any], str]) -> Any:
-    """Return the kind that reads and writes the parts of an oil line: names such as "lift.rod_side", and accumulators as a table."""
-    from linkage.files.entry import Within, made_of, read_table
+def on_line_kind(block: type[Any], *fittings: type[Any]) -> Any:
+    """Return the kind of the parts of an oil line: names such as "lift.rod_side", and a table for each that has no name.
+
+    That of accumulators is their own; one of `fittings` says its class as well, `{ Tank = [], pressure = "5 bar" }`.
+    """
+    from linkage.files.entry import Within, check_keys, made_of, read_table
     from linkage.files.source import Mistakes
     from linkage.files.validators import Kind
 
-    within = Within.of(block)
+    classes = {each.__name__: (each, Within.of(each)) for each in (block, *fittings)}
 
     def read(given: object, names: Any) -> tuple[Any, ...]:
         each_of = list(given) if is_listed(given) else [given]
@@ -89,19 +92,24 @@ def on_line_kind(block: type[Any], text: Callable[[Any], str]) -> Any:
         for each in each_of:
             if isinstance(each, Mapping):
                 mistakes = Mistakes()
+                made, within = next((classes[key] for key in each if key in classes), classes[block.__name__])
                 table = read_table(each, names, within.arguments, mistakes)
+                check_keys(each, [*classes, *(argument.key for argument in within.arguments)], mistakes)
                 mistakes.check()
-                found.append(block(**made_of(table, within.arguments)))
+                found.append(made(**made_of(table, within.arguments)))
             elif isinstance(each, str):
                 found.append(each)
             else:
                 raise DefinitionError(f'{cited(each)} is no name; write a list such as ["lift.piston_side", "supply"].')
         return tuple(found)
 
-    def write(value: Any, design: Any, name: str) -> list[Any]:
-        return [within.write(each, design, "") if isinstance(each, block) else text(each) for each in value]
+    def one(each: Any, design: Any) -> Any:
+        word = type(each).__name__
+        if word not in classes or (isinstance(each, Member) and each.name):
+            return name_of(each) if isinstance(each, Member) else str(each)
+        return ({} if word == block.__name__ else {word: []}) | classes[word][1].write(each, design, "")
 
-    return Kind(read, write, refers=True)
+    return Kind(read, lambda value, design, name: [one(each, design) for each in value], refers=True)
 
 
 def filled_kind() -> Any:
@@ -130,6 +138,7 @@ def pressure_kind() -> Any:
         return given if isinstance(given, str) and names.kinds.get(given) == "load" else plain.read(given, names)
 
     def write(value: Any, design: Any, name: str) -> Any:
-        return label(value) if isinstance(value, Member) and value.kind == "load" else plain.write(value, design, name)
+        pump = design.plan.members.get(value) if isinstance(value, str) else value if isinstance(value, Member) else None
+        return name_of(value) if pump is not None and pump.kind == "load" else plain.write(value, design, name)
 
     return Kind(read, write)

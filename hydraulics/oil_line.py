@@ -132,7 +132,7 @@ class OilLine(PumpLine, GasLine):
     not_negative: ClassVar[frozenset[str]] = frozenset({"seal_friction"})
     optional: ClassVar[frozenset[str]] = frozenset({"charge_pressure"})
     argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType(
-        {"on": lambda: on_line_kind(AccumulatorBlock, on_line_text), "at": filled_kind, "filled": filled_kind}
+        {"on": lambda: on_line_kind(AccumulatorBlock, Pump, Relief, Tank), "at": filled_kind, "filled": filled_kind}
     )
 
     def __init__(

@@ -3,9 +3,39 @@
 import numpy as np
 import pytest
 
-from hydraulics import Accumulator, AccumulatorBlock, Cylinder, FloatCircuit, LiftCircuit, adiabatic, isothermal, polytropic, real_nitrogen
+from hydraulics import (
+    Accumulator,
+    AccumulatorBlock,
+    Cylinder,
+    FloatCircuit,
+    LiftCircuit,
+    OilLine,
+    Pump,
+    Relief,
+    Tank,
+    adiabatic,
+    isothermal,
+    polytropic,
+    real_nitrogen,
+)
 from hydraulics.gas import Gas
-from linkage import RIGHT, DefinitionError, Dimension, Dyad, FileError, Ground, Mechanism, OnLink, Stroke, driving_force, ref
+from linkage import (
+    RIGHT,
+    DefinitionError,
+    Dimension,
+    Dyad,
+    FileError,
+    Force,
+    Ground,
+    Guide,
+    Mechanism,
+    OnGuide,
+    OnLink,
+    Stroke,
+    deg,
+    driving_force,
+    ref,
+)
 from linkage.files import from_dict, load, registry, to_dict, to_json, to_toml
 from linkage.loads import LoadCase, Weight
 from linkage.units import bar, litre, minute, mm
@@ -85,6 +115,34 @@ def test_instance_saves_what_its_hydraulics_are_set_to():
     assert back.dimensions == design.dimensions
     assert np.array_equal(numbers(back), numbers(design), equal_nan=True)
     assert not np.array_equal(numbers(back), numbers(Carried()), equal_nan=True)
+
+
+def test_what_stands_on_a_line_without_a_name_comes_back_and_a_pump_by_its_name():
+    class Fitted(Mechanism):
+        S = Stroke(0.0, 0.5)
+        O = Ground(0.0, 0.0)
+        rail = Guide(O, angle=90 * deg)
+        P = OnGuide(rail, at=1.0 + S)
+        push = Force(P, (0.0, -40e3))
+        ram = Cylinder(O, P, bore=120 * mm, rod=85 * mm)
+        line = OilLine("ram.piston_side", Pump(200 * bar), Relief(220 * bar))
+        back = OilLine("ram.rod_side", Tank(5 * bar))
+        T = Stroke(0.0, 0.5)
+        Q = OnGuide(rail, at=2.0 + T)
+        aid = Cylinder(P, Q, bore=40 * mm, rod=25 * mm)
+        supply = Pump(160 * bar)
+        other = LiftCircuit("aid", "supply")
+
+    written = to_dict(Fitted)
+    assert written["hydraulics"]["line"] == {
+        "OilLine": ["ram.piston_side", {"Pump": [], "pressure": "200 bar"}, {"Relief": [], "pressure": "220 bar"}]
+    }
+    back = from_dict(written)
+    assert to_dict(back) == written
+    assert np.array_equal(*(each.line.pressure(each().sweep(S=3, T=0.1)) for each in (back, Fitted)))
+    written["hydraulics"]["back"]["OilLine"][1] = {"Tank": [], "presure": "5 bar"}
+    with pytest.raises(FileError, match=r"hydraulics\.back\.OilLine\.presure: is not a key"):
+        from_dict(written)
 
 
 def test_hydraulics_are_written_as_they_are_said():

@@ -388,9 +388,9 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         thrust = thrust_request(which, Acting(direction=FRICTIONLESS))
         return most(thrust) <= 0.0 if self.side == "rod" else least(thrust) >= 0.0
 
-    def pressed_wrongly(self, judge: Judge) -> Answer | None:
-        """Return the answer on a load against the side that works; None where there is none, to rounding."""
-        found = judge.answer(self.pressed(self))
+    def pressed_wrongly(self, judge: Judge, pressed: Condition | None = None) -> Answer | None:
+        """Return the answer on a load against the side that works, or on another condition; None where there is none, to rounding."""
+        found = judge.answer(self.pressed(self) if pressed is None else pressed)
         if found.ok or np.isnan(found.value):
             return None
         ends = judge.answers(least_and_most(thrust_request(self, Acting(direction=FRICTIONLESS))))
@@ -480,12 +480,17 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
     def pressure_on(self, side: str, motion: AnyMotion, acting: Acting, circuit: Circuit | None = None, *, below: bool = False) -> Array:
         """Return the pressure on one of its sides, shape (...) [Pa gauge]; 0 where the other side holds, or with `below` negative values.
 
-        At rest without friction and efficiencies; while it moves, on a side that works, as its circuit has it.
+        At rest without friction and efficiencies; while it moves, on a side that works, as its circuit has it. A side on another line that
+        keeps its own pressure has that.
         """
         if side not in self.own_sides:
             raise DefinitionError(f"{self.name or self}: it has no {side} side, whose pressure could be asked for; it is single acting.")
         motion = held_in_case(motion, acting)
-        thrust = line_thrust(self, circuit or circuit_having(self, motion.plan, False), motion, acting)
+        line = circuit or circuit_having(self, motion.plan, False)
+        beside = line_beside(self, side, line, motion.plan.members)
+        if beside is not None:
+            return beside.line_pressure(motion, acting) + np.zeros(motion.shape)
+        thrust = line_thrust(self, line, motion, acting)
         along, size = thrust if side == PISTON else -thrust, self.sized(motion, acting.direction)
         balance = along / (size.outward_area if side == PISTON else size.pull_area)
         least = balance if below else 0.0
@@ -1660,6 +1665,17 @@ def by_other_lines(ram: Ram, line: Circuit | None, motion: AnyMotion, acting: Ac
         if (line is None or not same(other, line)) and (kind == "given" or (kind == "closed" and acting is not None)):
             thrust = thrust + other.line_pressure(motion, acting) * chamber_area(chamber, ram, motion)
     return thrust
+
+
+def line_beside(ram: Ram, side: str | None, line: Circuit | None, members: NamedMembers) -> Circuit | None:
+    """Return the line, other than one, that keeps a side of a cylinder at its own pressure: a tank's, gas's or a closed one's."""
+    beside = (other for other, chamber in lines_of(ram, members) if chamber.side == side and other.kind_in(members) != "held")
+    return next((other for other in beside if line is None or not same(other, line)), None)
+
+
+def other_side(ram: Ram) -> Side | None:
+    """Return the side of a cylinder that does not work; None where both work."""
+    return ROD if ram.side == PISTON else PISTON if ram.side == ROD else None
 
 
 def line_thrust(ram: Ram, line: Circuit | None, motion: AnyMotion, acting: Acting, *, with_tanks: bool = True) -> Array:

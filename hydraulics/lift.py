@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from types import MappingProxyType
 from typing import Any, ClassVar
 
@@ -33,11 +34,13 @@ from .cylinders import (
     Feeds,
     OnLines,
     Ram,
+    Side,
     as_in,
     carries_loads,
     in_class,
     judge_of,
     least_and_most,
+    other_side,
     thrust_request,
 )
 from .files import pressure_kind
@@ -46,7 +49,7 @@ from .lifting_line import LiftLine
 from .moving import flow
 from .pump import Pump
 from .remedy import Sizes, can_be_set, show_enough, size_words, smallest
-from .requests import going_back_request, pressure_request, reserve_request
+from .requests import going_back_request, is_free, left_request, pressure_request, reserve_request
 from .shut import shut_verdicts
 
 ENDLESS = 1e-4
@@ -379,7 +382,20 @@ class LiftingCylinder:
     @property
     def standing(self) -> list[Question]:
         """The greatest pressures of its sides at rest, as questions."""
-        return [most(pressure_request(self.ram, Acting(direction=FRICTIONLESS), self.circuit, side)) for side in self.ram.own_sides]
+        return [most(pressure_request(self.ram, Acting(direction=FRICTIONLESS), self.circuit, side)) for side in self.sides]
+
+    @property
+    def sides(self) -> Sequence[Side]:
+        """The sides that hold a load in some load case, the one that works first: not one that another line keeps at its own pressure."""
+        order = self.ram.own_sides if self.ram.side != "rod" else SIDES[::-1]
+        plan, order = self.judge.plan, order[:1] if self.goes_back_by_another else order
+        return [side for side in order if any(is_free(self.ram, side, self.circuit, plan, case) for case in self.judge.cases)]
+
+    def left(self, cylinder: str | Ram, circuit: str | LiftLine) -> Condition | None:
+        """Return that the side that works holds the load where another line keeps the other one at its own pressure; None for none."""
+        behind, free = other_side(self.ram), partial(is_free, self.ram, other_side(self.ram), self.circuit, self.judge.plan)
+        none = behind is None or all(map(free, self.judge.cases))
+        return None if none else least(left_request(cylinder, Acting(direction=FRICTIONLESS), circuit, behind)) >= 0.0
 
     def conditions(self) -> dict[str, Condition]:
         """Return its conditions: it lifts, holds on both sides, and goes back."""
@@ -389,10 +405,10 @@ class LiftingCylinder:
         back = [most(going_back_request(*asked, way)) for way in self.ways_back]
         sinks = AllOf(tuple(each <= supply if self.ram.side == "both" else each <= 0.0 for each in back))
         holding = most(pressure_request(self.ram.name, Acting(direction=FRICTIONLESS), self.circuit.name)) <= held
-        pressed = self.ram.pressed(self.ram.name)
+        pressed = self.ram.pressed(self.ram.name) if self.ram.is_single_acting else self.left(self.ram.name, name)
         return {
             "lifting": least(reserve_request(*asked)) >= 1.0,
-            "holding": AllOf((holding, pressed)) if self.ram.is_single_acting else holding,
+            "holding": holding if pressed is None else AllOf((holding, pressed)),
             **({"lowering": sinks.each[0] if len(back) == 1 else sinks} if self.lowers_alone else {}),
         }
 
@@ -495,14 +511,21 @@ class LiftingCylinder:
         pulled = self.ram.pulled(self.judge)
         if pulled is not None:
             return pulled
-        order = self.ram.own_sides if self.ram.side != "rod" else SIDES[::-1]
-        order = order[:1] if self.goes_back_by_another else order
-        asked = [most(pressure_request(self.ram, Acting(direction=FRICTIONLESS), circuit, side)) <= limit for side in order]
+        order, asked = self.sides, [each <= limit for each in self.standing]
         found = self.judge.answers(asked)
         endless = next((each for each in found if each.unbounded), None)
         if endless is not None:
             text = said("the pressure grows without bounds {where}: nothing holds there; keep away from that pose.", where=endless.place)
             return Verdict("holding", False, text, answer=endless)
+        left = self.left(self.ram, circuit)
+        loose = None if left is None else self.ram.pressed_wrongly(self.judge, left)
+        if loose is not None:
+            text = said(
+                "the load pulls at it with up to {force} more than what stands on its other side, {where}: no oil holds it there; "
+                "let a load case shut that line, or let the load press on it there.",
+                force=show(-loose.value, "kN", 4), where=loose.place,
+            )  # fmt: skip
+            return Verdict("holding", False, text, answer=loose)
         words = [said("piston side") if side == PISTON else said("rod side") for side in order]
         words[1:] = [f"{words[-1]}{'' if self.ram.side == 'both' else said(' where the load drives')}"] if words[1:] else []
         parts = [

@@ -32,7 +32,7 @@ from linkage.statics import PROBE, AnyMotion, elements_of, held_in_case, member_
 from linkage.statics.carried import IDLE, direction_at, is_steady, pull_direction, pulling
 from linkage.units import show
 
-from .cylinders import PISTON, Circuit, OnLines, Ram, Reading, by_other_lines, line_thrust, lines_of, thrust_along
+from .cylinders import PISTON, Circuit, OnLines, Ram, Reading, by_other_lines, line_beside, line_thrust, lines_of, other_side, thrust_along
 from .inputs import Array, efficient, follows, in_cubic_metres, in_pascals, not_negative, number_set, only_where, positive, proper_share
 from .standard_sizes import RamSize
 from .standing import is_blocked, standing_pressure
@@ -407,11 +407,15 @@ class LiftLine(Circuit):
         size = ram.sized(motion)
         others = by_other_lines(ram, self, motion, None, None if not lifting else False)  # type: ignore[arg-type]
         drained = by_other_lines(ram, self, motion, None, True)  # type: ignore[arg-type]
+        nothing = np.zeros(())
         if not lifting:
             held = self.relief_pressure(motion)
             low, high = np.asarray(-held * size.inward_area), np.asarray(held * size.outward_area)
+            beside = line_beside(ram, other_side(ram), self, motion.plan.members)
+            if beside is not None and beside.kind_in(motion.plan.members) == "given":
+                low, high = (low, nothing) if size.works == "rod" else (nothing, high)
         else:
-            k_m, nothing = self.efficiency(motion, "mechanical"), np.zeros(())
+            k_m = self.efficiency(motion, "mechanical")
             works = (Work(way, way, size, k_m, drained) for way in (np.asarray(-1.0), np.asarray(1.0)))
             pull, push = (self._given(motion, work, share) * k_m for work in works)
             low, high = (-pull if size.works in ("rod", "both") else nothing), (nothing if size.works == "rod" else push)
@@ -568,7 +572,8 @@ class LiftLine(Circuit):
     ) -> Holding:
         """Return the pressures that hold the thrust with the pump off; neither friction nor an efficiency is counted on.
 
-        Of a line of several cylinders the greatest, unless one is named.
+        A side on another line that keeps its own pressure, a tank's or gas's, has that, and holds nothing more. Of a line of several
+        cylinders the greatest, unless one is named.
         """
         given = situation_of("holding", acting, loads=loads, case=case)
         working, other = [], []
@@ -576,7 +581,8 @@ class LiftLine(Circuit):
             size, thrust = ram.sized(motion), line_thrust(ram, self, motion, Acting(given.loads, given.case))
             force = size.sense * thrust
             working.append(np.maximum(force, 0.0) / size.area)
-            other.append(size.behind(np.maximum(-force, 0.0)))
+            beside = line_beside(ram, other_side(ram), self, held_in_case(motion, given).plan.members)
+            other.append(size.behind(np.maximum(-force, 0.0)) if beside is None else beside.line_pressure(motion, given) + 0.0 * thrust)
         return Holding(np.max(working, axis=0), np.max(other, axis=0))
 
     def lowering(

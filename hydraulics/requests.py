@@ -38,13 +38,14 @@ from .cylinders import (
     formula_of_cylinder,
     found_in,
     in_stages,
+    line_beside,
     line_thrust,
     lines_by_side,
     thrust_request,
 )
 from .inputs import Array, only_where, proper_share
 from .lifting_line import LiftLine, Work, way_back
-from .standing import moves_in
+from .standing import members_in, moves_in
 
 Circuits: TypeAlias = str | LiftLine
 """A circuit by its name, or itself; "" for the only one that has a cylinder."""
@@ -214,9 +215,10 @@ def pressure_request(
         sides = [side] if side else [DRIVING.get(request.situation.direction or "", "")] if is_needed else sides
         plan = plan_in_case(plan, request.situation)
         members = plan.members
+        line = circuit_with(plan, ram, circuit, "pressure") if circuit else circuit_having(ram, plan, False)
+        sides = sides if side or is_needed else [each for each in sides if line_beside(ram, each, line, members) is None]
         if not side and not is_needed and any(is_among(ram, each.feeds(members)) for each in circuits_among(members)):
             return in_stages(cylinder, plan, SmoothPiece(request, ram.side))
-        line = circuit_having(ram, plan, False)
         if not (side or circuit) and line is not None and line.kind_in(members) == "closed":
             return in_stages(cylinder, plan, SmoothPiece(request))
         return in_stages(cylinder, plan, *(SmoothPiece(on_side(each), each, below=on_side(each, below=True)) for each in sides))
@@ -224,7 +226,28 @@ def pressure_request(
     kinds = " ".join(["needed"] * is_needed + ["below zero"] * below) or None
     options = (side and f"side={side}") or None, kinds
     found = circuit_request("pressure", cylinder, acting, circuit, in_cylinder, after=options, measures="pressure")
-    return replace(found, formula=formula, examine=examine, directions=directions, pieces_in=pieces)
+    cases_in = partial(is_free, cylinder, side, circuit) if circuit and side else found.cases_in
+    return replace(found, formula=formula, examine=examine, directions=directions, pieces_in=pieces, cases_in=cases_in)
+
+
+def is_free(cylinder: str | Ram, side: str | None, circuit: Circuits, plan: Plan, case: str) -> bool:
+    """Return whether no line beside a circuit keeps a side of a cylinder at its own pressure in a load case: it holds what it must."""
+    ram = cylinder_in(cylinder, plan)
+    return line_beside(ram, side, circuit_with(plan, ram, circuit, "pressure"), members_in(plan, case)) is None
+
+
+def left_request(cylinder: str | Ram, acting: Acting, circuit: Circuits, behind: str | None) -> LawRequest:
+    """Return the request for the thrust that the side that works has to hold alone [N], where another line keeps the side `behind`.
+
+    Below zero nothing holds it. It is judged in the load cases in which that line is open.
+    """
+
+    def left(motion: AnyMotion, ram: Ram, acting: Acting) -> Array:
+        line = circuit_with(motion.plan, ram, circuit, "holding")
+        return np.asarray(ram.sized(motion).sense * line_thrust(ram, line, motion, acting))[()]
+
+    found = circuit_request("holding", cylinder, acting, circuit, left, measures="force")
+    return replace(found, cases_in=lambda plan, case: not is_free(cylinder, behind, circuit, plan, case))
 
 
 def line_in(named: str | Ram, plan: Plan) -> Circuit | None:

@@ -98,12 +98,12 @@ def test_both_sides_shut_are_holding(seed):
         shut = LoadCase("shut", shut=["line", "back"])
 
     motion = Arm().sweep(5)
-    held = Arm.line.holding(motion)
+    held = Arm.line.holding(motion, case="shut")
     assert Arm.ram.pressure(motion, case="shut") == pytest.approx(held.working, abs=1e-6)
     assert Arm.back.pressure(motion, case="shut") == pytest.approx(held.other, abs=1e-6)
     assert pin_forces(motion, case="shut").thrusts["ram"] == pytest.approx(Arm.ram.thrust(motion), rel=1e-9)
     found = Arm().at(S=[0.0, 0.1])[pressure("ram", side="rod", circuit="line", case="shut")]
-    assert found == pytest.approx(Arm.line.holding(Arm().at(S=[0.0, 0.1])).other, abs=1e-6)
+    assert found == pytest.approx(Arm.line.holding(Arm().at(S=[0.0, 0.1]), case="shut").other, abs=1e-6)
 
 
 def block():

@@ -109,6 +109,42 @@ def test_the_drive_of_a_cylinder_beside_a_tank_is_its_thrust_in_the_equations_to
     assert "T_ram" not in next(text for text in str(equations(structure, forces=True)).splitlines() if "Q_S =" in text)
 
 
+class Upright(Mechanism):
+    """A force that pushes a guided ram in, and pulls it out."""
+
+    S = Stroke(0.0, 0.5)
+    O = Ground(0.0, 0.0)
+    rail = Guide(O, angle=90 * deg)
+    P = OnGuide(rail, at=1.0 + S)
+    ram = Cylinder(O, P, bore=120 * mm, rod=85 * mm)
+    push = Force(P, (0.0, -40 * kN))
+    pull = LoadCase("pull", scale={"push": -1.0})
+
+
+@for_all("side, other, sense", [("piston", "rod", 1.0), ("rod", "piston", -1.0)])
+def test_a_side_that_another_line_keeps_has_its_pressure_and_holds_no_more(side, other, sense):
+    areas = {"piston": np.pi / 4 * 0.12**2, "rod": np.pi / 4 * (0.12**2 - 0.085**2)}
+    gas = AccumulatorBlock([Accumulator(volume=5 * litre, charge=20 * bar)])
+    for beside, charge in ((Tank(6 * bar), {}), (gas, {"charge_pressure": 30 * bar})):
+        back = OilLine(f"ram.{other}_side", beside, **charge)
+        shut = LoadCase("shut", scale={"push": -1.0}, shut=["back"])
+        machine = made(base=Upright, line=OilLine(f"ram.{side}_side", Pump(400 * bar)), back=back, shut=shut)
+        motion, left = machine().sweep(3), []
+        for case, force in ((None, 40 * kN), ("pull", -40 * kN)):
+            kept = machine.back.pressure(motion, case=case) + np.zeros(3)
+            assert_allclose(motion[pressure("ram", side=other, case=case)], kept)
+            left.append(sense * force + kept * areas[other])
+            holding = machine.line.holding(motion, case=case)
+            assert_allclose([holding.working, holding.other], [np.maximum(left[-1], 0.0) / areas[side], kept], atol=1e-6)
+        assert_allclose(machine.line.holding(motion, case="shut").other, [40 * kN / areas[other] if sense > 0.0 else 0.0] * 3)
+        (found,) = [each for each in machine().verdicts() if each.rule == "holding"]
+        assert not found.ok and found.answer.case != "shut"
+        assert_allclose(found.answer.value, np.min(left), rtol=1e-9)
+        low, high = sorted((sense * each + np.zeros(3) for each in machine.ram.bounds(motion, False)), key=np.min)
+        kept = (machine.back.pressure(motion) + np.zeros(3)) * areas[other]
+        assert_allclose([low, high], [-kept, 400 * bar * areas[side] - kept], atol=1e-6)
+
+
 def test_each_of_two_lines_has_its_own_pressure_whoever_says_that_both_sides_work():
     for works in (None, "both"):
         for load, sign in ((-20 * kN, 1.0), (20 * kN, -1.0)):

@@ -521,8 +521,8 @@ class LiftingCylinder:
         loose = None if left is None else self.ram.pressed_wrongly(self.judge, left)
         if loose is not None:
             text = said(
-                "the load pulls at it with up to {force} more than what stands on its other side, {where}: no oil holds it there; "
-                "let a load case shut that line, or let the load press on it there.",
+                "the load pulls at it with up to {force} more than its other side gives, {where}: no oil holds it there. "
+                "Let a load case shut that side's line, or let the load press on it.",
                 force=show(-loose.value, "kN", 4), where=loose.place,
             )  # fmt: skip
             return Verdict("holding", False, text, answer=loose)

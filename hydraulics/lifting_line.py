@@ -30,7 +30,7 @@ from linkage.program import is_traced
 from linkage.quantities import NamedMembers, Reference, of_kind
 from linkage.statics import PROBE, AnyMotion, elements_of, held_in_case, member_limits, member_thrust, plan_of, pump_thrust, same
 from linkage.statics.carried import IDLE, direction_at, is_steady, pull_direction, pulling
-from linkage.units import show
+from linkage.units import require_measure, show
 
 from .cylinders import PISTON, Circuit, OnLines, Ram, Reading, by_other_lines, line_beside, line_thrust, lines_of, other_side, thrust_along
 from .inputs import Array, efficient, follows, in_cubic_metres, in_pascals, not_negative, number_set, only_where, positive, proper_share
@@ -595,6 +595,7 @@ class LiftLine(Circuit):
         motion the harder of both. Of a line of several cylinders it is the one that goes back hardest, unless one is named.
         """
         given = situation_of("lowering", acting, loads=loads, case=case)
+        require_measure(resistance, "bar", "lowering: resistance")
         against, k_m = fitted(motion, not_negative(resistance, "Return resistance")), self.efficiency(motion, "mechanical")
         found = []
         for ram in self.meant(motion, cylinder):

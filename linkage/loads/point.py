@@ -65,6 +65,7 @@ def gravity_vector(given: object, what: str) -> tuple[float, float]:
     if is_number(given):
         raise DefinitionError(f"{what}: gravity={given!r} has no direction; write the vector gravity=(0, {-abs(plain(given))!r}).")
     x, y = (plain(part) for part in two_parts(given, f"{what}(gravity=...)"))
+    require_measure(given, "m/s2", f"{what}: gravity")
     require(is_number(x) and is_number(y), f"{what}: gravity", given, "is not two finite numbers; write (x, y) in m/s2, such as (0, -9.81)")
     return x, y
 

@@ -20,7 +20,7 @@ from ..plan import Plan
 from ..program import FloatArray, Node
 from ..quantities import Operand, Quantity, Reference, Variable, joined_names, quantity, source_text
 from ..surroundings import Outline
-from ..units import show
+from ..units import require_measure, show
 from ..vectors import pick
 from ..verdict import Verdict
 from .gaps import body_points_of, check_forms, corner_pieces, follows_dimensions, gap_in, gap_of, least_number, shape_named
@@ -56,6 +56,7 @@ class Planes(HasVerdicts):
         if not planes or not all(isinstance(each, str) and each.split() for each in planes):
             what = f"Planes({', '.join(map(cited, planes))})"
             raise DefinitionError(f'{what}: the names of the bodies of each plane are expected in one text, Planes("OBC AB", "CD EDF").')
+        require_measure(width, "mm", "Planes: width")
         self.planes, self.width = planes, quantity(width)
         if self.width.constant is not None and not 0.0 <= self.width.constant < np.inf:
             raise DefinitionError(f"Planes(width={self.width}): the sum of two half widths is expected [m], zero or more.")

@@ -263,6 +263,8 @@ def unwrapped(angle: FloatArray, strokes: Sequence[FloatArray], axes: int) -> Fl
     order they stand in; of several strokes, or none, in the order they stand in. NaN is passed over.
     """
     result = np.array(angle, float)
+    if result.size and result.max() - result.min() < np.pi:  # no two of them are half a turn apart
+        return result
     if len(strokes) == 1 and axes == 1:
         order = np.broadcast_to(np.argsort(strokes[0], axis=-1, kind="stable"), result.shape)
         joined = _joined(np.take_along_axis(result, order, axis=-1))

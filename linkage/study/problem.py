@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import prod
 from typing import Any, TypeAlias
@@ -474,11 +474,13 @@ class Problem:
             judged = slopes and poses is self.full_stroke
             samples = found[poses] = self._sampling(poses).at(self._grid(poses, designs, ends), margins=judged, slopes=slopes)
             whole &= samples.reached.all(axis=1)
-            reached = np.minimum(reached, samples.reached.mean(axis=1))
+            reached = reached if whole.all() else np.minimum(reached, samples.reached.mean(axis=1))
             if judged and samples.margin_slopes is not None:
                 margins = np.moveaxis(samples.margins, 0, 1).reshape(m, samples.margins.shape[0] * samples.margins.shape[2])
                 total = np.moveaxis(self._by_unit(samples.margin_slopes, poses, ends), 1, 0)
                 margin_slopes = total.reshape(len(total), prod(total.shape[1:]))  # of no variable too
+            if samples.value_slopes is not None:
+                found[poses] = replace(samples, value_slopes=self._by_unit(samples.value_slopes, poses, ends))
         rows = {leaf: self._rows(leaf, found, ends) for leaf in self.leaves}
         return Evaluated(rows, margins, margin_slopes, whole, reached)
 
@@ -558,9 +560,7 @@ class Problem:
         poses, place, single = self._of_leaf[leaf]
         samples = found[poses]
         values = samples.values[place]
-        slopes = np.zeros((0, values.shape[1]))
-        if samples.value_slopes is not None:
-            slopes = self._by_unit(samples.value_slopes[[place]], poses, ends)[0]
+        slopes = np.zeros((0, values.shape[1])) if samples.value_slopes is None else samples.value_slopes[place]
         if isinstance(leaf.quantity, Worst):
             values, slopes = worst_along(values, slopes, len(poses.axes[poses.inner]), leaf.quantity.sense)
         if single >= 0:

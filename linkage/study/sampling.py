@@ -82,12 +82,13 @@ class SampleProgram:
         if is_told:
             values = grid.full(found.values)
             return values[: self.rows], values[self.rows :]
-        values = np.array([np.broadcast_to(each, grid.shape) for each in evaluate_bound(Evaluation(grid, self.requests), None, "nan")])
-        if self.slopes is None:
-            return values, np.zeros((0, *grid.shape))
-        kernel, followed = self.slopes
-        continued = followed.continued(grid)
-        return values, grid.full(kernel(grid.flat, size=grid.size).values) if continued is None else continued
+        with unwarned(), np.errstate(all="ignore"):
+            values = np.array([np.broadcast_to(each, grid.shape) for each in evaluate_bound(Evaluation(grid, self.requests), None, "nan")])
+            if self.slopes is None:
+                return values, np.zeros((0, *grid.shape))
+            kernel, followed = self.slopes
+            continued = followed.continued(grid)
+            return values, grid.full(kernel(grid.flat, size=grid.size).values) if continued is None else continued
 
 
 class Sampling:
@@ -112,15 +113,14 @@ class Sampling:
         (m, n), k, p = grid.size, len(self.quantities), len(self.owners)
         loops = loop_margins(self.plan) if margins else []  # before anything else is read, which may have triangles of its own
         first = len(loops) + 1
-        with unwarned(), np.errstate(all="ignore"):
-            found, shares = self._program(loops, slopes=slopes)(grid)
-            found = found.reshape(len(found), m, n)
-            values = np.full((k, m, n), np.nan)
-            values[[*self._traced]] = found[first : first + len(self._traced)]
-            if self._eager:
+        found, shares = self._program(loops, slopes=slopes)(grid)
+        found = found.reshape(len(found), m, n)
+        values = np.full((k, m, n), np.nan)
+        values[[*self._traced]] = found[first : first + len(self._traced)]
+        if self._eager:
+            with unwarned(), np.errstate(all="ignore"):
                 motion = motion_of(grid)
-                for place in self._eager:
-                    values[place] = eager(motion, self.quantities[place]).reshape(m, n)
+                values[self._eager] = [eager(motion, self.quantities[place]).reshape(m, n) for place in self._eager]
         reached = np.isfinite(found[len(loops)])
         whole = values if reached.all() else np.where(reached, values, np.nan)
         empty: Mask = np.asarray(np.isnan(whole) & reached)  # no value where there is a pose, though something limits it there
@@ -129,15 +129,15 @@ class Sampling:
             lost[place] = (empty[place] & ~nothing_limits(motion_of(grid), self.quantities[place]).reshape(m, n)).any(axis=1)
         for (place, _), each in zip(self._divisors, found[first + len(self._traced) :], strict=True):  # both signs, or zero somewhere
             low, high = (np.where(reached, each, end) for end in (np.inf, -np.inf))
-            lost[place] |= (np.nanmin(low, axis=-1, initial=np.inf) <= 0.0) & (np.nanmax(high, axis=-1, initial=-np.inf) >= 0.0)
+            lost[place] |= (np.fmin.reduce(low, axis=-1, initial=np.inf) <= 0.0) & (np.fmax.reduce(high, axis=-1, initial=-np.inf) >= 0.0)
         samples = Samples(whole, found[: len(loops)], reached, lost)
         if not slopes:
             return samples
         by_owner = shares.reshape(len(loops) + len(self._traced), p, n)
         value_slopes = np.zeros((k, p, n))
         value_slopes[[*self._traced]] = by_owner[: len(self._traced)]
-        with unwarned(), np.errstate(all="ignore"):
-            for place in self._eager:
+        for place in self._eager:
+            with unwarned(), np.errstate(all="ignore"):
                 value_slopes[place] = self._differences(grid, self.quantities[place])
         return replace(samples, value_slopes=value_slopes, margin_slopes=by_owner[len(self._traced) :])
 

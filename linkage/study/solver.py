@@ -706,13 +706,13 @@ def told_margins(look: Evaluated) -> FloatArray:
 
 def bounded(slopes: FloatArray) -> FloatArray:
     """Return derivatives of scaled numbers that a solver can work with: those that are infinite, as at a dead point, very steep."""
-    return np.nan_to_num(slopes, nan=0.0, posinf=STEEP, neginf=-STEEP)
+    return slopes if np.isfinite(slopes).all() else np.nan_to_num(slopes, nan=0.0, posinf=STEEP, neginf=-STEEP)
 
 
 def without_gaps(values: FloatArray, slopes: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return lines of which those without a value say nothing."""
     gap = ~(np.isfinite(values) & np.isfinite(slopes).all(axis=1))
-    return np.where(gap, 1.0, values), np.where(gap[:, None], 0.0, slopes)
+    return (np.where(gap, 1.0, values), np.where(gap[:, None], 0.0, slopes)) if gap.any() else (values, slopes)
 
 
 def single_extreme(constraint: Constraint) -> tuple[Leaf, float, float] | None:

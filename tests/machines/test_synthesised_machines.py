@@ -37,6 +37,7 @@ from linkage import (
 )
 from linkage.units import g0
 from tests.linkage.synthesis.bars_apart import apart, cross, fixed, from_segment, meet
+from tests.members import told_by
 
 MANY = 5001
 
@@ -95,7 +96,7 @@ def check_forces(machine, push, hinge, spare, most_on_hinge):
     assert push.max() > 0.0
     assert (force / push[push > 0.0]).min() >= spare * (1 - 1e-9)
     assert np.abs(hinge).max() <= most_on_hinge * (1 + 1e-9)
-    assert not [str(each) for each in machine.verdicts() if str(each).startswith(("FAIL length", "FAIL clearance", "FAIL lifting"))]
+    assert not [str(each) for each in told_by(machine) if str(each).startswith(("FAIL length", "FAIL clearance", "FAIL lifting"))]
 
 
 # -- a tipper -----------------------------------------------------------------------------------------------

@@ -125,14 +125,14 @@ UNITS: dict[str, tuple[float, str]] = {
     "rad/s": (rad, "angular speed"), "deg/s": (deg, "angular speed"),
     "rad/s2": (rad, "angular acceleration"), "deg/s2": (deg, "angular acceleration"),
     "rad/s3": (rad, "angular jerk"), "deg/s3": (deg, "angular jerk"),
-    "rad/m": (1.0, "angle per length"),
+    "rad/m": (1.0, "angle per length"), "kg m2": (1.0, "inertia"),
 }  # fmt: skip
 
 
 SI: dict[str, str] = {
     "length": "m", "angle": "rad", "time": "s", "mass": "kg", "force": "N", "moment": "Nm", "pressure": "Pa", "volume": "m3", "area": "m2",
     "flow": "m3/s", "stiffness": "N/m", "power": "W", "energy": "J", "speed": "m/s", "acceleration": "m/s2", "jerk": "m/s3",
-    "angular speed": "rad/s", "angular acceleration": "rad/s2", "angular jerk": "rad/s3", "angle per length": "rad/m",
+    "angular speed": "rad/s", "angular acceleration": "rad/s2", "angular jerk": "rad/s3", "angle per length": "rad/m", "inertia": "kg m2",
 }  # fmt: skip
 """What each measure has in SI."""
 
@@ -234,7 +234,7 @@ def display_unit(measure: str, length: str = "m") -> str:
 
 DIGITS = r"(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
 """A number without its sign as it is written everywhere: in classes' texts, files, studies and commands."""
-_QUANTITY = re.compile(rf"\s*([-+]?{DIGITS})\s*([^\s\d]\S*(?: [^\s\d]+)?)?\s*\Z")
+_QUANTITY = re.compile(rf"\s*([-+]?{DIGITS})\s*([^\s\d]\S*(?: [^\s\d]\S*)?)?\s*\Z")
 _SPAN = re.compile(r"\s*(?P<low>.+?)\s+to\s+(?P<high>.+?)(?:\s+(?:in steps of|by)\s+(?P<step>.+?))?\s*\Z")
 _COMMA = re.compile(r"\s*[-+]?\d*,\d+\s*[^\s\d,]*\s*\Z")
 
@@ -313,7 +313,7 @@ SIGNS = (
     noted("l/min"), noted("gal/min"), noted("m3/s"), noted("N/m"), noted("N/mm"), noted("kN/m"), noted("kgf/mm"), noted("lbf/in"),
     noted("J"), noted("kJ"), noted("kWh"), noted("kW"), noted("hp"),
     noted("m/s"), noted("mm/s"), noted("in/s"), noted("m/s2"), noted("mm/s2"), noted("m/s3"), noted("mm/s3"),
-    noted("rad/s"), noted("deg/s"), noted("rad/s2"), noted("deg/s2"), noted("rad/s3"), noted("deg/s3"), noted("rad/m"),
+    noted("rad/s"), noted("deg/s"), noted("rad/s2"), noted("deg/s2"), noted("rad/s3"), noted("deg/s3"), noted("rad/m"), noted("kg m2"),
 )  # fmt: skip
 """The units that another language writes in its own way."""
 

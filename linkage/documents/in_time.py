@@ -19,7 +19,7 @@ from ..pictures.style import ACCENT
 from ..reports import Run, rate_columns, request_in_case, run_words
 from ..units import show
 from .content import Block, Illustration, Section, TableBlock
-from .outcome import CURVE_ROOM, HALF, NO_LETTER, column_grids, draw_column
+from .outcome import CURVE_ROOM, HALF, NO_LETTER, column_grids, draw_column, still_text
 from .run import CURVE, FIGURES, ReportSubject
 
 PACES = {noted("rate"): 1, noted("power"): 3, noted("flow"): 2}
@@ -71,6 +71,7 @@ def inertia_blocks(subject: ReportSubject, run: Run, along: Motion, beside: str)
     forces = {
         column.name: (request_in_case(column.request, run.case), column.unit) for column in subject.columns
         if is_of_force(column.request) and column.name not in subject.doubles and isinstance(column.request, Request)
+        and still_text(subject, column) != "0"
         and column.request.measured(subject.machine.plan) in FORCES
     }  # fmt: skip
     if not forces or run.declared is None:

@@ -30,7 +30,7 @@ from ..reports.table import column_texts as text_cells
 from ..units import factor, unit_sign
 from .content import Block, Cell, Illustration, Section, TableBlock
 from .pictures import ROOM, WIDE, height_of, in_one_unit
-from .run import CLOSE, FIGURES, ReportSubject, same_curve
+from .run import FIGURES, ReportSubject, same_curve
 
 HALF = 3.25
 """The width of a curve [inch]; two stand beside each other."""
@@ -104,7 +104,11 @@ def results_blocks(
         words = run_words(subject.machine, run)
         caption = said("Results {run}", run=words) if words else said("Results over the stroke")
         outside = np.ravel(motion.reached & ~judged_poses(subject.judge, motion)).tolist()
-        yield from column_grids(subject, caption, reported_columns(subject, run, found, names), outside)
+        shown = reported_columns(subject, run, found, names)
+        still = {} if names or subject.has_own_table else still_columns(subject, run, shown)
+        yield from column_grids(subject, caption, [column for column in shown if column.name not in still], outside)
+        if still:
+            yield said("The same at all these poses: {values}.", values=", ".join(still.values()))
         if any(outside):
             yield dagger_words()
     if names is None and subject.doubles:
@@ -137,8 +141,8 @@ def curve_blocks(
     drawn = [name for name in whole if name != first and name not in left]
     same = one_curve([first, *drawn], whole, limits)
     first = next(name for name in same if first in (name, *same[name]))
-    still = [name for name in same if name not in (first, *limits) and is_constant(whole[name])]
-    if still:
+    still = [name for name in same if name not in (first, *limits) and still_text(subject, whole[name])]
+    if still and (names is not None or subject.has_own_table):
         yield said("The same all along this run, and not drawn: {names}.", names=", ".join(map(heading_of, still)))
     drawn = [first, *(name for name in same if name not in (first, *still))]
     beyond = wider_answers(subject, {name: whole[name] for name in drawn}, limits)
@@ -176,11 +180,17 @@ def one_curve(names: Sequence[str], columns: Mapping[str, Column], limits: Mappi
     return {group[0]: group[1:] for group in led}
 
 
-def is_constant(column: Column) -> bool:
-    """Return whether a column has one value all along."""
-    values = np.asarray(column.values, float)
-    finite = values[np.isfinite(values)]
-    return bool(finite.size) and float(np.ptp(finite)) <= CLOSE * float(np.max(np.abs(finite)))
+def still_text(subject: ReportSubject, column: Column) -> str:
+    """Return a column's value as it is shown, if it is the same all along; else ""."""
+    values = np.asarray(column.shown, float).ravel()
+    texts = {*cell_texts(subject, column, values[np.isfinite(values)])}
+    return texts.pop() if len(texts) == 1 else ""
+
+
+def still_columns(subject: ReportSubject, run: Run, columns: Sequence[Column]) -> dict[str, str]:
+    """Return the columns that are the same at all poses, but for the strokes: by name, each with its value and its unit."""
+    still = {column: still_text(subject, column) for column in columns if np.size(column.values) > 1 and column.name not in run.ways}
+    return {column.name: f"{heading_of(column.name)} {text} {unit_sign(column.unit)}".strip() for column, text in still.items() if text}
 
 
 # Beside each curve, what the judge finds over all that the machine runs: a line where that lies beyond the curve.
@@ -264,7 +274,10 @@ def column_grids(subject: ReportSubject, caption: str, columns: Sequence[Column]
     if len({*columns[0].shown.ravel().tolist()}) < len(ends):
         columns = [Column(said("No."), np.arange(1.0, len(ends) + 1.0), "", 0), *columns]
     texts = [cell_texts(subject, column, values) for column, values in zip(columns, flat(columns), strict=True)]
-    for number, block in enumerate(column_blocks(columns, texts, LETTERS)):
+    blocks = [*column_blocks(columns, texts, LETTERS)]
+    if len(blocks) > 1 and len(blocks[-1]) == 2 < len(blocks[-2]) - 1:  # no table of one column
+        blocks[-1].insert(1, blocks[-2].pop())
+    for number, block in enumerate(blocks):
         last = [f"{text}{end}" for text, end in zip(texts[block[-1]], ends, strict=True)]
         rows = tuple(zip(*(texts[place] for place in block[:-1]), last, strict=True))
         title = caption if not number else said("{caption}, continued", caption=caption)

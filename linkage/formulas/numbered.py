@@ -348,9 +348,10 @@ class Equations(Sequence[Equation], Shown):
 
     @property
     def part_titles(self) -> dict[str, str]:
-        """The heading of each part, `lower (Arm)`, by its name, the machine itself by ""; none without parts."""
-        parts = self.machine.plan.of_kind(Part)
-        return {"": self.machine.plan.title} | {name: f"{name} ({part.plan.title})" for name, part in parts.items()} if parts else {}
+        """The heading of each part, `lower (Arm)`, `arm` of one that is called as its class, the machine's by ""; none without parts."""
+        parts = {name: part.plan.heading for name, part in self.machine.plan.of_kind(Part).items()}
+        named = {name: name if kind.lower() == name.rpartition(".")[2].lower() else f"{name} ({kind})" for name, kind in parts.items()}
+        return {"": self.machine.plan.heading} | named if parts else {}
 
     # -- numbers ---------------------------------------------------------------------------------------
 

@@ -395,7 +395,7 @@ class LinkMass(OnBody):
     at: tuple[float, float] | None = None
     gravity: tuple[float, float] = DOWN
     inertia: Parameter | None = None
-    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"mass": "kg", "inertia": ""})
+    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"mass": "kg", "inertia": "kg m2"})
     argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"at": "pair", "gravity": "gravity"})
     not_negative: ClassVar[frozenset[str]] = frozenset({"mass", "inertia"})
     optional: ClassVar[frozenset[str]] = frozenset({"inertia"})

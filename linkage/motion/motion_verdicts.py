@@ -14,7 +14,7 @@ import numpy as np
 from ..assembly import sketch_words, width_words
 from ..errors import DefinitionError, LinkageError, unwarned
 from ..language import heading_of, said
-from ..loads import TwoPoint
+from ..loads import PLAIN_CASE, TwoPoint
 from ..plan import Mask, name_or_pins
 from ..quantities import Member
 from ..units import deg, display_unit, show
@@ -582,7 +582,8 @@ def answers_at(judge: Judge) -> tuple[dict[str, Answer], list[str]]:
 def pose_value(answer: Answer) -> str:
     """Return the value of an answer in its unit, with the load case where there are several."""
     value = show(float(answer.value), display_unit(answer.measures, "mm"), 4) if np.isfinite(answer.value) else said("no value")
-    return f"{value} ({answer.case})" if answer.case and "case" in answer.named else value
+    case = said("own loads") if answer.case == PLAIN_CASE else answer.case
+    return f"{value} ({case})" if answer.case and "case" in answer.named else value
 
 
 Motion._limits_of = limits_over  # a motion's limits ask the judge, who is made with motions

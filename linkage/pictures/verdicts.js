@@ -292,7 +292,7 @@ function atPose() {
   const at = followed(stands).slice(0, own.length), { covered, found } = asking.here(at, pose, strokes[runs].courses ? strokes[runs].over : -1), faults = [];
   for (const [q, each] of found.entries()) {
     const { unit } = questions[q], value = isNumber(each.value) ? size(each.value, unit) : say("no value");
-    if (each.ok === false) faults.push({ q, rule: ruled(questions[q]), text: value, limit: isNumber(each.limit) ? size(each.limit, unit) : "", case: each.case });
+    if (each.ok === false) faults.push({ q, rule: ruled(questions[q]), text: value, limit: isNumber(each.limit) ? size(each.limit, unit) : "", case: each.case === "plain" ? say("own loads") : each.case });
   }
   for (const each of columns) {
     const given = data.limits[each.name], value = given && each.row !== undefined && !questions.some(({ rule }) => rule === each.name) ? pose.values[each.row][0] : NaN;

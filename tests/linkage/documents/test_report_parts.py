@@ -26,6 +26,7 @@ from linkage import (
     Dyad,
     Force,
     Ground,
+    LinkMass,
     LoadCase,
     Mechanism,
     OnLink,
@@ -49,7 +50,7 @@ from linkage.documents.forces import Stop, blocked_cylinders, body_words, worst_
 from linkage.documents.html import html_text
 from linkage.documents.inputs import in_digits, member_rows, plain_words, with_units
 from linkage.documents.markdown import markdown
-from linkage.documents.outcome import CURVE_ROOM, HALF, curve_blocks, draw_column
+from linkage.documents.outcome import CURVE_ROOM, HALF, column_grids, curve_blocks, draw_column
 from linkage.documents.pdf import pdf
 from linkage.documents.pictures import painted
 from linkage.documents.reporting import NUMBER, cited_numbers, own_system, set_in_type, speaking
@@ -306,6 +307,30 @@ def test_no_curve_is_drawn_twice():
 
 
 # -- what pins carry ---------------------------------------------------------------------------------------
+
+
+def test_what_stands_still_is_said_once_and_inertia_has_its_unit(tmp_path):
+    class Lever(Mechanism):
+        phi = Stroke(0, 60 * deg)
+        O = Ground(0, 0)
+        L = Dimension(0.4)
+        A = Crank(O, OA=L, angle=phi)
+        half = 0.5 * L
+        own = LinkMass("O A", mass=10, at=(0.2, 0.0), inertia=0.3)
+
+    text = report(Lever(), tmp_path / "lever.md", count=3).read_text(encoding="utf-8")
+    heads = [line for line in text.splitlines() if line.startswith("| phi, deg |")]
+    assert heads and not [line for line in heads if "half" in line or line.count("|") < 4]
+    assert "The same at all these poses: half 0.2000." in text and "inertia=0.3 kg m2" in text
+
+
+@pytest.mark.parametrize("extra", [0, 1, 2])
+def test_no_table_of_results_has_one_column(extra):
+    motion = Loader().sweep(3)
+    columns = [Column(f"{k} {'x' * 17}", np.arange(3.0), "", 0) for k in range(13 + extra)]
+    blocks = [*column_grids(ReportSubject.of(Loader(), {}, 3), "Results", columns, [False] * motion.reached.size)]
+    wide = [len(each.headings) - 1 for each in blocks]
+    assert len(wide) > 1 < min(wide) and sum(wide) == 12 + extra
 
 
 def test_every_load_case_has_its_pins():

@@ -1265,7 +1265,8 @@ def circuit_having(cylinder: Ram, plan: Declared, is_needed: bool = True) -> Cir
         return None
     if len(mine) > 1 and not feeding:
         names = ", ".join(each.name for each in mine)
-        remedy = f"name one: {mine[0].name}.pressure_for(motion)"
+        word = "pressure_for" if mine[0].kind_in(plan.members) == "held" else "pressure"
+        remedy = f"name one: {mine[0].name}.{word}(motion)"
         raise DefinitionError(f"{plan.title}: {cylinder.name} is on {len(mine)} circuits, {names}; {remedy}.")
     return next(iter((*feeding, *mine)), None)
 

@@ -149,6 +149,10 @@ def test_a_double_line_of_one_ratio_carries_as_a_single_one_and_of_two_locks():
     assert np.all(level > 2 * bar - 1e-3) and np.all(other > 1 * bar - 1e-3) and np.all(np.abs(least) < 1e-6 * (level + other) ** 2)
     share = 1.0 - (50 / 90) ** 2
     assert_allclose(level - share * other, Single.level.pressure(one), rtol=0, atol=1e-8 * np.max(level + other))
+    for side, of_line in (("piston", level), ("rod", other)):
+        assert_allclose(two[pressure("master", side=side)], of_line, rtol=1e-9)
+    with pytest.raises(DefinitionError, match=r"name one: level.pressure\(motion\)"):
+        Double.master.pressure(two)
     assert [each.ok for each in told_by(Double(), "level", "other")].count(False) == 0
     motion = Unequal().sweep(3)
     for ask in (Unequal.lift.thrust, Unequal.slave.thrust, pin_forces, Unequal.level.pressure):

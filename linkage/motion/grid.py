@@ -355,7 +355,7 @@ def recalled(motion: MotionLike, what: Hashable, make: Callable[[], Made]) -> Ma
 
     It is taken for what `make` returns anew: nothing in it may change, and nothing in it hangs on what was asked before.
     """
-    if motion._design_shape or any(map(varies, motion.designs.values())):
+    if motion._design_shape or (not motion.designs.is_of_floats and any(map(varies, motion.designs.values()))):
         return make()
     known: dict[Hashable, Any] = motion.plan.made("recent", lambda _: {})
     strokes = tuple((name, value.shape, blake2b(value.tobytes(), digest_size=16).digest()) for name, value in motion.strokes.items())

@@ -71,7 +71,7 @@ class NumpyBlocks:
             return [in_block(value, 0) for value in self.passed(design)]
         last, found = self._last
         if last != key or not found:
-            found = [in_block(value, 0) for value in self.passed(key)]
+            found = [np.array(value, float) for value in self.passed(key)]
             self._last = key, found
         return found
 

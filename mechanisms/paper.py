@@ -13,7 +13,7 @@ from linkage.checks import require_one_design
 from linkage.cli.command import CSV, Option, option, picture_option, pose_options
 from linkage.cli.settings import CHECK, OVER, machine_of, pair, si_value
 from linkage.errors import DefinitionError, known_name
-from linkage.motion import Answer, Judge, Question
+from linkage.motion import Answer, Question, judge_along
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -66,4 +66,4 @@ def named_figure(figures: Mapping[str, Callable[[Machine], Figure]], name: str, 
 
 def answers_over(motion: Motion, questions: Sequence[Question]) -> list[Answer]:
     """Return the answers to some questions over all that a motion covers."""
-    return Judge(motion.plan, motion.designs, [motion]).answers(questions)
+    return judge_along(motion).answers(questions)

@@ -8,7 +8,7 @@ from .functions import PoseFunction, evaluate, evaluate_grid, source_of
 from .gaps import gap, nearest_places
 from .grid import Grid
 from .instants import Instants
-from .judge import Judge, Question, case_named
+from .judge import Judge, Question, case_named, judge_along
 from .limits import places_text, stroke_display_unit, stroke_measure, stroke_unit, way_text
 from .live import LiveText, live_text
 from .measures import Condition, Constraint, Leaf, Measure, at, integral, least, most, reachable, worst

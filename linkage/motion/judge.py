@@ -18,7 +18,7 @@ import numpy as np
 
 from ..checks import is_listed, require_type
 from ..errors import DefinitionError, cited, ensure, errors_of, known_name, unwarned, warned_once
-from ..language import said
+from ..language import current_language, said
 from ..loads import AS_IT_RUNS, FRICTIONLESS, PLAIN, PLAIN_CASE, Acting, ForceElement, LoadCase
 from ..numeric.box import values_a_stroke
 from ..numeric.line import SAMPLES
@@ -27,6 +27,7 @@ from ..plan import Mask, Plan
 from ..program import FloatArray, Kernel
 from ..quantities import PoseCondition, Quantity, is_whole, keywords
 from ..quantities.quantity import stands_for
+from ..units import current_system
 from ..vectors import Numbers
 from .answer import LOST, LOST_SHARE, NONE_LOST, NOTHING_LEFT, OF_VALUE, PER_DESIGN, UNBOUNDED, Answer, LostPlaces, PerDesign
 from .evaluation import Evaluation
@@ -834,7 +835,7 @@ class Judge:
         """Return the lost places of a candidate of one design."""
         seen = candidate.seen
         if seen is not None:
-            key = (id(candidate.place), seen.design)
+            key = (id(candidate.place), seen.design, current_language(), current_system())  # as it is told there
             if key not in self._lost:
                 self._lost[key] = candidate.place.lost_places(seen)
             return self._lost[key]
@@ -923,6 +924,11 @@ class Judge:
             outside=seen.outside, width=place.width, count=sum(each.count for each in self._seen), units=units, measures=LOST_SHARE,
             named=frozenset(["over"] if len(self.places) > 1 else []),
         )  # fmt: skip
+
+
+def judge_along(motion: Motion) -> Judge:
+    """Return the judge of the designs of a motion over all that it covers, made once."""
+    return motion._once(("judge", motion.plan), lambda: Judge(motion.plan, motion.designs, [motion]))
 
 
 def of_batch(each_of: Sequence[Answer], shape: tuple[int, ...]) -> Answer:

@@ -19,7 +19,7 @@ from linkage.errors import ensure, unwarned
 from linkage.language import noted, said, translated
 from linkage.loads.element import Formulas
 from linkage.mechanism import require_mechanism
-from linkage.motion import Judge, MotionFunction, Over, require_motion
+from linkage.motion import Judge, MotionFunction, Over, judge_along, require_motion
 from linkage.motion.grid import recalled
 from linkage.plan import Plan
 from linkage.program import FloatArray
@@ -228,7 +228,7 @@ def weakest(motion: Motion) -> Weakest | None:
     Weakest, optional
         The weakest point.
     """
-    judge = Judge(motion.plan, motion.designs, [motion])
+    judge = judge_along(motion)
     worst, easiest = judge.answers([most(MotionFunction(stroke_per_newton)), least(MotionFunction(stroke_size_per_newton))])
     if not worst.value > 0.0:
         return None

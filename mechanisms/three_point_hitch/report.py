@@ -12,7 +12,7 @@ import numpy as np
 from linkage import Column, ForceElement, Mechanism, Motion, least, most, pin_forces
 from linkage.language import noted, said
 from linkage.loads import Case
-from linkage.motion import Judge, MotionFunction
+from linkage.motion import Judge, MotionFunction, judge_along
 from linkage.program import FloatArray
 from linkage.reports import ranges_below_zero, spans_in_words
 from linkage.units import g0, show, shown_number
@@ -215,7 +215,7 @@ def rules(hitch: Mechanism, motion: Motion) -> list[Verdict]:
         return []
     if motion._design_shape:
         return [batch_verdict(motion)]
-    judge, worst = Judge(motion.plan, motion.designs, [motion]), weakest(motion)
+    judge, worst = judge_along(motion), weakest(motion)
     says = said("the ratio is not above zero anywhere: the load is not limited by this cylinder.") if worst is None else worst.sentence
     found = Verdict("capacity", worst is None or worst.capacity >= float(motion.inputs["load.mass"]) * g0, says)
     return [

@@ -305,6 +305,8 @@ def test_only_leaves_out_and_its_border_is_found():
         Over(only=[True])
     nowhere = machine.answers([most(y("D")) <= 1.0], over=Over(only=[y("D") >= 50.0]))[0]
     assert nowhere.ok is None and nowhere.status == "nothing left"
+    (before,) = Rocker(L0=0.6).answers([most(y("B")) <= 1.4], over=Over(S=(0.0, 0.38), only=[ref("S") <= 0.2]))
+    assert before.ok and before.lost.share == 0.0  # what cannot be assembled is left out as well
 
 
 # Measures.

@@ -13,21 +13,20 @@ from ..errors import AssemblyError, SingularError, ensure, unknown, unwarned
 from ..language import noted, said, translated
 from ..loads import Case, ForceElement, LoadCase, Loads
 from ..motion import Motion
+from ..plan.members import FRAME
 from ..program import FloatArray
-from ..quantities import joined_names
 from ..reports import case_along, in_case_words
 from ..statics import JointForce, PinForces, pin_forces
 from ..units import current_system, shown_in
 from .arrows import NOTHING_THERE, ArrowLayer, TurningArrow, VectorArrow
 from .scene import centre_beside
 from .shapes import left_of
+from .shown_values import bodies_shown, short_name
 from .strokes import pose_words
-from .style import part_of_points
 
 PIN, LOAD, MEMBER, GROUND = "#0072b2", "#d55e00", "#007f5c", "#000000"
 """The colours of pin forces, loads, the ends of cylinders and springs, and of the ground under supports: Okabe and Ito's, one darker."""
 
-FRAME = "frame"
 Rates: TypeAlias = Mapping[str, Any] | None
 
 SENSE = noted("A pin force is drawn as it acts on the body named; where none is named, from the frame on what it holds.")
@@ -135,16 +134,14 @@ def force_layer(forces: ForcesAt, body: str = "") -> ArrowLayer:
     """
     found, arrows, turning = forces.found, [], []
     for place, joint in enumerate(found.joints):
-        on, by, sign = joint.on, joint.by, 1.0
-        is_borne = on == FRAME or (on in found.members and by not in found.members and by != FRAME)
-        if by == body or (is_borne and not body):
-            on, by, sign = by, on, -1.0
+        on, by = (body, joint.on) if joint.by == body else bodies_shown(found, joint) if not body else (joint.on, joint.by)
         if body not in ("", on):
             continue
+        sign = 1.0 if on == joint.on else -1.0
         members = [found.members[each] for each in ((by,) if body else (on, by)) if each in found.members]
         colour, ends = MEMBER if members else PIN, f"from {by}" if body else f"on {on} from {by}"
-        other = said("from the frame") if by == FRAME else said("from {body}", body=short_name(forces, by))
-        text = other if body else " ".join([*members[:1], *([] if by == FRAME else [said("on {body}", body=short_name(forces, on))])])
+        other = said("from the frame") if by == FRAME else said("from {body}", body=short_name(found, by))
+        text = other if body else " ".join([*members[:1], *([] if by == FRAME else [said("on {body}", body=short_name(found, on))])])
         force, couple = sign * forces.one(joint.force), sign * float(forces.one(joint.couple))
         if joint.has_force:
             arrows.append(VectorArrow(f"force {joint.point} {place} {ends}", forces.spot(joint), force, colour, text))
@@ -158,22 +155,6 @@ def force_layer(forces: ForcesAt, body: str = "") -> ArrowLayer:
     if body:
         words |= {PIN: said("from a body or the frame"), MEMBER: said("from a cylinder or spring")}
     return layer_of(arrows, turning, words | {GROUND: said("from the ground")}, "" if body else translated(SENSE))
-
-
-MOST_LETTERS = 6
-"""A body that no link names goes by all its points where these have so many letters at the most; else by its first two."""
-
-
-def short_name(forces: ForcesAt, body: str) -> str:
-    """Return a body's name as it is written at an arrow: its member's, its link's, or its points; of many its part's first two."""
-    found = next((each for each in forces.found._structure.bodies if each.name == body), None)
-    if found is None or body in forces.found.members or len(found.points) < 3:
-        return body
-    owner = part_of_points(found.points)
-    own = [each for each in found.points if part_of_points([each]) == owner]
-    if found.label or (len(own) == len(found.points) and len("".join(each.rpartition(".")[2] for each in own)) <= MOST_LETTERS):
-        return found.label or body
-    return f"{joined_names(*(own if len(own) > 1 else found.points)[:2])}\N{HORIZONTAL ELLIPSIS}"
 
 
 def layer_of(arrows: list[VectorArrow], turning: list[TurningArrow], words: Mapping[str, str], sense: str) -> ArrowLayer:

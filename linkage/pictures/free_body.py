@@ -8,10 +8,11 @@ from matplotlib.figure import Figure
 
 from ..language import said
 from ..motion import Motion
+from ..plan.members import FRAME
 from . import arrows, style
 from .arrows import ArrowLayer, Wording
 from .drawing import MarkPart, body_part, pin
-from .force_arrows import FRAME, ForceQuestion, drawn_body, force_layer, forces_at_pose, short_name
+from .force_arrows import ForceQuestion, drawn_body, force_layer, forces_at_pose
 from .labels import offsets
 from .layout import grown
 from .overlays import sheet_note
@@ -19,6 +20,7 @@ from .paper import BOTTOM, LEFT, RIGHT, TOP, footnote, legend_row, write_title
 from .scene import Places, Plate, Scene
 from .shapes import hull, segment
 from .sheet import empty_figure, fitted_to, points_a_metre, sheet
+from .shown_values import short_name
 from .style import STRONG
 from .symbols import LabelPart, MovingPart, polygon
 
@@ -51,7 +53,7 @@ def draw_free_body(motion: Motion, pose: int, question: ForceQuestion) -> Figure
     draw_polygon(beside, layer)
     sheet_note(ax, [said("No forces here: {why}", why=forces.refusal)] if forces.refusal else forces.found.remarks)
     heading = motion.plan.heading
-    on_body = said("{machine}: forces on {body}", machine=heading, body=short_name(forces, body))
+    on_body = said("{machine}: forces on {body}", machine=heading, body=short_name(forces.found, body))
     on_body = said("{machine}: forces on the frame", machine=heading) if body == FRAME else on_body
     write_title(figure, on_body, question.pose_heading(motion, pose))
     legend_row(ax, *ax.get_legend_handles_labels())

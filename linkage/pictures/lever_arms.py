@@ -12,15 +12,17 @@ from matplotlib.lines import Line2D
 from ..errors import DefinitionError, ensure
 from ..language import said, translated
 from ..motion import Motion
+from ..plan.members import FRAME
 from ..program import FloatArray
 from ..units import current_system, factor, shown_in
 from . import style
 from .arrows import ArrowLayer, TurningArrow, VectorArrow, Wording, significant
 from .dimensioned import LETTERS, LengthLine
-from .force_arrows import FRAME, GROUND, LOAD, MEMBER, PIN, ForcesAt, layer_of, load_groups, short_name
+from .force_arrows import GROUND, LOAD, MEMBER, PIN, ForcesAt, layer_of, load_groups
 from .paper import LEFT, RIGHT, WIDTH
 from .scene import Bounds
 from .shapes import left_of
+from .shown_values import short_name
 
 BESIDE, STEP = 2.5, 1.7
 """How far outside what turns the lever arms of parallel forces begin, in sizes, and how far apart they stand, in heights of letters."""
@@ -87,7 +89,7 @@ def lever_arms(forces: ForcesAt, at: Motion, pin: str, box: Bounds, size: float)
         if own == other:
             continue
         on, by, sign = (joint.on, joint.by, 1.0) if own else (joint.by, joint.on, -1.0)
-        text, colour = said("from {body}", body=short_name(forces, by)), MEMBER if by in forces.found.members else PIN
+        text, colour = said("from {body}", body=short_name(forces.found, by)), MEMBER if by in forces.found.members else PIN
         if joint.point != pin and joint.has_force:
             force = sign * forces.one(joint.force)
             held.append(VectorArrow(f"force {joint.point} {number} on {on}", forces.spot(joint), force, colour, text))

@@ -292,10 +292,10 @@ function drawn({ first = () => [], under = () => [], over = () => [] }) {
     ...scene.pins.map((i) => circle(i, 0.5 * unit0, "paper", "ink", 1.3 * EDGE)), ...scene.dots.map((i) => circle(i, 0.48 * unit0, "ink", "paper", 1)), ...loads(false), ...over(), placed,
   ];
 }
-/* The points' names; where these are letters with primes, what they mean stands in lines at the top of the sheet. */
+/* The points' names; where these are letters with primes, what they mean stands in lines at the top of the sheet, but on a phone. */
 function named() {
   const lines = [[]], most = (sheetWide - 24) / 7;
-  for (const each of scene.legend || []) {
+  for (const each of (!phone.matches && scene.legend) || []) {
     if (lines[lines.length - 1].join("  ").length + each.length + 3 > most) lines.push([]);
     lines[lines.length - 1].push(each);
   }

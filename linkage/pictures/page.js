@@ -131,7 +131,7 @@ function grip({ point, x, y }) {
 sheet.addEventListener("pointerdown", (event) => {
   const at = scene.names.map((_, p) => px(...spot(pose, p, 0))), finger = spotOf(event), far = at.map((each) => apart(each, finger)), nearest = far.indexOf(min(...far));
   touched = far[nearest] < 24 ? at.flatMap((each, p) => (apart(each, at[nearest]) < 6 ? [p] : [])) : [];
-  if (phone.matches) soon("fit");
+  if (phone.matches || showsForces) soon("fit");
 }, true);
 on(sheet, "pointermove", (event) => {
   if (!gripped || event.pointerId !== gripped.id) return;
@@ -158,16 +158,23 @@ for (const end of ["pointerup", "pointercancel"]) on(sheet, end, (event) => {
   clock = phaseNow();
   soon("fit"); remember();
 });
-/* An arrow: a force at a point, in the scale in which the greatest is a sixth of the sheet. */
+/* Which body a force acts on, and from which; of a load its name. */
+function actsText({ on, by, load }) {
+  if (load) return on;
+  return by === undefined ? `${on} ${say("from the ground")}` : `${say("on {body}", { body: on })} ${by ? say("from {body}", { body: by }) : say("from the frame")}`;
+}
+/* An arrow: a force at a point, in the scale in which the greatest is a sixth of the sheet. What is touched says on what it acts. */
 function arrow(each) {
-  const { point, load } = each, colour = css(load ? "accent" : "other"), line = draw(sheet, "path", { w: 2.2, join: "round", fill: colour, stroke: colour });
+  const { point, load } = each, colour = css(load ? "accent" : "other"), line = draw(sheet, "path", { w: 2.2, join: "round", fill: colour, stroke: colour }), title = draw(line, "title", {});
   const number = label(point, "halo force", FORCE_FONT, 12, `color-mix(in srgb, ${colour} 60%, var(--ink))`);
+  on(line, "pointerover", () => { title.textContent = `${number.said.split(" ")[0]} ${actsText(each)}`; });
   return (at) => {
     const { x, y } = each, k = pull.scale, f = [pose.values[x]?.[0] * k, -pose.values[y]?.[0] * k], long = hypot(...f), head = min(9, 0.5 * long);
     if (!showsForces || !(long > 1)) { set(line, { d: "" }); number.said = ""; return; }
     const d = [f[0] / long, f[1] / long], from = centred(each, at), tip = [from[0] + f[0], from[1] + f[1]], neck = [tip[0] - head * d[0], tip[1] - head * d[1]], w = 0.38 * head;
     set(line, { d: broken([from, neck, [neck[0] - w * d[1], neck[1] + w * d[0]], tip, [neck[0] + w * d[1], neck[1] - w * d[0]], neck]) });
-    Object.assign(number, { said: shown(hypot(pose.values[x][0], pose.values[y][0]), data.force, 3), anchor: tip, way: d });
+    const force = shown(hypot(pose.values[x][0], pose.values[y][0]), data.force, 3);
+    Object.assign(number, { said: touched.includes(point) ? `${force} ${actsText(each)}` : force, anchor: tip, way: d });
     arrows.push([from, tip]);
   };
 }
@@ -204,8 +211,8 @@ function legend() {
     draw(group, "text", { x: 12 + bar, y: bottom - 13, class: "halo", anchor: "end" }).textContent = top + unitText(unit.unit);
   }
   if (showsForces && pull.most) {
-    const text = say("longest arrow {force}", { force: shown(pull.most, data.force, 3) });
-    draw(group, "text", { x: sheetWide - 12, y: bottom, class: "halo", anchor: "end" }).textContent = text;
+    const lines = [say("longest arrow {force}", { force: shown(pull.most, data.force, 3) }), say("touch a pin: on which bodies its forces act")];
+    lines.forEach((text, i) => { draw(group, "text", { x: sheetWide - 12, y: bottom - 15 * i, class: "halo", anchor: "end" }).textContent = text; });
   }
 }
 

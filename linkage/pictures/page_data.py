@@ -20,6 +20,7 @@ from ..mechanism import Mechanism, verdicts_of
 from ..motion import Answer, Column, HasVerdicts, Judge, LiveText, Motion, Tabled, case_named, speakers, stroke_display_unit
 from ..motion.requests import NodeRequest, RequestLike, transmission
 from ..plan import Plan, name_or_pins, opening, plan_measure, require_kind
+from ..plan.members import FRAME
 from ..plugins import MACHINES, entry_points
 from ..program import FloatArray, Node
 from ..quantities import is_number, joined_names
@@ -168,8 +169,9 @@ class PageRequests:
         for name, member in speakers(self.plan, Tabled).items():
             for what, request in member.gauges(self.plan).items():
                 self.by_name |= situated_requests(f"gauge {name} {what}", request, self.situations) if what in GAUGES else {}
-        for k, (_, x, y, *_) in enumerate(self.arrows):
-            self.by_name |= situated_requests(f"arrow {k} x", x, self.situations) | situated_requests(f"arrow {k} y", y, self.situations)
+        for k, arrow in enumerate(self.arrows):
+            for axis, asked in ("x", arrow.x), ("y", arrow.y):
+                self.by_name |= situated_requests(f"arrow {k} {axis}", asked, self.situations)
 
 
 def ranges_given(machine: Mechanism, vary: Any) -> dict[str, tuple[float, float] | None] | None:
@@ -261,10 +263,10 @@ def page_data(requests: PageRequests, live: LiveText) -> PageData:
         **unit_tables({*(each[3] for each in dims), *(str(each[1]) for each in columns)}, {*asked, *(each["unit"] for each in strokes)}),
         "joints": [{"point": name, "row": rows[key]} for name in requests.motion._joints if (key := f"joint {name}") in rows],
         "arrows": [
-            {"point": index[point], "x": x, "y": y}
-            | ({"load": 1} if is_load else {})
-            | ({"beside": [index[centre[1]], *centre[2]]} if centre else {})
-            for k, (point, _, _, is_load, centre) in enumerate(requests.arrows)
+            {"point": index[arrow.point], "x": x, "y": y, "on": arrow.on}
+            | ({"by": "" if arrow.by == FRAME else arrow.by} if arrow.by else {"load": 1} if arrow.is_load else {})
+            | ({"beside": [index[centre[1]], *centre[2]]} if (centre := arrow.centre) else {})
+            for k, arrow in enumerate(requests.arrows)
             for x, y in [[situated_rows(f"arrow {k} {axis}", live, len(requests.situations)) for axis in "xy"]]
             if x is not None and y is not None
         ],

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Any, TypeAlias, TypeVar, cast
+from typing import Any, NamedTuple, TypeAlias, TypeVar, cast
 
 import numpy as np
 
@@ -18,10 +18,25 @@ from ..program import FloatArray
 from ..reports import Run, at_its_rates, case_shown, request_in_case
 from ..statics import AnyMotion, JointForce, LawRequest, TracedMotion, applied_loads, ground_loads, pin_force, pin_forces, rates_in
 from .scene import centre_beside
+from .shown_values import bodies_shown, short_name
 
 AnyRequest = TypeVar("AnyRequest")
 Centre: TypeAlias = tuple[str, str, tuple[float, float]] | None
-PageArrow: TypeAlias = tuple[str, Request, Request, bool, Centre]
+
+
+class PageArrow(NamedTuple):
+    """A force that a page can draw: its point, its parts [N], whether it is a load, its centre where it acts beside its point.
+
+    `on` is the body on which it acts and `by` the one that it comes from; of a load and of the ground's push `on` is the name, `by` "".
+    """
+
+    point: str
+    x: Request
+    y: Request
+    is_load: bool
+    centre: Centre
+    on: str
+    by: str
 
 
 @dataclass(frozen=True)
@@ -66,7 +81,7 @@ def load_part(kind: str, name: Any, axis: int, motion: AnyMotion, acting: Acting
     At the point "" it is all of the element's loads.
     """
     if kind == "ground":
-        return cast(FloatArray, ground_loads(motion, acting)[name].force[axis])
+        return cast(FloatArray, ground_loads(motion, acting)[name[0]].force[axis])
     element, point = name
     applied = applied_loads(motion, acting, rates_in(motion, acting)).loads
     loads = [each for each in applied if each.element == element and point in ("", each.point)]
@@ -74,7 +89,7 @@ def load_part(kind: str, name: Any, axis: int, motion: AnyMotion, acting: Acting
 
 
 def force_arrows(machine: Mechanism, motion: Motion, situations: Sequence[PageSituation]) -> list[PageArrow]:
-    """Return the forces that can be drawn, those at pins and supports first: points, parts [N], whether each is a load, its centre.
+    """Return the forces that can be drawn, those at pins and supports first.
 
     A mass acts at a centre of its own beside its point. A load that acts in one of the situations alone, as the couple of what is
     accelerated, is among them.
@@ -82,31 +97,37 @@ def force_arrows(machine: Mechanism, motion: Motion, situations: Sequence[PageSi
     plan, poses = machine.plan, motion.moved({name: value[motion.reached][:1] for name, value in motion.strokes.items()})
     try:
         with unwarned():
-            joints = pin_forces(poses).joints
+            solved = pin_forces(poses)
         kept = plan.made(("traced loads",), lambda twin: twin)
         traced = TracedMotion(kept, kept.trace.view())
         here: list[AnyMotion] = [traced, *(each.motion for each in situations if each.motion is not None)]
         loads = dict.fromkeys((each.element, each.point) for one in here for each in applied_loads(one, PLAIN, rates_in(one, PLAIN)).loads)
     except LinkageError:  # no forces, or loads that have no program
         return []
-    forces = [each for each in joints if each.has_force and each.place is None] if loads else []  # an arrow of the page begins at a point
+    joints = solved.joints if loads else ()
+    forces = [each for each in joints if each.has_force and each.place is None]  # an arrow of the page begins at a point
     told = [each for each in forces if alone_on(each, forces)]
     try:
         for joint in told[:1]:
-            bound(plan, joint_part(joint, forces, "x")).nodes(kept)
+            bound(plan, joint_part(joint, joint.on, forces, "x")).nodes(kept)
     except UntracedError:  # which parts pull is found pose by pose: the loads alone are drawn
         told = []
-    found: list[PageArrow] = [(each.point, joint_part(each, forces, "x"), joint_part(each, forces, "y"), False, None) for each in told]
-    asked: dict[tuple[str, object], tuple[str, Centre]] = {}
+    found = list[PageArrow]()
+    for joint in told:
+        on, by = bodies_shown(solved, joint)
+        x, y = (joint_part(joint, on, forces, axis) for axis in "xy")
+        found.append(PageArrow(joint.point, x, y, False, None, short_name(solved, on), short_name(solved, by)))
+    asked: dict[tuple[str, Any], tuple[str, Centre]] = {}
     if loads:
-        asked = {("ground", k): (each.point, None) for k, each in enumerate(ground_loads(poses, PLAIN))}
+        asked = {("ground", (k, each.element)): (each.point, None) for k, each in enumerate(ground_loads(poses, PLAIN))}
     for element, point in loads:
         centre = centre_beside(plan, element)
         asked["load", (element, "" if centre else point)] = (centre[0] if centre else point, centre)
     for (kind, name), (point, centre) in asked.items():
         keys = ((kind, name, axis) for axis in (0, 1))
         x, y = (LawRequest(formula=partial(load_part, *key), text=f"{kind} {name}", known=key, acting=PLAIN) for key in keys)
-        found.append((point, x, y, kind == "load", centre))
+        called = name[kind == "ground"].partition("(")[0]
+        found.append(PageArrow(point, x, y, kind == "load", centre, called, ""))
     return found
 
 
@@ -116,9 +137,9 @@ def alone_on(joint: JointForce, joints: Sequence[JointForce]) -> str:
     return next((body for body in (joint.on, joint.by) if bodies.count(body) == 1), "")
 
 
-def joint_part(joint: JointForce, joints: Sequence[JointForce], axis: str) -> Request:
-    """Return the request for a part of a joint's force on its own body; where several joints of it meet there, by the other body's."""
+def joint_part(joint: JointForce, on: str, joints: Sequence[JointForce], axis: str) -> Request:
+    """Return the request for a part of a joint's force on one of its bodies; where several joints of it meet there, by the other's."""
     body = alone_on(joint, joints)
     asked = pin_force(joint.point, body, axis)
-    found: Request = asked if body == joint.on else -1.0 * asked
+    found: Request = asked if body == on else -1.0 * asked
     return found

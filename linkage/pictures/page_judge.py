@@ -232,7 +232,7 @@ def delivered_over(place: Domain, request: Request) -> list[DeliveredRow]:
     with unwarned():
         values, free = motion[request], request.unlimited(motion)
     bounded = np.ones(motion.shape) if free is None else np.where(free, -1.0, 1.0)
-    return [tuple(float(f"{each:.10g}") if np.isfinite(each) else None for each in row.tolist()) for row in (values, bounded)]
+    return [tuple(float(f"{each:.7g}") if np.isfinite(each) else None for each in row.tolist()) for row in (values, bounded)]
 
 
 def course_data(instants: Instants) -> PageData:

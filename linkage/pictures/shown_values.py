@@ -15,10 +15,12 @@ from ..mechanism import Mechanism
 from ..motion import Column, Motion
 from ..motion.measures import Constraint, FixedNumber, Leaf, Least, Most
 from ..motion.requests import may_be_unlimited
+from ..plan.members import FRAME
 from ..program import FloatArray
-from ..quantities import is_number
-from ..statics import LawRequest
+from ..quantities import is_number, joined_names
+from ..statics import JointForce, LawRequest, PinForces
 from ..units import factor, require_measure
+from .style import part_of_points
 
 
 def named_points(machine: Mechanism, names: object, what: str) -> tuple[str, ...]:
@@ -107,3 +109,29 @@ def typeset(text: str) -> str:
     for plain, raised in (("cm2", "cm²"), ("m2", "m²"), ("cm3", "cm³"), ("m3", "m³"), ("kgf_cm", "kgf/cm")):
         text = text.replace(plain, raised)
     return text
+
+
+# Joint forces: the body on which one is shown, and how bodies are called.
+
+
+def bodies_shown(found: PinForces, joint: JointForce) -> tuple[str, str]:
+    """Return the body on which a joint's force is shown, and the body or the frame that it comes from."""
+    on, by = joint.on, joint.by
+    is_borne = on == FRAME or (on in found.members and by not in found.members and by != FRAME)
+    return (by, on) if is_borne else (on, by)
+
+
+MOST_LETTERS = 6
+"""A body that no link names goes by all its points where these have so many letters at the most; else by its first two."""
+
+
+def short_name(found: PinForces, body: str) -> str:
+    """Return a body's name as it is written at an arrow: its member's, its link's, or its points; of many its part's first two."""
+    known = next((each for each in found._structure.bodies if each.name == body), None)
+    if known is None or body in found.members or len(known.points) < 3:
+        return body
+    owner = part_of_points(known.points)
+    own = [each for each in known.points if part_of_points([each]) == owner]
+    if known.label or (len(own) == len(known.points) and len("".join(each.rpartition(".")[2] for each in own)) <= MOST_LETTERS):
+        return known.label or body
+    return f"{joined_names(*(own if len(own) > 1 else known.points)[:2])}\N{HORIZONTAL ELLIPSIS}"

@@ -191,28 +191,35 @@ function judge(n = STILL) {
 }
 const weight = ({ ok, share, rule, stale }) => (stale ? -1e7 : 0) + (ok === false ? 1e6 : rule ? 0 : -1e3) + (isNumber(share) ? share : -1);
 function list(found) {
-  const groups = new Map(), worst = (list) => max(...list.map(weight)), isSplit = (rows) => phone.matches && !rows[0].stale && rows.some(({ ok }) => ok === false);
+  const groups = new Map(), worst = ([, rows]) => max(...rows.map(weight));
   for (const each of found) {
     const key = each.stale ? " stale" : each.member;
     groups.set(key, [...(groups.get(key) || []), each]);
   }
-  const parts = [...groups].flatMap(([member, rows]) => (isSplit(rows) ? [[member, rows.filter((each) => !each.ok)], [`${member} kept`, rows.filter((each) => each.ok)]] : [[member, rows]]))
-    .filter(([, rows]) => rows[0]).sort(([, a], [, b]) => worst(b) - worst(a));
+  const parts = [...groups].sort((a, b) => worst(b) - worst(a));
   byId("groups").replaceChildren(...parts.map(([member, rows]) => group(member, rows.sort((a, b) => weight(b) - weight(a)))));
 }
+/* A group: its head tells the worst; where a rule fails, those that are kept are folded below it. */
 function group(member, rows) {
-  const fold = make("details"), head = make("summary"), title = make("b"), fails = rows.filter((each) => each.ok === false).length, [worst] = rows, items = make("ul");
+  const head = make("summary"), title = make("b"), [worst] = rows, kept = rows.filter(({ ok }) => ok === true), fails = rows.some(({ ok }) => ok === false);
   title.textContent = member === " stale" ? say("{n} verdicts do not follow your changes; they are as delivered", { n: rows.length }) : groupName(worst.member) || say("Machine");
-  head.className = fails ? "bad" : rows.some((each) => each.ok === true) ? "ok" : "";
+  head.className = fails ? "bad" : kept.length ? "ok" : "";
   head.append(title);
+  const told = kept.length && say("{n} kept", { n: kept.length });
   if (member !== " stale") {
-    const kept = rows.filter((each) => each.ok === true).length, rule = ruleIn(worst), text = fails ? rule : [isNumber(worst.share) && rule, kept && say("{n} kept", { n: kept })].filter(Boolean).join(" \u00b7 ");
+    const rule = ruleIn(worst), text = fails ? rule : [isNumber(worst.share) && rule, told].filter(Boolean).join(" \u00b7 ");
     head.append(make("span", { textContent: text }), bar(worst));
   }
-  fold.open = unfolded.has(member) || ((fails > 0 || (data.task && !member)) && !unfolded.has(`!${member}`));
-  on(fold, "toggle", () => { unfolded[fold.open ? "add" : "delete"](member); unfolded[fold.open ? "delete" : "add"](`!${member}`); });
-  items.append(...rows.map(item));
-  fold.append(head, items);
+  const listed = (each) => { const items = make("ul"); items.append(...each.map(item)); return items; }, isSplit = fails && told;
+  const rest = isSplit ? [folded(`${member} kept`, false, make("summary", { className: "ok", textContent: told }), listed(kept))] : [];
+  return folded(member, fails || (data.task && !member), head, listed(isSplit ? rows.filter(({ ok }) => ok !== true) : rows), ...rest);
+}
+/* What folds, and stays as it was folded by hand. */
+function folded(key, isOpen, ...content) {
+  const fold = make("details");
+  fold.open = unfolded.has(key) || (isOpen && !unfolded.has(`!${key}`));
+  on(fold, "toggle", () => { unfolded[fold.open ? "add" : "delete"](key); unfolded[fold.open ? "delete" : "add"](`!${key}`); });
+  fold.append(...content);
   return fold;
 }
 function item({ ok, rule: full, member, text, share, q }) {
@@ -336,7 +343,7 @@ function judgedOver() {
 /* Unfold a row of the verdicts, such as a rule, and go to it. */
 function showRow(id) {
   const row = byId(id) || byId("verdicts");
-  if (row.closest("details")) row.closest("details").open = true;
+  for (let fold = row; (fold = fold.parentElement.closest("details")); ) fold.open = true;
   row.scrollIntoView({ block: "center" });
   row.classList.add("shown");
   setTimeout(() => row.classList.remove("shown"), 1500);

@@ -307,6 +307,21 @@ CARRIED = {
 LAST = list(CARRIED)[-2:]                                      # they hang on K
 
 
+@for_all(("start", "end", "side"), [("A", "B", "barrel"), ("B", "A", "rod")])
+def test_a_point_that_bars_hold_on_a_side_goes_with_it(start, end, side):
+    members = {"K": OnLink(start, end, **{f"{start}K": 0.1}), "H": OnLink(start, end, **{f"{start}H": 0.2, f"{end}{start}H": 0.6})}
+    members |= {"X": Dyad("K", "H", KX=0.2, HX=0.15, side=LEFT), "body": Link("A B K H X"), "f": Force("X", (300.0, -2000.0))}
+    machine = variant(Bare, **members)()
+    motion = machine.sweep(5)
+    forces = assert_balanced(machine, motion)
+    assert machine.mobility == machine.gruebler == 1
+    for k in range(5):
+        at = places(motion, k)
+        own = by_hand(at, [("arm", at["T"], (0.0, -500 * 9.80665)), (side, at["X"], (300.0, -2000.0))])
+        assert_allclose(forces.thrusts["lift"][k], own["lift"], rtol=1e-9, atol=1e-6)
+        assert_allclose(forces.force("A", on="lift")[:, k], own["A"], rtol=1e-9, atol=1e-6)
+
+
 @for_all(("base", "name"), [(base, name) for name in CARRIED for base in (Bare, Held)[name in LAST :]])
 def test_what_a_second_stroke_moves_on_it(base, name):
     """The thrust is the potential energy's slope, by differences."""

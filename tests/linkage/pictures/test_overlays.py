@@ -42,7 +42,7 @@ from linkage.motion import whole_body
 from linkage.motion.gaps import shape_named
 from linkage.pictures import style
 from linkage.pictures.arrows import significant
-from linkage.pictures.force_arrows import ForceQuestion, forces_at_pose
+from linkage.pictures.force_arrows import ForceQuestion, ForcesAt, force_layer, forces_at_pose
 from linkage.pictures.gap_marks import assumed_pairs
 from linkage.pictures.lever_arms import lever_arms, moment_about
 from linkage.pictures.overlays import asked_poles, pole_marks, pole_rates
@@ -129,7 +129,7 @@ def with_forces(kind):
 @first_daily(2, "machine", [Press, *sorted([*LOADED, Tipper], key=lambda each: each is not ThreePointHitch)], ids=attrgetter("__name__"))
 def test_arrows_are_the_pin_forces_and_loads_in_one_scale(machine):
     motion, figure = with_forces(machine)
-    found = pin_forces(motion)
+    found = forces_at_pose(motion, 0, ForceQuestion()).found
     drawn, size = arrows(figure, "force "), max(float(joint.size) for joint in found.joints if joint.has_force)
     unit, factor = ("kN", 1e3) if named(figure, "scale kN") else ("N", 1.0)
     scale = scale_of(figure, unit) / factor
@@ -149,6 +149,18 @@ def test_arrows_are_the_pin_forces_and_loads_in_one_scale(machine):
     assert_allclose(
         total, scale * sum(acting.force for _, acting in found._loads), atol=(1e-9 + 0.012 * dots(figure, "load ")) * scale * size
     )
+
+
+@first_daily(3, "machine", [Press, *sorted([*LOADED, Tipper], key=lambda each: each is not ThreePointHitch)], ids=attrgetter("__name__"))
+def test_a_force_on_a_page_acts_on_the_body_on_which_it_is_drawn(machine):
+    motion = pose_of(machine())
+    drawn = force_layer(ForcesAt(pin_forces(motion), 0)).arrows
+    for each in force_arrows(machine(), motion, [PageSituation(None)]):
+        if each.by:
+            words = "" if each.by == "frame" else f"on {each.on}"
+            there = [one.vector for one in drawn if one.name.startswith(f"force {each.point} ") and one.text.endswith(words)]
+            shown = np.array([float(np.ravel(motion[part])[0]) for part in (each.x, each.y)])
+            assert any(np.allclose(shown, one, atol=1e-9 * np.hypot(*one)) for one in there) or not np.hypot(*shown) > 1e-6, each.point
 
 
 def test_axle_loads_stand_at_the_supports_of_the_frame():
@@ -237,9 +249,9 @@ def test_own_mass_is_drawn_at_its_centre_of_gravity_and_a_moment_as_a_curve():
     assert_allclose(tail, centre, atol=1e-9)
     assert abs(vector[0]) < 1e-9 and vector[1] < 0.0
     on_page = [each for each in force_arrows(Press(), Press().sweep(3), [PageSituation(None)]) if "own" in str(each[1])]
-    ((point, x, y, is_load, beside),) = on_page
-    assert point == "A" and is_load and beside == ("A", "B", (0.2, 0.05))
-    assert_allclose([motion[x], motion[y]], [0.0, -30.0 * 9.80665], atol=1e-9)
+    (own,) = on_page
+    assert own.point == "A" and own.is_load and own.centre == ("A", "B", (0.2, 0.05)) and own.on == "own"
+    assert_allclose([motion[own.x], motion[own.y]], [0.0, -30.0 * 9.80665], atol=1e-9)
     assert named(figure, "moment drag")["moment drag on CB value"].get_text() == "0.250 kNm drag"
     curve = np.array(named(figure, "moment drag")["moment drag on CB"].get_xydata())
     turn = curve - 0.5 * (motion["C"] + motion["B"])

@@ -1504,7 +1504,20 @@ def test_on_a_phone_the_name_and_the_forces_of_what_is_touched_are_told(chromium
         shown.tab.touchscreen.tap(box[0] + x, box[1] + y)
         shown.settle()
         told = [text for text, *_ in shown(TEXTS)]
-        assert "B" in told and len(told) > 1 and all(text == "B" or text.endswith("N") for text in told)
+        assert told == ["B", "59.6\N{THIN SPACE}kN on OBC from lift"]
+
+
+def test_a_group_with_a_rule_that_fails_has_one_heading_and_folds_what_is_kept(chromium, tmp_path):
+    file = page(ThreePointHitch(**{"lift.rod": 0.02}), tmp_path / "rod.html")
+    for size in (LAPTOP, PHONE):
+        with Shown(chromium, file, size) as shown:
+            shown.tab.locator("#groups details details").first.wait_for(state="attached")
+            heads = shown("[...document.querySelectorAll('#groups > details > summary > b')].map((each) => each.textContent)")
+            assert len(heads) == len({*heads}) > 1
+            split = "[...document.querySelectorAll('#groups details details')]"
+            assert shown(f"{split}.length") >= 1 and not any(shown(f"{split}.map((each) => each.open)"))
+            assert not shown(f"{split}.some((each) => each.querySelector('.bad'))")
+            assert shown(f"{split}.every((each) => each.parentElement.querySelector('li.bad'))")
 
 
 def test_a_points_name_is_short_where_nothing_else_is_called_so():

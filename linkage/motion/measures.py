@@ -61,9 +61,10 @@ class Measure(Arithmetic):
     def from_leaves(self, value: Callable[[Leaf], Any]) -> Any:
         """Return the number that the values of its leaves make; of anything that adds and multiplies."""
 
-    def tree(self, of_leaf: Callable[[Leaf], Any]) -> Any:
+    def tree(self, of_leaf: Callable[[Leaf], object]) -> object:
         """Return it as plain data: of a leaf what `of_leaf` says, a number, or an operator with its two sides."""
-        return self.from_leaves(of_leaf)
+        found: object = self.from_leaves(of_leaf)
+        return found
 
     @property
     def numbers(self) -> tuple[float, ...]:
@@ -165,7 +166,7 @@ class CombinedMeasure(Measure):
                 return float(OPERATIONS[self.symbol](np.float64(left), np.float64(right)))
         return OPERATIONS[self.symbol](left, right)
 
-    def tree(self, of_leaf: Callable[[Leaf], Any]) -> Any:
+    def tree(self, of_leaf: Callable[[Leaf], object]) -> tuple[object, ...]:
         return self.symbol, self.left.tree(of_leaf), self.right.tree(of_leaf)
 
     @property
@@ -447,7 +448,7 @@ class Constraint(Condition):
         """Its two sides."""
         return self.left, self.right
 
-    def tree(self, of_leaf: Callable[[Leaf], Any]) -> Any:
+    def tree(self, of_leaf: Callable[[Leaf], object]) -> tuple[object, ...]:
         """Return it as plain data: its sign with its two sides."""
         return self.symbol, self.left.tree(of_leaf), self.right.tree(of_leaf)
 

@@ -480,8 +480,8 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
     def pressure_on(self, side: str, motion: AnyMotion, acting: Acting, circuit: Circuit | None = None, *, below: bool = False) -> Array:
         """Return the pressure on one of its sides, shape (...) [Pa gauge]; 0 where the other side holds, or with `below` negative values.
 
-        At rest without friction and efficiencies; while it moves, on a side that works, as its circuit has it. A side on another line that
-        keeps its own pressure has that.
+        At rest without friction and efficiencies; while it moves, and where it stands in a motion in time, on a side that works, as its
+        circuit has it. A side on another line that keeps its own pressure has that.
         """
         if side not in self.own_sides:
             raise DefinitionError(f"{self.name or self}: it has no {side} side, whose pressure could be asked for; it is single acting.")
@@ -498,9 +498,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         if (acting.movement == FRICTIONLESS and goes is None) or (self.side not in (side, "both") and self.side != "regenerative"):
             return at_rest
         found = pressure_of(self, motion, acting) if circuit is None else circuit.pressure_in(self, motion, acting)
-        if goes is not None:
-            return np.where((goes != 0.0) & (along > 0.0), found, at_rest)
-        return np.where(along > 0.0, found, least) + 0.0 * thrust
+        return np.where(along > 0.0, found, least if goes is None else at_rest) + 0.0 * thrust
 
     def columns(self, motion: Motion) -> list[Column]:
         """Return its thrust without friction and, unless circuits differ in them, its pressure and its reserve, for the table."""

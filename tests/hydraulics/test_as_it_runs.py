@@ -43,6 +43,8 @@ def test_each_instant_is_that_of_the_direction_in_which_it_goes(machine):
             there = going == sense
             plain = machine.at(S=motion.strokes["S"][there])[request("ram", direction=way)]
             assert there.any() and found[there] == pytest.approx(plain, rel=1e-9, nan_ok=True), (request, way)
+    sides = [motion[pressure("ram", side=side)] for side in ("piston", "rod")]
+    assert np.max(sides, axis=0) == pytest.approx(motion[pressure("ram")], rel=1e-9)  # also where it stands
 
 
 def test_the_worst_over_a_path_in_time_is_that_of_its_directions():

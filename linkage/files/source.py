@@ -222,7 +222,8 @@ def measured_columns(
         if not measures:
             continue
         where = f"{what}: {heading}"
-        ensure(unit, f'{where}: a heading with its unit is expected, in quotes where commas part the columns, such as "boom.ram, m/s".')
+        usual = next((each for each, (_, kind) in UNITS.items() if kind in measures), "m")
+        ensure(unit, f'{where}: a heading with its unit is expected, in quotes where commas part the columns: "{name}, {usual}".')
         by = unit_factor(unit, measures, where)
         ensure(name not in found, f"{where}: {name} stands twice; keep one column.")
         found[name] = []

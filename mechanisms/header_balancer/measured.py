@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from linkage import DefinitionError, FileError, Motion
+from linkage.disk import check_name
 from linkage.errors import cited
 from linkage.files.source import measured_columns
 from linkage.frozen import immutable
@@ -92,6 +93,7 @@ def read_measured(path: str | Path) -> Mapping[str, FloatArray]:
     FileError
         The file cannot be read; the line is named.
     """
+    check_name(path)
     path, kinds = Path(path), {**CURVES, **PLACES}
     try:
         found = measured_columns(path, str(path), lambda name: [kinds[name]] if name in kinds else (), gaps=True)

@@ -245,7 +245,7 @@ USES = [
         ("hydrolinkage: A reaction of 1e+09 kgf is above the weights', 1143 kgf; ask for less.",),
     ),
     ("balance @", "header_balancer --measured nowhere.csv", ("hydrolinkage: nowhere.csv: there is no such file; look at its name",)),
-    ("balance @", "header_balancer --measured values.csv", ("is one of m, mm, cm, inch, in, ft.",)),
+    ("balance @", "header_balancer --measured values.csv", ('in quotes where commas part the columns: "R_y, m"',)),
     (
         "balance @",
         "header_balancer --figure nothing",

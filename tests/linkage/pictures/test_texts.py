@@ -236,7 +236,7 @@ def test_a_long_thin_machine_fills_its_sheet():
 
 def test_a_body_goes_by_its_link_in_pictures():
     forces = forces_at_pose(SHIPPED["crane"].load()().at(phi=1.0, psi=1.5, t=1.0), 0, ForceQuestion())
-    names = {each.name: short_name(forces, each.name) for each in forces.found._structure.bodies}
+    names = {each.name: short_name(forces.found, each.name) for each in forces.found._structure.bodies}
     assert names["OJOCOGHVBUC"] == "main_boom"
     assert names["JKER"] == "arm"
     assert names["lift"] == "lift"

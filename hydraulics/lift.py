@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from functools import partial
 from types import MappingProxyType
 from typing import Any, ClassVar
 
@@ -393,8 +392,8 @@ class LiftingCylinder:
 
     def left(self, cylinder: str | Ram, circuit: str | LiftLine) -> Condition | None:
         """Return that the side that works holds the load where another line keeps the other one at its own pressure; None for none."""
-        behind, free = other_side(self.ram), partial(is_free, self.ram, other_side(self.ram), self.circuit, self.judge.plan)
-        none = behind is None or all(map(free, self.judge.cases))
+        behind = other_side(self.ram)
+        none = behind is None or all(is_free(self.ram, behind, self.circuit, self.judge.plan, case) for case in self.judge.cases)
         return None if none else least(left_request(cylinder, Acting(direction=FRICTIONLESS), circuit, behind)) >= 0.0
 
     def conditions(self) -> dict[str, Condition]:
@@ -435,7 +434,7 @@ class LiftingCylinder:
         question, pump = least(reserve_request(*self.request_arguments)) >= 1.0, self.show(self.circuit.supply(self.judge.motion))
         found = self.judge.answer(question)
         if np.isnan(found.value) and found.ok is None:
-            text = said("the load drives all the way: it is not limited by this cylinder{remedy}.", remedy=self.other_side())
+            text = said("the load drives all the way: it is not limited by this cylinder{remedy}.", remedy=self.remedy_both())
             return Verdict("lifting", None, text, answer=found)
         if found.value < ENDLESS:
             text = said(
@@ -445,7 +444,7 @@ class LiftingCylinder:
             return Verdict("lifting", False, text, answer=found)
         driven = self.parts(found, lambda reserve: np.where(np.isnan(reserve), -1.0, 1.0)) if found.unlimited else ()
         free = said(
-            "; the load drives {where}, there it is not limited by this cylinder{remedy}", where=with_and(driven), remedy=self.other_side()
+            "; the load drives {where}, there it is not limited by this cylinder{remedy}", where=with_and(driven), remedy=self.remedy_both()
         ) if driven and self.ram.side != "both" else ""  # fmt: skip
         says = said("at {pump} the least reserve is {least:.3f}, {where}", pump=pump, least=found.value, where=found.place)
         if found.ok:
@@ -462,7 +461,7 @@ class LiftingCylinder:
         reserve = reserve_request(self.ram, acting, self.circuit, is_judged=True)
         return below_zero(way, lambda at: of_reserve(reserve.of(at)))
 
-    def other_side(self) -> str:
+    def remedy_both(self) -> str:
         """Return the remedy where the thrust changes its sign and one side alone is declared."""
         alone = self.ram.side == "both" or self.ram.is_single_acting or self.goes_back_by_another
         return "" if alone else said('; works="both" judges the other side as well')

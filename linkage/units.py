@@ -213,9 +213,9 @@ def amount_or_float(value: float) -> float:
     return value if isinstance(value, Amount) else float(value)
 
 
-def units_of(measures: str) -> list[str]:
-    """Return the units of a kind, "pressure"."""
-    return [name for name, (_, what) in UNITS.items() if what == measures]
+def units_of(*measures: str) -> list[str]:
+    """Return the units of a kind, "pressure", or of several."""
+    return [name for name, (_, what) in UNITS.items() if what in measures]
 
 
 def factor(unit: str) -> float:

@@ -8,7 +8,7 @@ from typing import Any
 
 from ..errors import DefinitionError, ensure, known_name, unknown
 from ..quantities import Course, Curve, is_number, ramp
-from ..units import UNITS, Amount
+from ..units import UNITS, Amount, units_of
 from .design import degrees_text
 from .expression import one_unit
 from .names import FileTable, Keywords, Names, require_entry, shortened
@@ -91,7 +91,7 @@ def numbers_read(key: str, given: object, names: Names) -> Any:
         return [numbers_read(key, each, names) for each in given]
     unit, measures = one_unit(given) if isinstance(given, str) else "", MEASURES.get(key, ())
     if unit and UNITS[unit][1] not in measures:
-        fits = [each for each, (_, what) in UNITS.items() if what in measures]
+        fits = units_of(*measures)
         raise DefinitionError(f"{key} = {shortened(given)}: use one of {', '.join(fits)}." if fits else f"{key} has no units.")
     found = amount_of(given, names, "")
     ensure(is_number(found), f"{key} = {shortened(given)}: a number is expected; a course follows no dimension.")

@@ -18,7 +18,7 @@ from typing import Any, NoReturn
 
 from ..disk import read
 from ..errors import DefinitionError, FileError, ensure, known_name
-from ..units import UNITS, Amount
+from ..units import UNITS, Amount, units_of
 from .names import NAME_LENGTH, Keywords, shortened
 
 Key = tuple[str, ...]
@@ -199,8 +199,8 @@ def heading_read(heading: str) -> tuple[str, str]:
 def unit_factor(unit: str, measures: Collection[str], where: str) -> float:
     """Return the factor of a heading's unit to SI; DefinitionError for one that is unknown or measures something else ("": anything)."""
     known_name("Unit", unit, UNITS, where=where)
-    fits = ", ".join(name for name, (_, what) in UNITS.items() if what in measures)
-    ensure(UNITS[unit][1] in measures or "" in measures, f"{where}: {unit} measures {UNITS[unit][1]}; use one of {fits}.")
+    fits = UNITS[unit][1] in measures or "" in measures
+    ensure(fits, f"{where}: {unit} measures {UNITS[unit][1]}; use one of {', '.join(units_of(*measures))}.")
     return float(UNITS[unit][0])
 
 
@@ -222,8 +222,8 @@ def measured_columns(
         if not measures:
             continue
         where = f"{what}: {heading}"
-        usual = next((each for each, (_, kind) in UNITS.items() if kind in measures), "m")
-        ensure(unit, f'{where}: a heading with its unit is expected, in quotes where commas part the columns: "{name}, {usual}".')
+        wanted = "a heading with its unit is expected, in quotes where commas part the columns"
+        ensure(unit, f'{where}: {wanted}: "{name}, {units_of(*measures)[0]}".')
         by = unit_factor(unit, measures, where)
         ensure(name not in found, f"{where}: {name} stands twice; keep one column.")
         found[name] = []

@@ -351,7 +351,7 @@ class AccumulatorBlock:
         DefinitionError
             A negative volume, or one that leaves no gas.
         """
-        held = pose_values(fluid, "Fluid held")
+        held = pose_values(fluid, "Fluid held", "volume")
         if np.any(held < -ROUNDING * self._bank.total):  # `fluid` is a difference of volumes, which may round below none
             raise DefinitionError(f"Fluid held = {np.nanmin(held) / cm3:.6g} cm3 is below zero; the block cannot hold less than none.")
         return self._pressure_in(self._gas_left(self._bank.total, np.maximum(held, 0.0)))
@@ -503,7 +503,7 @@ class AccumulatorBlock:
             `p_min` above `p_max`, or an unknown unit.
         """
         unit_or_none(unit, "checks(unit=...)", units_of("pressure"))
-        given = (one_number(pressure, "Pressure") for pressure in (p_min, p_max, allowed))
+        given = (one_number(pressure, "Pressure", "pressure") for pressure in (p_min, p_max, allowed))
         low, high, limit = (float(self._absolute(pressure)) - self.atmosphere for pressure in given)
         text = partial(show, unit=unit or self.unit or "bar", digits=4)
         if low > high:
@@ -562,7 +562,7 @@ class AccumulatorBlock:
         vessels = [not_negative(one.volume, VOLUME) for one in self.accumulators]
         if np.any(reduce(np.add, vessels) <= 0.0):
             raise DefinitionError("Every accumulator of the block has the volume 0, it is absent; give one of them a volume above zero.")
-        given = [all_finite(one.charge, CHARGE) + self.atmosphere for one in self.accumulators]
+        given = [all_finite(one.charge, CHARGE, "pressure") + self.atmosphere for one in self.accumulators]
         other = reduce(np.maximum, (np.where(vessel > 0.0, charge, 0.0) for charge, vessel in zip(given, vessels, strict=True)))
         charges = []
         for charge, vessel in zip(given, vessels, strict=True):
@@ -584,7 +584,7 @@ class AccumulatorBlock:
 
     def _absolute(self, pressure: ArrayLike) -> Array:
         self._check_sized()
-        return above_vacuum(all_finite(pressure, "Pressure") + self.atmosphere, self.atmosphere, "Pressure")
+        return above_vacuum(all_finite(pressure, "Pressure", "pressure") + self.atmosphere, self.atmosphere, "Pressure")
 
     def _charged(self, p1: ArrayLike) -> Array:
         """Return `p1` as absolute pressure [Pa]; DefinitionError where the block is rigid."""
@@ -601,7 +601,7 @@ class AccumulatorBlock:
 
     def _gas_after(self, p1: ArrayLike, withdrawn: ArrayLike) -> Array:
         """Return the gas volume [m3] after a withdrawal; beyond the block's total where the line is empty."""
-        return self._gas_left(self._bank.volume(self._charged(p1)), -pose_values(withdrawn, "Withdrawn volume"))
+        return self._gas_left(self._bank.volume(self._charged(p1)), -pose_values(withdrawn, "Withdrawn volume", "volume"))
 
     def _gas_left(self, gas: Array, pushed: Array) -> Array:
         """Return the gas volume [m3] after fluid [m3] is pushed in; DefinitionError where it leaves no gas."""
@@ -631,7 +631,7 @@ def there(charge: Array, vessel: Array) -> Array:
 def one_atmosphere(atmosphere: ArrayLike) -> Array:
     """Return the atmosphere [Pa]; DefinitionError where a batch gives several."""
     ensure(not np.ndim(atmosphere), "atmosphere is one number for all designs of a batch; give a float.")
-    return all_finite(atmosphere, "Atmosphere")
+    return all_finite(atmosphere, "Atmosphere", "pressure")
 
 
 # -- the rules an accumulator is chosen by, each with a verdict --------------------------------------------

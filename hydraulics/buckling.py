@@ -64,10 +64,11 @@ class Buckling:
     yield_strength: float = 355 * MPa
 
     def __post_init__(self) -> None:
-        for value, what in ((self.rod, "Rod"), (self.modulus, "Modulus"), (self.yield_strength, "Yield strength")):
-            positive(one_number(value, what), what)
+        positive(one_number(self.rod, "Rod", "length"), "Rod")
+        for value, what in ((self.modulus, "Modulus"), (self.yield_strength, "Yield strength")):
+            positive(one_number(value, what, "pressure"), what)
         in_metres(self.rod, "Rod")
-        if positive(one_number(self.safety, "Buckling safety"), "Buckling safety") < 1.0:
+        if positive(one_number(self.safety, "Buckling safety", "number"), "Buckling safety") < 1.0:
             raise DefinitionError(f"Buckling safety = {self.safety:g} is below 1; 3.5 is usual for hydraulic cylinders.")
         known_name("Mounting", self.mounting, MOUNTINGS)
 
@@ -170,7 +171,7 @@ class Buckling:
         Verdict
             The verdict.
         """
-        push, long = np.broadcast_arrays(pose_values(thrust, "Thrust"), _length(length))
+        push, long = np.broadcast_arrays(pose_values(thrust, "Thrust", ""), _length(length))
         use = push / self.critical(long)
         if not np.any(use > 0.0):
             return self.judged(1.0, 0.0)
@@ -210,7 +211,7 @@ class Buckling:
             return Verdict("buckling", False, text)
         if not one_number(thrust, "Thrust") > 0.0:
             return never_pushed()
-        one_number(length, "Length between the ends")
+        one_number(length, "Length between the ends", "length")
         limit, ok = float(self.critical(length)), thrust <= float(self.allowed(length))
         given = {
             "thrust": show(thrust, "kN", 4), "rod": show(self.rod, "mm", 4), "length": show(length, "mm", ".0f"),
@@ -280,7 +281,7 @@ def never_pushed() -> Verdict:
 
 
 def _length(length: ArrayLike) -> Array:
-    long = pose_values(length, "Length between the ends")
+    long = pose_values(length, "Length between the ends", "length")
     if is_traced(long):
         return positive(in_metres(long, "Length between the ends", 2.0 * LONGEST), "Length between the ends")
     in_metres(long[~np.isnan(long)] if np.any(~np.isnan(long)) else 1.0, "Length between the ends", 2.0 * LONGEST)

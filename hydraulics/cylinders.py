@@ -958,7 +958,7 @@ class Cylinder(BarrelAndRod, Ram):
             No bore is enough.
         """
         if length is not None:
-            one_number(length, "Length between the ends")
+            one_number(length, "Length between the ends", "length")
         thin = CylinderSize(self.size.bore, min(float(self.size.rod), chosen_series().rods[0]), self.count, self.side)
         bore = float(thin.sized_for(thrust, pressure).bore)
         sizes = [CylinderSize(bore, rod, self.count, self.side) for rod in standard_rods(bore)]

@@ -325,7 +325,7 @@ class FloatCircuit(GasLine):
         for name in ("charge_pressure", "seal_friction"):
             if not follows(getattr(self, name)):
                 in_pascals(getattr(self, name), name.replace("_", " ").capitalize())
-        if not follows(self.exponent) and np.any(all_finite(cast(ArrayLike, self.exponent), "Exponent") < 1.0):
+        if not follows(self.exponent) and np.any(all_finite(cast(ArrayLike, self.exponent), "Exponent", "number") < 1.0):
             raise DefinitionError(f"FloatCircuit: exponent={cited(self.exponent)} is below 1; 1 is a slow movement, 1.4 a fast one.")
         if not isinstance(self.block, AccumulatorBlock) and not can_be_called(self.block):
             said = f"block={cited(self.block)} is no AccumulatorBlock"

@@ -208,7 +208,7 @@ class Polytropic(Gas):
     temperature: float = ROOM
 
     def __post_init__(self) -> None:
-        n = all_finite(self.n, "Polytropic exponent")
+        n = all_finite(self.n, "Polytropic exponent", "number")
         outside = (n < 1.0) | (n > 10.0)
         if np.any(outside):
             raise DefinitionError(f"Polytropic exponent n = {n[outside][0]:.6g} is outside 1..10; 1 is isothermal, 1.4 adiabatic.")

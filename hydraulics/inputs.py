@@ -22,6 +22,7 @@ from linkage.plan import ArrayReading
 from linkage.program import Comparison, is_traced
 from linkage.quantities import Member, NamedMembers, Quantity, Reference, name_of, needs, quantity
 from linkage.steps import Link
+from linkage.units import require_measure
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -35,9 +36,9 @@ STRONGEST = 1.0
 """m3/s; a larger flow was given in litres a minute."""
 
 
-def all_finite(value: ArrayLike, what: str) -> Array:
+def all_finite(value: ArrayLike, what: str, kind: str = "") -> Array:
     """Return the value as floats, its shape kept; DefinitionError if it is text, NaN or infinite."""
-    array = _floats(value, what)
+    array = _floats(value, what, kind)
     if not is_traced(array) and not array.size:
         raise DefinitionError(f"{what} = {cited(value)} holds no number; give one at least, in SI units.")
     if not is_traced(array) and not np.all(np.isfinite(array)):
@@ -45,9 +46,9 @@ def all_finite(value: ArrayLike, what: str) -> Array:
     return array
 
 
-def one_number(value: ArrayLike, what: str) -> float:
+def one_number(value: ArrayLike, what: str, kind: str = "") -> float:
     """Return one finite number; DefinitionError for several, and for anything else."""
-    array = all_finite(value, what)
+    array = all_finite(value, what, kind)
     if array.ndim:
         raise DefinitionError(f"{what} = {cited(value)}: one number is expected, in SI units.")
     return float(array)
@@ -78,7 +79,7 @@ def not_negative(value: ArrayLike, what: str, remedy: str = "give zero or more")
 
 def in_metres(value: ArrayLike, what: str, most: float = WIDEST) -> Array:
     """Return a length [m], its shape kept; DefinitionError where it is above `most`, so that millimetres were meant."""
-    array = all_finite(value, what)
+    array = all_finite(value, what, "length")
     if np.any(array > most):
         large = float(np.max(array))
         raise DefinitionError(f"{what} = {large:.6g} m is more than any cylinder has; write {large:.6g} * mm if these are millimetres.")
@@ -92,7 +93,7 @@ def stroke_in_metres(value: ArrayLike, what: str, bore: ArrayLike | None = None)
 
 def in_pascals(value: ArrayLike, what: str) -> Array:
     """Return a pressure [Pa], its shape kept; DefinitionError where it is next to nothing and not none, so that bar were meant."""
-    array = all_finite(value, what)
+    array = all_finite(value, what, "pressure")
     size = np.abs(array)
     faint = (size > 0.0) & (size < FAINTEST)
     if np.any(faint):
@@ -103,20 +104,20 @@ def in_pascals(value: ArrayLike, what: str) -> Array:
 
 def in_cubic_metres(value: ArrayLike, what: str) -> Array:
     """Return a flow [m3/s], its shape kept; DefinitionError where no pump gives so much, so that litres a minute were meant."""
-    array = all_finite(value, what)
+    array = all_finite(value, what, "flow")
     if np.any(array > STRONGEST):
         large = f"{np.max(array):.6g}"
         raise DefinitionError(f"{what} = {large} m3/s is more than any pump gives; write {large} * litre / minute if it is in l/min.")
     return array
 
 
-def pose_values(value: ArrayLike, what: str) -> Array:
+def pose_values(value: ArrayLike, what: str, kind: str) -> Array:
     """Return a value over poses as floats: NaN stays where an array marks an unreached pose, else DefinitionError."""
-    array = _floats(value, what)
+    array = _floats(value, what, kind)
     if is_traced(array):
         return array
     if array.ndim == 0 or np.any(np.isinf(array)):
-        return all_finite(value, what)
+        return all_finite(value, what, kind)
     return array
 
 
@@ -138,14 +139,16 @@ def above_vacuum(pressure: Array, atmosphere: float, what: str) -> Array:
 
 def kelvin(value: ArrayLike, what: str, low: float = 200.0, high: float = 400.0) -> Array:
     """Return a gas temperature [K]; DefinitionError outside low..high, where degrees Celsius were meant or the law ends."""
-    array = all_finite(value, what)
+    array = all_finite(value, what, "number")
     outside = (array < low) | (array > high)
     if np.any(outside):
         raise DefinitionError(f"{what} = {array[outside][0]:.6g} K is outside {low:g}..{high:g} K; give kelvin: 20 deg C is 293.15.")
     return array
 
 
-def _floats(value: ArrayLike, what: str) -> Array:
+def _floats(value: ArrayLike, what: str, kind: str) -> Array:
+    if kind:
+        require_measure(value, kind, what)
     try:
         array = np.asarray(unmasked(value))
     except ValueError:
@@ -217,7 +220,7 @@ def number_set(element: ForceElement, motion: Poses, name: str) -> Array:
 
 def proper_share(share: float) -> None:
     """Raise DefinitionError for a share of the pressure that is not above 0 and up to 1."""
-    if not 0.0 < one_number(share, "share") <= 1.0:
+    if not 0.0 < one_number(share, "share", "number") <= 1.0:
         raise DefinitionError(f"share = {share:.6g} of the pressure is not in 0 to 1; 0.9 is how tractors are tested.")
 
 

@@ -293,7 +293,7 @@ def lift_verdicts(
     line = circuits.get(circuit) if isinstance(circuit, str) else circuit
     if not isinstance(line, PumpLine):
         raise unknown("LiftCircuit", str(circuit), circuits, where=motion.plan.title)
-    not_negative(one_number(resistance, "Return resistance"), "Return resistance")
+    not_negative(one_number(resistance, "Return resistance", "pressure"), "Return resistance")
     known_name("Unit", unit, UNITS, where="lift_verdicts(unit=...)")
     unreached = f"{motion.plan.title}: no pose of this motion can be assembled, so that there is nothing to judge."
     return line_verdicts(line, judge_of(motion, "A lift", given, unreached=unreached), resistance, unit)

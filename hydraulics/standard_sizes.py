@@ -272,8 +272,8 @@ class RamSize(ABC):
         Seal friction may be taken off the pressure, so a negative one is not refused. NaN in an array stays NaN.
         DefinitionError for a lone NaN or an infinite pressure.
         """
-        forward = pose_values(pressure, "Cylinder pressure") * self.area
-        return np.asarray(self.sense * (forward - pose_values(back, "Back pressure") * self.back_area))[()]
+        forward = pose_values(pressure, "Cylinder pressure", "pressure") * self.area
+        return np.asarray(self.sense * (forward - pose_values(back, "Back pressure", "pressure") * self.back_area))[()]
 
     def pressure_for(self, thrust: ArrayLike, back: ArrayLike = 0.0) -> Array:
         """Return the pressure at which all cylinders together give a thrust [N] against a `back` pressure; they broadcast.
@@ -281,7 +281,7 @@ class RamSize(ABC):
         Negative where the load drives the cylinder: this side is empty and the other one holds. Of both sides it is that in the
         piston side where it pushes, that in the rod side where it pulls. NaN and errors as `thrust`.
         """
-        force, against = pose_values(thrust, "Thrust"), pose_values(back, "Back pressure")
+        force, against = pose_values(thrust, "Thrust", ""), pose_values(back, "Back pressure", "pressure")
         if self.works == "both":
             pushing = (force + against * self.pull_area) / self.push_area
             return np.where(force < 0.0, (against * self.push_area - force) / self.pull_area, pushing)[()]
@@ -297,12 +297,12 @@ class RamSize(ABC):
 
         Of both sides a travel outwards (positive) fills the piston side, one inwards the rod side.
         """
-        way = pose_values(travel, "Travel")
+        way = pose_values(travel, "Travel", "length")
         return np.where(way < 0.0, -way * self.pull_area, way * self.push_area)[()] if self.works == "both" else (way * self.area)[()]
 
     def speed(self, flow: ArrayLike) -> Array:
         """Return the speed [m/s] in the working direction (of both sides: outwards) at a flow [m3/s] into all cylinders, same shape."""
-        return np.asarray(pose_values(flow, "Flow") / self.area)[()]
+        return np.asarray(pose_values(flow, "Flow", "flow") / self.area)[()]
 
 
 @refuses_changes
@@ -339,7 +339,7 @@ class CylinderSize(RamSize):
             thick = rod >= bore
             rods, bores = f"Rod {show(rod[thick][0], 'mm')}", f"bore {show(bore[thick][0], 'mm')}"
             raise DefinitionError(f"{rods} is not smaller than {bores}; exchange them or take a thinner rod.")
-        count = one_number(self.count, "Count of cylinders")
+        count = one_number(self.count, "Count of cylinders", "number")
         ensure(1.0 <= count <= MOST and count == int(count), f"Count of cylinders = {cited(self.count)}; give a whole number from 1 on.")
         known_name("Side", self.works, get_args(Works), where="works")
 
@@ -402,7 +402,7 @@ class CylinderSize(RamSize):
             No standard bore is enough, or a pressure not above zero.
         """
         force = abs(one_number(thrust, "Thrust"))
-        limit = float(positive(one_number(pressure, "Pressure"), "Pressure"))
+        limit = float(positive(one_number(pressure, "Pressure", "pressure"), "Pressure"))
         pulls = self.works == "both" and thrust < 0.0
         for bore in standard_bores():
             size = replace(self, bore=bore) if bore > self.rod else None
@@ -510,7 +510,7 @@ def catalogue(
     DefinitionError
         No row is left, or a number is not above zero.
     """
-    parts, rows = all_finite(dead, "Dead length"), []
+    parts, rows = all_finite(dead, "Dead length", "length"), []
     if parts.shape not in ((), (2,)):
         raise DefinitionError(f"Dead length = {cited(dead)}: give a length [m], or (length, factor of the bore) such as (0.12, 1.5).")
     constant, factor = (float(parts), 0.0) if parts.ndim == 0 else map(float, parts)

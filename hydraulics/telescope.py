@@ -123,7 +123,7 @@ class Telescope(Ram):
             what = f"Telescope: {len(self.bores)} bores and {len(self.strokes)} strokes"
             raise DefinitionError(f"{what}; give each moving stage one of both, the outermost first.")
         super().__post_init__()
-        many = one_number(self.count, "Count of telescopes")
+        many = one_number(self.count, "Count of telescopes", "number")
         ensure(1.0 <= many <= MOST and many == int(many), f"Count of telescopes = {cited(self.count)}; give a whole number from 1 on.")
         Buckling(1.0, self.mounting, self.safety)
         for number, bore in enumerate(self.bores, 1):

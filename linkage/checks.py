@@ -9,6 +9,7 @@ from typing import Any, TypeGuard, TypeVar, cast
 import numpy as np
 
 from .errors import DefinitionError, cited, ensure
+from .units import require_measure
 from .vectors import Scalar
 
 Kind = TypeVar("Kind")
@@ -74,7 +75,7 @@ def require_one_design(designs: Mapping[str, object], said: str) -> None:
 
 def require_number(
     what: str, value: object, expected: str, *, above: float = -math.inf, least: float = -math.inf,
-    most: float = math.inf, below: float = math.inf,
+    most: float = math.inf, below: float = math.inf, kind: str | None = "number",
 ) -> float:  # fmt: skip
     """Return one finite number within its limits; refuse anything else.
 
@@ -88,6 +89,8 @@ def require_number(
         What is expected, for the message, without the full stop: "a number is expected, zero or more".
     above, least, most, below : float
         The number is more than `above`, at least `least`, at most `most`, less than `below`.
+    kind : str, optional
+        What it measures, such as "length": an amount of another kind is refused; None where that is open.
 
     Raises
     ------
@@ -96,6 +99,8 @@ def require_number(
     """
     if not (is_number(value) and above < value < below and least <= value <= most):
         raise unfit(what, value, expected)
+    if kind is not None:
+        require_measure(value, kind, what if ")" in what else what.replace("(", ": "))
     return value
 
 

@@ -22,7 +22,6 @@ from contextvars import ContextVar
 from types import MappingProxyType
 from typing import Any, Self
 
-from .checks import is_listed
 from .errors import DefinitionError, article, cited, known_name, unknown
 from .language import noted, translated
 from .star import declare_public
@@ -180,7 +179,7 @@ def require_measure(value: object, unit: str, what: str) -> None:
     value : object
         What was given, or several of such in a list or a tuple. Only an `Amount` knows what it measures; anything else passes.
     unit : str
-        A unit of what is expected, such as "mm", or what that measures, "length"; "" for a plain number.
+        A unit of what is expected, such as "mm", or what that measures, "length"; "number" for a plain one, "" for any.
     what : str
         What it was given for, `Weight: mass`, for the message.
 
@@ -190,9 +189,9 @@ def require_measure(value: object, unit: str, what: str) -> None:
         The amount measures something else. Moments, stiffnesses and numbers of an open kind take forces, since `5 * kN` may stand for
         5 kN m; they take no lengths, angles and pressures. A volume may be a stroke, of oil, where a length is expected.
     """
-    wanted = unit if unit in SI else UNITS[unit][1] if unit in UNITS else ""
+    wanted = unit if unit in SI or unit == "number" else UNITS[unit][1] if unit in UNITS else ""
     for each in amounts_in(value):
-        may_stand = {"force": wanted not in EXAMPLES, "volume": wanted in ("", "length")}
+        may_stand = {"force": wanted not in (*EXAMPLES, "number"), "volume": wanted in ("", "length")}
         if each.measures != wanted and not may_stand.get(each.measures, False):
             expected = f"value of {wanted}, such as {EXAMPLES[wanted]}" if wanted in EXAMPLES else "number in SI, without a unit"
             given = f"{article(each.measures)} {each.measures}"
@@ -203,7 +202,7 @@ def amounts_in(value: object) -> Iterator[Amount]:
     """Yield the amounts that a value is, or that stand in it where it is a list or a tuple."""
     if isinstance(value, Amount):
         yield value
-    elif is_listed(value) and not {*map(type, value)} <= {float, int}:
+    elif type(value) in (list, tuple) and not {*map(type, value)} <= {float, int}:
         for each in value:
             yield from amounts_in(each)
 

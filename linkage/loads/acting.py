@@ -16,7 +16,7 @@ from ..errors import DefinitionError, cited, known_name, unknown
 from ..frozen import immutable, keep_own, refuses_changes
 from ..quantities import Member, Reference, in_degrees, is_member_or_name, name_of
 from ..quantities.quantity import plain
-from ..units import deg, require_measure
+from ..units import deg
 from .element import AS_IT_RUNS, DIRECTIONS, FRICTIONLESS, ForceElement, Load, Poses
 from .point import gravity_vector
 
@@ -64,8 +64,8 @@ class LoadCase(Member):
         check_words(self.title, self.scale, self.only, self.shut)
         keep_own(self)
         for name, value in {**self.scale, "slope": self.slope}.items():
-            require_number(f"LoadCase({self.title!r}): {name}", value, "is not a finite number")
-            require_measure(value, "deg" if name == "slope" else "", f"LoadCase({self.title!r}): {name}")
+            kind = "angle" if name == "slope" else "number"
+            require_number(f"LoadCase({self.title!r}): {name}", value, "is not a finite number", kind=kind)
         if abs(self.slope) > STEEPEST:
             said = f"slope={plain(self.slope)!r} rad is {self.slope / deg:.4g} deg, steeper than a wall"
             raise DefinitionError(f"{self.label}: {said}; write slope={plain(self.slope)!r} * deg if these are degrees.")

@@ -271,6 +271,8 @@ class Formulas(Poses, Protocol):
         """Write the thrust of a two-point member by the law of an element [N]."""
 
 
+ROUGHEST = 5.0
+"""More than any coefficient of friction; a larger one was given in percent."""
 FRICTIONLESS = "frictionless"
 DIRECTIONS = (FRICTIONLESS, "extending", "retracting")
 """At rest, or without friction; while the stroke, or the cylinder that is asked for, grows; while it shrinks. Of a path: on, back."""
@@ -326,6 +328,8 @@ class ForceElement(Jointed):
     places: ClassVar[tuple[str, ...]] = ("point",)
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({})
     not_negative: ClassVar[frozenset[str]] = frozenset()
+    frictional: ClassVar[frozenset[str]] = frozenset()
+    """Parameters that are a coefficient of friction, zero to ROUGHEST."""
     stroke_values: ClassVar[frozenset[str]] = frozenset()
     """Parameters that are a value of a stroke, a length or an angle."""
     optional: ClassVar[frozenset[str]] = frozenset()
@@ -644,7 +648,8 @@ class ForceElement(Jointed):
         """
         found = []
         for name in self.numbers:
-            value, kind = quantity(self.given(name)), "not negative" if name in self.not_negative else "number"
+            value = quantity(self.given(name))
+            kind = "friction" if name in self.frictional else "not negative" if name in self.not_negative else "number"
             if isinstance(value, Number):
                 number = float(value.number) if name in self.stroke_values else value.number
                 found.append((f"{self.name}.{name}", number, kind, self.parameters[name]))
@@ -719,6 +724,8 @@ class ForceElement(Jointed):
             raise DefinitionError(f"{self._opening()}: {name}={cited(given)} is not a finite number; give it in SI.")
         if name in self.not_negative and np.any(value < 0.0):
             raise DefinitionError(f"{self._opening()}: {name}={cited(given)} is negative; give zero or more.")
+        if name in self.frictional and np.any(value > ROUGHEST):
+            raise DefinitionError(f"{self._opening()}: {name}={cited(given)} is more than any friction; write 0.15 for 15 %.")
 
     def _opening(self) -> str:
         """Return the element as it is written; its kind alone where its points have no names yet, as in a class."""

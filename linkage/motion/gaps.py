@@ -30,7 +30,6 @@ from ..program import Node
 from ..quantities import Member, Reference, joined_names, name_of
 from ..steps import Link
 from ..surroundings import CircleOutline, Outline, numbers_at
-from ..units import require_measure
 from ..vectors import Scalar, Vec, pick
 from .requests import MotionLike, NodeRequest, Trait
 
@@ -74,8 +73,7 @@ def gap(a: Reference, b: Reference, *, width: float = 0.0) -> NodeRequest:
     DefinitionError
         The bodies share a pin, or an outline is open.
     """
-    require_number("gap(width", width, "the sum of the half widths is expected [m], zero or more", least=0.0)
-    require_measure(width, "length", "gap: width")
+    require_number("gap(width", width, "the sum of the half widths is expected [m], zero or more", least=0.0, kind="length")
     one, other = name_of(a), name_of(b)
 
     def nodes(plan: Plan) -> tuple[Node, ...]:

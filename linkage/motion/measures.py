@@ -344,7 +344,7 @@ def at(quantity: MeasuredQuantity, *, case: Case | Spectrum = None, **strokes: f
         The measure.
     """
     for name, value in strokes.items():
-        require_number(f"at(..., {name}", value, "one number is expected for a stroke, in SI")
+        require_number(f"at(..., {name}", value, "one number is expected for a stroke, in SI", kind=None)
     return in_duty(At(require_quantity(quantity, "at"), dict(strokes)), case)
 
 
@@ -515,8 +515,7 @@ def shares_of(spectrum: Spectrum, where: str = "case") -> dict[str, float]:
     if not spectrum or not all(isinstance(name, str) for name in spectrum):
         raise DefinitionError(f'{shown}: the names of load cases with their hours are expected, case={{"empty": 700, "full": 300}}.')
     for name, hours in spectrum.items():
-        if not is_number(hours) or hours < 0.0:
-            raise DefinitionError(f"{shown}: {name}: {cited(hours)}: hours or a share are expected, a number, zero or more.")
+        require_number(f"{shown}: {name}", hours, "hours or a share are expected, a number, zero or more", least=0.0)
     total = float(sum(spectrum.values()))
     ensure(0.0 < total < np.inf, f"{shown}: all hours are zero; give one case some.")
     return {name: float(hours) / total for name, hours in spectrum.items()}

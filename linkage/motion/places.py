@@ -634,7 +634,7 @@ class Target:
     ) -> None:
         what = f"Target({quantity_cited(quantity)}, {cited(value)})"
         if within is not None:
-            require_number(f"{what}: within", within, "how far off it may be [SI], a number above zero, is expected", above=0.0)
+            require_number(f"{what}: within", within, "how far off it may be [SI], a number above zero, is expected", above=0.0, kind=None)
         ensure(all(map(is_one, strokes.values())), f"{what}: one number is expected for each stroke, in SI.")
         known: float | FloatArray
         if is_one(value):

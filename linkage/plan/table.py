@@ -13,6 +13,7 @@ import numpy.typing as npt
 from ..checks import is_listed, require
 from ..errors import DefinitionError, unknown
 from ..frozen import read_only
+from ..loads.element import ROUGHEST
 from ..quantities import Number, Operand, Quantity, Variable, quantity, real, source_text
 from ..steps import Slot
 from ..steps.step import TURN
@@ -36,7 +37,8 @@ class DesignVariable:
     @property
     def measures(self) -> str:
         """Its kind by its unit or its label: "length", "angle", "pressure"; "" where neither tells it."""
-        return UNITS[self.unit][1] if self.unit else {"length": "length", "coordinate": "length", "angle": "angle"}.get(self.kind, "")
+        kinds = {"length": "length", "coordinate": "length", "angle": "angle", "friction": "number"}
+        return UNITS[self.unit][1] if self.unit else kinds.get(self.kind, "")
 
 
 class Table:
@@ -140,6 +142,7 @@ RANGES: Mapping[str, tuple[float, float]] = {
     "coordinate": (-FARTHEST, FARTHEST),
     "angle": (-TURN, TURN),
     "not negative": (0.0, LARGEST),
+    "friction": (0.0, ROUGHEST),
 }
 """The least and the greatest value that is in order [SI], by what a variable measures."""
 
@@ -163,7 +166,9 @@ def value_in_range(entry: DesignVariable, value: Numbers) -> Numbers:
     values = np.ravel(value)
     require(np.all(np.isfinite(values)), f"{entry.where}: {entry.name}", value, "is not a finite number; give a value in SI")
     least, far = float(values.min()), float(values[np.argmax(np.abs(values))])
-    if entry.kind == "not negative":
+    if entry.kind == "friction" and least >= 0.0:
+        fault = f"{entry.name}={far:.6g} is more than any friction; write 0.15 for 15 %"
+    elif entry.kind in ("not negative", "friction"):
         fault = f"{entry.name}={least:.6g} is negative; give zero or more"
     elif entry.kind == "angle":
         said = f"the angle {entry.name}={far:.6g} rad ({far / deg:.6g} deg) is more than a full turn"

@@ -234,8 +234,7 @@ class Course:
         Course
             The longer course.
         """
-        require_measure(seconds, "time", "hold")
-        require_number("hold", seconds, "a number of seconds above zero is expected", above=0.0)
+        require_number("hold", seconds, "a number of seconds above zero is expected", above=0.0, kind="time")
         return Course.of_steps([*self.steps, {"hold": float(seconds)}], self.measures)
 
     def then(self, course: Course) -> Course:
@@ -370,11 +369,11 @@ def ramp(a: float, b: float, *, speed: float, acceleration: float | None = None,
         10 m/s that is not nearly reached, as 150 for 150 mm/s.
     """
     for name, end in (("ramp(a", a), ("ramp(b", b)):
-        require_number(name, end, "a finite number is expected")
+        require_number(name, end, "a finite number is expected", kind=None)
     limits: Mapping[str, float | None] = {"speed": speed, "acceleration": acceleration, "jerk": jerk}
     for name, value in limits.items():
         if value is not None or name == "speed":
-            require_number(f"ramp({name}", value, "a finite number above zero is expected", above=0.0)
+            require_number(f"ramp({name}", value, "a finite number above zero is expected", above=0.0, kind=None)
     ensure(a != b, f"ramp({cited(a)}, {cited(b)}): nothing moves; give the stroke that number, or hold(...) behind a course.")
     require(jerk is None or acceleration is not None, "ramp(jerk", jerk, "it limits an acceleration; give acceleration= too")
     kinds = {each.measures: name for name, value in {"a": a, "b": b, **limits}.items() for each in amounts_in(value)}

@@ -71,7 +71,7 @@ class Curve:
             row = int(np.argmax(np.diff(self.xs) <= 0.0)) + 1
             fault = f"x must grow from row to row; {self.xs[row]:.6g} follows {self.xs[row - 1]:.6g}"
         elif self.period is not None:
-            period = require_number("Curve: period", self.period, "a positive number is expected, such as 2 * pi", above=0.0)
+            period = require_number("Curve: period", self.period, "a positive number is expected, such as 2 * pi", above=0.0, kind=None)
             if abs(self.xs[-1] - self.xs[0] - period) > 1e-9 * period or abs(self.ys[-1] - self.ys[0]) > 1e-9 * np.ptp(self.ys):
                 ends = f"from ({self.xs[0]:.6g}, {self.ys[0]:.6g}) to ({self.xs[-1]:.6g}, {self.ys[-1]:.6g})"
                 fault = f"the last row must lie one period after the first, with the same value; the table goes {ends}"

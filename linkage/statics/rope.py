@@ -11,6 +11,7 @@ from typing import ClassVar, Unpack, cast
 
 import numpy as np
 
+from ..checks import require_number
 from ..errors import DefinitionError, cited, ensure, known_name
 from ..language import noted, said
 from ..loads import Acting, ActingKeywords, Case, Loads, situation_of, takes_situation
@@ -83,7 +84,9 @@ class Rope(ForceElement, Tabled, HasVerdicts):
             yield f"Rope: {count + 1} point{'s' * (count < 0)}; it runs from one to another one at least"
         if self.length is not None and self.force is not None:
             yield f"{self}: its length is held or its force is given; leave one out"
-        if self.weights is not None and not (len(self.weights) == count and all(is_number(each) and each > 0.0 for each in self.weights)):
+        for each in self.weights or ():
+            require_number(f"{self}: weights", each, f"{count} numbers above zero are expected, one a part", above=0.0)
+        if self.weights is not None and len(self.weights) != count:
             yield f"{self}: weights={cited(self.weights)}: {count} numbers above zero are expected, one a part"
         if self.against is not None and takes:
             yield f"{self}: it draws back against {label(self.against)}, which gives it its length; leave length= and force= out"

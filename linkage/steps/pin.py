@@ -186,7 +186,7 @@ def drawn(**strokes: float) -> Drawn:
         The statement.
     """
     for name, value in strokes.items():
-        require_number(f"drawn({name}", value, "a finite number is expected, in m or rad")
+        require_number(f"drawn({name}", value, "a finite number is expected, in m or rad", kind=None)
     return Drawn(strokes)
 
 

@@ -27,7 +27,7 @@ from ..numeric.line import Index
 from ..plan import Mask, Plan
 from ..program import FloatArray
 from ..shown import HasSentence, Shown, text_columns
-from ..units import deg, display_unit, factor, mm, require_measure, show, shown_in
+from ..units import deg, display_unit, factor, mm, show, shown_in
 from .box import unit_points
 from .checks import unit_of
 from .poles import check_bounded
@@ -668,10 +668,8 @@ def rounded_values(machine: Mechanism, space: Space, unit: FloatArray, to: float
 
     A variable that has steps of its own stays on these. DefinitionError for anything but steps finer than the machine.
     """
-    for name, value in (("to", to), ("angle", angle)):
-        require_number(f"rounded({name}", value, "a step above zero is expected, such as 1 * mm", above=0.0)
-    require_measure(to, "length", "rounded: to")
-    require_measure(angle, "angle", "rounded: angle")
+    for name, value, kind in (("to", to, "length"), ("angle", angle, "angle")):
+        require_number(f"rounded({name}", value, "a step above zero is expected, such as 1 * mm", above=0.0, kind=kind)
     if to > COARSEST * size_of_machine(machine):
         raise DefinitionError(f"rounded({to:.6g}): steps of {to:.6g} m are as coarse as the machine; write {to:.6g} * mm if that is meant.")
     near = []

@@ -326,7 +326,7 @@ class DxfOutline(PlacedFile):
         layers: Sequence[str] = (), filled: bool = False,
     ) -> None:  # fmt: skip
         super().__init__(path, on, at, angle)
-        require_number("Outline.dxf: scale", scale, "is no size; give metres per unit of the drawing, 1e-3 for mm", above=0.0)
+        require_number("Outline.dxf: scale", scale, "is no size; give metres per unit of the drawing, 1e-3 for mm", above=0.0, kind=None)
         require_type("Outline.dxf: layers", layers, (list, tuple), 'is no list of layers; write layers=["0"]', of=str)
         self.scale, self.layers, self.filled = float(scale), tuple(layers), is_yes("Outline.dxf: filled", filled)
 

@@ -482,7 +482,7 @@ def freudenstein(pairs: object, *, free: str = "follower", ground: float = 1.0) 
     rows = table_of("freudenstein", "pairs", pairs, 2, "pairs (phi, psi)")
     ensure(3 <= len(rows) <= 5, f"freudenstein: {len(rows)} pairs; three to five of them decide a four-bar, more go with synthesise(...).")
     require(free in FREE, "freudenstein(free", free, '"crank" or "follower" is expected')
-    require_number("freudenstein(ground", ground, "a length above zero is expected, in m", above=0.0)
+    require_number("freudenstein(ground", ground, "a length above zero is expected, in m", above=0.0, kind="length")
     for name, column in zip(("phi", "psi"), rows.T, strict=True):
         check_radians("freudenstein", name, column)
         turned = np.exp(1j * column)

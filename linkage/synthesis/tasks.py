@@ -229,14 +229,14 @@ class PoseTask:
         self, x: object, y: object, angle: object, of: object, at: object = None, *, length: float | None = None, in_order: bool = True
     ) -> None:
         what = f"PoseTask(of={cited(of)})"
-        for name, each, measures in (("x", x, "length"), ("y", y, "length"), ("angle", angle, "angle"), ("length", length, "length")):
+        for name, each, measures in (("x", x, "length"), ("y", y, "length"), ("angle", angle, "angle")):
             require_measure(each, measures, f"{what}: {name}")
         parts = {name: table_of(what, name, each, 0) for name, each in (("x", x), ("y", y), ("angle", angle))}
         sizes = ", ".join(f"{name} {len(each)}" for name, each in parts.items())
         ensure(len({len(each) for each in parts.values()}) <= 1, f"{what}: x, y and angle are to have one length; theirs are {sizes}.")
         check_radians(what, "angle", parts["angle"])
         if length is not None:
-            require_number(f"{what}: length", length, "a length above zero is expected, in m", above=0.0)
+            require_number(f"{what}: length", length, "a length above zero is expected, in m", above=0.0, kind="length")
         for each in of.values() if is_by_class(of) else [of]:
             if not isinstance(each, str) or len(each.split()) != 2:
                 raise DefinitionError(f'{what}: two points of the body are expected, such as of="C D".')

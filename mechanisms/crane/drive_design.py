@@ -316,8 +316,10 @@ class ArmRules:
         require_number("excess", self.excess, "k_r of (2.61) is a number above 1; the source's example has 1.6", above=1.0)
         if not (self.above is None or self.above == "r_6" or is_number(self.above)):
             raise DefinitionError(f"above={cited(self.above)}: 'r_6', a height in m or None is expected.")
-        require_number("crank", self.crank, "the bell crank's angle at its pivot is expected, between 0 and 180 * deg", above=0.0, below=pi)
-        require_number("transmission", self.transmission, "an angle below 90 * deg is expected, 0 for none", least=0.0, below=0.5 * pi)
+        says = "the bell crank's angle at its pivot is expected, between 0 and 180 * deg"
+        require_number("crank", self.crank, says, above=0.0, below=pi, kind="angle")
+        says = "an angle below 90 * deg is expected, 0 for none"
+        require_number("transmission", self.transmission, says, least=0.0, below=0.5 * pi, kind="angle")
 
     def conditions(self, duty: DriveDuty, scheme: str = "a") -> list[Any]:
         """Return the conditions (2.61) to (2.65) of a duty.
@@ -408,7 +410,7 @@ def design_arm_drive(
     one_word("scheme", scheme, tuple(SCHEMES))
     bounds = bounds_checked(bounds, duty, scheme)
     if most_area is not None:
-        require_number("most_area", most_area, "a number above zero is expected, in N m rad", above=0.0)
+        require_number("most_area", most_area, "a number above zero is expected, in N m rad", above=0.0, kind=None)
     from_on, opens = max(duty.phi_0, duty.psi_0), SCHEMES[scheme][0].opens_by_piston
     bound = arm_drive(duty, cylinders, rules, *cylinders.sizes[-1], scheme)
     asked = work_of(lambda psi: bound.at(psi=psi)["M_l2"], from_on, duty.psi_k)

@@ -129,7 +129,7 @@ def charge_for(motion: Motion, wanted: float) -> float:
     DefinitionError
         The pressure is below zero: so much reaction the weights do not give.
     """
-    require_number("wanted", wanted, "one reaction of all shoes is expected, in N")
+    require_number("wanted", wanted, "one reaction of all shoes is expected, in N", kind="force")
     ensure(not wanted < 0.0, f"A reaction of {show(wanted, 'kgf', 4)} would pull at the ground; ask for zero or more.")
     balance = HeaderState(at_horizon(motion))
     pressure = float(balance.cylinder.sized(balance.motion).pressure_for(balance.thrust_without_line(pressed=wanted))[0])

@@ -47,7 +47,7 @@ def stroke_at(height: Any, O_y: Any, OA: Any, to_A: Any, L_OB: Any, L_OR: Any, B
 def stroke_of(motion: Motion, height: float) -> float:
     """Return the stroke [m] at which the shoe of one design stands at a height [m]; DefinitionError where it never does."""
     require_header(motion)
-    require_number("height", height, "one number in m is expected, above the horizon")
+    require_number("height", height, "one number in m is expected, above the horizon", kind="length")
     ensure(not motion._design_shape, "The following range is found for one design at a time; this motion has a batch of them.")
     given = motion.inputs
     with np.errstate(all="ignore"):

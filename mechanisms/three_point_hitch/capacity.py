@@ -135,7 +135,7 @@ def behind(motion: Motion, distance: float = BEHIND, share: float = SHARE) -> Fl
         The capacity [N].
     """
     require_motion(motion)
-    require_number("distance", distance, "one number in m is expected, such as 0.61")
+    require_number("distance", distance, "one number in m is expected, such as 0.61", kind="length")
     tested = {"FG": distance, "KFG": 90 * deg}
     moved = Motion(motion.plan, motion.designs | tested, motion.strokes, motion.unreachable)
     return circuit_of(moved).lifted(moved, "G", own_loads(motion), share=share)

@@ -4,7 +4,20 @@ import re
 
 import numpy as np
 
-from hydraulics import Accumulator, Cylinder, HoldingValve, LiftCircuit, OilLine, Pump, Tank, Telescope
+from hydraulics import (
+    Accumulator,
+    Buckling,
+    Cylinder,
+    CylinderSize,
+    HoldingValve,
+    LiftCircuit,
+    OilLine,
+    Pump,
+    Tank,
+    Telescope,
+    capacity,
+    polytropic,
+)
 from linkage import (
     RIGHT,
     Actuator,
@@ -43,6 +56,7 @@ from linkage import (
     draw,
     drawn,
     drive_force,
+    driving_force,
     equations,
     gap,
     kN,
@@ -97,6 +111,17 @@ KINDS = {
     "GuideFriction": (lambda: GuideFriction("T", 3 * mm), "coefficient=0.003 was given as a length"),
     "Pulley": (lambda: Pulley("T", 3 * kN, 1), "radius=3000 was given as a force"),
     "Rope": (lambda: Rope("A", "T", "B", length=3 * kN), "length=3000 was given as a force"),
+    "Rope, weights": (lambda: Rope("A", "T", "B", length=3, weights=[2 * kN, 1]), "weights=2000 was given as a force"),
+    "hours": (lambda: most(drive_force(), case={"full": 3 * mm, "empty": 2}), "full=0.003 was given as a length"),
+    "capacity": (lambda: capacity("ram", "T", share=300 * mm), "share=0.3 was given as a length"),
+    "CylinderSize": (lambda: CylinderSize(80 * deg, 0.04), "Bore=1.39626 was given as an angle"),
+    "CylinderSize, thrust": (lambda: Arm.ram.size.thrust(180 * kN), "a force; expected is a value of pressure"),
+    "CylinderSize, oil": (lambda: Arm.ram.size.oil(18 * deg), "an angle; expected is a value of length"),
+    "Buckling": (lambda: Buckling(0.04, modulus=210 * kN), "Modulus=210000 was given as a force"),
+    "polytropic": (lambda: polytropic(1.2 * mm), "a length; expected is a number in SI, without a unit"),
+    "efficiency": (lambda: driving_force(ARM.sweep(2), direction="extending", efficiency=900 * mm), "efficiency=0.9 was given as a length"),
+    "PinFriction, percent": (lambda: PinFriction("T", radius=0.02, coefficient=15), "coefficient=15 is more than any friction; write 0.15"),
+    "Support, percent": (lambda: Support("T", (0, 1), friction=60), "friction=60 is more than any friction"),
     "Cylinder, bore": (lambda: Cylinder("A", "B", bore=60 * bar, rod=0.03), r"bore=6e\+06 was given as a pressure"),
     "Cylinder, stroke": (lambda: Cylinder("A", "B", bore=0.06, rod=0.03, stroke=10 * deg), "stroke=0.174533 was given as an angle"),
     "Telescope": (lambda: Telescope("A", "B", bores=[3 * bar], strokes=[0.5], closed=0.6), "bores=300000 was given as a pressure"),

@@ -28,6 +28,7 @@ from linkage.units import show
 from .cylinders import PISTON, ROD, OnLines, Ram, cylinder_request, in_class, line_thrust, lines_of
 from .inputs import Array, one_design
 from .lifting_line import LiftLine
+from .valve import HoldingValve
 
 AT_BORDER = 1e-9
 """Of its size: what is on the other side of a border by no more is on it."""
@@ -142,7 +143,12 @@ class Consumers:
 
     def __init__(self, plan: Plan, designs: Mapping[str, Any], pump: ForceElement, acting: Acting, strokes: Mapping[str, float]) -> None:
         self.plan, self.pump, self.members = plan, pump, plan.members
-        self.lines = lines_on(pump, plan.members)
+        self.pumped = {each: each for each in lines_on(pump, plan.members)}
+        """The lines that it feeds, each with the one that says its numbers; on a tank the pilot of a holding valve over which it lowers."""
+        for line, pilot in [each.lines(plan.members) for each in of_kind(plan.members, HoldingValve).values()]:
+            if line in self.pumped and isinstance(pilot, LiftLine) and pilot.pump(plan.members) is None:
+                self.pumped[pilot] = self.pumped[line]
+        self.lines = [*self.pumped]
         if not self.lines:
             what = f"{plan.title}: no line is on {pump.name or pump}"
             raise DefinitionError(f"{what}; put it on one, OilLine(lift.piston_side, supply) or LiftCircuit(lift, supply).")
@@ -178,7 +184,7 @@ class Consumers:
         sides = (1.0, 0.0) if sense > 0.0 and PISTON in own else (0.0, 1.0) if sense < 0.0 and ROD in own else None
         if joined:
             sides = (1.0, -1.0) if sense > 0.0 else None
-        mechanical, hydraulic = (one_design(line.efficiency(there, kind)) for kind in ("mechanical", "hydraulic"))
+        mechanical, hydraulic = (one_design(self.pumped[line].efficiency(there, kind)) for kind in ("mechanical", "hydraulic"))
         back = 0.0 if joined else one_design(line.back(there))
         way = "extending" if sense > 0.0 else "retracting"
         valves = of_kind(self.members, OnLines).values()

@@ -319,8 +319,7 @@ def limits_of(pump: ForceElement, consumers: Consumers, there: Motion) -> PumpLi
     power = np.inf if pump.given("power") is None else one_design(number_set(pump, there, "power"))
     if np.isfinite(power):
         positive(power, f"Power of {title}", "give watts, such as power=5.75 * kW, or leave it out")
-    relief = [line.supply(there) for line in consumers.lines]
-    cut_off = min(map(one_design, relief))
+    cut_off = min(one_design(line.supply(there)) for line in consumers.pumped.values())
     return PumpLimits(flow, power, one_design(number_set(pump, there, "margin")), cut_off, pump.given("sharing") == LEAST_PRESSURE)
 
 

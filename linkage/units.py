@@ -202,7 +202,7 @@ def amounts_in(value: object) -> Iterator[Amount]:
     """Yield the amounts that a value is, or that stand in it where it is a list or a tuple."""
     if isinstance(value, Amount):
         yield value
-    elif type(value) in (list, tuple) and not {*map(type, value)} <= {float, int}:
+    elif isinstance(value, (list, tuple)) and not {*map(type, value)} <= {float, int}:
         for each in value:
             yield from amounts_in(each)
 

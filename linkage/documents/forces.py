@@ -111,7 +111,7 @@ def thrusts_shown(subject: ReportSubject) -> dict[str, Request]:
 def drives_asked(subject: ReportSubject) -> list[tuple[str, Request, str]]:
     """Return the forces of the drives, then the thrusts that no member shows of itself, each with its name and unit."""
     one, plan, members = subject.forces[0], subject.machine.plan, thrusts_shown(subject)
-    drives = [(name, drive_force(name), "kNm" if stroke_display_unit(plan, name) == "deg" else "kN") for name in one.drives]
+    drives = [(name, drive_force(name), "Nm" if stroke_display_unit(plan, name) == "deg" else "kN") for name in one.drives]
     others = [(said("thrust of {name}", name=name), thrust_from_forces(name), "kN") for name in one.thrusts if name not in members]
     return [*drives, *others]
 

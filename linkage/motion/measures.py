@@ -601,7 +601,7 @@ KINDS = {
 }  # fmt: skip
 """The powers of length, of force, of angle and of time in what is measured."""
 SHOWN = {
-    "length": "mm", "force": "kN", "angle": "deg", "pressure": "bar", "moment": "kNm", "stiffness": "N/mm", "area": "cm2", "volume": "l",
+    "length": "mm", "force": "kN", "angle": "deg", "pressure": "bar", "moment": "Nm", "stiffness": "N/mm", "area": "cm2", "volume": "l",
     "angle per length": "rad/m", **IN_TIME,
 }  # fmt: skip
 APART = ("length", "angle", "force", "pressure", "speed", "acceleration", "power", "flow")
@@ -805,7 +805,7 @@ def measure_unit(plan: Plan, measure: Measure | Constraint) -> str:
     >>> from linkage import *
     >>> from mechanisms.three_point_hitch import ThreePointHitch
     >>> measure_unit(ThreePointHitch().plan, integral(drive_force()))
-    'kNm'
+    'Nm'
     """
     sides = (measure.left, measure.right) if isinstance(measure, Constraint) else (measure,)
     found = {SHOWN.get(kind.name, "") for each in sides if (kind := kind_of_measure(plan, each)) is not None}

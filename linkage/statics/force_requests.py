@@ -292,7 +292,7 @@ def drive_remarks(judge: Judge) -> list[Remark]:
     for (name, case), answer in zip(asked, answers, strict=True):
         size = float(answer.value)
         if size > max(LEAST, found[name][0] if name in found else 0.0):
-            unit = "kN" if stroke_unit(plan, name) == "m" else "kNm"
+            unit = "kN" if stroke_unit(plan, name) == "m" else "Nm"
             force = answer.amount if np.isinf(size) else show(size, unit, 4)
             what = said("{stroke} is held by no cylinder: its drive gives up to {force}", stroke=name, force=force)
             found[name] = size, Remark(f"{what}, {said('in the case {case}', case=case) + ', ' if case else ''}{answer.place}.")

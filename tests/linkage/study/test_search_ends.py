@@ -362,7 +362,7 @@ def test_nor_in_a_file(text):
 @for_all(
     ("measure", "unit"),
     [
-        (-most(y("G")), "mm"), (2 * most("tilt"), "deg"), (integral(drive_force()), "kNm"), (most(drive_force() / y("G")), "N/mm"),
+        (-most(y("G")), "mm"), (2 * most("tilt"), "deg"), (integral(drive_force()), "Nm"), (most(drive_force() / y("G")), "N/mm"),
         (most(y("G")) / least(y("G")), ""), (at((x("G") - x("O")) ** 2, S=0.1), "cm2"), (most(drive_force()) / most(pin_force("O")), ""),
         (least(reserve("lift")), ""), (RISE, "mm"),
     ],

@@ -128,17 +128,19 @@ def filled_kind() -> Any:
     return Kind(read, file_value)
 
 
-def pressure_kind() -> Any:
-    """Return how a pressure is read and written for which a pump may stand, by its name."""
+def pressure_kind(pump: type[Any]) -> Any:
+    """Return how a pressure is read and written for which a pump may stand, by its name, or as a table where it has none."""
     from linkage.files.validators import Kind, amount
 
-    plain = amount("bar")
+    plain, unnamed = amount("bar"), on_line_kind(pump)
 
     def read(given: Any, names: Any) -> Any:
+        if isinstance(given, Mapping):
+            return unnamed.read(given, names)[0]
         return given if isinstance(given, str) and names.kinds.get(given) == "load" else plain.read(given, names)
 
     def write(value: Any, design: Any, name: str) -> Any:
-        pump = design.plan.members.get(value) if isinstance(value, str) else value if isinstance(value, Member) else None
-        return name_of(value) if pump is not None and pump.kind == "load" else plain.write(value, design, name)
+        found = design.plan.members.get(value) if isinstance(value, str) else value if isinstance(value, Member) else None
+        return unnamed.write([value], design, name)[0] if isinstance(found, pump) else plain.write(value, design, name)
 
     return Kind(read, write)

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from types import MappingProxyType
 from typing import Any, ClassVar
 
@@ -164,7 +165,7 @@ class LiftCircuit(PumpLine):
     )
     not_negative: ClassVar[frozenset[str]] = frozenset({"pressure", "flow", "back_pressure", "relief"})
     optional: ClassVar[frozenset[str]] = frozenset({"relief"})
-    argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"cylinder": "loads", "pressure": pressure_kind})
+    argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"cylinder": "loads", "pressure": partial(pressure_kind, Pump)})
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -171,7 +171,7 @@ class OilLine(PumpLine, GasLine):
 
     @property
     def numbers(self) -> Mapping[str, str]:
-        among = NUMBERS.get(self.kind_of_line, tuple(self.parameters))
+        among = () if self.is_drained else NUMBERS.get(self.kind_of_line, tuple(self.parameters))
         return {name: self.parameters[name] for name in among if self.given(name) is not None}
 
     def given(self, name: str) -> Any:

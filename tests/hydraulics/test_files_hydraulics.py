@@ -133,7 +133,14 @@ def test_what_stands_on_a_line_without_a_name_comes_back_and_a_pump_by_its_name(
         supply = Pump(160 * bar)
         other = LiftCircuit("aid", "supply")
 
+    class Unnamed(Fitted):
+        other = LiftCircuit("aid", Pump(160 * bar, flow=5e-4))
+
+    alone = to_dict(Unnamed)["hydraulics"]["other"]
+    assert alone == {"LiftCircuit": "aid", "pressure": {"pressure": "160 bar", "flow": "30 l/min"}}
+    assert to_dict(from_dict(to_dict(Unnamed)))["hydraulics"]["other"] == alone
     written = to_dict(Fitted)
+    assert written["hydraulics"]["other"] == {"LiftCircuit": "aid", "pressure": "supply"}
     assert written["hydraulics"]["line"] == {
         "OilLine": ["ram.piston_side", {"Pump": [], "pressure": "200 bar"}, {"Relief": [], "pressure": "220 bar"}]
     }

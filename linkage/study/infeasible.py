@@ -172,7 +172,7 @@ def alternatives_to(problem: Problem, best: GivenWay, looked: FloatArray | None)
     many = len(problem.constraints)
     if not problem.space.variables or many < 2:
         return []
-    coarse = problem.changed(counts=COARSE)
+    coarse = problem.sampled_apart(COARSE)
     missing = None if looked is None or not len(looked) else coarse.missing_of_each(best.found.combination, looked)
     found: list[tuple[float, Relaxation]] = []
     for row, each in list(enumerate(problem.constraints))[:ALTERNATIVES]:

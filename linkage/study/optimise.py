@@ -45,7 +45,7 @@ from .checkpoint import digest, folder_given, how_far
 from .checks import check_one_design
 from .infeasible import infeasible_error
 from .optimum import EvaluatedDesigns, Optimum, described, in_units, on_steps, unit_of_constraint, unit_of_measure
-from .problem import COARSE, SAMPLES, LimitReachedError, Problem, ranges_of
+from .problem import COARSE, SAMPLES, Count, LimitReachedError, Problem, ranges_of
 from .solver import Local, SearchEnd, grows, local_search
 from .space import Space
 from .survey import Progress, check_progress, progress_told
@@ -334,7 +334,8 @@ def check_counts(title: str, starts: object, seed: object, limit: object) -> Non
 
 def check_objectives_move(problem: Problem) -> None:
     """Raise StudyError where no variable moves the objective: it is the same for designs spread over the box."""
-    alone, space = problem.changed(count=None), problem.space
+    alone, space = problem.sampled_apart(), problem.space
+    alone.count = Count()
     units = unit_points(MOVED, len(space.variables), "sobol", 0) if space.variables else np.zeros((1, 0))
     some = islice(space.combinations(), MOVED)
     seen = np.concatenate([alone.merits_of_each(each, units)[0] for each in some], axis=1)
@@ -506,11 +507,13 @@ class DesignSearch:
 
     def __init__(self, problem: Problem, method: str, starts: int, seed: int, journal: Journal, tell: Progress) -> None:
         self.problem, self.method, self.many, self.seed, self.journal, self.tell = problem, method, starts, seed, journal, tell
-        self.coarse = problem.changed(counts=COARSE)
+        self.coarse = problem.sampled_apart(COARSE)
         self.cut: list[str] = []
         self.spread_words = ""
         self.looked: list[EvaluatedDesigns] = []
         self.present = problem.space.present(problem.machine)
+        self._known: dict[tuple[int, ...], tuple[Problem, list[SearchEnd]]] = {}
+        """Of each combination where searches ended, and the problem with the samples that these ask for."""
 
     def run(self) -> Optimum:
         """Return the best design."""
@@ -554,7 +557,7 @@ class DesignSearch:
         """Return the most promising designs that no local search began with, where the limit is reached; else none."""
         if not self.problem.count.is_spent:
             return []
-        problem, found = self.problem.changed(counts=SAMPLES), []
+        problem, found = self.problem.sampled_apart(SAMPLES), []
         with problem.count.without_limit():
             for each in screened[:KEPT]:
                 for place in each.order[:KEPT]:
@@ -578,7 +581,7 @@ class DesignSearch:
         for each in screened:
             for unit in self.starts_in(each, len(screened))[:HOPES]:
                 try:
-                    local = Local(problem.changed(counts=SAMPLES), each.combination, unit, elastic=problem.constraints)
+                    local = Local(problem.sampled_apart(SAMPLES), each.combination, unit, elastic=problem.constraints)
                     least = local.least()
                 except LimitReachedError:
                     return []
@@ -652,20 +655,22 @@ class DesignSearch:
     def ended(self, combination: tuple[int, ...], unit: FloatArray, number: int) -> SearchEnd:
         """Return the result of the local search from a start, or the stored one."""
         task = f"{list(combination)} {number}{self.spread_words}"
-        known = self.journal.result(task, self.problem, combination)
-        if known is not None:
-            return known
-        problem, unit = self.problem.changed(counts=SAMPLES), np.ravel(unit)  # with samples of its own: it depends on no other search
-        before = problem.count.designs
-        try:
-            local = Local(problem, combination, unit)
-            found = local_search(local, NEARLY)
-        except LimitReachedError:
-            raise
-        except LinkageError:
-            found = SearchEnd(combination, unit, np.nan, np.inf, False)
-        if not problem.count.is_spent:
-            self.journal.keep(task, found, problem.count.designs - before)
+        sampled, ends = self._known.setdefault(combination, (self.problem.sampled_apart(SAMPLES), []))
+        found = self.journal.result(task, self.problem, combination)
+        if found is None:
+            problem, unit = sampled.sampled_apart(), np.ravel(unit)
+            before = problem.count.designs
+            try:
+                found = local_search(Local(problem, combination, unit, known=ends), NEARLY)
+            except LimitReachedError:
+                raise
+            except LinkageError:
+                found = SearchEnd(combination, unit, np.nan, np.inf, False)
+            if not problem.count.is_spent:
+                self.journal.keep(task, found, problem.count.designs - before)
+        if found.feasible and not any(np.array_equal(found.unit, each.unit) for each in ends):
+            ends.append(found)
+            sampled.refine(sampled.dimensions_at(found.unit, combination))
         return found
 
     # -- the winner -----------------------------------------------------------------------------------------

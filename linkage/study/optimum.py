@@ -33,13 +33,11 @@ from .checks import unit_of
 from .poles import check_bounded
 from .problem import LeafNumbers, Problem
 from .sampling import no_value
-from .solver import MET, Local, SearchEnd, local_search, missing_of, scales_of, true_worth, worth_in_order
+from .solver import MET, SAME, Local, SearchEnd, local_search, missing_of, scales_of, true_worth, worth_in_order
 from .space import Space, Varied, size_of_machine
 
 ACTIVE = 1e-6
 """A condition with no more than this part of its size to spare is active."""
-SAME = 1e-6
-"""Objectives that differ by less than this part of their size are the same."""
 SHOWN = 1e-6
 """A gain of less than this part of the objective is none."""
 COARSEST = 0.25

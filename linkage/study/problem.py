@@ -137,10 +137,23 @@ class PoseSet:
         """The strokes of the axes, but for the last one over which the worst is taken."""
         return [name for name in self.axes if name != self.inner]
 
+    def copied(self, counts: Mapping[int, int] | None) -> PoseSet:
+        """Return the same poses, whose axes may change apart from these; with `counts` as they are at first."""
+        axes, weights = self.axes, self.weights
+        if counts is not None:
+            places, weights = first_places(counts, len(self.outer), integral=weights is not None)
+            axes = dict.fromkeys(self.outer, places)
+        return replace(self, axes=dict(axes), weights=weights)
+
     def set_axis(self, name: str, places: FloatArray) -> None:
         """Look at other parts of a stroke's range."""
         self.axes[name] = places
         self.__dict__.pop("parts", None)
+
+
+def first_places(counts: Mapping[int, int], strokes: int, *, integral: bool) -> tuple[FloatArray, FloatArray | None]:
+    """Return the parts of each stroke's range that are looked at before any are added, and of an integral their weights."""
+    return gauss(np.linspace(0.0, 1.0, PANELS + 1)) if integral else (np.linspace(0.0, 1.0, counts.get(strokes, 3)), None)
 
 
 @immutable
@@ -320,6 +333,16 @@ class Problem:
         """Return the same problem with some of its arguments changed, with samples of its own; it shares the count of designs."""
         return Problem(**{name: getattr(self, name) for name in ARGUMENTS} | other)
 
+    def sampled_apart(self, counts: Mapping[int, int] | None = None) -> Problem:
+        """Return the same problem with samples of its own, those of now or, with `counts`, as at first; it shares the count of designs."""
+        found, own = object.__new__(Problem), {each: each.copied(counts) for each in self.sets}
+        vars(found).update(vars(self))
+        found.counts, found.sets, found.full_stroke = counts or self.counts, [*own.values()], own[self.full_stroke]
+        found._of_leaf = {leaf: (own[poses], place, single) for leaf, (poses, place, single) in self._of_leaf.items()}
+        found._samplings = {own[poses]: each for poses, each in self._samplings.items()}
+        found._sizes, found._branches, found.refusal = None, {}, ""
+        return found
+
     def on_branch(self, combination: Sequence[int]) -> Problem:
         """Return the problem of the machine whose steps are on the sides of a combination: itself where none is chosen."""
         sides = self.space.sides(combination)
@@ -407,8 +430,7 @@ class Problem:
         for each in self.sets:
             if each.axes.keys() == wanted and each.inner == inner and (each.weights is not None) == integral and not each.singles:
                 return each
-        count = self.counts.get(len(names), 3)
-        places, weights = gauss(np.linspace(0.0, 1.0, PANELS + 1)) if integral else (np.linspace(0.0, 1.0, count), None)
+        places, weights = first_places(self.counts, len(names), integral=integral)
         self.sets.append(PoseSet(dict.fromkeys(names, places), weights=weights, inner=inner))
         return self.sets[-1]
 
@@ -773,6 +795,16 @@ class Problem:
             return np.asarray(found[0])
 
         return quadrature(values)
+
+    def refine(self, design: Mapping[str, Numbers]) -> bool:
+        """Add the tops between the samples of one design, and look at integrals in fine panels; return whether anything is new."""
+        added = False
+        for leaf in self.leaves:
+            for parts in self.tops(leaf, design) if leaf.sense else ():
+                added = self.refined(leaf, parts) or added
+            if isinstance(leaf, Integral):
+                added = self.refined_panels(leaf, design) or added
+        return added
 
     def refined_panels(self, leaf: Leaf, design: Mapping[str, Numbers]) -> bool:
         """Look at an integral in panels that are fine enough for one design; return whether they are others than before."""

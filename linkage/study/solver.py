@@ -39,6 +39,8 @@ APPROACH = (1e-2, 1e-3, 1e-4, 1e-5, CLEAR)
 """The same by which least squares come near the edge of what can be assembled, where their misses go like roots."""
 OTHER_SIZE = 4.0
 """Leaves' numbers so many times larger or smaller than at the start are scaled anew."""
+SAME = 1e-6
+"""Objectives that differ by less than this part of their size are the same."""
 HALVINGS = 40
 STEEP = 1e3
 """What an infinite derivative counts, of scaled numbers by unit coordinates."""
@@ -130,7 +132,7 @@ class Local:
 
     Its variables are the unit coordinates, then those of the leaves, then the worst of several objectives, and by how much each of the
     `elastic` constraints gives way. Where there are such, the sum of that is to be least. With `squares`, these are to be least instead,
-    and `own` is where their own unknowns come to.
+    and `own` is where their own unknowns come to. What has come to a `known` end of another search is there, and looks no closer.
     """
 
     def __init__(
@@ -141,9 +143,11 @@ class Local:
         *,
         elastic: Sequence[Constraint] = (),
         squares: LeastSquares | None = None,
+        known: Sequence[SearchEnd] = (),
     ) -> None:
         self.problem, self.combination, self.elastic = problem, tuple(combination), tuple(elastic)
         self.squares, self.own = squares, np.zeros(0) if squares is None else np.array(squares.own, float)
+        self.known = known
         self.clear, self.spare = CLEAR, 0.0 if squares is None else SPARE
         self._stages: Sequence[float] = APPROACH
         self.n = len(problem.space.variables)
@@ -487,6 +491,9 @@ class Local:
             unit = self.start
             for _ in range(rounds):
                 unit = self._nearest_good(np.clip(self.solve(unit)[: self.n], 0.0, 1.0))
+                joined = self._joined(unit)
+                if joined is not None:
+                    return joined
                 if self.refine(unit) or self._rescaled(unit):
                     continue
                 found, missed = self._truth(unit)
@@ -526,6 +533,16 @@ class Local:
             low, high = (middle, high) if self._looked_at(good + middle * (unit - good))[1] else (low, middle)
         return np.asarray(good + low * (unit - good))
 
+    def _joined(self, unit: FloatArray) -> SearchEnd | None:
+        """Return the known end that unit coordinates are as good as; None where there is none, or where they are better.
+
+        Poses that are added make a design only worse, so that they lead to nothing better either.
+        """
+        if not self.known or not (here := self._end(unit, self.numbers(unit))).feasible:
+            return None
+        worse = ((each, self.problem.sense * (here.value - each.value) / max(abs(each.value), 1e-300)) for each in self.known)
+        return next((each for each, by in worse if -0.1 * MET <= by <= SAME), None)
+
     def _rescaled(self, unit: FloatArray) -> bool:
         """Measure the numbers anew where they are much larger or smaller than at the start; return whether they are."""
         look = self.evaluated_at(unit)
@@ -541,14 +558,8 @@ class Local:
 
     def refine(self, unit: FloatArray) -> bool:
         """Add the tops between the samples; return whether one of them is noticeably worse than these."""
-        problem, design = self.problem, self.problem.dimensions_at(unit, self.combination)
-        before, added = self.evaluated_at(unit).of_one, False
-        for leaf in problem.leaves:
-            for parts in problem.tops(leaf, design) if leaf.sense else ():
-                added = problem.refined(leaf, parts) or added
-            if isinstance(leaf, Integral):
-                added = problem.refined_panels(leaf, design) or added
-        if not added:
+        problem, before = self.problem, self.evaluated_at(unit).of_one
+        if not problem.refine(problem.dimensions_at(unit, self.combination)):
             return False
         self._forget()
         after = self.evaluated_at(unit).of_one

@@ -516,6 +516,23 @@ def test_local_search_of_elastic_and_plain_agree_where_all_is_kept():
 # -- kept on the way ------------------------------------------------------------------------------------------------
 
 
+def test_searches_that_meet_are_judged_once_and_are_the_same_design(monkeypatch):
+    """Where one search ended the next ones look at once; the first alone adds poses and is judged between them."""
+    judged, truths = [], Problem.truths
+
+    def counted(problem, design, *, quick=False):
+        judged.append(quick)
+        return truths(problem, design, quick=quick)
+
+    monkeypatch.setattr(Problem, "truths", counted)
+    limits = [TRAVEL >= 0.65, most(pin_force("O")) <= 15 * kN]
+    best = optimise(Boom(), minimise=most(pressure("lift")), vary=VARY, subject_to=limits)
+    assert (best.agreed, best.tries) == (6, 6)
+    assert sum(judged) == 1
+    alone = optimise(Boom(), minimise=most(pressure("lift")), vary=VARY, subject_to=limits, starts=1)
+    assert_allclose(best.value, alone.value, rtol=1e-8)
+
+
 def test_a_search_goes_on_where_it_stopped(tmp_path):
     class StoppedError(Exception):
         pass

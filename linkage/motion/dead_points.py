@@ -10,7 +10,7 @@ the request's own program tells what rounding leaves of it (`Rounding`).
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import accumulate, pairwise
 from typing import Any
 
@@ -18,7 +18,7 @@ import numpy as np
 
 from ..errors import SingularError, SingularWarning, warn
 from ..plan import ArrayReading, Mask, Plan, name_or_pins, opening
-from ..program import FloatArray, Iterated, Node, scatter
+from ..program import FloatArray, Iterated, Node, Scatter
 from ..steps import Point
 from ..vectors import Numbers
 from .grid import MotionLike
@@ -45,6 +45,8 @@ class Rounding:
     nodes: tuple[tuple[Node, ...], ...]
     iterated: tuple[Iterated, ...]
     extent: Node
+    made: dict[tuple[int, ...], Scatter] = field(default_factory=dict)
+    """What scatters some of them, by their numbers."""
 
     @classmethod
     def for_nodes(cls, plan: Plan, nodes: Iterable[tuple[Node, ...]]) -> Rounding:
@@ -53,8 +55,10 @@ class Rounding:
 
     def precision_at(self, inputs: Mapping[str, Numbers], among: Sequence[int]) -> list[PrecisionLeft]:
         """Return the precision left in some of the results at poses, inputs as floats or (n,)."""
-        chosen = [self.nodes[k] for k in among]
-        values, errors = scatter([*(node for each in chosen for node in each), self.extent], inputs, self.iterated)
+        chosen, key = [self.nodes[k] for k in among], tuple(among)
+        if key not in self.made:
+            self.made[key] = Scatter([*(node for each in chosen for node in each), self.extent], self.iterated)
+        values, errors = self.made[key].at(inputs)
         ends = list(accumulate(map(len, chosen), initial=0))
         return [PrecisionLeft(values[a:b], errors[a:b], np.sqrt(values[-1])) for a, b in pairwise(ends)]
 

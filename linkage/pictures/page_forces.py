@@ -98,8 +98,7 @@ def force_arrows(machine: Mechanism, motion: Motion, situations: Sequence[PageSi
     try:
         with unwarned():
             solved = pin_forces(poses)
-        kept = plan.made(("traced loads",), lambda twin: twin)
-        traced = TracedMotion(kept, kept.trace.view())
+        traced = TracedMotion(plan.beside, plan.beside.trace)
         here: list[AnyMotion] = [traced, *(each.motion for each in situations if each.motion is not None)]
         loads = dict.fromkeys((each.element, each.point) for one in here for each in applied_loads(one, PLAIN, rates_in(one, PLAIN)).loads)
     except LinkageError:  # no forces, or loads that have no program
@@ -109,7 +108,7 @@ def force_arrows(machine: Mechanism, motion: Motion, situations: Sequence[PageSi
     told = [each for each in forces if alone_on(each, forces)]
     try:
         for joint in told[:1]:
-            bound(plan, joint_part(joint, joint.on, forces, "x")).nodes(kept)
+            bound(plan, joint_part(joint, joint.on, forces, "x")).nodes(plan.beside)
     except UntracedError:  # which parts pull is found pose by pose: the loads alone are drawn
         told = []
     found = list[PageArrow]()

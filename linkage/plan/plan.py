@@ -212,8 +212,12 @@ class Plan(Members, Shown):
         What is made must not hang on what else was read there, but to err on the careful side.
         """
         with TRACING:
-            twin = self.made(("beside",), lambda twin: twin)
-            return self.made(key, lambda _: make(twin))
+            return self.made(key, lambda _: make(self.beside))
+
+    @property
+    def beside(self) -> Plan:
+        """The fork of that shared program, kept: what is equal has equal nodes there. Whoever traces on it holds `TRACING`."""
+        return self.made(("beside",), lambda twin: twin)
 
     def _fork(self) -> Plan:
         """Return the same plan, not traced yet."""

@@ -5,7 +5,7 @@ from ..vectors import FloatArray, pick
 from .cache import compiled
 from .derivatives import Tangent, gradient, jacobian
 from .elimination import SparseSystem, eliminated, expanded, is_zero
-from .interpret import LAST, Iterated, disturbed, interpret, scatter
+from .interpret import LAST, Iterated, Scatter, disturbed, interpret
 from .intervals import Enclosure, enclosures
 from .kernel import BACKEND, QUICKEST, Backend, BackendName, Kernel, Result, RunOptions, fixed_backend
 from .languages import LANGUAGES, Inputs, Language, ProgramText, arrow_function, function_body, number, short_names

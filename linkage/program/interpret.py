@@ -10,7 +10,7 @@ from operator import attrgetter
 
 import numpy as np
 
-from ..vectors import FloatArray, Numbers
+from ..vectors import FloatArray, Numbers, Scalar
 from .derivatives import jacobian
 from .elimination import solution
 from .node import Closure, Level, Node
@@ -112,36 +112,75 @@ class Iterated:
         return cls(tuple([each.origin for each in closure.roots]), closure.residuals, rows)
 
 
-def scatter(outputs: Sequence[Node], inputs: Mapping[str, Numbers], iterated: Sequence[Iterated]) -> tuple[FloatArray, FloatArray]:
-    """Return the values of some nodes at poses (n,), and how far rounding scatters them: both of the shape (outputs, n).
+class Scatter:
+    """The values of some nodes at poses, and how far rounding scatters them; its steps are written down once.
 
-    Inputs are floats or arrays (n,) and taken as exact; `iterated` says which of them are solutions, in the order of construction. NaN
-    where there is no value.
+    `iterated` says which inputs are solutions, in the order of construction; the others are taken as exact.
     """
-    given = {name: np.asarray(value, float) for name, value in inputs.items()}
-    n = max((each.size for each in given.values()), default=1)
-    parts = [slice(first, first + BLOCK) for first in range(0, n, BLOCK)]
-    found = [_scattered(outputs, {name: each[part] if each.size > 1 else each for name, each in given.items()}, iterated) for part in parts]
-    values, errors = (np.concatenate(each, axis=-1) for each in zip(*found, strict=True))
-    return values, errors
 
+    def __init__(self, outputs: Sequence[Node], iterated: Sequence[Iterated]) -> None:
+        self._outputs = ShakenSteps(outputs)
+        self._iterated = [(each.inputs, ShakenSteps((*each.rows, *each.residuals))) for each in iterated]
 
-def _scattered(outputs: Sequence[Node], inputs: Mapping[str, FloatArray], iterated: Sequence[Iterated]) -> tuple[FloatArray, FloatArray]:
-    given: dict[str, Numbers] = dict(inputs)
-    n = max((each.size for each in inputs.values()), default=1)
-    for unknowns in iterated:
-        values = shaken((*unknowns.rows, *unknowns.residuals), given)
-        entries = [np.broadcast_to(each, (RUNS + 1, n)) for each in values]
+    def at(self, inputs: Mapping[str, Numbers]) -> tuple[FloatArray, FloatArray]:
+        """Return values and errors, both of the shape (outputs, n), for inputs as floats or (n,); NaN where there is no value."""
+        every = {name: np.asarray(value, float) for name, value in inputs.items()}
+        found = list[FloatArray]()
+        for first in range(0, max((each.size for each in every.values()), default=1), BLOCK):
+            given: dict[str, Numbers] = {name: each[first : first + BLOCK] if each.size > 1 else each for name, each in every.items()}
+            n = max(map(np.size, given.values()), default=1)
+            for unknowns, steps in self._iterated:
+                entries = [np.broadcast_to(each, (RUNS + 1, n)) for each in steps.values(given)]
+                with np.errstate(all="ignore"):
+                    change = np.array(solve_arrays(*entries))
+                    at = np.stack([np.broadcast_to(given[node.value], change.shape[1:]) for node in unknowns])
+                    change -= change[:, :1]
+                    rest = SETTLED * np.abs(at).max(axis=0) * np.stack([noise()[node.number % PERIOD] for node in unknowns])
+                given |= {node.value: at[k] - change[k] + rest[k] for k, node in enumerate(unknowns)}
+            found.append(np.stack([np.broadcast_to(each, (RUNS + 1, n)) for each in self._outputs.values(given)]))
+        runs = np.concatenate(found, axis=-1)
         with np.errstate(all="ignore"):
-            change = np.array(solve_arrays(*entries))
-            at = np.stack([np.broadcast_to(given[node.value], change.shape[1:]) for node in unknowns.inputs])
-            change -= change[:, :1]
-            rest = SETTLED * np.abs(at).max(axis=0) * np.stack([noise()[node.number % PERIOD] for node in unknowns.inputs])
-        given |= {node.value: at[k] - change[k] + rest[k] for k, node in enumerate(unknowns.inputs)}
-    runs = shaken(outputs, given)
-    found = np.stack([np.broadcast_to(each, (RUNS + 1, n)) for each in runs]) if runs else np.empty((0, RUNS + 1, n))
-    with np.errstate(all="ignore"):
-        return found[:, 0], np.abs(found[:, 1:] - found[:, :1]).max(axis=1)
+            return runs[:, 0], np.abs(runs[:, 1:] - runs[:, :1]).max(axis=1)
+
+
+class ShakenSteps:
+    """Some nodes as a list of steps, each run with other last digits; what is read no more is let go, so that memory stays in the cache."""
+
+    def __init__(self, outputs: Sequence[Node]) -> None:
+        nodes = ancestors(outputs)
+        places = {node: place for place, node in enumerate(nodes)}
+        self._outputs = [places[node.origin] for node in outputs]
+        last = {places[arg.origin]: place for place, node in enumerate(nodes) for arg in node.args}
+        ended: dict[int, list[int]] = {place: [] for place in range(len(nodes))}
+        for arg in last.keys() - self._outputs:
+            ended[last[arg]].append(arg)
+        self._steps: list[tuple[Node, list[int], FloatArray | None, list[int]]] = []
+        for place, node in enumerate(nodes):
+            # a product with a power of two rounds nothing
+            doubles = node.op == "multiply" and any([arg.op == "constant" and abs(frexp(arg.value)[0]) == 0.5 for arg in node.args])
+            changes = None if node.op in EXACT or doubles else noise()[node.number % PERIOD]
+            self._steps.append((node, [places[arg.origin] for arg in node.args], changes, ended[place]))
+
+    def values(self, given: Mapping[str, Numbers]) -> list[Numbers]:
+        """Return the values of the nodes, shape (runs, n) or fewer axes where nothing is rounded."""
+        values: list[Scalar] = []
+        with np.errstate(all="ignore"):
+            for node, places, changes, ended in self._steps:
+                args = [values[place] for place in places]
+                if node.op == "sqrt":
+                    args = [np.maximum(args[0], 0.0)]  # a dead point is reached to rounding
+                found = (OPERATIONS[node.op].array(*args) if args else given[node.value]) if node.op != "constant" else node.value
+                if node.op == "arctan2":
+                    found = np.where((np.asarray(args[0]) == 0.0) & (np.asarray(args[1]) == 0.0), np.nan, found)  # no direction to itself
+                    if found.ndim > 1:  # within half a turn of the first run
+                        found = found - 2.0 * np.pi * np.round((found - found[:1]) / (2.0 * np.pi))
+                if changes is not None:
+                    exact, found = found, found * changes
+                    found += exact
+                values.append(found)
+                for place in ended:
+                    values[place] = None
+        return [values[place] for place in self._outputs]
 
 
 @cache
@@ -150,24 +189,6 @@ def noise() -> FloatArray:
     found = np.random.default_rng(2).uniform(-SHAKEN, SHAKEN, (PERIOD, RUNS + 1, 1))
     found[:, 0] = 0.0
     return found
-
-
-def shaken(outputs: Sequence[Node], given: Mapping[str, Numbers]) -> list[Numbers]:
-    """Return the values of some nodes, shape (runs, n) or fewer axes where nothing is rounded."""
-    values: dict[Node, Numbers] = {}
-    changes = noise()
-    with np.errstate(all="ignore"):
-        for node in ancestors(outputs):
-            found = node_value(node, values, given, clipped=True)
-            if node.op == "arctan2":
-                y, x = (np.asarray(values[arg.origin]) for arg in node.args)
-                angle = np.where((y == 0.0) & (x == 0.0), np.nan, found)  # a point has no direction to itself
-                # within half a turn of the first run
-                found = angle if angle.ndim < 2 else angle - 2.0 * np.pi * np.round((angle - angle[:1]) / (2.0 * np.pi))
-            # a product with a power of two rounds nothing
-            doubles = node.op == "multiply" and any([arg.op == "constant" and abs(frexp(arg.value)[0]) == 0.5 for arg in node.args])
-            values[node] = found if node.op in EXACT or doubles else found + found * changes[node.number % PERIOD]
-    return [values[node.origin] for node in outputs]
 
 
 # The same seen by a program of its own, compiled: run once with digits shaken that are far from the last ones.

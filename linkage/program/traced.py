@@ -15,7 +15,7 @@ from numpy.lib.mixins import NDArrayOperatorsMixin
 
 from ..checks import is_listed
 from ..errors import DefinitionError
-from ..vectors import Scalar
+from ..vectors import Operators, Scalar
 from .node import Node
 from .operations import OPERATIONS
 
@@ -62,13 +62,20 @@ class Notes:
         self.claims[name] = self.claims.get(name, ()) + tuple(node for node in self.gaps if node not in taken)
 
 
-class Traced(NDArrayOperatorsMixin):
+class Traced(Operators[Scalar, Scalar], NDArrayOperatorsMixin):
     """One number of a law at any pose: a node, and the notes of the law. Vectors are arrays of two of them."""
 
     __slots__ = ("node", "notes")
 
     def __init__(self, node: Node, notes: Notes) -> None:
         self.node, self.notes = node, notes
+
+    def applied(self, function: str, *operands: Scalar) -> Scalar:
+        """Return NumPy's function of that name of operands: of numbers by their nodes at once, of all else as NumPy takes it."""
+        kinds = set(map(type, operands))
+        if kinds <= NUMBERS:
+            return Traced(self.node.applied(function, *map(node_of, operands)), self.notes)
+        return NotImplemented if Comparison in kinds else getattr(np, function)(*operands)
 
     def __array_ufunc__(self, ufunc: np.ufunc, kind: str, *inputs: object, **options: Scalar) -> Scalar:
         out = options.pop("out", None)
@@ -111,6 +118,10 @@ class Traced(NDArrayOperatorsMixin):
         method,
         (np.sqrt, np.exp, np.log, np.sin, np.cos, np.tan, np.arctan, np.arcsin, np.arccos, np.tanh, np.hypot, np.arctan2, np.positive),
     )
+
+
+NUMBERS = frozenset((Traced, float, int))
+"""What an operator takes without asking NumPy."""
 
 
 class Comparison:
@@ -205,7 +216,7 @@ def arrayed(value: object) -> Scalar:
 
 def node_of(number: object) -> Scalar:
     """Return a traced number's node; any other number as it is."""
-    return number.node if isinstance(number, Traced) else number
+    return number.node if type(number) is Traced else number
 
 
 def hyperbolic_tangent(a: Scalar) -> Scalar:

@@ -346,10 +346,11 @@ class LawInPlan:
 
 
 def law_in_plan(motion: TracedMotion, trace: Callable[[TracedMotion], TracedLaw], sentence: str = "") -> LawInPlan:
-    """Return a formula in the plan of a traced motion, from its nodes there; UntracedError where it has no program."""
+    """Return a formula in the plan of a traced motion, from its nodes, which are kept there; UntracedError where it has no program."""
     traced, node = trace(motion)
     notes = traced.notes
     key = "law", motion._reading.graph, node.number, *notes.assumed, None, *notes.switches, None, *notes.gaps
+    motion._reading.cache.setdefault(key, (traced, node))
     return LawInPlan(key, frozenset(motion.read), frozenset(motion.through), trace, sentence=sentence)
 
 
@@ -449,9 +450,8 @@ class LawRequest(Request):
                 self.examine(plan)
             if self.acting is not None:
                 refuse_loose(plan_in_case(plan, self.acting))
-            with TRACING:  # on a program that is kept for this: what is equal has equal nodes there
-                kept = plan.made(("traced loads",), lambda twin: twin)
-                motion = TracedMotion(kept, kept.trace.view())
+            with TRACING:
+                motion = TracedMotion(plan.beside, plan.beside.trace)
                 found = law_in_plan(motion, self.traced_law) if self.look_up is None else self.look_up(self, motion)
             return replace(self, in_plan=found)
 

@@ -726,7 +726,7 @@ class Mechanism(Shown, metaclass=MechanismType):
 
     @property
     def links(self) -> tuple[Body, ...]:
-        """The rigid bodies, the frame first."""
+        """The bodies by their points, the frame first; those of a cylinder or a telescope together, which `graph` has one by one."""
         return self.plan.links
 
     @property
@@ -749,9 +749,9 @@ class Mechanism(Shown, metaclass=MechanismType):
     def graph(self) -> nx.MultiGraph:
         """The bodies as nodes and the pins and slides between them as edges, a `networkx.MultiGraph`; `draw` makes its picture.
 
-        The frame is "frame". A pin of n bodies is n - 1 edges, a cylinder is a barrel and a rod, a point on a guide a block, so that
-        3 (n - 1) - 2 j is `gruebler`. Nodes have `kind`, `points`, `link` and `dimensions` [m] of this design, edges, keyed by name,
-        `kind`, the `strokes` that drive them and `dimensions`, the driven lengths as they are written.
+        The frame is "frame". A pin of n bodies is n - 1 edges, a cylinder is a barrel and a rod, a point on a guide a block.
+        3 (n - 1) - 2 j, less one for each rope of a length, is `gruebler`. Nodes have `kind`, `points`, `link` and `dimensions` [m] of this
+        design, edges, keyed by name, `kind`, the `strokes` that drive them and `dimensions`, the driven lengths as they are written.
         """
         return chain_graph(self.plan, self.at(unreachable="nan", **self.plan.sketch_strokes).inputs)
 

@@ -19,7 +19,7 @@ def test_the_demo_prints_the_worksheet_and_writes_its_pictures(folder, capsys):
         assert heading in printed
     for figure in ("7.262", "8094", "161.017", "0.963", "2.513", "2801", "55.727", "2.781"):
         assert figure in printed
-    assert "least reserve is 0.963, at S = 0.5500 m; too weak from S = 0.5500 to 0.5660 m" in printed
+    assert "least reserve is 0.963, at S = 550.0 mm; too weak from S = 550.0 to 566.0 mm" in printed
     assert "or a bore of 90 mm, with a reserve of 1.22" in printed
     for name in ("mower_lift_curves.png", "mower_lift_poses.png", "mower_lift.gif"):
         assert f"\n{folder / name}\n" in printed

@@ -90,7 +90,7 @@ Table: TypeAlias = tuple[str, Sequence[Column], Sequence[bool]]
 
 
 def heading_words(machine: Mechanism, run: Run | None, motion: Motion) -> str:
-    """Return which run of several or of a load case a table is along, in words: `over reaching, in the case far: extend = 0 to 3 m`."""
+    """Return which run of several or of a load case a table is along, in words: `over reaching, in the case far: extend = 0 to 3000 mm`."""
     words = run_words(machine, run) if run is not None else ""
     if run is None or not words:
         return words

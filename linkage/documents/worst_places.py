@@ -12,7 +12,7 @@ from ..errors import LinkageError, unwarned
 from ..language import heading_of, said, said_of
 from ..loads import PLAIN_CASE
 from ..mechanism import verdicts_of
-from ..motion import Answer, Column, HasVerdicts, MotionFunction, Request, places_text, speakers
+from ..motion import Answer, Column, HasVerdicts, MotionFunction, PageWords, Request, places_text, speakers
 from ..motion.measures import Constraint, Leaf, least, measure_of, most
 from ..pictures.shown_values import limit_of
 from ..reports import is_column
@@ -47,7 +47,7 @@ def verdict_section(subject: ReportSubject, limits: Mapping[str, Sequence[object
     heads = (said("rule"), said("result"), said("what was found"))
     rows = tuple((each.heading, verdict_mark(each.ok) if each.is_rule else Mark(None, "–"), each.sentence) for each in found)
     table = TableBlock(said("Rules, over all that the machine runs"), heads, rows, "llm")
-    places = [(each.heading, each.ok, each.answer, None, rule_share(subject, each)) for each in judged if isinstance(each.answer, Answer)]
+    places = [judged_row(subject, each, each.answer) for each in judged if isinstance(each.answer, Answer)]
     broken = [*(each.heading for each in judged if each.ok is False), *(name for name, ok, *_ in limited if ok is False)]
     shown = Section(title, (domain, table, *worst_places(subject, [*places, *limited])))
     return shown, rules_mark(judged), found, "; ".join(dict.fromkeys(broken))
@@ -127,16 +127,20 @@ def value_cell(subject: ReportSubject, answer: Answer, column: Column | None) ->
     return show(float(answer.value), display_unit(kind, "mm"), 4)
 
 
-def rule_share(subject: ReportSubject, verdict: Verdict) -> float:
-    """Return how far the limit of a rule is used, as on a page. A length that fits uses nothing."""
-    member, answer = speakers(subject.machine.plan, HasVerdicts).get(verdict.member), verdict.answer
-    words = {} if member is None else member.page_words(subject.judge)
-    own = next((each.share for rule, each in words.items() if verdict.rule in (rule, f"{rule} {verdict.member}")), None)
-    if own is not None:
-        return float(subject.judge.answer(own).value)
+def judged_row(subject: ReportSubject, verdict: Verdict, answer: Answer) -> JudgedRow:
+    """Return the row of a rule, with the number that its sentence says, and how far its limit is used, as on a page.
+
+    A length that fits uses nothing.
+    """
+    member = speakers(subject.machine.plan, HasVerdicts).get(verdict.member)
+    rules = {} if member is None else member.page_words(subject.judge)
+    words = next((each for rule, each in rules.items() if verdict.rule in (rule, f"{rule} {verdict.member}")), PageWords(""))
     question = answer.question.left if isinstance(answer.question, Constraint) else answer.question
-    is_fitting = verdict.ok and (answer.measures or measure_of(subject.machine.plan, question)) == "length"
-    return 0.0 if is_fitting else used(answer)
+    kind = answer.measures or measure_of(subject.machine.plan, question)
+    share = used(answer) if words.share is None else float(subject.judge.answer(words.share).value)
+    if kind == "number" and words.measure is not None:
+        answer = replace(answer, value=subject.judge.answer(words.measure).value)
+    return verdict.heading, verdict.ok, answer, None, 0.0 if verdict.ok and kind == "length" and words.share is None else share
 
 
 def used(answer: Answer) -> float:

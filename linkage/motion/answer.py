@@ -121,7 +121,7 @@ class Answer:
 
     @property
     def where(self) -> str:
-        """Where it stands, in words: `at S = 0.1234 m`, `at S1 = 0.1000 m, phi = 25.00 deg`; of several, the ranges.
+        """Where it stands, in words: `at S = 123.4 mm`, `at S1 = 100.0 mm, phi = 25.00 deg`; of several, the ranges.
 
         Of a path in time `at 0.1875 s (lift = 114.1 mm)`.
         """

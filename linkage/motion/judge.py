@@ -1027,10 +1027,12 @@ def situation_found(chosen: Sequence[WorstPiece]) -> Situation:
 
 
 def valued(question: Any, number: Callable[[Leaf], FloatArray]) -> tuple[FloatArray, FloatArray]:
-    """Return a question's value, and its margin: below zero where it is not kept; for a bare measure, greatest at the best value."""
+    """Return a question's value, and its margin: below zero where it is not kept; for a bare measure, least where its one leaf is worst."""
     if isinstance(question, Measure):
-        value = np.asarray(question.from_leaves(number), float)
-        return value, value if isinstance(question, Least) else -value
+        value, running = np.asarray(question.from_leaves(number), float), {each for each in question.leaves if not isinstance(each, At)}
+        (leaf,) = running if len(running) == 1 else (question,)
+        of_leaf = np.where(np.isnan(value), np.nan, number(leaf)) if isinstance(leaf, (Least, Most)) else value
+        return value, of_leaf if isinstance(leaf, Least) else -of_leaf
     left, right = (np.asarray(each.from_leaves(number), float) for each in (question.left, question.right))
     size = MET * np.maximum(np.abs(np.where(np.isfinite(left), left, 0.0)), np.abs(np.where(np.isfinite(right), right, 0.0)))
     apart = {">=": left - right, "<=": right - left}.get(question.symbol)

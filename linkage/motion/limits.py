@@ -67,7 +67,7 @@ class StrokeLimits:
             return [f"  {said('reachable all the way from {low} to {high}', low=low, high=high)}"]
         low, high = (stroke_number(value, self.unit) + ("" if stop else said(" (looked no farther)")) for value, stop in ends)
         stops = [f"    {stroke_number(value, self.unit)}: {said('dead point of {step}', step=stop)}" for value, stop in ends if stop]
-        sign = unit_sign(display_unit(UNITS[self.unit][1]))
+        sign = unit_sign(display_unit(UNITS[self.unit][1], "mm"))
         return [f"  {said('reachable from {low} to {high} {unit}', low=low, high=high, unit=sign)}", *stops]
 
 
@@ -257,7 +257,7 @@ def no_joint(plan: Plan, name: str, joints: Sequence[str]) -> DefinitionError:
 
 
 def where_words(plan: Plan, mask: Mask, strokes: Mapping[str, Any]) -> str:
-    """Return which poses are meant as errors and warnings say it, in English: `at 7 of 101 strokes, from S = 0.1598 to 0.1700 m`."""
+    """Return which poses are meant as errors and warnings say it, in English: `at 7 of 101 strokes, from S = 159.8 to 170.0 mm`."""
     with language(ENGLISH):
         return where_said(plan, mask, strokes)
 
@@ -292,7 +292,7 @@ STILL = 1e-9
 
 
 def span_text(values: Any, unit: str) -> str:
-    """Return the range of some stroke values as it is read: `0 to 0.25 m`, `90 deg`."""
+    """Return the range of some stroke values as it is read: `0 to 250 mm`, `90 deg`."""
     values = np.asarray(values, float)
     values = values[np.isfinite(values)]  # along a path a place that is not reached has no stroke
     if not values.size:
@@ -308,7 +308,7 @@ MOST_TURNS = 4
 
 
 def way_text(values: Any, unit: str) -> str:
-    """Return where a stroke begins, turns back and ends, one after the other: `0, 0.3 to 0.1 m`; of many values their range."""
+    """Return where a stroke begins, turns back and ends, one after the other: `0, 300 to 100 mm`; of many values their range."""
     values = np.asarray(values, float)
     steps = np.diff(values)
     moving = np.flatnonzero(np.abs(steps) > STILL)
@@ -320,32 +320,30 @@ def way_text(values: Any, unit: str) -> str:
 
 
 def place_text(value: Any, unit: str) -> str:
-    """Return a stroke [m or rad], or the range of several, as a place of it is read: `0.1234 m`, `25.00 deg`, `0.1000 to 0.2000 m`."""
-    digits, shown = 2 if unit == "rad" else 4, display_unit(UNITS[unit][1])
+    """Return a stroke [m or rad], or the range of several, as a place of it is read: `123.4 mm`, `25.00 deg`, `100.0 to 200.0 mm`."""
+    digits, shown = 2 if unit == "rad" else 1, display_unit(UNITS[unit][1], "mm")
     low, high = (shown_number(float(each), shown, f"z.{digits}f") for each in (np.min(value), np.max(value)))
     return f"{low if low == high else said('{low} to {high}', low=low, high=high)} {unit_sign(shown)}"
 
 
 def places_text(strokes: Mapping[str, object], units: Mapping[str, str]) -> str:
-    """Return values of strokes as a place is read: `S1 = 0.1000 m, phi = 25.00 deg`; of several, the ranges."""
+    """Return values of strokes as a place is read: `S1 = 100.0 mm, phi = 25.00 deg`; of several, the ranges."""
     return ", ".join(f"{name} = {place_text(value, units[name])}" for name, value in strokes.items())
 
 
 def timed_texts(strokes: Mapping[str, Any], units: Mapping[str, str], time: float) -> tuple[str, str]:
     """Return an instant [s] and the strokes there as they are read: `0.1875 s`, `lift = 114.1 mm, phi = 25.00 deg`."""
-    forms = {name: ("deg", "z.2f") if unit == "rad" else ("mm", "z.1f") for name, unit in units.items()}
-    there = ", ".join(f"{name} = {show(float(value), *forms[name])}" for name, value in strokes.items())
-    return show(round(time, 6), "s", 4), there
+    return show(round(time, 6), "s", 4), places_text(strokes, units)
 
 
 def stroke_text(value: float, unit: str, digits: int = 9) -> str:
-    """Return a value of a stroke [m or rad] as it is read, a length in the unit that is said: `0.25 m`, `90 deg`."""
-    return show(value, display_unit(UNITS[unit][1], unit), digits)
+    """Return a value of a stroke [m or rad] as it is read: `250 mm`, `90 deg`."""
+    return show(value, display_unit(UNITS[unit][1], "mm"), digits)
 
 
 def stroke_number(value: float, unit: str, digits: int = 9) -> str:
-    """Return a value of a stroke [m or rad] as it is read, without its unit; angles in degrees."""
-    return shown_number(value, display_unit(UNITS[unit][1], unit), digits)
+    """Return a value of a stroke [m or rad] as it is read, without its unit: lengths in millimetres, angles in degrees."""
+    return shown_number(value, display_unit(UNITS[unit][1], "mm"), digits)
 
 
 def stroke_measure(plan: Plan, name: str) -> str:

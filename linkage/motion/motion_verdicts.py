@@ -318,7 +318,7 @@ def dead_point_verdicts(limits: StrokeLimits, span: tuple[float, float], pushed:
 
 
 def place_of(limits: StrokeLimits, value: float, what: str) -> str:
-    """Return a place along a stroke [m or rad] in words: `B at S = 0.1234 m`."""
+    """Return a place along a stroke [m or rad] in words: `B at S = 123.4 mm`."""
     return said("{what} at {stroke} = {value}", what=what, stroke=limits.stroke, value=place_text(value, limits.unit))
 
 

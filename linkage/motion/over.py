@@ -379,7 +379,7 @@ class Over(Member):
         return self.name
 
     def words(self, motion: MotionLike) -> str:
-        """Return its strokes in words: `phi = 15 to 80 deg, t = 0 m`; of a path those that each passes.
+        """Return its strokes in words: `phi = 15 to 80 deg, t = 0 mm`; of a path those that each passes.
 
         Parameters
         ----------

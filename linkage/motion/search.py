@@ -107,7 +107,7 @@ class Span:
     times: tuple[float, float] | None = None
 
     def __str__(self) -> str:
-        """Return it in words: `from S = 0.5500 to 0.5660 m`, `from S1 = 0.1000 m, S2 = 0.2000 m to S1 = 0.1500 m, S2 = 0.2000 m`."""
+        """Return it in words: `from S = 550.0 to 566.0 mm`, `from S1 = 100.0 mm, S2 = 200.0 mm to S1 = 150.0 mm, S2 = 200.0 mm`."""
         if self.times is not None:
             low, high = (shown_number(round(each, 6), "s", 4) for each in self.times)
             at = said("at {place}", place=show(round(self.times[0], 6), "s", 4))

@@ -118,7 +118,10 @@ on(byId("keep"), "click", () => {
   kept.sort((a, b) => (a.letter < b.letter ? -1 : 1));
   compared(); remember();
 });
-/* The designs in columns: the dimensions in which they differ, the ends of the curve, and how many live verdicts fail. */
+/* What the verdicts find of designs that do not change. */
+const judged = new WeakMap();
+const foundOf = (design) => judged.get(design) ?? judged.set(design, asking.ask(vector(design), STILL, true).found).get(design);
+/* The designs in columns: the dimensions in which they differ, the ends of the curve, and the live rules that fail in one of them. */
 function compared() {
   const table = byId("kept"), head = make("tr"), all = [{ letter: say("now"), design: present }, { letter: say("delivered"), design: original }, ...kept];
   table.hidden = !kept.length;
@@ -141,7 +144,10 @@ function compared() {
     rows.push(line(say("least {name}", { name: heading(one) }), curves.map((list) => (list.length ? short(min(...list), 4) : "\u2013"))));
     rows.push(line(say("greatest {name}", { name: heading(one) }), curves.map((list) => (list.length ? short(max(...list), 4) : "\u2013"))));
   }
-  rows.push(line(say("rules that fail, live"), all.map(({ design }) => String(asking.ask(vector(design), DRAGGING, false).found.filter((each) => each.ok === false).length))));
+  const found = all.map(({ design }) => (design === present ? asked(down.size ? DRAGGING : STILL).found : foundOf(design)));
+  asking.laid(vector(present));
+  questions.forEach((each, q) => { if (found.some((list) => list[q].ok === false)) rows.push(line(ruled(each), found.map((list) => `${list[q].ok === false ? "\u2715 " : ""}${ruleNumber(each, list[q])}`))); });
+  rows.push(line(say("rules that fail, live"), found.map((list) => String(list.filter((each) => each.ok === false).length))));
   const top = make("thead"), body = make("tbody");
   top.append(head); body.append(...rows);
   table.replaceChildren(top, body);

@@ -43,6 +43,8 @@ ACROSS = 720.0
 """The size of the letters and the width of the sheet for which names are placed [px]."""
 SHOWN = 6
 """How many dimensions a page shows at first."""
+OF_BROKEN = 2
+"""How many of these move most what one rule asks that is not kept."""
 STEPS = ("length", "angle")
 Limits = dict[str, Limit]
 ALONG = "along the path"
@@ -374,20 +376,25 @@ def four_digits(value: float) -> float:
 
 
 def shown_first(requests: PageRequests, dims: Sequence[Sequence[Any]]) -> list[str]:
-    """Return the dimensions shown at first: those chosen, else those that move the featured result most, by parts.
+    """Return the dimensions shown at first, by parts: those chosen, else those that move most what is not kept, and the featured result.
 
-    Where it has no derivatives these are the first lengths and angles of steps.
+    Where these have no derivatives they are the first lengths and angles of steps.
     """
     names = [each[0] for each in dims]
     if requests.vary is not None:
         return [name for name in requests.vary if name in names]
     _, request, why = requests.columns[requests.column]
     ranges = {name: float(np.ptp(ends)) if isinstance(ends, list) else 2.0 * ends for name, _, ends, *_ in dims}
-    found = {} if why else influences(requests.questions.judge, request, ranges)
-    entries = requests.plan.table.entries
-    ranked = sorted(found, key=lambda name: not plan_measure(requests.plan, name))  # sizes before efficiencies and other plain numbers
-    chosen = ranked or sorted(names, key=lambda name: entries[name].kind not in STEPS)
-    return sorted(chosen[:SHOWN], key=lambda name: name.rpartition(".")[0])
+    judge, entries = requests.questions.judge, requests.plan.table.entries
+    broken = [influences([there], asked, ranges) for there, asked in requests.questions.broken]
+    found = {} if why else influences([place.sampled for place in judge.places], [request], ranges)
+
+    def ranked(moving: Mapping[str, float]) -> list[str]:  # sizes before efficiencies and other plain numbers
+        return sorted(moving, key=lambda name: not plan_measure(requests.plan, name))
+
+    rest = ranked(found) or sorted(names, key=lambda name: entries[name].kind not in STEPS)
+    chosen = dict.fromkeys([name for moving in broken for name in ranked(moving)[:OF_BROKEN]][: SHOWN - OF_BROKEN] + rest)
+    return sorted([*chosen][:SHOWN], key=lambda name: name.rpartition(".")[0])
 
 
 def stroke_data(requests: PageRequests) -> list[PageData]:

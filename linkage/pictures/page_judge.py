@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Hashable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import cached_property, reduce
 from typing import Any, TypeAlias
@@ -13,7 +13,7 @@ from ..errors import DefinitionError, LawError, LinkageError, UntracedError, unw
 from ..language import heading_of, language, translated
 from ..loads import FRICTIONLESS, PLAIN_CASE, Acting
 from ..mechanism import Mechanism
-from ..motion import Column, Condition, HasVerdicts, Instants, LiveText, PageWords, Request, RequestLike, least, most, speakers
+from ..motion import Column, Condition, HasVerdicts, Instants, LiveText, Motion, PageWords, Request, RequestLike, least, most, speakers
 from ..motion.judge import Domain, Judge, SearchRow, leaf_key, measures_of
 from ..motion.measures import At, Constraint, Integral, Leaf, Measure, conditions_of, dimension_value
 from ..motion.motion_verdicts import NEAR, rules_of, verdict_questions
@@ -140,6 +140,16 @@ class LiveQuestions:
                     self.by_name |= {f"{name} {which}": where_true(looked_up, which) for which in TRUTHS}
                 found.append((number, row, name))
         return found
+
+    @property
+    def broken(self) -> Iterator[tuple[Motion, list[Request]]]:
+        """The questions that are not kept: the pose where each is worst, and what it asks there."""
+        for _, constraints, pieces in self.asked:
+            for each in constraints:
+                with unwarned():
+                    answer = self.judge.answer(each)
+                if answer.ok is False and answer.strokes:
+                    yield self.judge.there(answer), [row.request for leaf in each.left.leaves for _, row, _ in pieces[leaf]]
 
     @cached_property
     def delivered_rows(self) -> list[DeliveredRow]:

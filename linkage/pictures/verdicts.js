@@ -3,7 +3,7 @@
 const limitText = ([, text, , ru]) => (language === "ru" && ru) || text;
 const mm = (value) => fixed(value / data.length.factor, data.length.factor > 0.01 ? 2 : 1) + unitText(data.length.unit);
 const strokeText = (value) => { const stroke = strokes[runs]; return `${titled(stroke)} = ${shown(value, stroke, 4)}`; };
-const placeText = (at) => own.map((each, k) => `${each.name} = ${shown(at[k], each, 4)}`).join(", ");
+const placeText = (at) => own.map((each, k) => `${each.name} = ${fixed(at[k] / each.factor, max(round(log10(1e4 * each.factor)), 0))}${unitText(each.unit)}`).join(", ");
 const ruled = ({ rule, ru }) => (language === "ru" && ru) || rule;
 const questions = data.judge.questions, byKey = new Map(questions.map((each, q) => [each.key, q]));
 /* Angles of links of which less is in line [rad], and below which textbooks advise against a loop that carries load. */
@@ -30,6 +30,8 @@ function situationText(each) {
   return words.join(", ");
 }
 const size = (value, unit) => (isNumber(value) ? shown(value, unit, 4) : say("without bounds"));
+/* The number that tells a rule: the condition's own, of a share without a unit the one that its sentence says. */
+const ruleNumber = ({ unit, saysUnit }, { value, says }) => (!unit.unit && isNumber(says?.value) ? size(says.value, saysUnit) : size(value, unit));
 function answerText({ rule, unit, words, fails, saysUnit }, each) {
   if (each.unknown) return say("as delivered: with these sizes the page does not follow it");
   if (each.ok === null) return say("says nothing: no place is left to judge");
@@ -298,8 +300,8 @@ function count(found) {
 function atPose() {
   const at = followed(stands).slice(0, own.length), { covered, found } = asking.here(at, pose, strokes[runs].courses ? strokes[runs].over : -1), faults = [];
   for (const [q, each] of found.entries()) {
-    const { unit } = questions[q], value = isNumber(each.value) ? size(each.value, unit) : say("no value");
-    if (each.ok === false) faults.push({ q, rule: ruled(questions[q]), text: value, limit: isNumber(each.limit) ? size(each.limit, unit) : "", case: each.case === "plain" ? say("own loads") : each.case });
+    const { unit } = questions[q], value = isNumber(each.value) ? ruleNumber(questions[q], each) : say("no value");
+    if (each.ok === false) faults.push({ q, rule: ruled(questions[q]), text: value, limit: isNumber(each.limit) && value === size(each.value, unit) ? size(each.limit, unit) : "", case: each.case === "plain" ? say("own loads") : each.case });
   }
   for (const each of columns) {
     const given = data.limits[each.name], value = given && each.row !== undefined && !questions.some(({ rule }) => rule === each.name) ? pose.values[each.row][0] : NaN;

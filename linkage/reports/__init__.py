@@ -1,7 +1,7 @@
-"""Results as text: tables, values with units, stroke ranges in words."""
+"""Results as text: tables, values with units."""
 
 from .live_columns import LiveColumn, at_its_rates, column_requests, is_column
-from .ranges import closely, ranges_below_zero, reached_span, spans_in_words
+from .ranges import closely, reached_span
 from .results import (
     case_along,
     case_shown,

@@ -14,7 +14,7 @@ from ..errors import DefinitionError, cited, ensure, unwarned
 from ..language import noted, said, translated
 from ..loads import FRICTIONLESS, Acting
 from ..motion import Answer, Judge, Motion, Over, greatest, most, stroke_unit
-from ..motion.limits import place_text, timed_texts
+from ..motion.limits import places_text, timed_texts
 from ..quantities import body_name
 from ..shown import text_columns
 from ..units import shown_number, unit_sign
@@ -52,8 +52,8 @@ class PinLoad:
 
     @property
     def place(self) -> str:
-        """Where it occurs, in words: `phi = 15.00 deg, t = 0.0000 m`, in time `2 s (t = 0.0 mm)`; over which of several `Over`s."""
-        at = ", ".join(f"{name} = {place_text(value, self.units[name])}" for name, value in self.strokes.items())
+        """Where it occurs, in words: `phi = 15.00 deg, t = 0.0 mm`, in time `2 s (t = 0.0 mm)`; over which of several `Over`s."""
+        at = places_text(self.strokes, self.units)
         if self.answer is not None and np.isfinite(self.answer.time):
             time, there = timed_texts(self.strokes, self.units, float(self.answer.time))
             at = f"{time} ({there})"

@@ -209,7 +209,7 @@ class Weakest:
         text = said(
             "least at S = {stroke}, F {height} high: {capacity} ({mass}). There the pressure limits it: G rises {ratio:.3f} {unit} "
             "for 1 {unit} of the cylinder, {stage}.",
-            stroke=show(self.stroke, "m", ".4f"), height=show(self.height, "mm", ".0f"), capacity=show(self.capacity, "kN", ".2f"),
+            stroke=show(self.stroke, "mm", ".1f"), height=show(self.height, "mm", ".0f"), capacity=show(self.capacity, "kN", ".2f"),
             mass=show(self.capacity / g0, "kg", ".0f"), ratio=self.ratio, unit=unit_sign("mm"), stage=self.stage,
         )  # fmt: skip
         return f"{text} {self.remedy}"
@@ -264,7 +264,7 @@ def stage(there: Motion, best: Motion) -> str:
     (S,) = best.strokes.values()
     return said(
         "mostly by {name}: {now}, at the best point, S = {stroke}, {then}",
-        name=name, now=now[name][1], stroke=show(float(S[0]), "m", ".4f"), then=then[name][2],
+        name=name, now=now[name][1], stroke=show(float(S[0]), "mm", ".1f"), then=then[name][2],
     )  # fmt: skip
 
 

@@ -9,6 +9,7 @@ from linkage.cli.command import Command, figure_path, machine_options, option
 from linkage.cli.settings import design_from, judged_over, motions_at, print_verdicts
 from linkage.cli.table import Table, heading_words, write_tables
 from linkage.statics import table_text
+from linkage.units import show
 
 from ..paper import figure_options, machine_like
 from . import FIGURES, figure
@@ -57,7 +58,7 @@ def print_hitch(options: Namespace) -> int:
         print(f"\n{table_text(max_table([pin_forces(motion) for _, motion in motions]))}")
     if options.vertical:
         strokes = dict.fromkeys(float(S) for _, motion in motions for S in motion.strokes["S"].ravel())
-        print("", *(f"S = {S:.4f} m: {mast_words(machine, S)}" for S in strokes), sep="\n")
+        print("", *(f"S = {show(S, 'mm', '.1f')}: {mast_words(machine, S)}" for S in strokes), sep="\n")
     code = print_verdicts(machine.verdicts(over=judged_over(machine, options)), options)
     if path is not None:
         figure(options.figure or ("zones" if options.zones else "capacity"), machine).savefig(path)

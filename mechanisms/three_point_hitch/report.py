@@ -10,11 +10,10 @@ from __future__ import annotations
 import numpy as np
 
 from linkage import Column, ForceElement, Mechanism, Motion, least, most, pin_forces
-from linkage.language import noted, said
+from linkage.language import noted, said, with_and
 from linkage.loads import Case
-from linkage.motion import Judge, MotionFunction, judge_along
+from linkage.motion import Judge, MotionFunction, below_zero, judge_along
 from linkage.program import FloatArray
-from linkage.reports import ranges_below_zero, spans_in_words
 from linkage.units import g0, show, shown_number
 from linkage.verdict import Verdict
 
@@ -153,7 +152,7 @@ def balance_verdict(judge: Judge) -> Verdict:
     load, given = float(worst.value), judge.motion.inputs
     share, needed = load / (float(given["vehicle_mass"]) * g0), float(given["least_front"])
     height = show(float(judge.there(worst).y("F")), "mm", ".0f")
-    where = said("at S = {stroke}, F {height} high", stroke=show(float(worst.strokes["S"]), "m", ".4f"), height=height)
+    where = said("at S = {stroke}, F {height} high", stroke=show(float(worst.strokes["S"]), "mm", ".1f"), height=height)
     mass = said("No implement tips it")
     if np.isfinite(tips.value):
         mass = said("It tips with {mass}", mass=show(float(tips.value), "kg", ".0f"))
@@ -268,7 +267,7 @@ def upper_link_verdict(judge: Judge, motion: Motion) -> Verdict:
         "up to {tension} of tension and {compression} of compression, which acts {where}: the force changes its sense, "
         "so that play is felt.",
         tension=show(high, "kN", ".2f"), compression=show(-low, "kN", ".2f"),
-        where=spans_in_words(ranges_below_zero(motion, force), "S"),
+        where=with_and([*map(str, below_zero(motion, force))]),
     )  # fmt: skip
     return Verdict("upper link", True, text)
 
@@ -280,7 +279,7 @@ def mast_verdict(judge: Judge, hitch: Mechanism, motion: Motion) -> Verdict:
     text = said(
         "tilt {low} to {high} over this motion. At S = {start} {words}",
         low=shown_number(low, "deg", ".2f"), high=show(high, "deg", ".2f"),
-        start=show(start, "m", ".4f"), words=mast_words(hitch, start),
+        start=show(start, "mm", ".1f"), words=mast_words(hitch, start),
     )  # fmt: skip
     return Verdict("mast", True, text)
 

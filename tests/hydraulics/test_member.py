@@ -157,7 +157,7 @@ def test_offers_give_the_thrust_and_do_not_buckle():
 def test_buckling_is_of_one_of_the_cylinders_at_its_worst_pose():
     motion, load = Arm().sweep(11), [Actuator("A", "B", force=-100 * kN)]
     (verdict,) = Arm.lift.buckling(motion, load)
-    assert verdict and "50 kN on a 63 mm rod 750 mm long" in verdict.sentence and "at S = 0.2500 m" in verdict.sentence
+    assert verdict and "50 kN on a 63 mm rod 750 mm long" in verdict.sentence and "at S = 250.0 mm" in verdict.sentence
     assert not Cylinder("A", "B", bore=0.1, rod=0.016).buckling(motion, load)[0]
     assert [bool(each) for each in Arm.lift.checks(motion, load)] == [True, True, True]
 

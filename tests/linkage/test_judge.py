@@ -353,7 +353,7 @@ def test_overs_of_a_class_replace_the_box_and_are_named():
     assert [each.name for each in machine.overs] == ["loading", "transport"] and Loader().overs[0].strokes == {}
     answer = machine.answers([least(reserve("lift"))])[0]
     assert answer.over in ("loading", "transport") and f"over {answer.over}" in str(answer)
-    assert any("loading: the path S = 0 to 0.3 m, T = 0 to 0.2 m" in each and "transport: " in each for each in machine.verdicts()[:1])
+    assert any("loading: the path S = 0 to 300 mm, T = 0 to 200 mm" in each and "transport: " in each for each in machine.verdicts()[:1])
 
     class Without(Working):
         loading = None

@@ -99,7 +99,7 @@ def test_no_remark_where_nothing_is_lost(said, command):
 )
 def test_nothing_but_lost_places_ends_with_exit_code_2(said, command):
     code, _, err = said(command.format(LIFT))
-    assert code == 2 and "cannot be assembled at S1 = 0.0000 m, S2 = 0.3" in err
+    assert code == 2 and "cannot be assembled at S1 = 0.0 mm, S2 = 3" in err
 
 
 @pytest.mark.parametrize("over", [" --over S1=0", pytest.param("", marks=pytest.mark.slow)])
@@ -107,7 +107,7 @@ def test_show_says_what_is_lost_and_judges_the_rest(said, over):
     code, out, err = said(f"show {LIFT} --check{over}")
     (line,) = (each.strip() for each in out.splitlines() if each.strip().startswith("FAIL assembly"))
     assert code == 1 and not err and "C = Dyad(D, B)" in line and "161 mm short" in line and "what follows holds for the rest" in line
-    assert "at S1 = 0.0000 m, S2 = 0.3400 m" in line and "ok   length lift: " in out
+    assert "at S1 = 0.0 mm, S2 = 340.0 mm" in line and "ok   length lift: " in out
 
 
 def test_rule_that_says_nothing_does_not_fail_and_is_named(said):
@@ -125,10 +125,10 @@ def test_report_goes_on_and_says_what_is_lost(said, tmp_path):
 
 def test_limits_tell_the_box_beside_the_strokes(said):
     code, out, err = said(f"limits {LIFT} --check")
-    assert code == 1 and not err and "S1: declared 0 to 0.225 m" in out and "together: S1 = 0 to 0.225 m, S2 = 0 to 0.34 m" in out
-    assert "16.7 % cannot be assembled, most of all: C = Dyad(D, B) cannot be assembled at S1 = 0.0000 m, S2 = 0.3400 m" in out
-    assert "C comes apart, most of all at S1 = 0.0000 m, S2 = 0.3400 m" in out
-    assert "the links of F are at least 16.7 deg out of line, at S1 = 0.2250 m, S2 = 0.0000 m" in out
+    assert code == 1 and not err and "S1: declared 0 to 225 mm" in out and "together: S1 = 0 to 225 mm, S2 = 0 to 340 mm" in out
+    assert "16.7 % cannot be assembled, most of all: C = Dyad(D, B) cannot be assembled at S1 = 0.0 mm, S2 = 340.0 mm" in out
+    assert "C comes apart, most of all at S1 = 0.0 mm, S2 = 340.0 mm" in out
+    assert "the links of F are at least 16.7 deg out of line, at S1 = 225.0 mm, S2 = 0.0 mm" in out
 
 
 def test_margin_of_a_loop_is_the_angle_between_its_links():
@@ -147,17 +147,17 @@ def test_margin_of_a_loop_is_the_angle_between_its_links():
 @pytest.mark.parametrize("over", ["level", "S2=0:100mm", "S2=0:0.1,S1=0:225mm"])
 def test_over_is_named_or_said_by_its_strokes(said, over):
     code, out, _ = said(f"show {DECLARED} --over {over}")
-    assert code == 0 and "ok   assembly: it is assembled over S1 = 0 to 0.225 m, S2 = 0 to 0.1 m." in out
+    assert code == 0 and "ok   assembly: it is assembled over S1 = 0 to 225 mm, S2 = 0 to 100 mm." in out
 
 
 def test_overs_stand_one_after_the_other(said):
     _, out, _ = said(f"show {DECLARED} --over level --over S2=0.05")
-    assert "S2 = 0 to 0.1 m" in out and "S2 = 0.05 m" in out
+    assert "S2 = 0 to 100 mm" in out and "S2 = 50 mm" in out
 
 
 def test_limits_are_those_of_an_over(said):
     code, out, _ = said(f"limits {DECLARED} --over level")
-    assert code == 0 and "together: S1 = 0 to 0.225 m, S2 = 0 to 0.1 m\n  all of it can be assembled" in out
+    assert code == 0 and "together: S1 = 0 to 225 mm, S2 = 0 to 100 mm\n  all of it can be assembled" in out
 
 
 def test_page_is_of_the_same_design_over_what_is_said():

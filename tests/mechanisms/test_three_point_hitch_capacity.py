@@ -161,8 +161,8 @@ def test_stages_make_up_the_ratio():
 
 def test_weakest_point_in_words():
     text = verdict(ThreePointHitch, "capacity")
-    assert "least at S = 0.2500 m, F 868 mm high: 80.23 kN (8181 kg). There the pressure limits it: G rises 3.625 mm for 1 mm" in text
-    assert "mostly by the cylinder's lever: its lever about O 234 mm, at the best point, S = 0.0000 m, 298 mm" in text
+    assert "least at S = 250.0 mm, F 868 mm high: 80.23 kN (8181 kg). There the pressure limits it: G rises 3.625 mm for 1 mm" in text
+    assert "mostly by the cylinder's lever: its lever about O 234 mm, at the best point, S = 0.0 mm, 298 mm" in text
 
 
 def test_remedy_does_what_it_says():
@@ -191,8 +191,8 @@ def test_what_limits_first():
 def test_unreached_poses_are_told():
     hitch = ThreePointHitch()
     text = hitch.verdicts(hitch.at(S=[0.0, 0.1, 0.45], unreachable="nan"))
-    assert "least at S = 0.4083 m" in "\n".join(text)  # up to the dead point, though no pose was asked for there
-    (share,) = re.findall("FAIL assembly: over S = 0 to 0.45 m ([0-9.]+) % cannot be assembled", text[0])
+    assert "least at S = 408.3 mm" in "\n".join(text)  # up to the dead point, though no pose was asked for there
+    (share,) = re.findall("FAIL assembly: over S = 0 to 450 mm ([0-9.]+) % cannot be assembled", text[0])
     assert float(share) == pytest.approx(100 * (0.45 - 0.4083) / 0.45, abs=0.05)
     assert "B = Dyad(A, O)" in text[0] and "what follows holds for the rest" in text[0]
 
@@ -233,7 +233,7 @@ def test_upper_link_is_pressed_by_a_load_on_the_tractors_side():
 
 def test_upper_link_that_changes_its_sense_is_told():
     text = verdict(ThreePointHitch, "upper link", KFG=10 * deg)
-    start, end = map(float, re.findall(r"from S = ([0-9.]+) to ([0-9.]+) m", text)[0])
+    start, end = (float(each) * mm for each in re.findall(r"from S = ([0-9.]+) to ([0-9.]+) mm", text)[0])
     force = upper_link_force(ThreePointHitch(KFG=10 * deg).sweep(2001))
     S = np.linspace(0.0, 0.25, 2001)
     pressed, pulled = (start + 2e-4 < S) & (end - 2e-4 > S), (start - 2e-4 > S) | (end + 2e-4 < S)
@@ -264,7 +264,7 @@ def test_no_vertical_mast_is_said():
 
 
 def test_mast_verdict_tells_the_admissible_range():
-    assert "At S = 0.0000 m tilt = 0 deg with MK = 917.637 mm." in verdict(ThreePointHitch, "mast")
+    assert "At S = 0.0 mm tilt = 0 deg with MK = 917.637 mm." in verdict(ThreePointHitch, "mast")
     assert "That is outside the admissible 800 to 960 mm." in verdict(ThreePointHitch, "mast", M=(0.05, 1.05))
 
 

@@ -718,7 +718,7 @@ USES = [
     (
         'study.zone(@, "tilt", {"OB": (0.3, 0.31)}, S=0.1)',
         "motion",
-        ("A study is of a mechanism: <Motion of", "0.25 m; shape (5,), all reached> is none."),
+        ("A study is of a mechanism: <Motion of", "250 mm; shape (5,), all reached> is none."),
     ),
     (
         'study.zone(@, "tilt", {"OB": (0.3, 0.31)}, S=0.1)',
@@ -889,7 +889,7 @@ USES = [
     (
         'study.survey(@, {"OB": np.array([0.3])}, len)',
         "motion",
-        ("A study is of a mechanism: <Motion of", "0.25 m; shape (5,), all reached> is none."),
+        ("A study is of a mechanism: <Motion of", "250 mm; shape (5,), all reached> is none."),
     ),
     ("study.survey(lifting, @, len)", "3; None", ("a dictionary of names and arrays is expected; Box.sample(count) makes one.",)),
     (
@@ -992,12 +992,10 @@ USES = [
     ("reports.run_of(@)", 'lifting, {"Q": 1}', ("Stroke 'Q' is unknown in Lift. Known: S.",)),
     ("reports.run_of(@)", 'lifting, {"S": "a"}', ("Lift: S='a': one number holds a stroke",)),
     ("reports.run_of(@)", 'lifting, {"S": 0.1}', ("Lift: every stroke is held, so that nothing moves; give S two values, its run.",)),
-    ('reports.ranges_below_zero(@, len)', "3; None; lifting", ("is no motion; give machine.sweep(...) or machine.at(...).",)),
     ("reports.reached_span(@)", "3; None; lifting", ("is no motion; give machine.sweep(...) or machine.at(...).",)),
     ("reports.reached_span(@)", "both", ("Two: ranges are told along one stroke, here are 2.",)),
     ("reports.closely(@)", "3; None", ("is no motion; give machine.sweep(...) or machine.at(...).",)),
     ("reports.closely(@)", 'motion, "a"; motion, {}', ("Lift: moved({'S':", "numbers or arrays that fit each other are expected.")),
-    ('reports.spans_in_words(@, "S")', '3; None; "ab"; [3]; [(0.1,)]', ("is no range; give a list of (start, end) [m or rad].",)),
     ("Column(@)", '3, np.ones(2); "", np.ones(2)', ('its name is expected first, Column("pressure", values, "bar").',)),
     (
         "Column(@)",

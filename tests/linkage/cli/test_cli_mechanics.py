@@ -136,7 +136,7 @@ def test_pins_and_limits_follow_the_table(said):
     assert code == 0 and str(loader().sweep(3).limits()) in out
     for row in max_table(loader()):  # in the worst load case, which a table of values leaves out
         assert re.search(rf"^{row.point} +pin +{row.on} .*{row.force / kN:.3f} .*{row.case}", out, re.MULTILINE)
-    assert "at S = 0.2500 m" in " ".join(out.split()) or "S = 0.2500 m" in out
+    assert "at S = 250.0 mm" in " ".join(out.split()) or "S = 250.0 mm" in out
 
 
 # -- forces, limits, capacity ------------------------------------------------------------------------------

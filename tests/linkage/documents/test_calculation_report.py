@@ -297,7 +297,7 @@ def test_rules_are_those_of_the_verdicts_and_the_mark_counts_them(grab):
     assert [row[2] for row in grid.rows if row[0]] == [each.sentence for each in verdicts]
     kept = sum(each.ok is True for each in verdicts)
     assert dict(grab.facts)["Verdicts"] == grab.verdict.word == f"{kept} of {len(verdicts)} rules kept"
-    assert dict(grab.facts)["Judged over"] == "S = 0 to 0.25 m, T = 0 to 0.3 m"
+    assert dict(grab.facts)["Judged over"] == "S = 0 to 250 mm, T = 0 to 300 mm"
 
 
 def test_a_rule_that_says_nothing_is_counted_apart():
@@ -371,9 +371,9 @@ def test_places_that_are_lost_leave_gaps_and_one_remark(machine):
 
 def test_an_over_is_judged_in_the_place_of_the_box():
     document = report_document(Grab(), over=Over(S=(0.0, 0.1), T=0.0))
-    assert dict(document.facts)["Judged over"] == "S = 0 to 0.1 m, T = 0 m"
+    assert dict(document.facts)["Judged over"] == "S = 0 to 100 mm, T = 0 mm"
     (grid,) = grids(document, "Fx, kN")
-    assert all("T = 0.0000 m" in row[8] for row in grid.rows)
+    assert all("T = 0.0 mm" in row[8] for row in grid.rows)
 
 
 def test_sources_stand_beside_the_numbers_and_names_are_escaped(tmp_path):
@@ -585,4 +585,4 @@ def test_places_that_are_judged_are_named_where_there_are_several():
     class Twice(Lifter):
         low, high = Over(S=(0.0, 0.02)), Over(S=(0.08, 0.1))
 
-    assert dict(report_document(Twice()).facts)["Judged over"] == "low: S = 0 to 0.02 m; high: S = 0.08 to 0.1 m"
+    assert dict(report_document(Twice()).facts)["Judged over"] == "low: S = 0 to 20 mm; high: S = 80 to 100 mm"

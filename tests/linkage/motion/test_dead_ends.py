@@ -93,7 +93,7 @@ def test_one_that_ends_beyond_its_dead_point_is_told_as_before(off):
 
 def test_one_that_ends_well_before_its_dead_point_is_told_as_before():
     (verdict,) = told(lever(0.5, 0.79, 0.4, 0.4, 0.0)())
-    assert verdict.ok and "none within the stroke; the nearest: B at S = 0.3000 m, 10 mm beyond it" in verdict
+    assert verdict.ok and "none within the stroke; the nearest: B at S = 300.0 mm, 10 mm beyond it" in verdict
 
 
 def test_sliders_cranks_and_batches_end_in_dead_points_too():
@@ -112,10 +112,10 @@ def test_sliders_cranks_and_batches_end_in_dead_points_too():
     assert told(Slider())[0].ok is False and told(Turned())[0].ok is None
     batch = lever(0.5, 0.8, 0.4, 0.4, 0.3)(OB=np.array([0.42, 0.4, 0.41]))
     (verdict,) = told(batch)
-    assert verdict.ok is False and "1 of 3 designs" in verdict and "design 2: B at S = 0.3000 m" in verdict
+    assert verdict.ok is False and "1 of 3 designs" in verdict and "design 2: B at S = 300.0 mm" in verdict
 
 
-@for_all(("over", "place"), [(Over.path(S=[0.0, 0.3], T=[0.0, 0.1]), "T = 0.1000 m")], slow=[(Over(), "T =")])
+@for_all(("over", "place"), [(Over.path(S=[0.0, 0.3], T=[0.0, 0.1]), "T = 100.0 mm")], slow=[(Over(), "T =")])
 def test_a_box_and_a_path_end_in_dead_points_too(over, place):
     class Boxed(lever(0.5, 0.8, 0.4, 0.4, 0.3)):
         T = Stroke(0.0, 0.1)
@@ -123,7 +123,7 @@ def test_a_box_and_a_path_end_in_dead_points_too(over, place):
         way = over
 
     (verdict,) = told(Boxed())
-    assert verdict.ok is False and f"B at S = 0.3000 m, {place}" in verdict
+    assert verdict.ok is False and f"B at S = 300.0 mm, {place}" in verdict
 
 
 def test_a_law_without_a_value_at_some_places_fails_in_its_own_words():

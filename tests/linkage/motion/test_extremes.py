@@ -202,13 +202,13 @@ def test_a_function_is_shown_only_where_it_is_refused():
 
 
 def test_in_words():
-    assert str(greatest(Lift().sweep(2), lambda motion: motion.strokes["S"])) == "0.75 at S = 0.7500 m"
+    assert str(greatest(Lift().sweep(2), lambda motion: motion.strokes["S"])) == "0.75 at S = 750.0 mm"
     assert str(greatest(Arm().sweep(2), lambda motion: motion.x("A") - motion.y("A"))) == "0.141421 at phi = 315.00 deg"
     assert greatest(Crane().at(u=[0.0, 1.0], v=[0.0, 0.25]), lambda motion: motion.strokes["u"]).where == "at u = 57.30 deg, v = 14.32 deg"
     pole = greatest(Lift().at(S=[0.6, 0.9], unreachable="nan"), lambda motion: np.abs(motion.ratio("psi")))
-    assert str(pole) == "without bounds at S = 0.8000 m"
+    assert str(pole) == "without bounds at S = 800.0 mm"
     both = greatest(Lift(OB=[0.20, 0.21]).sweep(2), lambda motion: motion.strokes["S"] * motion.inputs["OB"])
-    assert str(both) == "0.15 to 0.1575 at S = 0.7500 m"
+    assert str(both) == "0.15 to 0.1575 at S = 750.0 mm"
 
 
 # -- ends and bounds -----------------------------------------------------------------------------------------
@@ -509,7 +509,7 @@ def test_ranges_end_at_jumps_and_where_there_is_no_value():
     assert_allclose(ends(spans, "S"), [0.7, 0.8], atol=1e-12)
     assert_allclose(ends(reached_spans(Lift().at(S=[0.9, 0.3], unreachable="nan")), "S"), [0.4, 0.8], atol=1e-12)
     assert reached_spans(Lift().at(S=[0.1, 0.2], unreachable="nan")) == ()
-    assert str(below_zero(Lift().sweep(2), lambda motion: motion.strokes["S"] - 0.566)[0]) == "from S = 0.5000 to 0.5660 m"
+    assert str(below_zero(Lift().sweep(2), lambda motion: motion.strokes["S"] - 0.566)[0]) == "from S = 500.0 to 566.0 mm"
 
 
 def test_ranges_along_a_path():

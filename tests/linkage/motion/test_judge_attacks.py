@@ -115,7 +115,7 @@ def test_a_pose_that_the_question_says_is_asked_there_and_in_all_cases():
     long = Rocker(L0=0.6)
     kept, lost, plain = long.answers([at(y("B"), S=0.1) <= 10.0, at(y("B"), S=0.39) <= 10.0, at("L0") <= 10.0])
     assert kept.ok and plain.ok and not kept.lost and lost.ok is False
-    assert "S = 0.3900 m" in str(lost) and lost.status == "lost"
+    assert "S = 390.0 mm" in str(lost) and lost.status == "lost"
     here = at(thrust("lift"), S=0.1, T=0.1)
     alone, everywhere = (Loader().answers([here], over=over)[0] for over in (Over(cases=("dig",), S=(0.0, 0.05)), None))
     assert alone.value == everywhere.value and alone.case == everywhere.case == "carry"

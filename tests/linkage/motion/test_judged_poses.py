@@ -101,5 +101,5 @@ def test_what_runs_beyond_its_stroke_says_so():
     class Near(Reach):
         near = Over(alpha=(90 * deg, 0.0), beta=0.0, slide=1.0)
 
-    assert Far().verdicts()[0].sentence.endswith("slide = 0 to 2.001 m. It runs beyond the declared alpha = 0 to 90 deg.")
+    assert Far().verdicts()[0].sentence.endswith("slide = 0 to 2001 mm. It runs beyond the declared alpha = 0 to 90 deg.")
     assert "beyond" not in Near().verdicts()[0].sentence

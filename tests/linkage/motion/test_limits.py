@@ -140,7 +140,7 @@ def test_a_stroke_that_is_an_angle_by_its_label_or_by_name_is_read_in_degrees():
 
 
 def test_the_error_tells_how_far_the_stroke_goes():
-    with pytest.raises(AssemblyError, match=r"192 mm short of AB.*It goes from S = 0 to 0\.408276 m") as caught:
+    with pytest.raises(AssemblyError, match=r"192 mm short of AB.*It goes from S = 0 to 408\.276 mm") as caught:
         Lift().at(S=np.linspace(0, 0.6, 101))
     assert caught.value.point == "B"
     assert_allclose(caught.value.shortfall, 1.1 - 0.3 - BASE, rtol=1e-12)

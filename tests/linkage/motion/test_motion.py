@@ -181,7 +181,7 @@ def test_transmission_angle_is_the_angle_between_the_links():
 
 
 def test_a_motion_says_what_it_is():
-    words = "S = 0 to 0.4 m, T = 0.1 m; shape (5,), all reached, not looked at between the poses"
+    words = "S = 0 to 400 mm, T = 100 mm; shape (5,), all reached, not looked at between the poses"
     assert repr(Crane().sweep(S=5, T=0.1)) == f"<Motion of Crane: {words}>"
 
 

@@ -56,9 +56,9 @@ class Lever(Mechanism):
 
 def test_a_stroke_that_rounding_alone_moves_is_told_as_held():
     noise = 1e-13 * np.array([0.0, 1.0, -1.0, 2.0, 1.0])
-    for a, told in ((np.linspace(0.1, 0.5, 5), "0.1 to 0.5 m"), (np.array([0.0, 0.3, 0.5, 0.5, 0.2]) + noise, "0, 0.5 to 0.2 m")):
+    for a, told in ((np.linspace(0.1, 0.5, 5), "100 to 500 mm"), (np.array([0.0, 0.3, 0.5, 0.5, 0.2]) + noise, "0, 500 to 200 mm")):
         motion = Blocks().at(a=a, b=0.3 + noise)
-        assert motion.over.words(motion) == f"the path a = {told}, b = 0.3 m"
+        assert motion.over.words(motion) == f"the path a = {told}, b = 300 mm"
 
 
 def walked(ways, count):

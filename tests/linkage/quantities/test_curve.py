@@ -111,7 +111,7 @@ def test_sympy_reads_the_program_and_the_equations():
 
 
 def test_a_place_outside_the_table_is_out_of_reach():
-    said = r"A = OnGuide.*from S = 1.1000 to 1.2000 m:\nway is asked for 1.2, and its table goes from 0 to 1\."
+    said = r"A = OnGuide.*from S = 1100.0 to 1200.0 mm:\nway is asked for 1.2, and its table goes from 0 to 1\."
     with pytest.raises(AssemblyError, match=said):
         Short().sweep(13)
     motion = Short().sweep(13, unreachable="nan")

@@ -10,18 +10,9 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from linkage import Column, Crank, DefinitionError, Dimension, Dyad, Ground, Mechanism, Stroke, deg, kgf, kgf_cm2
+from linkage.motion import below_zero
 from linkage.plan import plan_measure
-from linkage.reports import (
-    closely,
-    design_rows,
-    ranges_below_zero,
-    reached_span,
-    results,
-    spans_in_words,
-    stroke_rows,
-    text_table,
-    write_csv,
-)
+from linkage.reports import closely, design_rows, reached_span, results, stroke_rows, text_table, write_csv
 from tests.for_all import for_all
 
 
@@ -154,10 +145,10 @@ def test_unit_of_a_dimension_is_a_known_one():
 @given(st.floats(0.56, 0.67), st.floats(0.68, 0.79))
 def test_ends_of_a_range_are_roots(low, high):
     motion = Lift().sweep(3)
-    ((first, last),) = ranges_below_zero(motion, lambda each: (each.strokes["S"] - low) * (each.strokes["S"] - high))
-    assert (first, last) == pytest.approx((low, high), abs=1e-11)
-    above = ranges_below_zero(motion, lambda each: (each.strokes["S"] - low) * (high - each.strokes["S"]))
-    assert np.ravel(above) == pytest.approx([0.55, low, high, 0.80], abs=1e-11)
+    (span,) = below_zero(motion, lambda each: (each.strokes["S"] - low) * (each.strokes["S"] - high))
+    assert (span.start["S"], span.end["S"]) == pytest.approx((low, high), abs=1e-11)
+    above = below_zero(motion, lambda each: (each.strokes["S"] - low) * (high - each.strokes["S"]))
+    assert [at["S"] for each in above for at in (each.start, each.end)] == pytest.approx([0.55, low, high, 0.80], abs=1e-11)
 
 
 def test_range_ends_where_the_reach_does():
@@ -168,8 +159,9 @@ def test_range_ends_where_the_reach_does():
     for S in ([0.4, 0.6, 0.8], [0.4, 0.8]):
         motion = lift.at(S=S, unreachable="nan")
         assert reached_span(motion) == pytest.approx((AO - 0.175, 0.8), abs=1e-12)
-        assert ranges_below_zero(motion, lambda each: -np.ones(each.shape)) == [reached_span(motion)]
-    assert ranges_below_zero(motion, lambda each: np.ones(each.shape)) == []
+        (span,) = below_zero(motion, lambda each: -np.ones(each.shape))
+        assert (span.start["S"], span.end["S"]) == reached_span(motion)
+    assert not below_zero(motion, lambda each: np.ones(each.shape))
 
 
 def test_closer_look_keeps_the_design():
@@ -184,8 +176,3 @@ def test_results_of_what_is_no_motion_or_no_machine_are_refused_in_every_case(ca
         results(Lift(), "x", case)
     with pytest.raises(DefinitionError, match="is no mechanism"):
         results("x", Lift().sweep(2), case)
-
-
-def test_ranges_in_words():
-    assert spans_in_words([(0.55, 0.566), (0.7, 0.7)], "S") == "from S = 0.5500 to 0.5660 m and at S = 0.7000 m"
-    assert spans_in_words([(1.0, 2.0)], "phi", "rad") == "from phi = 1.0000 to 2.0000 rad"

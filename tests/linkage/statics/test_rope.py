@@ -160,7 +160,7 @@ def test_a_rope_that_is_shorter_than_its_run_reaches_no_pose():
 
         S = Stroke(0.5, 2.6)
 
-    with pytest.raises(AssemblyError, match=r"the length rope.last = -0.25 m is negative. .* It goes from S = 0.5 to 2 m"):
+    with pytest.raises(AssemblyError, match=r"the length rope.last = -0.25 m is negative. .* It goes from S = 500 to 2000 mm"):
         Held().at(S=[0.5, 2.25])
     with pytest.raises(AssemblyError, match=r"the length rope.last = -0.25 m is negative"):
         Tackle().at(W=-1.0)

@@ -466,7 +466,7 @@ class Ways(Rubbing):
 
 
 LEAST = [("minimise", most(pressure("lift"))), ("minimise", most(pin_force("O"))), ("maximise", least(reserve("lift")))]
-WHERE = {Low: "Assembled over S = 0 to 0.1 m.", Ways: "A search does not run along run, back: ask the design found"}
+WHERE = {Low: "Assembled over S = 0 to 100 mm.", Ways: "A search does not run along run, back: ask the design found"}
 
 
 @for_all(

@@ -400,16 +400,16 @@ def gap_error(motion: MotionLike, first: Interruption, found: Sequence[Interrupt
     far = np.asarray(values > first.low if np.ravel(values)[0] <= first.low else values < first.high)
     edges = [float(values.min()), *(edge for each in found if each.is_gap for edge in (each.low, each.high)), float(values.max())]
     goes = spans_words(name, unit, list(zip(edges[::2], edges[1::2], strict=True)))
-    where = f"cannot be assembled between two poses, {span_words(name, unit, first.low, first.high, 9)}"
+    where = f"cannot be assembled between two poses, {stretch_words(name, unit, first.low, first.high, 9)}"
     return AssemblyError(f"{opening(plan, step)} {where}:\n{words}{goes}", point=step, mask=far, shortfall=shortfall)
 
 
 def spans_words(name: str, unit: str, spans: Sequence[tuple[float, float]]) -> str:
     """Return how far a sweep of one design goes, in words: ` It goes from S = 0 to 408.276 mm.`"""
-    return f" It goes {', and '.join(span_words(name, unit, low, high) for low, high in spans)}."
+    return f" It goes {', and '.join(stretch_words(name, unit, low, high) for low, high in spans)}."
 
 
-def span_words(name: str, unit: str, low: float, high: float, digits: int = 6) -> str:
+def stretch_words(name: str, unit: str, low: float, high: float, digits: int = 6) -> str:
     """Return a stretch of a stroke [m or rad] as errors say it: `from S = 0 to 408.276 mm`; angles in radians, as calls take them."""
     by, unit = (1.0, unit) if unit == "rad" else (1e3, "mm")
     return f"from {name} = {by * low:.{digits}g} to {by * high:.{digits}g} {unit}"

@@ -47,7 +47,7 @@ def verdict_section(subject: ReportSubject, limits: Mapping[str, Sequence[object
     heads = (said("rule"), said("result"), said("what was found"))
     rows = tuple((each.heading, verdict_mark(each.ok) if each.is_rule else Mark(None, "–"), each.sentence) for each in found)
     table = TableBlock(said("Rules, over all that the machine runs"), heads, rows, "llm")
-    places = [judged_row(subject, each, each.answer) for each in judged if isinstance(each.answer, Answer)]
+    places = [rule_row(subject, each, each.answer) for each in judged if isinstance(each.answer, Answer)]
     broken = [*(each.heading for each in judged if each.ok is False), *(name for name, ok, *_ in limited if ok is False)]
     shown = Section(title, (domain, table, *worst_places(subject, [*places, *limited])))
     return shown, rules_mark(judged), found, "; ".join(dict.fromkeys(broken))
@@ -127,7 +127,7 @@ def value_cell(subject: ReportSubject, answer: Answer, column: Column | None) ->
     return show(float(answer.value), display_unit(kind, "mm"), 4)
 
 
-def judged_row(subject: ReportSubject, verdict: Verdict, answer: Answer) -> JudgedRow:
+def rule_row(subject: ReportSubject, verdict: Verdict, answer: Answer) -> JudgedRow:
     """Return the row of a rule, with the number that its sentence says, and how far its limit is used, as on a page.
 
     A length that fits uses nothing.

@@ -15,7 +15,7 @@ from linkage.documents.content import TableBlock
 from linkage.documents.outcome import limits_section
 from linkage.documents.reporting import report_document
 from linkage.documents.run import ReportSubject
-from linkage.documents.worst_places import judged_row
+from linkage.documents.worst_places import rule_row
 from linkage.motion import Request
 from linkage.pictures.page_forces import page_situations
 from linkage.pictures.strokes import playback
@@ -229,11 +229,11 @@ def test_a_report_looks_at_forces_and_limits_where_the_machine_is_judged():
     nearest = PLACED.findall(next(verdict.sentence for verdict in verdicts.values() if verdict.rule == "dead points"))
     assert nearest and {*nearest} <= {row[2] for row in limits_section(subject).blocks[0].rows}
     kept = float(re.search(r"keeps ([\d.]+) % of its load", verdicts["axle load rear"].sentence)[1])
-    shares = {name: judged_row(subject, each, each.answer)[-1] for name, each in verdicts.items() if each.answer is not None}
+    shares = {name: rule_row(subject, each, each.answer)[-1] for name, each in verdicts.items() if each.answer is not None}
     assert_allclose(shares["axle load rear"], 1.0 - kept / 100.0, atol=0.006)
     assert shares["length"] == 0.0
     (safety,) = re.findall(r"safety ([\d.]+), at least", verdicts["buckling boom"].sentence)
-    assert_allclose(judged_row(subject, verdicts["buckling boom"], verdicts["buckling boom"].answer)[2].value, float(safety), rtol=5e-3)
+    assert_allclose(rule_row(subject, verdicts["buckling boom"], verdicts["buckling boom"].answer)[2].value, float(safety), rtol=5e-3)
 
 
 def test_what_is_worked_out_from_one_worst_value_is_of_the_same_place():

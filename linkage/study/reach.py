@@ -16,12 +16,15 @@ from ..program import FloatArray
 
 Turn: TypeAlias = tuple[ManyPlaces, Index]
 """Poses with some strokes standing at values: what solves for the others, and the order of all strokes in it."""
+Poses: TypeAlias = Callable[[FloatArray, FloatArray, Mask | None], tuple[PlacePoses, Index]]
+"""The poses that are found for places x by y, or some of these, and the number of the turn that gave each."""
 ACROSS, PANELS, LEVELS = 121, 24, 7
 """Places of a line that are looked at, panels of lines at first, and how often one is halved."""
 CLOSE = 5e-6
 """The share of the area that a panel may be wrong by."""
-ROUNDS, HALVED, AT_END = 4, 20, 1e-5
-"""How often a line is followed on with other strokes at their ends, how often the way to its end is halved, and what counts as an end."""
+ROUNDS, PARTS, NARROWED, AT_END = 4, 8, 6, 1e-5
+"""How often a line is followed on with other strokes at their ends, how often the part of its way with its end is divided into so many, and
+what counts as an end."""
 
 
 @immutable
@@ -34,8 +37,8 @@ class Reach:
     area: float
 
     @classmethod
-    def of(cls, turns: Sequence[Turn], rest: FloatArray, poses: Callable[[FloatArray, FloatArray], tuple[PlacePoses, Index]]) -> Reach:
-        """Return all that is reached; `poses` gives those of places x by y with the numbers of their `turns`, `rest` are kept values."""
+    def of(cls, turns: Sequence[Turn], rest: FloatArray, poses: Poses) -> Reach:
+        """Return all that is reached; `rest` are kept values."""
         lines = LevelLines(turns, rest, poses)
         heights = np.linspace(*lines.tall, 2 * PANELS + 1)
         known = dict(zip(heights.tolist(), lines.spans(heights), strict=True))
@@ -79,9 +82,7 @@ def simpson(panel: tuple[float, float, float], known: dict[float, Spans]) -> tup
 class LevelLines:
     """Level lines of a point, and the parts of them that it reaches."""
 
-    def __init__(
-        self, turns: Sequence[Turn], rest: FloatArray, poses: Callable[[FloatArray, FloatArray], tuple[PlacePoses, Index]]
-    ) -> None:
+    def __init__(self, turns: Sequence[Turn], rest: FloatArray, poses: Poses) -> None:
         self.turns, self.rest, self.poses = turns, rest, poses
         self.many = turns[0][0]
         seen = self.many.looked_at().values[:2]
@@ -95,10 +96,11 @@ class LevelLines:
     def spans(self, heights: FloatArray) -> list[Spans]:
         """Return the parts of lines at some heights that are reached (left, right) [m]."""
         up, count = np.sort(heights), self.across.size
-        poses, turn = self.poses(self.across, up)
+        inside = self.found_at_once(up) if self.many.spare else np.zeros(count * up.size, bool)
+        out = np.pad(~inside.reshape(up.size, count), ((0, 0), (1, 1)))
+        poses, turn = self.poses(self.across, up, (out[:, :-2] | out[:, 1:-1] | out[:, 2:]).ravel())  # of what may be at a border
         whole = self.many.places.is_assembled(poses.unit) if len(poses.place) else np.zeros(0, bool)
         poses, turn = poses.select(whole), turn[whole]
-        inside = np.zeros(count * up.size, bool)
         inside[poses.place] = True
         if self.is_single:
             each = np.unique(np.round(np.column_stack([poses.place, poses.unit]), 6), axis=0)
@@ -121,6 +123,18 @@ class LevelLines:
         spans = [list(zip(row[::2], row[1::2], strict=False)) for row in found]
         return [spans[k] for k in np.searchsorted(up, heights)]
 
+    def found_at_once(self, up: FloatArray) -> Mask:
+        """Return which places of lines at some heights, x running fastest, are reached from three of their starts."""
+        start, count = self.many.looked_at().starts(self.across, up, self.rest), self.across.size
+        order, many = np.argsort(start.place, kind="stable"), np.bincount(start.place, minlength=count * up.size)
+        first, known = np.cumsum(many) - many, many > 0
+        start = start.select(np.unique([order[(first + many * part // 4)[known]] for part in (1, 2, 3)]))
+        place = np.arange(count * up.size)
+        goals = np.column_stack([self.across[place % count], up[place // count], np.tile(self.rest, (len(place), 1))])
+        found, met = self.many.settled(start, goals, np.zeros(start.unit.shape[1]), damped=False)
+        found = found.select(met)
+        return np.isin(place, found.place[self.many.places.is_assembled(found.unit)])
+
     def ends(self, height: FloatArray, good: FloatArray, bad: FloatArray, start: PlacePoses, turn: Index) -> FloatArray:
         """Return how far lines are reached from `good` towards `bad` (m,) [m]; it begins at poses of the good places.
 
@@ -134,7 +148,7 @@ class LevelLines:
         for _ in range(ROUNDS):
             if not len(start.place):
                 break
-            far, unit = self.halved(height, reached, bad, start, turn)
+            far, unit = self.followed(height, reached, bad, start, turn)
             gone = np.abs(far - good[start.place])
             order = np.lexsort((gone, start.place))
             best = order[np.append(np.diff(start.place[order]) > 0, True)]
@@ -152,19 +166,24 @@ class LevelLines:
         at_end = np.minimum(unit, 1.0 - unit) < AT_END
         return np.array([at_end[:, order[many.solved :]].all(axis=1) for many, order in self.turns])
 
-    def halved(
+    def followed(
         self, height: FloatArray, good: FloatArray, bad: FloatArray, start: PlacePoses, turn: Index
     ) -> tuple[FloatArray, FloatArray]:
         """Return how far each pose gets on its line with the spare strokes of its turn standing (r,) [m], and the poses there (r, k)."""
         near, far, outs = good[start.place], bad[start.place], np.zeros(start.unit.shape[1])
         order = np.array([each for _, each in self.turns])[turn]
         base, unit = np.take_along_axis(start.unit, order, axis=1), np.empty_like(start.unit)
-        for _ in range(HALVED):
-            middle = 0.5 * (near + far)
-            goals = np.column_stack([middle, height[start.place], np.tile(self.rest, (len(middle), 1))])
-            at = PlacePoses(np.arange(len(middle)), base)
-            found, met = self.many.settled(at, goals, outs, damped=False, order=order if len(self.turns) > 1 else None)
-            base = np.where(met[:, None], found.unit, base)
-            near, far = np.where(met, middle, near), np.where(met, far, middle)
+        rows, parts = np.arange(len(near)), np.arange(1, PARTS)[:, None] / PARTS
+        orders = np.tile(order, (PARTS - 1, 1)) if len(self.turns) > 1 else None
+        for _ in range(NARROWED):
+            places = np.concatenate([near[None], near + parts * (far - near), far[None]])
+            middle = places[1:-1].ravel()
+            goals = np.column_stack([middle, np.tile(height[start.place], PARTS - 1), np.tile(self.rest, (len(middle), 1))])
+            at = PlacePoses(np.arange(len(middle)), np.tile(base, (PARTS - 1, 1)))
+            found, met = self.many.settled(at, goals, outs, damped=False, order=orders)
+            met = np.logical_and.accumulate(met.reshape(PARTS - 1, len(near)))
+            got = met.sum(axis=0)
+            base = np.concatenate([base[None], found.unit.reshape(PARTS - 1, *base.shape)])[got, rows]
+            near, far = places[got, rows], places[got + 1, rows]
         np.put_along_axis(unit, order, base, axis=1)
         return near, unit

@@ -601,12 +601,13 @@ class FieldSearch:
                 found.append((ManyPlaces(places, many.spare), order, [np.array([0.0, 1.0])] * many.spare))
         return found
 
-    def poses(self, across: FloatArray, up: FloatArray) -> tuple[PlacePoses, Index]:
-        """Return the poses that are found for places x by y, ascending, and which of the `turns` gave each."""
+    def poses(self, across: FloatArray, up: FloatArray, among: Mask | None = None) -> tuple[PlacePoses, Index]:
+        """Return the poses that are found for places x by y, ascending, or those `among` them, and which of the `turns` gave each."""
         goals, outs = self.goals_over(across, up), np.zeros(len(self.many.places.free))
         found, solved = [], np.zeros(len(goals), bool)
         for many, order, ends in self.turns:
             start = many.looked_at(0.0, ends).starts(across, up, self.rest)
+            start = start if among is None else start.select(among[start.place])
             at, met = many.settled(start, goals, outs, damped=not many.spare)
             solved[at.place[met]] = True
             if many.spare:

@@ -637,7 +637,7 @@ def highest_in(box: SeenBox) -> tuple[FloatArray, FloatArray, Mask]:
     value, unit = value_of(best, K, D), np.zeros((K, D, box.k))
     doubtful = doubtful.subset(doubtful.value >= value[doubtful.function, doubtful.design])
     grows = grows_in_box(box, doubtful)
-    unit[best.function, best.design] = best.unit
+    unit[best.function, best.design] = at_the_start(box, best, least)
     unbounded = np.isposinf(value)
     poles = Climbs.concatenated([doubtful.subset(grows), *found[5:]])
     unbounded[poles.function, poles.design] = True
@@ -658,6 +658,16 @@ def best_of(climbs: Climbs, K: int, D: int, count: int) -> Climbs:
     row = row[order]
     rank = np.arange(len(row)) - np.searchsorted(row, row)
     return climbs.subset(order[rank < count])
+
+
+def at_the_start(box: SeenBox, best: Climbs, least: FloatArray) -> FloatArray:
+    """Return the places (r, k) of the best searches; a stroke that changes their value by no more than rounding stands at its start."""
+    unit = best.unit
+    for axis in range(box.k if len(unit) else 0):
+        there = np.where(np.arange(box.k) == axis, 0.0, unit)
+        is_tie = own_values(box, best, there[:, None, :])[:, 0] >= best.value - least[best.function, best.design]
+        unit = np.where(is_tie[:, None], there, unit)
+    return unit
 
 
 def value_of(best: Climbs, K: int, D: int) -> FloatArray:

@@ -19,6 +19,7 @@ from linkage.documents.worst_places import rule_row
 from linkage.motion import Request
 from linkage.pictures.page_forces import page_situations
 from linkage.pictures.strokes import playback
+from linkage.quantities import distance
 from linkage.reports import results, run_of, runs_of
 from linkage.units import UNITS, bar, deg, mm
 from mechanisms.at_work.front_loader import LoadedFrontLoader
@@ -241,6 +242,13 @@ def test_what_is_worked_out_from_one_worst_value_is_of_the_same_place():
     highest, share, below = OfPaths().answers([most(thrust("boom")), 3.5 / most(thrust("boom")), -1.0 * most(thrust("boom"))])
     assert_allclose((float(share.value), float(below.value)), (3.5 / highest.value, -highest.value), rtol=1e-12)
     assert share.where == below.where == highest.where and share.over == highest.over
+
+
+def test_a_stroke_that_changes_nothing_is_told_at_its_start():
+    """The boom's stroke turns O and G alike: their distance follows the arm's alone, to rounding."""
+    for found in OfABox().answers([most(distance("O", "G")), least(distance("O", "G")), most(distance("O", "B"))]):
+        assert found.strokes["S"] == 0.05
+    assert found.strokes == {"S": 0.05, "T": 0.04}
 
 
 PLACED = re.compile(r"at (\w+ = -?[\d.]+ mm)")

@@ -14,6 +14,7 @@ from linkage.errors import DefinitionError, unknown
 from linkage.frozen import immutable
 from linkage.language import noted
 from linkage.loads import Glyph, Halves, Load, Parameter, Poses, Rates, TwoPoint
+from linkage.loads.element import by_speeds
 from linkage.loads.point import DOWN, on_slope, shared_mass
 from linkage.quantities import Axes, Member, NamedMembers, Operand, Quantity, Reference, Where, label, name_of, quantity, source_text
 from linkage.steps import Link, Point
@@ -91,6 +92,7 @@ class BarrelAndRod(TwoPoint):
         names, labels = (f"{self.name} barrel", f"{self.name} rod"), (f"{self.name}.{BARREL}", f"{self.name}.{ROD}")
         return Halves(names, labels, self._inner_ends, (noted("gland"), noted("oil")))
 
+    @by_speeds
     def moving(self, motion: Poses, rates: Rates) -> list[Load]:
         """Return the weights of its barrel and its rod, each half at its own pin, half at its other end; and their inertia."""
         found = []

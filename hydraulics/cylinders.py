@@ -25,9 +25,9 @@ from linkage.checks import is_listed
 from linkage.errors import DefinitionError, cited, ensure, known_name, unknown, unwarned
 from linkage.frozen import immutable, refuses_changes
 from linkage.language import noted, said, translated
-from linkage.loads import AS_IT_RUNS, AT_REST, FRICTIONLESS, DrawnAs, ForceElement, Load, TwoPoint
+from linkage.loads import AS_IT_RUNS, AT_REST, FRICTIONLESS, DrawnAs, ForceElement, Load, Push, Rates, TwoPoint
 from linkage.loads.acting import Acting, ActingKeywords, Case, Loads, situation_of, takes_situation
-from linkage.loads.element import DIRECTIONS, UNBOUNDED, Declared, Formulas, Parameter, Poses, Push, Rates, Share, Tie, require_poses
+from linkage.loads.element import DIRECTIONS, UNBOUNDED, Declared, Formulas, Parameter, Poses, Share, Tie, by_speeds, require_poses
 from linkage.motion import Answer, Column, Judge, Motion, Question, Request, SmoothPiece, Tabled, greatest, lowest, require_motion
 from linkage.motion.measures import Condition, Constraint, MeasuredQuantity, at, least, most
 from linkage.motion.motion_verdicts import HasVerdicts, PageWords, over_time
@@ -262,6 +262,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         """Return nothing: it has no law of its own."""
         return np.zeros(())
 
+    @by_speeds
     def pushes(self, motion: Poses, rates: Rates = AT_REST) -> list[Push]:
         return []
 

@@ -270,6 +270,9 @@ class GasLine(Circuit):
         pressure = np.where(gas <= reduce(np.add, vessels), amount / (gas - idle) - atmosphere, 0.0)
         return written.line(f"p_{ram.name}", pressure, "bar")
 
+    def heeds_direction(self, motion: Poses) -> bool:
+        return self.kind_in(motion.plan.members) == "given"
+
     def pushes(self, motion: Poses, rates: Rates = AT_REST) -> list[Push]:
         if self.kind_in(motion.plan.members) != "given":
             return []

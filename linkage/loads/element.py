@@ -309,6 +309,15 @@ class Rates(dict[str, Rate]):
 
 
 AT_REST = Rates()
+Law = TypeVar("Law", bound=Callable[..., object])
+
+
+def by_speeds(law: Law) -> Law:
+    """Mark a law of motion that asks for speeds that are given: where only a direction is known, it is as at rest."""
+    vars(law)["by_speeds"] = True
+    return law
+
+
 UNBOUNDED: tuple[Array, Array] = np.asarray(-np.inf), np.asarray(np.inf)
 """The bounds of what carries whatever the others need [N]."""
 
@@ -413,6 +422,22 @@ class ForceElement(Jointed):
         """
         return ()
 
+    def heeds_direction(self, motion: Poses) -> bool:
+        """Return whether its law may change with the direction of motion, where no speed is known.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses; designs first, strokes last.
+
+        Returns
+        -------
+        bool
+            Whether it may: by default where a class says `moving` or `pushes` itself.
+        """
+        return not all("by_speeds" in vars(law) for law in (type(self).moving, type(self).pushes))
+
+    @by_speeds
     def moving(self, motion: Poses, rates: Rates) -> list[Load]:
         """Return the forces while strokes move at rates [1/s]: dampers and masses ask for them.
 
@@ -430,6 +455,7 @@ class ForceElement(Jointed):
         """
         return self.loads(motion)
 
+    @by_speeds
     def pushes(self, motion: Poses, rates: Rates) -> list[Push]:
         """Return the thrusts in straight two-point members by this element's law; it then acts through their pins without `loads`.
 

@@ -16,7 +16,7 @@ from ..quantities import Axes, Member, Reference, is_number, label, name_of, rea
 from ..quantities.quantity import plain
 from ..steps import Link, Point
 from ..units import Amount, g0, require_measure
-from .element import AT_REST, Array, ForceElement, Friction, Glyph, Load, Parameter, Poses, Rates, couple, value_text
+from .element import AT_REST, Array, ForceElement, Friction, Glyph, Load, Parameter, Poses, Rates, by_speeds, couple, value_text
 
 DOWN = (0.0, -g0)  # gravity, m/s2
 
@@ -49,6 +49,7 @@ class Weight(ForceElement):
     def loads(self, motion: Poses) -> list[Load]:
         return self.moving(motion, AT_REST)
 
+    @by_speeds
     def moving(self, motion: Poses, rates: Rates) -> list[Load]:
         point, mass = name_of(self.point), self.number(motion, "mass")
         return shared_mass(motion, (point,), mass, self.gravity, rates)
@@ -417,6 +418,7 @@ class LinkMass(OnBody):
     def loads(self, motion: Poses) -> list[Load]:
         return self.moving(motion, AT_REST)
 
+    @by_speeds
     def moving(self, motion: Poses, rates: Rates) -> list[Load]:
         P, Q, arm = self.axis(motion)
         mass = self.number(motion, "mass")

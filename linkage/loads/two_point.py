@@ -18,7 +18,7 @@ from ..checks import can_be_called
 from ..errors import DefinitionError, cited, ensure, errors_of
 from ..frozen import immutable
 from ..quantities import Distance, Joint, Member, Reference, name_of, pinned
-from .element import AT_REST, Array, ForceElement, Formulas, Glyph, Load, Parameter, Poses, Push, Rate, Rates
+from .element import AT_REST, Array, ForceElement, Formulas, Glyph, Load, Parameter, Poses, Push, Rate, Rates, by_speeds
 
 DrawnAs: TypeAlias = Literal["strut", "spring", "damper", "cylinder"]
 
@@ -111,6 +111,7 @@ class TwoPoint(ForceElement):
         """Whether a holding member works with another area while it pulls than while it pushes."""
         return False
 
+    @by_speeds
     def pushes(self, motion: Poses, rates: Rates = AT_REST) -> list[Push]:
         length = motion.distance(self.A, self.B)
         rate = self.growth(motion, rates if rates.is_timed else AT_REST)
@@ -132,6 +133,7 @@ class TwoPoint(ForceElement):
     def loads(self, motion: Poses) -> list[Load]:
         return self.moving(motion, AT_REST)
 
+    @by_speeds
     def moving(self, motion: Poses, rates: Rates) -> list[Load]:
         return [load for push in self.pushes(motion, rates) for load in end_forces(push, motion)]
 

@@ -1,6 +1,7 @@
 """How cylinders and points move while a machine runs: speed, rate, power, flow, dynamic factor, and the speed that seals allow."""
 
 import re
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from linkage import (
     Dyad,
     Ground,
     LinkMass,
+    Load,
     Mechanism,
     OnLink,
     Over,
@@ -51,6 +53,19 @@ class Lined(Arm):
     back = OilLine(lift.rod_side, Tank())
 
 
+@dataclass(frozen=True, eq=False)
+class Dragged(Weight):
+    """A weight that is dragged over ground: against the way it goes, whatever the speed."""
+
+    def moving(self, motion, rates):
+        against = -50.0 * np.sign(motion.velocity(self.point, rates))
+        return [*super().moving(motion, rates), *([Load(self.point, against)] if rates else [])]
+
+
+class Dragging(Arm):
+    w = Dragged("G", mass=400.0)
+
+
 ASKED = [speed("G"), acceleration("G"), rate("lift"), power("lift"), flow("line"), dynamic_factor(thrust("lift"))]
 PISTON, ANNULUS = np.pi / 4 * 0.08**2, np.pi / 4 * (0.08**2 - 0.045**2)
 
@@ -70,6 +85,16 @@ def test_what_moves_is_told_by_its_formulas_at_every_door():
     third = [float(each[2]) for each in (motion.strokes["S"], v, motion.accelerations["S"])]
     assert_allclose(arm.function(ASKED, rates=True, accelerations=True)(*third), np.transpose(wanted)[2], rtol=1e-11)
     assert "p: S, S.rate, S.acceleration;" in arm.source([speed("G"), acceleration("G")], rates=True, accelerations=True)
+
+
+def test_a_direction_changes_a_thrust_where_a_law_heeds_it():
+    still, *ways = (thrust("lift", acting=Acting(direction=way)) for way in ("frictionless", "extending", "retracting"))
+    plain, dragging = Arm().sweep(5), Dragging().sweep(5)
+    drag = 50.0 * np.abs(dragging.ratio("G", wrt="S")).sum(axis=0)
+    for way, sense in zip(ways, (1.0, -1.0), strict=True):
+        assert_allclose(plain[way], plain[still], rtol=1e-14)
+        assert_allclose(dragging[way] - dragging[still], sense * drag, rtol=1e-9)
+        assert_allclose(Dragging().evaluate([way], S=dragging.strokes["S"])[0], dragging[way], rtol=1e-11)
 
 
 def test_oil_goes_in_and_comes_back_on_a_line_of_one_side():

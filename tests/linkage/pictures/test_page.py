@@ -1265,6 +1265,9 @@ def test_one_dimension_that_is_shown_at_first_makes_a_rule_hold(chromium, writte
         (slider, end) = min(left, key=left.__getitem__)
         shown.slide(f"[data-size='{slider}']", end)
         shown.rest(400)
+        for width in (1366, 390, 310):  # the last is a frame within a page on a phone
+            shown.tab.set_viewport_size({"width": width, "height": 700})
+            assert shown("document.documentElement.scrollWidth") <= width
         rows = dict(shown("[...document.querySelectorAll('#kept tr')].map((row) => [row.children[0].textContent, row.textContent])"))
         assert any(name.startswith("axle load") and text.count("\u2715") == 2 for name, text in rows.items())
 

@@ -36,21 +36,16 @@ def sobol_points(count: int, k: int, random: np.random.Generator) -> FloatArray:
     weights = 2 ** np.arange(BITS)
     shift = random.integers(2, size=(k, BITS), dtype=np.uint32) @ weights
     scramble = np.tril(random.integers(2, size=(k, BITS, BITS), dtype=np.uint32), -1) + np.eye(BITS, dtype=np.uint32)
-    directions = np.array([directions_of(*map(int, row.split())) for row in known[:k]])
+    directions = np.ones((k, BITS), int)
+    for own, row in zip(directions, known, strict=False):
+        polynomial, *first = map(int, row.split())
+        own[: len(first)] = first
+        for place in range(len(first), BITS) if first else ():
+            back = [each for each in range(1, len(first)) if polynomial >> (len(first) - each) & 1]
+            own[place] = own[place - len(first)] ^ np.bitwise_xor.reduce([own[place - each] << each for each in (*back, len(first))])
+    directions <<= np.arange(BITS)[::-1]
     bits = directions[:, None, :] // weights[::-1, None] % 2  # the highest first
     directions = weights[::-1] @ (scramble @ bits % 2)
     place = np.arange(1, count)
     changed = np.log2(place & -place).astype(int)  # of the Gray code
     return np.bitwise_xor.accumulate(np.concatenate([shift[None], directions.T[changed]])) * 0.5**BITS
-
-
-def directions_of(polynomial: int, *first: int) -> list[int]:
-    """Return the direction numbers of a coordinate, with BITS bits."""
-    found, degree = [*first] or [1] * BITS, len(first)
-    for place in range(len(found), BITS):
-        number = found[place - degree] ^ found[place - degree] << degree
-        for back in range(1, degree):
-            if polynomial >> (degree - back) & 1:
-                number ^= found[place - back] << back
-        found.append(number)
-    return [number << BITS - 1 - place for place, number in enumerate(found)]

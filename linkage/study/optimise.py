@@ -45,7 +45,7 @@ from .checkpoint import digest, folder_given, how_far
 from .checks import check_one_design
 from .infeasible import infeasible_error
 from .optimum import EvaluatedDesigns, Optimum, described, in_units, on_steps, unit_of_constraint, unit_of_measure
-from .problem import COARSE, SAMPLES, Count, LimitReachedError, Problem, ranges_of
+from .problem import COARSE, SAMPLES, LimitReachedError, Problem, ranges_of
 from .solver import Local, SearchEnd, grows, local_search
 from .space import Space
 from .survey import Progress, check_progress, progress_told
@@ -334,8 +334,7 @@ def check_counts(title: str, starts: object, seed: object, limit: object) -> Non
 
 def check_objectives_move(problem: Problem) -> None:
     """Raise StudyError where no variable moves the objective: it is the same for designs spread over the box."""
-    alone, space = problem.sampled_apart(), problem.space
-    alone.count = Count()
+    alone, space = problem.sampled_apart(counted=False), problem.space
     units = unit_points(MOVED, len(space.variables), "sobol", 0) if space.variables else np.zeros((1, 0))
     some = islice(space.combinations(), MOVED)
     seen = np.concatenate([alone.merits_of_each(each, units)[0] for each in some], axis=1)

@@ -29,7 +29,7 @@ def check_bounded(problem: Problem, now: LeafNumbers, best: SearchEnd) -> None:
 
     `now` are the numbers of the best design. A pole at which the objective is worse than there is none.
     """
-    problem, combination, unit = problem.changed(count=None), best.combination, best.unit  # these looks are no part of the search
+    problem, combination, unit = problem.sampled_apart(problem.counts, counted=False), best.combination, best.unit
     asked, named = divisors(problem.objectives), f"{problem.plan.title}: {', '.join(map(str, problem.objectives))}"
     n = len(problem.space.variables)
     parts = (0.1, 0.5, 0.9) if asked else ()

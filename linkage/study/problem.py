@@ -138,22 +138,19 @@ class PoseSet:
         return [name for name in self.axes if name != self.inner]
 
     def copied(self, counts: Mapping[int, int] | None) -> PoseSet:
-        """Return the same poses, whose axes may change apart from these; with `counts` as they are at first."""
-        axes, weights = self.axes, self.weights
+        """Return the same poses, whose axes may change apart from these; with `counts` as they are before any is added."""
+        axes, weights = dict(self.axes), self.weights
         if counts is not None:
-            places, weights = first_places(counts, len(self.outer), integral=weights is not None)
+            places = np.linspace(0.0, 1.0, counts.get(len(self.outer), 3))
+            if weights is not None:
+                places, weights = gauss(np.linspace(0.0, 1.0, PANELS + 1))
             axes = dict.fromkeys(self.outer, places)
-        return replace(self, axes=dict(axes), weights=weights)
+        return replace(self, axes=axes, weights=weights)
 
     def set_axis(self, name: str, places: FloatArray) -> None:
         """Look at other parts of a stroke's range."""
         self.axes[name] = places
         self.__dict__.pop("parts", None)
-
-
-def first_places(counts: Mapping[int, int], strokes: int, *, integral: bool) -> tuple[FloatArray, FloatArray | None]:
-    """Return the parts of each stroke's range that are looked at before any are added, and of an integral their weights."""
-    return gauss(np.linspace(0.0, 1.0, PANELS + 1)) if integral else (np.linspace(0.0, 1.0, counts.get(strokes, 3)), None)
 
 
 @immutable
@@ -333,14 +330,18 @@ class Problem:
         """Return the same problem with some of its arguments changed, with samples of its own; it shares the count of designs."""
         return Problem(**{name: getattr(self, name) for name in ARGUMENTS} | other)
 
-    def sampled_apart(self, counts: Mapping[int, int] | None = None) -> Problem:
-        """Return the same problem with samples of its own, those of now or, with `counts`, as at first; it shares the count of designs."""
+    def sampled_apart(self, counts: Mapping[int, int] | None = None, *, counted: bool = True) -> Problem:
+        """Return the same problem with samples of its own, those of now or, with `counts`, as at first; its designs are counted with these.
+
+        They are not where they are no part of the search.
+        """
         found, own = object.__new__(Problem), {each: each.copied(counts) for each in self.sets}
         vars(found).update(vars(self))
         found.counts, found.sets, found.full_stroke = counts or self.counts, [*own.values()], own[self.full_stroke]
         found._of_leaf = {leaf: (own[poses], place, single) for leaf, (poses, place, single) in self._of_leaf.items()}
         found._samplings = {own[poses]: each for poses, each in self._samplings.items()}
         found._sizes, found._branches, found.refusal = None, {}, ""
+        found.count = self.count if counted else Count()
         return found
 
     def on_branch(self, combination: Sequence[int]) -> Problem:
@@ -430,8 +431,8 @@ class Problem:
         for each in self.sets:
             if each.axes.keys() == wanted and each.inner == inner and (each.weights is not None) == integral and not each.singles:
                 return each
-        places, weights = first_places(self.counts, len(names), integral=integral)
-        self.sets.append(PoseSet(dict.fromkeys(names, places), weights=weights, inner=inner))
+        none = np.zeros(0)
+        self.sets.append(PoseSet(dict.fromkeys(names, none), weights=none if integral else None, inner=inner).copied(self.counts))
         return self.sets[-1]
 
     # -- looking -----------------------------------------------------------------------------------------

@@ -93,7 +93,8 @@ class FitWork(ABC):
 
     def fit(self, combination: Combination) -> Fit:
         """Return a fit with a problem of its own: its samples and its count are of nobody else."""
-        return Fit(self.problem.on_branch(combination).changed(count=None), self.rows, self.timing, combination, self.known)
+        own = self.problem.on_branch(combination).sampled_apart(self.problem.counts, counted=False)
+        return Fit(own, self.rows, self.timing, combination, self.known)
 
     def done(self, rows: DesignValues, start: int, stop: int) -> list[dict[str, Array]]:
         """Return the results of the designs from start to before stop, of each piece, with how many designs were `looked` at."""

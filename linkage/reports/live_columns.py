@@ -58,23 +58,25 @@ def column_requests(
     found: dict[str, LiveColumn] = {}
     acting = {} if case in (None, PLAIN_CASE) else {column.name: column for column in results(machine, motion, case)}
     shown = results(machine, motion, PLAIN_CASE) if columns is None else columns
-    wanted = [plain.get(each.name, each.request) for each in shown if only is None or each.name in only]
-    known_values = values_together(motion, [request_in_case(each, case) for each in wanted])
+    left: dict[str, list[RequestLike]] = {}
     for place, plainly in enumerate(shown):
         column = acting.get(plainly.name, plainly)
         names[column.name] += 1
         name = column.name if names[column.name] == 1 else f"{column.name} ({names[column.name]})"
-        if only is not None and name not in only:
-            continue
-        formula, known = partial(column_over, machine, place, column.name), ("column", machine, place, column.name)
-        own = LawRequest(formula=formula, text=f"the column {column.name}", known=known, column=column.name)
-        reasons = list[str]()
-        for request in (plain.get(name), plainly.request, own):
-            if request is not None:
-                reasons.append(not_followed(motion, request_in_case(request, case), column, known_values))
-                found[name] = column, request, reasons[0] if reasons[-1] else ""
-                if not reasons[-1]:
-                    break
+        if only is None or name in only:
+            formula, known = partial(column_over, machine, place, column.name), ("column", machine, place, column.name)
+            own = LawRequest(formula=formula, text=f"the column {column.name}", known=known, column=column.name)
+            left[name] = [each for each in (plain.get(name), plainly.request, own) if each is not None]
+            found[name] = column, own, ""
+    reasons: dict[str, str] = {}
+    while left:  # the first of what may ask for each, those without success the next
+        asked = {name: each.pop(0) for name, each in left.items()}
+        values = values_together(motion, [request_in_case(each, case) for each in asked.values()])
+        for name, request in asked.items():
+            column, *_ = found[name]
+            why = not_followed(motion, request_in_case(request, case), column, values)
+            found[name] = column, request, why and reasons.setdefault(name, why)
+        left = {name: each for name, each in left.items() if each and found[name][2]}
     return found
 
 
@@ -83,13 +85,18 @@ def at_its_rates(motion: Motion, request: RequestLike) -> RequestLike:
     return request if motion.time is None else as_they_run([request], motion._rate_jump is None, True)[0]
 
 
-def values_together(motion: Motion, requests: Iterable[RequestLike | None]) -> dict[Hashable, FloatArray]:
-    """Return the values of requests by their keys, from one program; empty where a pose has to be looked at closely."""
+def values_together(motion: Motion, requests: Iterable[RequestLike]) -> dict[Hashable, FloatArray]:
+    """Return the values of requests by their keys, from one program; those are left out that are refused or looked at closely."""
+    found, asked = dict[Hashable, FloatArray](), list[Request]()
+    for each in requests:
+        with suppress(LinkageError):
+            asked.append(bound(motion.plan, at_its_rates(motion, each)))
     with suppress(LinkageError):
-        asked = [bound(motion.plan, at_its_rates(motion, each)) for each in requests if each is not None]
-        values, look = Evaluation(motion._grid, tuple(asked)).evaluate()
-        return {each.key: own for each, own in zip(asked, values, strict=True)} if look is None else {}
-    return {}
+        values, look = Evaluation(motion._grid, tuple(asked)).evaluate(among=motion.reached.reshape(motion._grid.size))
+        for k, (each, own) in enumerate(zip(asked, values, strict=True)):
+            if look is None or not (look.broken | look.refused[k] | look.doubtful[k] | look.missing[k]).any():
+                found[each.key] = np.where(motion.reached, own, np.nan)
+    return found
 
 
 def not_followed(motion: Motion, request: RequestLike, column: Column, known: Mapping[Hashable, FloatArray]) -> str:

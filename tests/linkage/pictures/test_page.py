@@ -62,6 +62,7 @@ from linkage.pictures.shown_values import as_curve
 from linkage.plan.trace import Trace
 from linkage.quantities import name_of
 from linkage.reports import results
+from linkage.reports.live_columns import values_together
 from linkage.units import MPa, bar, mm, unit_system
 from mechanisms.at_work.forwarder import LoadingForwarder
 from mechanisms.at_work.one_pump import RegenerativePress
@@ -1325,6 +1326,11 @@ def test_what_the_page_does_not_follow_is_named_and_never_green(chromium, writte
         assert shown("document.getElementById('badge').dataset.fails") == "0"
         assert re.fullmatch(r"the live verdicts hold; as delivered or silent: \d+", shown.text("#badge"))
         assert shown.text("#badge") != "all live verdicts hold"
+
+
+def test_what_has_no_program_leaves_the_other_columns_in_one():
+    motion, asked = Rubbing().sweep(7), [thrust("lift"), reserve("lift"), y("P")]
+    assert_allclose([*values_together(motion, asked).values()], [motion[asked[0]], motion[asked[2]]], rtol=1e-12)
 
 
 def test_groups_count_among_dead_points(chromium, written):

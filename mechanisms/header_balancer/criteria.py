@@ -17,6 +17,7 @@ from linkage.checks import require_number
 from linkage.errors import ensure
 from linkage.language import noted, said, translated, with_and
 from linkage.motion import Judge, MotionFunction, below_zero, last_holding, require_motion
+from linkage.motion.grid import recalled
 from linkage.plan import Mask
 from linkage.program import FloatArray
 from linkage.units import deg, kgf_cm2, mm, show, shown_number, unit_sign
@@ -190,10 +191,9 @@ def criteria(motion: Motion) -> list[Verdict]:
     list of Verdict
         The verdicts.
     """
-    fine = over_following(motion)
-    balance = HeaderState(fine)
+    balance = recalled(motion, ("following", motion.unreachable), lambda: HeaderState(over_following(motion)))
     ways = SLOW, FAST, PAPER if motion.inputs["atmosphere"] else NORMAL  # slow with the gas law the other way, too
-    following = [rises(balance), *(hang_up(fine, way) for way in ways)]
+    following = [rises(balance), *(hang_up(balance.motion, way) for way in ways)]
     judged = [*following, hysteresis(balance), matching(balance), reserve(balance), valve(motion)]
     return [*judged, vessels(balance), exchange(motion)]
 
@@ -237,7 +237,7 @@ def hang_up(motion: Motion, way: Way) -> Verdict:
 def hysteresis(balance: HeaderState) -> Verdict:
     """Return criterion 3: the hysteresis and its parts; a plain bearing at O beside the machine's own."""
     whole, seals, pin = balance.hysteresis, balance.of_seals, balance.of_pin
-    plain, rolling = balance.of_bearing(PLAIN), balance.of_bearing(0.0)
+    plain, rolling = balance.of_bearings
     share = float(np.max(pin / whole))
     ok = share <= PIN_SHARE
     sign = unit_sign("kgf")
@@ -295,22 +295,18 @@ def reserve(balance: HeaderState) -> Verdict:
         "of the required pressure",
         worst=kgf_cm2_text(worst, 1), pump=kgf_cm2_text(pump, 1), spare=100 * spare, least=100 * LEAST_RESERVE, seals=100 * seals,
     )  # fmt: skip
-    beside = _smaller(balance, worst, pump) if ok else said("; take a larger bore or a stronger pump")
-    return Verdict("5 pressure level", ok, f"{says}{beside}.")
-
-
-def _smaller(balance: HeaderState, worst: float, pump: float) -> str:
-    """Return the effect of a smaller standard bore on the seals' share, where the pump permits it."""
-    size = balance.cylinder.sized(balance.motion)
+    size, beside = balance.cylinder.sized(motion), said("; take a larger bore or a stronger pump")
     own, rod = size.single
     smaller = [CylinderSize(bore, rod, size.count, size.works) for bore in standard_bores() if rod < bore < own]
     fits = [float(each.bore) for each in smaller if (1.0 + LEAST_RESERVE) * worst * size.area / each.area <= pump]
-    if not fits:
-        return said("; no smaller standard bore keeps the reserve, so it is as high as permitted")
-    return said(
-        "; for this header alone a bore of {bore} would do, with {share:.0f} % of the seals' hysteresis",
-        bore=show(min(fits), "mm", 4), share=100.0 * min(fits) ** 2 / own**2,
-    )  # fmt: skip
+    if ok and fits:
+        beside = said(
+            "; for this header alone a bore of {bore} would do, with {share:.0f} % of the seals' hysteresis",
+            bore=show(min(fits), "mm", 4), share=100.0 * min(fits) ** 2 / own**2,
+        )  # fmt: skip
+    elif ok:
+        beside = said("; no smaller standard bore keeps the reserve, so it is as high as permitted")
+    return Verdict("5 pressure level", ok, f"{says}{beside}.")
 
 
 def valve(motion: Motion) -> Verdict:

@@ -136,7 +136,7 @@ def bearings(ax: Axes, motion: Motion) -> None:
     for label in ("moving up", "moving down"):
         added = (balance.reaction(WAYS[label], PLAIN) - balance.reaction(WAYS[label], 0.0)) / kgf / shoes
         _curve(ax, balance.height, added, COLOURS[label], label)
-    ratio = balance.of_bearing(PLAIN) / balance.of_bearing(0.0)
+    ratio = np.divide(*balance.of_bearings)
     ax.axhline(0.0, color=style.MUTED, linewidth=0.8, zorder=2.0)
     says = f"r = {radius / mm:.0f} mm, mu = {PLAIN:g}: hysteresis x{ratio.min():.2f} to x{ratio.max():.2f} of rolling bearings'"
     beside(ax, says, (0.5, 0.5), (0, 8), xycoords="axes fraction", ha="center")

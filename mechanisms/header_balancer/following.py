@@ -15,7 +15,7 @@ from linkage.errors import ensure
 from linkage.language import noted
 from linkage.loads import SENSES, Acting, PinFriction, Support
 from linkage.loads.element import Formulas
-from linkage.motion import Answer, Judge, require_motion
+from linkage.motion import Answer, MotionFunction, judge_along, require_motion
 from linkage.program import FloatArray
 from linkage.quantities import Coordinate, Distance
 from linkage.statics import driving_force, reaction
@@ -196,9 +196,11 @@ class HeaderState:
         up, down = (reaction(self.motion, loads, SHOE, direction=way) for way in ("extending", "retracting"))
         return np.asarray(up - down)
 
-    def of_bearing(self, coefficient: float = PLAIN) -> FloatArray:
-        """Return the hysteresis [N] with a friction coefficient at O instead of the machine's own."""
-        return self.reaction("extending", coefficient) - self.reaction("retracting", coefficient)
+    @cached_property
+    def of_bearings(self) -> tuple[FloatArray, FloatArray]:
+        """The hysteresis [N] with a plain bearing at O instead of the machine's own, and with a rolling one."""
+        plain, rolling = (self.reaction("extending", each) - self.reaction("retracting", each) for each in (PLAIN, 0.0))
+        return plain, rolling
 
     @cached_property
     def up(self) -> FloatArray:
@@ -280,8 +282,12 @@ def relief(motion: Motion) -> Answer:
         The pressure, and where it is.
     """
     lifted = motion.moved({"h": np.array([stroke_of(motion, 0.0), motion.plan.strokes["h"].end])})
-    judge = Judge(motion.plan, motion.designs, [lifted])
-    return judge.answer(most(lambda at: HeaderState(at).required_while("extending")))
+    return judge_along(lifted).answer(most(MotionFunction(lifting_pressure)))
+
+
+def lifting_pressure(motion: Motion) -> FloatArray:
+    """Return the pressure in the block [Pa gauge] while the pump lifts the header."""
+    return HeaderState(motion).required_while("extending")
 
 
 def kgf_cm2_text(pressure: float, digits: int = 2) -> str:

@@ -341,7 +341,7 @@ def test_the_improved_mechanism_is_matched_and_has_less_hysteresis():
     assert matching(now) and rises(now) and hang_up(now.motion, SLOW) and reserve(now) and valve(machine.at(h=0.1))
     assert now.hysteresis.max() < 0.8 * then.hysteresis.max()
     assert np.ptp(now.free) < 0.3 * np.ptp(then.free)
-    assert 1.79 < (now.of_bearing() / now.of_bearing(0.0)).min() < 1.80  # "almost doubled", as the paper says of its own
+    assert 1.79 < np.divide(*now.of_bearings).min() < 1.80  # "almost doubled", as the paper says of its own
     assert machine.lift.fits(machine.sweep(3))[0]
 
 

@@ -18,6 +18,7 @@ from ..quantities import Quantity, Stroke, source_text
 from ..units import shown_number
 from . import style
 from .drawing import draw_scene
+from .labels import is_inside
 from .layout import cloud
 from .scene import Bounds, Places, Scene
 from .shapes import left_of, polar, segment
@@ -143,7 +144,8 @@ def placed_dimensions(scene: Scene, at: Places, pose: int, scale: float, box: Bo
         points = np.concatenate(taken)
         costs = []
         for rank, each in enumerate(choices):  # how many of the points that it would cover lie within a letter of one that is taken
-            near = np.all(np.abs(each.covered[:, None] - points) < 0.7 * each.letter, axis=2)
+            about = points[is_inside(points - each.covered[0], np.ptp(each.covered, axis=0) + letter)]
+            near = is_inside(each.covered[:, None] - about, np.full(2, 0.7 * letter))
             costs.append(float(np.count_nonzero(np.any(near, axis=1))) + 1.2 * (rank // 2))
         if costs and min(costs) < MOST:
             best = choices[int(np.argmin(costs))]

@@ -6,6 +6,7 @@ import json
 import re
 from base64 import b64encode, b85encode
 from collections.abc import Iterable, Sequence
+from functools import lru_cache
 from hashlib import sha256
 from html import escape
 from importlib.resources import files
@@ -112,6 +113,7 @@ def bare(text: str) -> str:
     return "\n".join(line.lstrip() for line in re.sub(r"(?m)^[ ]*/\*(?:[^*]|\*(?!/))*\*/[ ]*\n", "", text).splitlines() if line.strip())
 
 
+@lru_cache(maxsize=8)  # the same parts of every page
 def tight(program: str) -> str:
     """Return a program as `bare` does, and without the spaces about its signs."""
     parts = KEPT.split(bare(program))

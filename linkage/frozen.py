@@ -30,6 +30,11 @@ class FrozenDict(dict[Key, Value]):
         """All values as floats, in their order."""
         return tuple(map(float, cast(Iterable[float], self.values())))
 
+    @cached_property
+    def by_kind(self) -> dict[type, dict[Key, Value]]:
+        """What has been looked up of it by the kind of its values."""
+        return {}
+
     def _refuse(self, *given: object, **named: object) -> NoReturn:
         raise DefinitionError("These values are what was worked out or declared, and do not change; take a copy of them, dict(...).")
 

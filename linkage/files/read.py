@@ -245,7 +245,7 @@ def class_made(title: str, doc: str | None, featured: Featured, names: Names, fa
         with np.errstate(all="ignore"):
             own = {"__module__": __name__, "__doc__": doc, "about": featured}
             machine: type[Mechanism] = type(title, (Mechanism,), {**own, **names.built})
-            for name in machine.plan.valued_members():
+            for name in machine.plan.valued_members:
                 with about(name):
                     machine.plan.nodes(name)
         return machine

@@ -168,7 +168,7 @@ def differentiated(design: Mechanism, listing: Listing, target: str, wrt: str | 
 def members_with_lines(listing: Listing) -> dict[str, sympy.Basic]:
     """Return the members that have a line, by their names in the class."""
     lines = {line.lhs for line in listing.lines}
-    symbols = {name: listing.symbol_of(name) for name in listing.plan.valued_members()}
+    symbols = {name: listing.symbol_of(name) for name in listing.plan.valued_members}
     return {name: symbol for name, symbol in symbols.items() if symbol in lines or name in listing.unknowns}
 
 

@@ -366,7 +366,7 @@ class Value(Request):
         if isinstance(self.target, Quantity) and not self.target.name:
             plan.reaches(self.target)  # raises for a name in it that there is not
             return Value(self.target, along)
-        return Value(plan.members[checked_name("Name", self.target, plan.valued_members(), plan.title)], along)
+        return Value(plan.members[checked_name("Name", self.target, plan.valued_members, plan.title)], along)
 
     @property
     def member(self) -> Member:

@@ -211,7 +211,7 @@ class Members:
     def member(self, name: str) -> Member:
         """Return a member by its name; DefinitionError, with the names there are, where there is none."""
         if name not in self.members:
-            raise unknown("Name", name, self.valued_members(), where=self.title)
+            raise unknown("Name", name, self.valued_members, where=self.title)
         return self.members[name]
 
     def moves(self, quantity: Member) -> bool:
@@ -405,8 +405,9 @@ class Members:
         """The title as words, for pictures, in the language that is spoken: `MowerLift` is `Mower lift`."""
         return translated(re.sub(r"(?<=[a-z0-9])(?=[A-Z])", " ", self.title).capitalize())
 
+    @cached_property
     def valued_members(self) -> Mapping[str, Member]:
-        """Return the points, vectors and quantities by name."""
+        """The points, vectors and quantities by name."""
         found = {name: member for name, member in self.members.items() if isinstance(member, (Point, Arrow, Quantity))}
         return named_by(found, self.aliases)
 

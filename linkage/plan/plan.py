@@ -171,7 +171,7 @@ class Plan(Members, Shown):
     def nodes(self, target: str | Quantity) -> tuple[Node, ...]:
         """Return the nodes of a point, a vector or a quantity."""
         if isinstance(target, str) and target not in self.members:
-            raise unknown("Name", target, self.valued_members(), where=self.title)
+            raise unknown("Name", target, self.valued_members, where=self.title)
         member = self.members[target] if isinstance(target, str) else target
         match member:
             case Point():

@@ -428,8 +428,11 @@ Kind = TypeVar("Kind", bound=Member)
 
 
 def of_kind(members: Mapping[str, Member], kind: type[Kind]) -> dict[str, Kind]:
-    """Return those of some members that are of a kind, by name, in order."""
-    return {name: member for name, member in members.items() if isinstance(member, kind)}
+    """Return those of some members that are of a kind, by name, in order; of members that do not change they are looked up once."""
+    known: dict[type, dict[str, Kind]] = members.by_kind if isinstance(members, FrozenDict) else {}
+    if kind not in known:
+        known[kind] = FrozenDict({name: member for name, member in members.items() if isinstance(member, kind)})
+    return known[kind]
 
 
 def needed_behind(

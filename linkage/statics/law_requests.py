@@ -195,7 +195,7 @@ class TracedMotion(OnePose):
     def _nodes(self, target: Reference) -> tuple[Scalar, ...]:
         """Return the nodes of a point, a vector or a quantity; the members behind it are noted."""
         plan = self.plan
-        known = plan.valued_members()
+        known = plan.valued_members
         member: Member = plan.members[checked_name("Name", target, known, plan.title)] if isinstance(target, str) else target
         self.read |= plan.reaches(member.name or member)
         if isinstance(member, (Point, Arrow)):

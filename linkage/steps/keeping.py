@@ -93,7 +93,7 @@ class Construction:
         self.placed: list[str] = []
         self.kept: dict[str, OffsetLinks] = {}
         self.used = self._points_behind(member for member in members.values() if isinstance(member, (Jointed, Link)))
-        links = of_kind(members, Link)
+        links = dict(of_kind(members, Link))
         for name, member in members.items():
             if isinstance(member, Point):
                 self.placed.append(name)

@@ -232,11 +232,15 @@ def weakest(motion: Motion) -> Weakest | None:
     worst, easiest = judge.answers([most(MotionFunction(stroke_per_newton)), least(MotionFunction(stroke_size_per_newton))])
     if not worst.value > 0.0:
         return None
-    S = float(worst.strokes["S"])
-    there, best = (closely(motion, np.array([each.strokes["S"]])) for each in (worst, easiest))
+
+    def found() -> tuple[Motion, Motion, float]:
+        there, best = (closely(motion, np.array([each.strokes["S"]])) for each in (worst, easiest))
+        return there, best, float(capacity(there)[0])
+
     with unwarned():  # at the end of the reach it stands next to a dead point: the sentence keeps few digits
-        ratio, force = float(there.ratio("G")[1][0]), float(capacity(there)[0])
-        return Weakest(S, float(there.y("F")[0]), force, ratio, stage(there, best), remedy(motion))
+        there, best, force = judge._once("weakest", found)
+        ratio, height = float(there.ratio("G")[1][0]), float(there.y("F")[0])
+        return Weakest(float(worst.strokes["S"]), height, force, ratio, stage(there, best), remedy(motion))
 
 
 def stages(motion: Motion) -> dict[str, tuple[float, str, str]]:

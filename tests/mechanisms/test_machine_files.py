@@ -36,7 +36,7 @@ def positions(design):
     """Return every named value over the strokes, 5 poses of each."""
     axes = {name: np.linspace(stroke.start, stroke.end, 5) for name, stroke in design.strokes.items()}
     motion = design.at(unreachable="nan", **axes)
-    return [motion[name] for name in design.plan.valued_members()]
+    return [motion[name] for name in design.plan.valued_members]
 
 
 def forces(design):

@@ -29,7 +29,7 @@ def same_motion(first, second):
     """Assert that two designs move alike to the last bit."""
     strokes = {name: np.linspace(stroke.start, stroke.end, 5) for name, stroke in first.strokes.items()}
     one, two = (each.at(unreachable="nan", **strokes) for each in (first, second))
-    for name in first.plan.valued_members():
+    for name in first.plan.valued_members:
         assert np.array_equal(one[name], two[name], equal_nan=True), name
 
 

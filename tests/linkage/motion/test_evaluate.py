@@ -213,7 +213,7 @@ def test_angles_do_not_jump_along_the_stroke():
         twice = 2.0 * angle("O", "A") + distance("O", "B")
 
     phi = np.linspace(0.0, 12.0, 200)
-    names = [name for name in ("twice", *Turning.plan.valued_members()) if name in Turning.plan.members]
+    names = [name for name in ("twice", *Turning.plan.valued_members) if name in Turning.plan.members]
     found = Turning().evaluate(["twice"], phi=phi)[0]
     motion = Turning().at(phi=phi)
     assert names
@@ -307,7 +307,7 @@ def test_a_function_takes_strokes_by_name_too():
 def test_one_pose_is_that_of_many(machine):
     """The program of one pose, which is found by what is asked, tells what a row of poses tells, warnings and refusals included."""
     point, made = machine.plan.moving[-1], machine()
-    asked = [point, *(ratio(point, wrt=name) for name in machine.plan.strokes), *[*machine.plan.valued_members()][:3]]
+    asked = [point, *(ratio(point, wrt=name) for name in machine.plan.strokes), *[*machine.plan.valued_members][:3]]
     for share in (0.0, 0.3, 0.77, 1.0):
         strokes = {name: float(stroke.start + share * (stroke.end - stroke.start)) for name, stroke in machine.plan.strokes.items()}
         told = []

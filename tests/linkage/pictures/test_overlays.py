@@ -131,9 +131,11 @@ def test_arrows_are_the_pin_forces_and_loads_in_one_scale(machine):
     motion, figure = with_forces(machine)
     found = forces_at_pose(motion, 0, ForceQuestion()).found
     drawn, size = arrows(figure, "force "), max(float(joint.size) for joint in found.joints if joint.has_force)
+    assert len(drawn) == sum(joint.has_force and float(joint.size) > 1e-9 * size for joint in found.joints)  # none of zero
+    if size == 0.0:
+        return
     unit, factor = ("kN", 1e3) if named(figure, "scale kN") else ("N", 1.0)
     scale = scale_of(figure, unit) / factor
-    assert len(drawn) == sum(joint.has_force for joint in found.joints)
     for name, (tail, vector) in drawn.items():
         point, place, words = name.split(" ", 3)[1], int(name.split(" ", 3)[2]), name.split(" ", 3)[3]
         joint = found.joints[place]

@@ -121,9 +121,9 @@ function reachEnd(start, k, from, sign, size) {
   let good = 0, bad = 0;
   for (let i = 1; i <= 16 && !bad; i++) { const away = (size * i) / 16; if (at(from + sign * away).reason[0] === 0) good = away; else bad = away; }
   if (!bad) return "";
-  for (let i = 0; i < 30; i++) { const middle = 0.5 * (good + bad); if (at(from + sign * middle).reason[0] === 0) good = middle; else bad = middle; }
+  for (let i = 0; i < 30; i++) { const away = 0.5 * (good + bad); if (at(from + sign * away).reason[0] === 0) good = away; else bad = away; }
   const reason = at(from + sign * bad).reason[0], step = reason > 0 ? engine.steps[reason - 1] : "", stroke = own[k];
-  return say("{step} at {where}, {away} beyond it", { step: data.called[step]?.[language === "ru" ? 1 : 0] ?? step, where: `${stroke.name} = ${shown(from + sign * good, stroke, 4)}`, away: shown(good, stroke, 3) });
+  return good && say("{step} at {where}, {away} beyond it", { step: data.called[step]?.[language === "ru" ? 1 : 0] ?? step, where: `${stroke.name} = ${shown(from + sign * good, stroke, 4)}`, away: shown(good, stroke, 3) });
 }
 function stretches(list) {
   const found = [];

@@ -27,6 +27,7 @@ from linkage import (
     Link,
     LoadCase,
     Mechanism,
+    OnGuide,
     OnLink,
     Over,
     Part,
@@ -464,6 +465,22 @@ def test_a_value_goes_as_far_as_can_be_assembled_and_says_why_no_farther(chromiu
         assert re.fullmatch(r"CD stops here: D = Dyad\(E, C\) is \d+(\.\d+)?\u2009mm short", said), said
         assert ThreePointHitch(CD=reached - 1e-6).at(S=0.0).reached.all()
         assert not ThreePointHitch(CD=reached + 1e-5).at(S=0.0, unreachable="nan").reached.any()
+
+
+def test_no_dead_point_is_told_beyond_an_end_that_is_lost_itself(chromium, written):
+    class Corner(Mechanism):
+        p, q = Stroke(0.0, 0.2), Stroke(0.0, 0.2)
+        O = Ground(0.0, 0.0)
+        rail = Guide(O, angle=0.0)
+        P = OnGuide(rail, at=1.0 - p)
+        B = Dyad(O, P, OB=0.45 + q, PB=0.56, side=LEFT)
+
+    with Shown(chromium, written(Corner())) as shown:
+        for length, ok in ((0.555, True), (0.54, False)):  # 1 m is the farthest that P goes
+            shown("(given) => hydrolinkage.set(given)", {"design": {"PB": length}, "at": {"p": 0.2, "q": 0.2}})
+            shown.settle()
+            told = {each["rule"]: each for each in shown("hydrolinkage.verdicts()")}
+            assert told["assembly"]["ok"] is ok and ("dead points" in told) is ok, told
 
 
 def test_what_is_not_reached_over_the_stroke_is_told_with_step_and_millimetres(chromium, written):

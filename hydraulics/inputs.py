@@ -8,6 +8,7 @@ expression of dimensions or its name may replace a number.
 from __future__ import annotations
 
 from collections.abc import Container, Iterable
+from types import MappingProxyType
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -32,6 +33,7 @@ LONGEST = 30.0
 """m; a longer stroke was given in millimetres."""
 SLENDER = 300.0
 """A stroke of more bores than this was given in millimetres."""
+EFFICIENCIES = MappingProxyType({"mechanical_efficiency": "efficiency", "hydraulic_efficiency": "efficiency"})
 STRONGEST = 1.0
 """m3/s; a larger flow was given in litres a minute."""
 

@@ -44,7 +44,7 @@ from .cylinders import (
     thrust_request,
 )
 from .files import pressure_kind
-from .inputs import Array, check_pressures, follows, not_negative, one_design, one_number
+from .inputs import EFFICIENCIES, Array, check_pressures, follows, not_negative, one_design, one_number
 from .lifting_line import LiftLine
 from .moving import flow
 from .pump import Pump
@@ -163,6 +163,7 @@ class LiftCircuit(PumpLine):
             "relief": "bar",
         }
     )
+    limited: ClassVar[Mapping[str, str]] = EFFICIENCIES
     not_negative: ClassVar[frozenset[str]] = frozenset({"pressure", "flow", "back_pressure", "relief"})
     optional: ClassVar[frozenset[str]] = frozenset({"relief"})
     argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"cylinder": "loads", "pressure": partial(pressure_kind, Pump)})

@@ -25,7 +25,7 @@ from linkage.verdict import Remark, Verdict
 from .consumers import in_plan, lines_on
 from .cycle import PumpCycle, cycles_over, is_shared, judged_cycles, pump_verdicts
 from .cylinders import OnLines, Ram, circuits_among
-from .inputs import check_pressures, follows
+from .inputs import EFFICIENCIES, check_pressures, follows
 from .sharing import SHARINGS
 from .working import Demand, PumpMotion, worked
 
@@ -104,6 +104,7 @@ class Pump(Supply):
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({
         "pressure": "bar", "flow": "l/min", "mechanical_efficiency": "", "hydraulic_efficiency": "", "power": "kW", "margin": "bar",
     })  # fmt: skip
+    limited: ClassVar[Mapping[str, str]] = EFFICIENCIES
     not_negative: ClassVar[frozenset[str]] = frozenset({"pressure", "flow", "power", "margin"})
     optional: ClassVar[frozenset[str]] = frozenset({"power"})
     argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"first": "loads"})

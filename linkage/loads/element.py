@@ -337,8 +337,8 @@ class ForceElement(Jointed):
     places: ClassVar[tuple[str, ...]] = ("point",)
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({})
     not_negative: ClassVar[frozenset[str]] = frozenset()
-    frictional: ClassVar[frozenset[str]] = frozenset()
-    """Parameters that are a coefficient of friction, zero to ROUGHEST."""
+    limited: ClassVar[Mapping[str, str]] = MappingProxyType({})
+    """Parameters that are a coefficient of "friction", zero to ROUGHEST, or an "efficiency", above zero to one."""
     stroke_values: ClassVar[frozenset[str]] = frozenset()
     """Parameters that are a value of a stroke, a length or an angle."""
     optional: ClassVar[frozenset[str]] = frozenset()
@@ -675,7 +675,7 @@ class ForceElement(Jointed):
         found = []
         for name in self.numbers:
             value = quantity(self.given(name))
-            kind = "friction" if name in self.frictional else "not negative" if name in self.not_negative else "number"
+            kind = self.limited.get(name, "not negative" if name in self.not_negative else "number")
             if isinstance(value, Number):
                 number = float(value.number) if name in self.stroke_values else value.number
                 found.append((f"{self.name}.{name}", number, kind, self.parameters[name]))
@@ -750,7 +750,7 @@ class ForceElement(Jointed):
             raise DefinitionError(f"{self._opening()}: {name}={cited(given)} is not a finite number; give it in SI.")
         if name in self.not_negative and np.any(value < 0.0):
             raise DefinitionError(f"{self._opening()}: {name}={cited(given)} is negative; give zero or more.")
-        if name in self.frictional and np.any(value > ROUGHEST):
+        if self.limited.get(name) == "friction" and np.any(value > ROUGHEST):
             raise DefinitionError(f"{self._opening()}: {name}={cited(given)} is more than any friction; write 0.15 for 15 %.")
 
     def _opening(self) -> str:

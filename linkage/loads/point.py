@@ -178,7 +178,7 @@ class Support(Directed):
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"force": "N", "stiffness": "N/m", "friction": ""})
     argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"direction": "pair"})
     not_negative: ClassVar[frozenset[str]] = frozenset({"stiffness", "friction"})
-    frictional: ClassVar[frozenset[str]] = frozenset({"friction"})
+    limited: ClassVar[Mapping[str, str]] = MappingProxyType({"friction": "friction"})
     optional: ClassVar[frozenset[str]] = frozenset({"stiffness", "friction"})
     shown_by: ClassVar[str] = "linkage.statics.vehicle:AxleLoad"
 
@@ -477,7 +477,7 @@ class PinFriction(ForceElement):
     coefficient: Parameter
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"radius": "mm", "coefficient": ""})
     not_negative: ClassVar[frozenset[str]] = frozenset({"radius", "coefficient"})
-    frictional: ClassVar[frozenset[str]] = frozenset({"coefficient"})
+    limited: ClassVar[Mapping[str, str]] = MappingProxyType({"coefficient": "friction"})
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -515,7 +515,7 @@ class GuideFriction(ForceElement):
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"coefficient": ""})
     argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"guide": "guide"})
     not_negative: ClassVar[frozenset[str]] = frozenset({"coefficient"})
-    frictional: ClassVar[frozenset[str]] = frozenset({"coefficient"})
+    limited: ClassVar[Mapping[str, str]] = MappingProxyType({"coefficient": "friction"})
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -364,7 +364,7 @@ def dimension_data(requests: PageRequests, live: LiveText) -> list[list[Any]]:
             reach = 20 * deg
         else:
             reach = (0.25 if measure == "length" else 0.5) * abs(value) or factor(unit)
-        ends = list(given) if given else four_digits(reach)
+        ends = list(given) if given else [0.5 * value, 1.0] if entry.kind == "efficiency" else four_digits(reach)
         where = entry.where if entry.kind in STEPS else ""
         found.append([name, value, ends, typeset(unit), int(entry.kind == "length"), where][: None if where else 5])
     return found

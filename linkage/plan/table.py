@@ -37,7 +37,7 @@ class DesignVariable:
     @property
     def measures(self) -> str:
         """Its kind by its unit or its label: "length", "angle", "pressure"; "" where neither tells it."""
-        kinds = {"length": "length", "coordinate": "length", "angle": "angle", "friction": "number"}
+        kinds = {"length": "length", "coordinate": "length", "angle": "angle", "friction": "number", "efficiency": "number"}
         return UNITS[self.unit][1] if self.unit else kinds.get(self.kind, "")
 
 
@@ -143,6 +143,7 @@ RANGES: Mapping[str, tuple[float, float]] = {
     "angle": (-TURN, TURN),
     "not negative": (0.0, LARGEST),
     "friction": (0.0, ROUGHEST),
+    "efficiency": (float(np.nextafter(0.0, 1.0)), 1.0),
 }
 """The least and the greatest value that is in order [SI], by what a variable measures."""
 
@@ -166,7 +167,9 @@ def value_in_range(entry: DesignVariable, value: Numbers) -> Numbers:
     values = np.ravel(value)
     require(np.all(np.isfinite(values)), f"{entry.where}: {entry.name}", value, "is not a finite number; give a value in SI")
     least, far = float(values.min()), float(values[np.argmax(np.abs(values))])
-    if entry.kind == "friction" and least >= 0.0:
+    if entry.kind == "efficiency":
+        fault = f"{entry.name}={far:.6g}: an efficiency lies between 0 and 1"
+    elif entry.kind == "friction" and least >= 0.0:
         fault = f"{entry.name}={far:.6g} is more than any friction; write 0.15 for 15 %"
     elif entry.kind in ("not negative", "friction"):
         fault = f"{entry.name}={least:.6g} is negative; give zero or more"

@@ -17,7 +17,7 @@ from ..frozen import immutable
 from ..mechanism import Mechanism
 from ..motion import Grid, Motion, Request, at_values, each_at_its_stroke, evaluate_grid, stroke_display_unit
 from ..motion.grid import JoinedTo
-from ..motion.measures import At, Integral, Leaf, Measure, strokes_behind, traced, words_of
+from ..motion.measures import At, Integral, Leaf, Measure, bound_quantity, strokes_behind, traced, words_of
 from ..motion.requests import may_be_unlimited
 from ..numeric.line import Index
 from ..numeric.quadrature import PANELS, gauss, quadrature
@@ -50,6 +50,8 @@ def traced_number(plan: Plan, quantity: object) -> Request:
     """Return a quantity bound to a plan; DefinitionError for one without a gradient in the program."""
     found = number_bound(plan, quantity)
     if found is None:
+        if isinstance(quantity, Request):
+            bound_quantity(plan, quantity).nodes(plan)  # which says why, such as the friction that has no program
         what = f"{plan.title}: {words_of(quantity)} is no part of the program, so that its gradient is not known"
         raise DefinitionError(f"{what}; give an output, a quantity or a request.")
     return found

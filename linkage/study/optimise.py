@@ -35,6 +35,7 @@ from ..motion.measures import (
     strokes_behind,
     words_of,
 )
+from ..motion.requests import Combined
 from ..program import FloatArray, fixed_backend
 from ..quantities import Quantity, ref
 from ..statics.applied import case_of
@@ -241,7 +242,7 @@ def optimise(
     sought = [mean_in_cases(objectives[0], shares)] if shares else [in_case(objectives[0], each) for each in cases]
     if all(each is objectives[0] for each in sought):
         sought = [objectives[0]]  # it names its load cases itself
-    sought += [] if shares or robust is not None else worse_pieces(objectives[0], sense, cases, judge)
+    sought += [] if shares else worse_pieces(objectives[0], sense, cases, judge)
     problem = Problem(machine, sought, held, space, sense, over)
     if robust is not None:
         problem = with_spread(problem, robust, sigmas)
@@ -384,6 +385,13 @@ def pieces_in_cases(constraints: Sequence[Constraint], cases: Sequence[Case], ju
     return found
 
 
+def in_motion(request: object) -> bool:
+    """Return whether a request is of forces in a direction of motion, or computed from such."""
+    if isinstance(request, Combined):
+        return any(map(in_motion, request.requests))
+    return isinstance(request, LawRequest) and request.situation.direction in ("extending", "retracting")
+
+
 def worse_pieces(objective: Measure, sense: float, cases: Sequence[Case], judge: Judge) -> list[Measure]:
     """Return the pieces of an objective, in a direction of motion, that are somewhere worse than at rest, as with friction."""
     asked = Constraint(objective, "<=" if sense > 0.0 else ">=", FixedNumber(0.0))
@@ -393,8 +401,7 @@ def worse_pieces(objective: Measure, sense: float, cases: Sequence[Case], judge:
         """Return its quantity over the poses, greater where it is worse, the least number where there is none."""
         return np.asarray(np.nan_to_num(sense * motion[cast(Request, cast(Leaf, measure).quantity)], nan=-np.inf))
 
-    requests = [(each, each.quantity) for each in pieces if isinstance(each, Leaf)]
-    moving = [each for each, one in requests if isinstance(one, LawRequest) and one.situation.direction in ("extending", "retracting")]
+    moving = [each for each in pieces if isinstance(each, Leaf) and in_motion(each.quantity)]
     rest = np.max([values(in_case(objective, each)) for each in cases], axis=0) if moving else np.zeros(())
     return [each for each in moving if np.any(values(each) > rest + SAME_TO_DIGITS * np.abs(rest))]
 

@@ -209,7 +209,7 @@ def test_holding_is_judged_against_the_relief_valve_and_lifting_against_the_pump
 @pytest.mark.parametrize(
     ("given", "words"),
     [
-        ({"pressure": -1.0}, "pressure"), ({"pressure": 0.0}, "pressure"), ({"mechanical_efficiency": 1.1}, "above 1"),
+        ({"pressure": -1.0}, "pressure"), ({"pressure": 0.0}, "pressure"), ({"mechanical_efficiency": 1.1}, "lies between 0 and 1"),
         ({"mechanical_efficiency": 0.0}, "lies between 0 and 1"), ({"hydraulic_efficiency": -0.5}, "lies between 0 and 1"),
     ],
     ids=str,

@@ -121,6 +121,8 @@ KINDS = {
     "polytropic": (lambda: polytropic(1.2 * mm), "a length; expected is a number in SI, without a unit"),
     "efficiency": (lambda: driving_force(ARM.sweep(2), direction="extending", efficiency=900 * mm), "efficiency=0.9 was given as a length"),
     "PinFriction, percent": (lambda: PinFriction("T", radius=0.02, coefficient=15), "coefficient=15 is more than any friction; write 0.15"),
+    "PinFriction, of a design": (lambda: type("Worn", (Arm,), {"f": PinFriction("O", 0.03, 0.1)})(**{"f.coefficient": 15}), "write 0.15"),
+    "LiftCircuit, of a design": (lambda: Arm(**{"line.mechanical_efficiency": 3}), "efficiency=3: an efficiency lies between 0 and 1"),
     "Support, percent": (lambda: Support("T", (0, 1), friction=60), "friction=60 is more than any friction"),
     "Cylinder, bore": (lambda: Cylinder("A", "B", bore=60 * bar, rod=0.03), r"bore=6e\+06 was given as a pressure"),
     "Cylinder, stroke": (lambda: Cylinder("A", "B", bore=0.06, rod=0.03, stroke=10 * deg), "stroke=0.174533 was given as an angle"),

@@ -49,6 +49,7 @@ from .measures import (
     check_condition,
     check_kinds,
     conditions_of,
+    in_situation,
     is_quantity,
     reachable,
     strokes_behind,
@@ -778,12 +779,18 @@ class Judge:
     def split(self, constraint: Constraint) -> list[Constraint]:
         """Return a constraint as one of each smooth piece, in each load case and movement that occurs, as searches take it.
 
-        One piece alone, and a comparison of several measures, stays as it is, in each load case.
+        One piece alone stays as it is. A comparison of several measures does, too, and is one more in each movement with friction.
         """
         leaf = constraint.left
         bounds_worst = (isinstance(leaf, Least) and constraint.symbol == ">=") or (isinstance(leaf, Most) and constraint.symbol == "<=")
         if not (bounds_worst and isinstance(leaf, Leaf) and isinstance(leaf.quantity, Request)) or constraint.right.leaves:
-            return [constraint]
+            if not rubs(self.plan, self.motion, self.acting):
+                return [constraint]
+            asked = [each.quantity for each in (*leaf.leaves, *constraint.right.leaves) if isinstance(each.quantity, Request)]
+            known = dict.fromkeys(replace(each, case=None) for request in asked for each in self.actings(request))
+            moving = [each for each in known if each.direction not in (None, FRICTIONLESS)]
+            sides = [(in_situation(leaf, each), in_situation(constraint.right, each)) for each in moving]
+            return [constraint, *(replace(constraint, left=left, right=right) for left, right in sides)]
         rows = [row for place in self.places for row in self.search_rows(leaf, place)]
         if len(rows) == 1:
             return [constraint]

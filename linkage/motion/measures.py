@@ -496,14 +496,17 @@ def conditions_of(given: object, machine: object) -> list[Constraint]:
 
 def in_case(measure: Measure, case: Case) -> Measure:
     """Return a measure with the forces of a load case, where it names none itself."""
-    if case is None:
-        return measure
+    return measure if case is None else in_situation(measure, Acting(case=case))
+
+
+def in_situation(measure: Measure, acting: Acting) -> Measure:
+    """Return a measure with the forces of a situation, where it names none itself."""
     if isinstance(measure, CombinedMeasure):
-        left, right = in_case(measure.left, case), in_case(measure.right, case)
+        left, right = in_situation(measure.left, acting), in_situation(measure.right, acting)
         return measure if left is measure.left and right is measure.right else replace(measure, left=left, right=right)
     if not (isinstance(measure, Leaf) and isinstance(measure.bare_quantity, Request)):
         return measure
-    quantity, situated = measure.quantity, measure.bare_quantity.under(Acting(case=case), keep=True)
+    quantity, situated = measure.quantity, measure.bare_quantity.under(acting, keep=True)
     if situated is measure.bare_quantity:
         return measure
     return replace(measure, quantity=replace(quantity, quantity=situated) if isinstance(quantity, Worst) else situated)

@@ -401,8 +401,10 @@ def worse_pieces(objective: Measure, sense: float, cases: Sequence[Case], judge:
         """Return its quantity over the poses, greater where it is worse, the least number where there is none."""
         return np.asarray(np.nan_to_num(sense * motion[cast(Request, cast(Leaf, measure).quantity)], nan=-np.inf))
 
-    moving = [each for each in pieces if isinstance(each, Leaf) and in_motion(each.quantity)]
-    rest = np.max([values(in_case(objective, each)) for each in cases], axis=0) if moving else np.zeros(())
+    moving = [each for each in pieces if any(in_motion(leaf.quantity) for leaf in each.leaves)]
+    if not moving or not isinstance(objective, Leaf):
+        return moving
+    rest = np.max([values(in_case(objective, each)) for each in cases], axis=0)
     return [each for each in moving if np.any(values(each) > rest + SAME_TO_DIGITS * np.abs(rest))]
 
 

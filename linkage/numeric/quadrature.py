@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -55,9 +56,16 @@ def quadrature(values: Callable[[FloatArray], FloatArray], edges: FloatArray | N
     return Quadrature(np.where(error > ENDLESS * np.abs(shares).sum(axis=-1), np.inf, total), error, edges)
 
 
+@cache
+def gauss_rule() -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return places from -1 to 1 and weights of Gauss's rule, and what makes of values there those at -1 and 1 (nodes, 2)."""
+    places, weights = np.polynomial.legendre.leggauss(NODES)
+    return places, weights, np.asarray(np.linalg.solve(np.vander(places).T, np.vander([-1.0, 1.0], NODES).T), float)
+
+
 def gauss(edges: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return places and weights of Gauss's rule in the panels between edges."""
-    places, weights = np.polynomial.legendre.leggauss(NODES)
+    places, weights, _ = gauss_rule()
     widths = np.diff(edges)[:, None]
     return (edges[:-1, None] + 0.5 * (places + 1.0) * widths).ravel(), (0.5 * weights * widths).ravel()
 
@@ -69,7 +77,6 @@ def by_panel(values: FloatArray, edges: FloatArray) -> FloatArray:
 
 def bent_at_ends(values: FloatArray, ends: FloatArray) -> Any:
     """Return the panels whose end value differs from the polynomial through Gauss's places: a kink lies beside the end."""
-    places, _ = np.polynomial.legendre.leggauss(NODES)
-    shown = values.reshape(*values.shape[:-1], -1, NODES) @ np.linalg.solve(np.vander(places).T, np.vander([-1.0, 1.0], NODES).T)
+    shown = values.reshape(*values.shape[:-1], -1, NODES) @ gauss_rule()[2]
     apart = np.abs(shown - np.stack([ends[..., :-1], ends[..., 1:]], axis=-1)).max(axis=-1)
     return apart > WORK**0.5 * np.abs(values).max(axis=-1, initial=0.0)[..., None]

@@ -40,9 +40,9 @@ def sobol_points(count: int, k: int, random: np.random.Generator) -> FloatArray:
     for own, row in zip(directions, known, strict=False):
         polynomial, *first = map(int, row.split())
         own[: len(first)] = first
-        for place in range(len(first), BITS) if first else ():
+        for number in range(len(first), BITS) if first else ():
             back = [each for each in range(1, len(first)) if polynomial >> (len(first) - each) & 1]
-            own[place] = own[place - len(first)] ^ np.bitwise_xor.reduce([own[place - each] << each for each in (*back, len(first))])
+            own[number] = own[number - len(first)] ^ np.bitwise_xor.reduce([own[number - each] << each for each in (*back, len(first))])
     directions <<= np.arange(BITS)[::-1]
     bits = directions[:, None, :] // weights[::-1, None] % 2  # the highest first
     directions = weights[::-1] @ (scramble @ bits % 2)

@@ -350,8 +350,10 @@ RECENT = 256
 """What was looked for of single designs of a plan, and is kept: the searches of the last ones that were asked for."""
 
 
-def recalled(motion: MotionLike, what: Hashable, make: Callable[[], Made]) -> Made:
+def recalled(motion: MotionLike, what: Hashable, make: Callable[[], Made], of_places: bool = False) -> Made:
     """Return a value that depends on one design, the strokes, their courses and `what` alone, cached; of a batch made each time.
+
+    One `of_places` depends on the dimensions alone that points are worked out from: a bore or a load changes nothing of it.
 
     It is taken for what `make` returns anew: nothing in it may change, and nothing in it hangs on what was asked before.
     """
@@ -360,7 +362,10 @@ def recalled(motion: MotionLike, what: Hashable, make: Callable[[], Made]) -> Ma
     known: dict[Hashable, Any] = motion.plan.made("recent", lambda _: {})
     strokes = tuple((name, value.shape, blake2b(value.tobytes(), digest_size=16).digest()) for name, value in motion.strokes.items())
     timed = None if motion._instants is None else motion._instants.content_key  # the same strokes passed otherwise have other forces
-    key = what, tuple(motion.designs), motion.designs.as_floats, strokes, timed, motion._grid.per_design
+    named, plan = motion.designs.as_floats, motion.plan
+    if of_places and not plan.solved:
+        named = tuple([float(motion.designs[name]) for name in plan.kernel((*plan.points,), guarded=True).plan.input_names[0]])
+    key = what, tuple(motion.designs), named, strokes, timed, motion._grid.per_design
     kept = known.get(key)  # another thread may throw it away meanwhile
     if kept is not None:
         return cast(Made, kept)

@@ -503,7 +503,7 @@ def least_margins(motion: Motion, kept: Callable[[Motion], Mask] | None = None) 
             each_of.append(LoopMargin(loop.step, loop.kind, least.value[row], hole, place, least.units, time))
         return each_of
 
-    return recalled(motion, "margins", found) if kept is None else found()
+    return recalled(motion, "margins", found, of_places=True) if kept is None else found()
 
 
 def margins(motion: Motion, known: Clearances) -> FloatArray:

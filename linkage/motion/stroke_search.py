@@ -69,7 +69,7 @@ def limits(motion: MotionLike) -> Limits:
     check_any(motion.strokes, motion.plan)
     held = {name: float(np.ravel(value)[0]) for name, value in motion.strokes.items()}
     lines = {name: StrokeLine(motion, name, held) for name in motion.strokes}
-    return Limits({name: recalled(motion, ("limits", name), line.stroke_limits) for name, line in lines.items()})
+    return Limits({name: recalled(motion, ("limits", name), line.stroke_limits, of_places=True) for name, line in lines.items()})
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,7 +10,9 @@ from numpy.testing import assert_allclose
 from hydraulics import Cylinder, LiftCircuit, OilLine, Pump, Tank, flow, power, rate, thrust
 from linkage import (
     RIGHT,
+    Crank,
     DefinitionError,
+    Dimension,
     Dyad,
     Ground,
     LinkMass,
@@ -95,6 +97,25 @@ def test_a_direction_changes_a_thrust_where_a_law_heeds_it():
         assert_allclose(plain[way], plain[still], rtol=1e-14)
         assert_allclose(dragging[way] - dragging[still], sense * drag, rtol=1e-9)
         assert_allclose(Dragging().evaluate([way], S=dragging.strokes["S"])[0], dragging[way], rtol=1e-11)
+
+
+class Swing(Mechanism):
+    """A cylinder whose fixed pin places nothing else."""
+
+    phi = Stroke(0.0, 3.0)
+    reach = Dimension(0.5)
+    O, A = Ground(0, 0), Ground(reach, -0.4)
+    B = Crank(O, OB=0.6, angle=phi)
+    ram = Cylinder(A, B, bore=0.08, rod=0.045)
+
+
+def test_another_design_in_one_process_has_dead_points_of_its_own():
+    for given in ({}, {"ram.bore": 0.1}, {"A.y": 0.3}, {"reach": 0.2}, {"OB": 0.7}, {}):
+        swing = Swing(**given)
+        pin = np.arctan2(swing.dimensions["A.y"], swing.dimensions["reach"])
+        found = sorted(value for value, _ in swing.at(phi=1.0).limits()["phi"].cylinder_dead_points)
+        wanted = sorted(turn for turn in (pin + np.pi * np.arange(-2, 3)) if found[0] - 1e-6 < turn < found[-1] + 1e-6)
+        assert_allclose(found, wanted, atol=1e-9, err_msg=str(given))
 
 
 def test_oil_goes_in_and_comes_back_on_a_line_of_one_side():

@@ -93,7 +93,8 @@ def plot_curves(first: Motion, curves: Sequence[Curve], limits: Mapping[str, Seq
         panel(ax, motion, column, bound)
         if where:  # each of several runs has strokes of its own that are held
             axis = StrokeAxis.of(motion)
-            ax.set_title(typeset(f"{column.heading}, {where}"), loc="left", fontsize=style.TITLE, fontweight="bold", color=style.INK, pad=9)
+            heading = "\n".join(wrap(typeset(f"{column.heading}, {where}"), int(LETTERS_AN_INCH * PANEL[0])))
+            ax.set_title(heading, loc="left", fontsize=style.TITLE, fontweight="bold", color=style.INK, pad=9)
             ax.set_xlabel("; ".join(each for each in (axis.heading, axis.held) if each), fontsize=style.TEXT, color=style.MUTED)
     return figure
 

@@ -251,5 +251,6 @@ def test_a_heading_is_parted_between_strokes():
     telehandler = SHIPPED["levelled_telehandler"].load()()
     figure = plot(telehandler, at=dict(lift=(0.0, 0.7)))
     assert figure.get_suptitle().splitlines()[1:] == ["tilt = 0 mm"]
-    along = [ax.get_xlabel() for ax in plot(telehandler).axes]  # its two paths: what is held stands along each
-    assert along == ["lift, mm; extend = 0 mm, tilt = 0 mm", "extend, mm; lift = 300 mm, tilt = 0 mm"]
+    paths = plot(telehandler)  # two: what is held stands along each
+    assert [ax.get_xlabel() for ax in paths.axes] == ["lift, mm; extend = 0 mm, tilt = 0 mm", "extend, mm; lift = 300 mm, tilt = 0 mm"]
+    check_texts(paths)

@@ -193,7 +193,7 @@ def test_verdict_as_printed():
     lift = MowerLift()
     found = rules(lift, lift.sweep(101))
     assert found["lifting"] == (
-        "FAIL lifting: at 155 kgf/cm2 the least reserve is 0.963, at S = 0.5500 m; too weak from S = 0.5500 to 0.5660 m. "
+        "FAIL lifting: at 155 kgf/cm2 the least reserve is 0.963, at S = 550.0 mm; too weak from S = 550.0 to 566.0 mm. "
         "It needs 161.1 kgf/cm2, or a bore of 90 mm, with a reserve of 1.22."
     )
     assert found["oil"] == "ok   oil: 1.26 l from end to end; time follows from the pump's flow, which is not given."
@@ -203,8 +203,8 @@ def test_verdict_as_printed():
 
 def test_verdict_of_the_other_reading():
     text = verdict(BOG=OTHER_READING)
-    assert "the least reserve is 0.978, at S = 0.5500 m" in text
-    assert "too weak from S = 0.5500 to 0.5604 m" in text
+    assert "the least reserve is 0.978, at S = 550.0 mm" in text
+    assert "too weak from S = 550.0 to 560.4 mm" in text
 
 
 @for_all(("dimensions", "printed"), [({}, "0.5660"), ({"BOG": OTHER_READING}, "0.5604")])
@@ -215,7 +215,7 @@ def test_end_of_the_short_range_is_a_root(dimensions, printed, count):
     (short,) = below_zero(lift.sweep(count), lambda each: reserve(each) - 1.0)
     start, end = short.start["S"], short.end["S"]
     assert (start, f"{end:.4f}") == (0.55, printed)
-    assert f"too weak from S = 0.5500 to {printed} m." in of_circuit(lift, lift.sweep(count))["lifting"]
+    assert f"too weak from S = 550.0 to {float(printed) / mm:.1f} mm." in of_circuit(lift, lift.sweep(count))["lifting"]
     below, at, above = reserve(lift.at(S=[end - 1e-9, end, end + 1e-9]))
     assert below < 1.0 < above
     assert at == pytest.approx(1.0, abs=1e-10)
@@ -223,14 +223,14 @@ def test_end_of_the_short_range_is_a_root(dimensions, printed, count):
 
 def test_verdict_stays_where_the_motion_starts_higher():
     lift = MowerLift()
-    assert "too weak from S = 0.5600 to 0.5660 m" in of_circuit(lift, lift.at(S=[0.56, 0.70]))["lifting"]
-    assert of_circuit(lift, lift.at(S=0.70))["lifting"] == "ok   lifting: at 155 kgf/cm2 the least reserve is 1.227, at S = 0.7000 m."
-    assert "; too weak at S = 0.5500 m." in of_circuit(lift, lift.at(S=0.55))["lifting"]
+    assert "too weak from S = 560.0 to 566.0 mm" in of_circuit(lift, lift.at(S=[0.56, 0.70]))["lifting"]
+    assert of_circuit(lift, lift.at(S=0.70))["lifting"] == "ok   lifting: at 155 kgf/cm2 the least reserve is 1.227, at S = 700.0 mm."
+    assert "; too weak at S = 550.0 mm." in of_circuit(lift, lift.at(S=0.55))["lifting"]
     assert not of_circuit(lift, lift.at(S=0.55))["lifting"]
 
 
 def test_verdict_with_reserve():
-    assert lifted(p_max=200 * kgf_cm2) == "ok   lifting: at 200 kgf/cm2 the least reserve is 1.242, at S = 0.5500 m."
+    assert lifted(p_max=200 * kgf_cm2) == "ok   lifting: at 200 kgf/cm2 the least reserve is 1.242, at S = 550.0 mm."
 
 
 def lifted(**dimensions):
@@ -246,29 +246,29 @@ def test_verdict_follows_its_own_remedies():
 
 def test_verdict_where_nothing_can_be_lifted():
     text = lifted(p_max=50 * kgf_cm2)
-    assert "too weak from S = 0.5500 to 0.8000 m" in text
+    assert "too weak from S = 550.0 to 800.0 mm" in text
     assert "or a bore of 160 mm, with a reserve of 1.24" in text
     assert "no standard bore is large enough" in lifted(weight=1e7)
 
 
 def test_verdict_where_the_lift_stops_on_its_way():
-    (start,) = re.findall(r"too weak from S = ([0-9.]+) to 0.8000 m", lifted(BOG=0.6))
+    (start,) = re.findall(r"too weak from S = ([0-9.]+) to 800.0 mm", lifted(BOG=0.6))
     lift = MowerLift(BOG=0.6)
-    below, above = reserve(lift.at(S=[float(start) - 2e-4, float(start) + 2e-4]))
+    below, above = reserve(lift.at(S=[float(start) * mm - 2e-4, float(start) * mm + 2e-4]))
     assert above < 1.0 and not below < 1.0
 
 
 def test_verdict_where_the_weight_drives():
     text = lifted(BOG=3.5)
-    (start,) = re.findall(r"the load drives from S = ([0-9.]+) to 0.8000 m, there it is not limited by this cylinder", text)
+    (start,) = re.findall(r"the load drives from S = ([0-9.]+) to 800.0 mm, there it is not limited by this cylinder", text)
     lift = MowerLift(BOG=3.5)
-    motion = lift.at(S=[float(start) - 1e-4, float(start) + 1e-4])
+    motion = lift.at(S=[float(start) * mm - 1e-4, float(start) * mm + 1e-4])
     resists, drives = motion.ratio("G")[1]
     assert resists > 0.0 > drives
     assert np.isnan(reserve(motion)).tolist() == [False, True]
     assert pressure(motion)[1] == 0.0
     assert_allclose(lifting_force(motion)[1], rod_force(motion)[1] * 0.85)
-    assert f"does not sink by itself from S = {start} to 0.8000 m" in of_circuit(lift, lift.sweep(2))["lowering"]
+    assert f"does not sink by itself from S = {start} to 800.0 mm" in of_circuit(lift, lift.sweep(2))["lowering"]
 
 
 def test_verdict_where_the_weight_drives_everywhere():
@@ -282,7 +282,7 @@ def test_verdict_of_a_batch_counts_designs():
     lift = MowerLift(bore=np.array([70, 80, 90, 100]) * mm)
     text = rules(lift, lift.sweep(5))["lifting"]
     assert not text and text.startswith("FAIL lifting: 2 of 4 designs fail, of their worst values 0.737")
-    assert "to 1.504" in text and "the first is design 1: at 155 kgf/cm2 the least reserve is 0.737, at S = 0.5500 m" in text
+    assert "to 1.504" in text and "the first is design 1: at 155 kgf/cm2 the least reserve is 0.737, at S = 550.0 mm" in text
 
 
 def test_verdict_where_poses_are_out_of_reach():
@@ -292,7 +292,7 @@ def test_verdict_where_poses_are_out_of_reach():
     assert "183 mm short" in found["assembly"]
     (share,) = re.findall(r"([0-9.]+) % cannot be assembled", found["assembly"])
     assert float(share) == pytest.approx(100 * (0.48288 - 0.3) / 0.4, abs=0.1)  # up to the dead point at AO - OB
-    assert "grows without bounds at S = 0.4829 m" in found["lifting"] and "keep away from that pose" in found["lifting"]
+    assert "grows without bounds at S = 482.9 mm" in found["lifting"] and "keep away from that pose" in found["lifting"]
     assert "1.09 l" in found["oil"] and MowerLift.circuit.oil(lift.at(S=[0.48292, 0.7])) == pytest.approx(1.09e-3, rel=5e-3)
     (nowhere,) = lift.verdicts(lift.at(S=[0.1, 0.2], unreachable="nan"))
     assert nowhere.startswith("FAIL assembly: B = Dyad(A, O) cannot be assembled at 2 of 2 strokes") and not nowhere

@@ -289,7 +289,7 @@ def test_out_of_reach_says_which_triangle_where_and_how_far():
     assert error.point == "B"
     assert error.mask.tolist() == [False, True, True]
     assert error.shortfall == pytest.approx(0.95 - AO - 0.3, rel=1e-9)
-    for words in ("B = Dyad(A, O)", "2 of 3 strokes", "0.4200 to 0.4500 m", "AO + OB", "lengthen OB"):
+    for words in ("B = Dyad(A, O)", "2 of 3 strokes", "420.0 to 450.0 mm", "AO + OB", "lengthen OB"):
         assert words in str(error)
 
 

@@ -175,9 +175,9 @@ def test_verdicts_with_their_remedy(count):
     gained = 180 / needed * (250 / 110) ** 2
     assert f"It needs {needed:.4g} bar, or a bore of 250 mm, with a reserve of {gained:.2f}" in bad["lifting"].sentence
     start = float(bad["lifting"].sentence.split("from S = ")[1].split()[0])
-    assert_allclose(driving_force(weak.at(S=start), ["load"]) / 0.9, 180 * bar * size.area * 0.95, rtol=2e-3)
+    assert_allclose(driving_force(weak.at(S=start * mm), ["load"]) / 0.9, 180 * bar * size.area * 0.95, rtol=2e-3)
     stuck = float(bad["lowering"].sentence.split("to ")[1].split()[0])
-    assert_allclose(driving_force(weak.at(S=stuck), ["load"]) * 0.9, 60 * bar * size.area, rtol=2e-3)
+    assert_allclose(driving_force(weak.at(S=stuck * mm), ["load"]) * 0.9, 60 * bar * size.area, rtol=2e-3)
 
 
 def test_a_load_that_drives_is_said_so():

@@ -242,14 +242,23 @@ def optimise(
     sought = [mean_in_cases(objectives[0], shares)] if shares else [in_case(objectives[0], each) for each in cases]
     if all(each is objectives[0] for each in sought):
         sought = [objectives[0]]  # it names its load cases itself
-    sought += [] if shares else worse_pieces(objectives[0], sense, cases, judge)
-    problem = Problem(machine, sought, held, space, sense, over)
-    if robust is not None:
-        problem = with_spread(problem, robust, sigmas)
-    check_objectives_move(problem)
-    problem.count.limit = limit or default_limit(problem)
+    best: Optimum | None = None
     with progress_told(progress, machine.plan.heading) as tell, fixed_backend("numpy"):  # the same to the last bit whatever ran before
-        return DesignSearch(problem, *how, Journal.of(folder, problem, how), tell).run()
+        while True:
+            worse = [] if shares else worse_pieces(objectives[0], sense, cases, judge)
+            known = set(map(str, sought))
+            added = [each for each in worse if str(each) not in known]
+            if best is not None and not added:
+                return best
+            sought += added  # what a winner's movements need and no design before it needed is sought as well
+            problem = Problem(machine, sought, held, space, sense, over)
+            if robust is not None:
+                problem = with_spread(problem, robust, sigmas)
+            check_objectives_move(problem)
+            problem.count.limit = limit or default_limit(problem)
+            journal = Journal.of(folder, problem, how, "search" if best is None else f"search_{len(sought)}")
+            best = DesignSearch(problem, *how, journal, tell).run()
+            judge = best.machine.judge(over)
 
 
 def where_searched(machine: Mechanism, over: Any, travels: Mapping[str, Range]) -> tuple[Any, list[Case]]:
@@ -459,11 +468,11 @@ class Journal:
         self.path, self.known = path, known
 
     @classmethod
-    def of(cls, folder: str | os.PathLike[str] | None, problem: Problem, how: tuple[object, ...]) -> Journal:
+    def of(cls, folder: str | os.PathLike[str] | None, problem: Problem, how: tuple[object, ...], name: str) -> Journal:
         """Return the journal of a search; DefinitionError where the folder holds that of another one."""
         if folder is None:
             return cls(None, {})
-        path = folder_given(folder) / "search.jsonl"
+        path = folder_given(folder) / f"{name}.jsonl"
         check_name(path)
         facts = {"search": digest(f"{problem.facts} {problem.function_texts()} {how}")}
         with in_words(path):

@@ -88,8 +88,8 @@ def number_of(machine, leaf, motion, axes, over):
     return (np.nanmin if isinstance(leaf, Least) else np.nanmax)(values, axis=-1)
 
 
-def judged(machine, objective, constraints, over, count):
-    """Return the objective, what is missing of the conditions in parts of their size, and whether all is reached."""
+def judged(machine, objectives, sense, constraints, over, count):
+    """Return the worst of the objective's pieces, what is missing of conditions in parts of their size, and whether all is reached."""
     motion, axes = motion_over(machine, over, count)
     known = {}
 
@@ -100,7 +100,7 @@ def judged(machine, objective, constraints, over, count):
 
     with np.errstate(all="ignore"), warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        found, missing = np.asarray(objective.from_leaves(value), float), 0.0
+        found, missing = sense * np.max([sense * np.asarray(each.from_leaves(value), float) for each in objectives], axis=0), 0.0
         for each in constraints:
             left, right = each.left.from_leaves(value), each.right.from_leaves(value)
             short = {"<=": left - right, ">=": right - left, "==": np.abs(left - right)}[each.symbol]
@@ -129,10 +129,10 @@ def designs_of(machine, vary, best, rng, count):
 def check_winner(machine, ask, *, fine=1001, coarse=61, designs=2000):
     """Return a search's result, its winner held against sweeps and random designs."""
     best = optimise(machine, **ask)
-    (objective,), sense, over = best.problem.objectives, best.problem.sense, ask.get("over")
-    constraints = best.problem.constraints
+    sense, over = best.problem.sense, ask.get("over")
+    sought = best.problem.objectives, sense, best.problem.constraints, over
     own = machine.replaced(**{name: float(value) for name, value in best.machine.dimensions.items()})
-    value, missing, reached = judged(own, objective, constraints, over, fine)
+    value, missing, reached = judged(own, *sought, fine)
     assert np.all(reached)
     assert np.all(missing <= 1e-6)
     axes = motion_over(own, over, 2)[1]
@@ -144,14 +144,14 @@ def check_winner(machine, ask, *, fine=1001, coarse=61, designs=2000):
             batch = machine.replaced(**some)
         except DefinitionError:
             continue
-        values, missed, whole = np.broadcast_arrays(*judged(batch, objective, constraints, over, coarse))
+        values, missed, whole = np.broadcast_arrays(*judged(batch, *sought, coarse))
         good = whole & (missed <= 0.0) & np.isfinite(values)
         if not good.any():
             continue
         place = np.flatnonzero(good)[np.argmin(sense * values[good])]
         if sense * (values[place] - best.value) < -1e-6 * abs(best.value):  # better at few poses: is it at all of them?
             one = {name: float(np.broadcast_to(each, good.shape)[place]) for name, each in some.items()}
-            better, short, there = judged(machine.replaced(**one), objective, constraints, over, 10 * fine if axes < 2 else fine)
+            better, short, there = judged(machine.replaced(**one), *sought, 10 * fine if axes < 2 else fine)
             slack = 1e-6 if axes < 2 else 3e-3
             assert not there or short > 0.0 or sense * (better - best.value) >= -slack * abs(best.value), one
     return best
@@ -288,7 +288,7 @@ def test_random_problems_on_random_machines(seed):
     except InfeasibleError as error:  # then the design of today misses something too
         machine, ask = found
         (objective,) = [ask[sense] for sense in ("minimise", "maximise") if sense in ask]
-        _, missing, _ = judged(machine, objective, ask["subject_to"], None, 401)
+        _, missing, _ = judged(machine, [objective], 1.0, ask["subject_to"], None, 401)
         assert missing > 1e-7
         assert error.relaxations
     except StudyError as error:  # nothing moves the objective: so it is the same of designs at the ends of what varies
@@ -296,7 +296,7 @@ def test_random_problems_on_random_machines(seed):
         assert "nothing that varies moves" in str(error)
         (objective,) = [ask[sense] for sense in ("minimise", "maximise") if sense in ask]
         some = designs_of(machine, ask["vary"], machine, np.random.default_rng(0), 20)
-        values, _, whole = np.broadcast_arrays(*judged(machine.replaced(**some), objective, [], None, 401))
+        values, _, whole = np.broadcast_arrays(*judged(machine.replaced(**some), [objective], 1.0, [], None, 401))
         assert whole.any()
         assert np.ptp(values[whole]) <= 1e-12
 

@@ -481,6 +481,32 @@ def test_the_number_found_is_the_one_that_the_judge_gives(machine, aim, measure)
     assert WHERE.get(machine, "Assembled over the whole stroke.") in str(found)
 
 
+class Balanced(Mechanism):
+    """A beam between two weights: its ram pushes, or pulls where the counterweight hangs farther out."""
+
+    S = Stroke(0.0, 0.2)
+    c = Dimension(0.3, unit="m")
+    O = Ground(0.0, 0.0)
+    A = Ground(0.35, -0.9)
+    B = Dyad(A, O, AB=0.8 + S, OB=0.4, side=LEFT)
+    G = OnLink(O, B, OG=1.5, BOG=0.0)
+    H = OnLink(O, B, OH=c, BOH=180 * deg)
+    load, counter = Weight(G, mass=400), Weight(H, mass=900)
+    pin = PinFriction(O, radius=50 * mm, coefficient=0.3)
+    ram = Cylinder(A, B, bore=80 * mm, rod=50 * mm, works="both")
+    line = LiftCircuit(ram, pressure=200 * bar)
+
+
+def test_movements_that_no_design_needed_but_the_winner_are_sought_too(tmp_path):
+    """Pulling in, the rod side has the smaller area: where both thrusts are nearly equal, its pressure is the greater one."""
+    asked = {"minimise": most(pressure("ram")), "vary": {"c": (0.3, 1.2)}, "starts": 1, "folder": tmp_path}
+    best = optimise(Balanced(), **asked)
+    near = [best.machine["c"] + step for step in (-0.01, 0.0, 0.01)]
+    told = [float(Balanced(c=c).answers([asked["minimise"]])[0].value) for c in near]
+    assert best.value == pytest.approx(told[1], rel=1e-9) and told[1] == min(told)
+    assert optimise(Balanced(), **asked).value == best.value
+
+
 def test_exact_rows_of_forces_hold_with_several_cylinders_and_strokes():
     class Two(Mechanism):
         S1 = Stroke(0.0, 0.2)

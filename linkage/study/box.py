@@ -13,7 +13,6 @@ from ..errors import DefinitionError, cited, one_word, unknown
 from ..frozen import immutable
 from ..mechanism import Mechanism
 from ..numeric.line import Index
-from ..numeric.sobol import sobol_points
 from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import is_number
@@ -164,11 +163,13 @@ def unit_points(count: int, k: int, method: str, seed: int) -> FloatArray:
     require_whole("seed", seed, "a whole number is expected, at least 0", least=0)
     if not k:
         return np.empty((count, 0))
+    from scipy.stats import qmc
+
     random = np.random.default_rng(seed)
     if method == "random":
         return np.asarray(random.random((k, count)).T)
-    if method == "sobol":
-        return sobol_points(int(count), k, random)
-    from scipy.stats import qmc
-
-    return np.asarray(qmc.LatinHypercube(k, seed=random).random(count))  # one point of each coordinate in each of count equal intervals
+    if method == "latin":  # every coordinate has one point in each of count equal intervals
+        return np.asarray(qmc.LatinHypercube(k, seed=random).random(count))
+    engine: Any = qmc.Sobol(k, seed=random)
+    power = int(count).bit_length() - 1
+    return np.concatenate([engine.random_base2(power), engine.random(int(count) - (1 << power))])

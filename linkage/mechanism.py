@@ -726,8 +726,8 @@ class Mechanism(Shown, metaclass=MechanismType):
 
     @property
     def links(self) -> tuple[Body, ...]:
-        """The bodies by their points, the frame first; those of a cylinder or a telescope together, which `graph` has one by one."""
-        return self.plan.links
+        """The bodies by their points, the frame first; those of a cylinder together, which `graph` has one by one."""
+        return self.plan.bodies
 
     @property
     def mobility(self) -> int:

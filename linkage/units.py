@@ -371,9 +371,8 @@ def shown_number(value: float, unit: str, digits: int | str = 6) -> str:
     shown = value / factor(shown_in(unit))
     if kind == "f":
         return f"{shown:{flags}.{decimals(count, unit)}f}"
-    if shown_in(unit) != unit and 10.0**count <= abs(shown) < 1e9:
-        return f"{shown:{flags}.0f}"
-    return f"{shown:{flags}.{count}g}"
+    text = f"{shown:{flags}.{count}g}"
+    return f"{shown:{flags}.0f}" if "e+" in text and abs(shown) < 1e9 else text
 
 
 def show(value: float, unit: str, digits: int | str = 6) -> str:

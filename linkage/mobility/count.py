@@ -236,7 +236,7 @@ def check(plan: Plan) -> None:
         return
     by_hand = any(point.hangs_from for point in plan.points.values())
     if found.rank < found.strokes or (found.rank > found.strokes and not by_hand):
-        bodies = ", ".join(body.name for body in plan.links)
+        bodies = ", ".join(body.name for body in plan.bodies)
         remedy = "A link, a slide or a stroke is missing: declare all links that hold the points."
         if found.rank < found.strokes:
             remedy = "A link or a slide is too much: take it out."

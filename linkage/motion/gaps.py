@@ -223,7 +223,7 @@ def two_shapes(plan: Plan, a: str, b: str) -> tuple[BodyShape, BodyShape]:
         shared = [name for name in one.points if name in other.points]
         if shared:
             what = f"{plan.title}: gap({a}, {b}): both have {', '.join(shared)}, so that there is no gap between them"
-            first, second, rest = (b, a, other.points) if b == plan.links[0].name else (a, b, one.points)
+            first, second, rest = (b, a, other.points) if b == plan.bodies[0].name else (a, b, one.points)
             free = next((each for each in rest if each not in shared), first)
             raise DefinitionError(f"{what}; ask for that of a point, such as gap({free}, {second}), or of outlines on both.")
     elif one == other:
@@ -239,7 +239,7 @@ def two_shapes(plan: Plan, a: str, b: str) -> tuple[BodyShape, BodyShape]:
 def body_points_of(plan: Plan, shape: BodyShape) -> set[str]:
     """Return the points of the body that carries an outline."""
     carriers = set(shape.points)
-    return next((set(body.points) for body in plan.links if carriers and carriers <= set(body.points)), carriers)
+    return next((set(body.points) for body in plan.bodies if carriers and carriers <= set(body.points)), carriers)
 
 
 def shape_named(plan: Plan, name: str) -> BodyShape:
@@ -247,17 +247,17 @@ def shape_named(plan: Plan, name: str) -> BodyShape:
     outline = plan.of_kind(Outline).get(name)
     if outline is not None:
         return BodyShape(outline.carriers, outline=outline)
-    known: dict[str, tuple[str, ...]] = {body.name: body.points for body in plan.links}
+    known: dict[str, tuple[str, ...]] = {body.name: body.points for body in plan.bodies}
     known |= {joined_names(bar.P, bar.Q): (bar.P, bar.Q) for bar in plan.cylinders}
     known |= {each: element.ends for each, element in plan.of_kind(TwoPoint).items()}
     for each, link in plan.of_kind(Link).items():
-        known[each] = next((body.points for body in plan.links if set(link.point_names) <= set(body.points)), link.point_names)
+        known[each] = next((body.points for body in plan.bodies if set(link.point_names) <= set(body.points)), link.point_names)
     known |= {each: (each,) for each in plan.points}
     points = set(name.split())
-    found = [body.points for body in plan.links if len(points) > 1 and points <= set(body.points)]
+    found = [body.points for body in plan.bodies if len(points) > 1 and points <= set(body.points)]
     if name not in known and len(found) != 1:
         raise unknown("Body", name, [*known, *plan.of_kind(Outline)], where=plan.title)
-    return BodyShape(known.get(name, found[0] if found else ()), each_alone=name == plan.links[0].name)
+    return BodyShape(known.get(name, found[0] if found else ()), each_alone=name == plan.bodies[0].name)
 
 
 def signed_gap(one: Piece, other: Piece, pick: Pick) -> Scalar:

@@ -179,7 +179,7 @@ def planes_of(plan: Plan) -> Planes:
     """Return the planes that a class declares; DefinitionError for none and for several."""
     found = list(plan.of_kind(Planes).values())
     if len(found) != 1:
-        own = [*(body.name.replace(" ", "") for body in plan.links[1:]), "AB", "CD"]
+        own = [*(body.name.replace(" ", "") for body in plan.bodies[1:]), "AB", "CD"]
         what = f"it declares {len(found)}" if found else "it does not say which bodies lie in one plane"
         raise DefinitionError(f'{plan.title}: clearance(): {what}; declare one, planes = Planes("{own[0]}", "{own[1]}", width=60 * mm).')
     return found[0]
@@ -195,7 +195,7 @@ def bodies_of(plan: Plan) -> list[str]:
     """Return the names of all that can lie in a plane: the moving bodies, the cylinders, and the elements between two points."""
     bars = {joined_names(bar.P, bar.Q): frozenset((bar.P, bar.Q)) for bar in plan.cylinders}
     elements = {name: frozenset(element.ends) for name, element in plan.of_kind(TwoPoint).items()}
-    return [*(body.name for body in plan.links[1:]), *(name for name, ends in bars.items() if ends not in elements.values()), *elements]
+    return [*(body.name for body in plan.bodies[1:]), *(name for name, ends in bars.items() if ends not in elements.values()), *elements]
 
 
 def pairs_of(plan: Plan) -> dict[Pair, bool]:

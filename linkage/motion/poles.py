@@ -30,7 +30,7 @@ def body_points(plan: Plan, body: object) -> tuple[str, ...]:
     Raises DefinitionError, with the bodies there are, for any other; a driven length changes and is none.
     """
     name = getattr(body, "name", body)
-    fixed, *moving = plan.links or (None,)
+    fixed, *moving = plan.bodies or (None,)
     if name == "frame":
         return ()
     links = {each: link.point_names for each, link in plan.of_kind(Link).items()}
@@ -47,7 +47,7 @@ def body_points(plan: Plan, body: object) -> tuple[str, ...]:
 def whole_body(plan: Plan, body: object) -> tuple[str, ...]:
     """Return all points of the body that a name means."""
     named = set(body_points(plan, body))
-    return next((each.points for each in plan.links if named and named <= set(each.points)), ())
+    return next((each.points for each in plan.bodies if named and named <= set(each.points)), ())
 
 
 def body_rates(points: tuple[str, ...], place: OfPoint, rate: OfPoint, shape: tuple[int, ...]) -> BodyRates:

@@ -72,7 +72,7 @@ def body_pair(what: str, given: object, expected: str) -> tuple[str, str]:
 
 def own_bodies(plan: Plan) -> tuple[str, str]:
     """Return the names of two moving bodies of a machine for an example; of one that has a single one the frame beside it."""
-    first, *others = [body.name for body in plan.links[1:]] or ["AB"]
+    first, *others = [body.name for body in plan.bodies[1:]] or ["AB"]
     return first, next(iter(others), "frame")
 
 

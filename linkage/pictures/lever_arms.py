@@ -60,7 +60,7 @@ def turning_about(at: Motion, pin: str) -> frozenset[str]:
         speeds = {name: at.velocity(name, dict.fromkeys(plan.strokes, 0.0) | {stroke: 1.0}) for name in plan.points}
         slack = 1e-3 * SAME * max(float(np.hypot(*each)) for each in speeds.values())
         arms = {name: at[name] - at[pin] for name in plan.points}
-        others = (name for body in plan.links if pin in body.points for name in body.points if np.hypot(*arms[name]) > 0.0)
+        others = (name for body in plan.bodies if pin in body.points for name in body.points if np.hypot(*arms[name]) > 0.0)
         spins = {float(left_of(arms[name]) @ speeds[name]) / float(arms[name] @ arms[name]) for name in others}
         turns = [each for each in spins if abs(each) > slack]
         found = {name for name in arms for spin in turns if np.hypot(*(speeds[name] - spin * left_of(arms[name]))) <= slack}

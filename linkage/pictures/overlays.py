@@ -334,7 +334,7 @@ def pole_rates(motion: Motion, pose: int, rates: Rates) -> tuple[Rates, list[str
 def asked_poles(motion: Motion, asked: object) -> Iterator[tuple[str, str]]:
     """Yield the pairs of bodies whose poles are asked for: True means every body that no fixed pin holds, by its link's name if any."""
     if asked is True:
-        fixed, *moving = motion.plan.links
+        fixed, *moving = motion.plan.bodies
         named = {frozenset(link.point_names): name for name, link in motion.plan.of_kind(Link).items()}
         free = [body for body in moving if not set(body.points) & set(fixed.points)] or moving
         yield from ((named.get(frozenset(body.points), body.name), "frame") for body in free)

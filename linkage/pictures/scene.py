@@ -249,7 +249,7 @@ class Scene:
     def bodies(self) -> tuple[tuple[str, ...], ...]:
         """The points of each moving body; bars that close a triangle are one."""
         found: list[tuple[str, ...]] = []
-        for link in [body.points for body in self.motion.plan.links if not body.fixed and len(body.points) > 1]:
+        for link in [body.points for body in self.motion.plan.bodies if not body.fixed and len(body.points) > 1]:
             member = next((member for member, halved in self._halves if {*member.ends, *halved.points} <= set(link)), None)
             if member is None:
                 found.append(link)

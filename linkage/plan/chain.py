@@ -189,7 +189,7 @@ def holds_an_arm(plan: Members, points: tuple[str, ...]) -> bool:
 def enter_arm(chain: KinematicChain, plan: Members, name: str, points: tuple[str, ...]) -> None:
     """Enter an arm: a slide on its body, a pin, or both with a carriage between them, according to its driving strokes."""
     joint = arm_joint(plan, name)
-    pushed = next((drive.quantity for drive in joint.drives if drive.along == "t" and plan.moves(drive.quantity)), None)
+    pushed = plan.pushing(joint)
     turned = tuple(each for drive in joint.drives if drive.along != "t" for each in driven_by(plan, drive.quantity))
     title = body_name(points)
     if pushed is None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from graphlib import CycleError, TopologicalSorter
 from math import pi
@@ -254,7 +254,7 @@ class Members:
     def link_names(self) -> Mapping[str, str]:
         """The names of the links that bodies are, by the names of these bodies; the frame has none."""
         links = [(name, {*link.point_names}) for name, link in self.of_kind(Link).items()]
-        moving = [body for body in self.links if not body.fixed]
+        moving = [body for body in self.bodies if not body.fixed]
         found = {body.name: next((name for name, points in links if points <= {*body.points}), "") for body in moving}
         return {body: name for body, name in found.items() if name}
 
@@ -279,6 +279,10 @@ class Members:
         """Return whether a joint holds two bodies apart: one whose drives all stand still makes them one body."""
         return not joint.drives or any(self.moves(drive.quantity) for drive in joint.drives)
 
+    def pushing(self, joint: Joint) -> Quantity | None:
+        """Return the length along its body that a stroke drives; None where it is only turned."""
+        return next((drive.quantity for drive in joint.drives if drive.along == "t" and self.moves(drive.quantity)), None)
+
     def track(self, joint: Joint) -> tuple[str, ...]:
         """Return the track of a joint's point: the two points of a moving line, sorted, or a guide's name; empty without a slide."""
         guide = self.of_kind(Guide).get(joint.track[0]) if len(joint.track) == 1 else None
@@ -296,8 +300,18 @@ class Members:
 
     @cached_property
     def links(self) -> tuple[Body, ...]:
-        """The rigid bodies, the frame first."""
+        """The bodies as steps and links join points, the frame first: one pushed along its carrier has the points it is measured by."""
         return rigid_bodies(self)
+
+    @cached_property
+    def bodies(self) -> tuple[Body, ...]:
+        """The rigid bodies, the frame first: `links` without what one that is pushed along its carrier is measured by."""
+        pushed = [(name, {*joint.by.points}) for name, joint in self.joints if joint.arm and self.pushing(joint) is not None]
+        found = []
+        for body in self.links:
+            barred = set[str]().union(*(points for name, points in pushed if not body.fixed and name in body.points))
+            found.append(replace(body, points=tuple(point for point in body.points if point not in barred)))
+        return tuple(body for body in found if body.fixed or body.points)
 
     def guide_of(self, side: JointSide) -> Guide | None:
         """Return the guide that a side of a joint names; None where it names points, or nothing; DefinitionError for anything else."""

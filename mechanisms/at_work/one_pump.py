@@ -95,4 +95,4 @@ class RegenerativePress(Mechanism):
 
     table = Outline([(-0.4, -0.10), (0.4, -0.10), (0.4, -0.25), (-0.4, -0.25)])
 
-    about = Featured("B", ["B"])
+    about = Featured("B_y", ["B"])

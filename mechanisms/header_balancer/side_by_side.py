@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from hydraulics import Accumulator, AccumulatorBlock, Cylinder, FloatCircuit, isothermal
-from linkage import Crank, Dimension, Ground, LoadCase, Mechanism, OnLink, Stroke, Weight, distance, y
+from linkage import Crank, Dimension, Featured, Ground, LoadCase, Mechanism, OnLink, Stroke, Weight, distance, y
 from linkage.quantities import Quantity
 from linkage.units import deg, kg, kgf_cm2, litre, mm
 
@@ -75,3 +75,5 @@ class ThreeHeaders(Mechanism):
     line3 = FloatCircuit(lift3, block(), charge_pressure=charge3, at=0.0, seal_friction=seals)
     third = LoadCase(only=["feeder3", "header3", "line3"])
     length3 = distance(A, B3)
+
+    about = Featured("drive force", ["R1", "R2", "R3"])

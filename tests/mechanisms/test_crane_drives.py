@@ -733,4 +733,4 @@ def test_tighter_excess_leaves_no_arm_drive():
     design = design_arm_drive(cylinders=DriveCylinders(sizes=BORES[7:]), rules=ArmRules(excess=1.4), starts=2)
     (sentence,) = design.sentences
     assert sentence.startswith("140/80 mm cannot: no pins found keep everything, the nearest miss most((M_g2 - M_l2)")
-    assert sentence.endswith("short.")
+    assert sentence.endswith("too much.")

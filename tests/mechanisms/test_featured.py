@@ -10,6 +10,7 @@ from linkage import DefinitionError, Featured, FileError, Weight, page, plot
 from linkage.files import load, save
 from linkage.pictures.strokes import playback
 from linkage.reports import results
+from linkage.reports.results import is_changing
 from mechanisms.classics.front_loader import FrontLoader
 from mechanisms.header_balancer import HeaderBalancer
 from mechanisms.mower_lift import MowerLift
@@ -24,10 +25,10 @@ SHIPPED = {each.name: each for each in entry_points(group="hydrolinkage.machines
 def test_every_shipped_machine_says_what_it_is_about(name):
     machine = SHIPPED[name].load()()
     featured, played = machine.featured(), playback(machine, 9)
-    names = {column.name for column in results(machine, played.motion)}
-    assert featured.column in names
-    assert played.column.name == featured.column
-    assert set(featured.limits) <= names
+    columns = {column.name: column for column in results(machine, played.motion)}
+    assert featured.column in columns
+    assert played.column.name == featured.column or not is_changing(columns[featured.column].drawn)  # in a run that moves something else
+    assert set(featured.limits) <= set(columns)
     assert set(featured.path) <= set(machine.plan.moving)
 
 

@@ -419,7 +419,7 @@ def test_velocities_stand_square_on_the_rays_of_the_pole(machine):
     rates = dict.fromkeys(motion.strokes, 0.3)
     speed = {point: motion.velocity(point, rates) for point in motion.plan.points}
     fastest = max(np.hypot(*v) for v in speed.values())
-    for body in motion.plan.links[1:]:
+    for body in machine().links[1:]:
         pole = motion.pole(body.name, rates=rates)
         P, Q = body.points[:2]
         spin = (

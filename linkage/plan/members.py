@@ -18,7 +18,7 @@ from ..quantities import Dimension, Distance, Joint, Jointed, JointSide, Length,
 from ..quantities.member import Member, name_of, needed_behind, needs, of_kind, unnamed
 from ..quantities.quantity import Function, Negative, Number, Operation, Quantity, Sum, in_degrees, signed_terms
 from ..steps import Arrow, Bar, Drawn, Group, Guide, Link, Point, strokes_drawn, with_bodies
-from ..units import Amount, deg, require_measure
+from ..units import Amount, require_measure, show
 from .table import Table
 
 FRAME = "frame"
@@ -580,6 +580,6 @@ def as_written(member: Member, turning: frozenset[str]) -> str:
 
 
 def strokes_text(plan: Members, values: Mapping[str, float]) -> str:
-    """Return stroke values [SI] as they are read: `S = 0.1 m, phi = 60 deg`."""
-    words = {name: f"{value / deg:.4g} deg" if name in plan.turning else f"{value:.4g} m" for name, value in values.items()}
-    return ", ".join(f"{name} = {text}" for name, text in words.items()) or "no stroke"
+    """Return stroke values [SI] as they are read: `S = 100 mm, phi = 60 deg`."""
+    words = (f"{name} = {show(value, 'deg' if name in plan.turning else 'mm', 4)}" for name, value in values.items())
+    return ", ".join(words) or "no stroke"

@@ -13,7 +13,7 @@ import numpy as np
 from ..errors import SingularWarning, ensure
 from ..frozen import immutable
 from ..mechanism import Mechanism
-from ..motion import Motion, at_values, highest, out_of_reach
+from ..motion import Motion, at_values, highest, out_of_reach, places_text, stroke_unit
 from ..motion.measures import words_of
 from ..numeric.box import highest_in
 from ..numeric.line import Index
@@ -151,7 +151,8 @@ def remarks(machine: Mechanism, quantity: QuantityLike, box: Box, strokes: Mappi
 def settings_counted(mask: Mask, motion: Motion, settings: Mapping[str, object]) -> str:
     """Return which settings (m) are meant at which strokes (n), mask (m, n), with an example."""
     some, when = mask.any(axis=1), mask.any(axis=0)
-    spans = ", ".join(f"{name} = {value[when].min():.4f} to {value[when].max():.4f}" for name, value in motion.strokes.items())
+    units = {name: stroke_unit(motion.plan, name) for name in motion.strokes}
+    spans = places_text({name: value[when] for name, value in motion.strokes.items()}, units)
     example = setting_words(motion.plan, settings, int(np.argmax(some)))
     return f"{int(some.sum())} of {some.size} settings looked at ({spans}), such as {example},"
 

@@ -163,7 +163,7 @@ def test_a_count_from_numpy_is_a_count():
 
 
 def test_a_sketch_out_of_reach_tells_what_is_missing():
-    said = r"Short: B cannot be assembled at the sketch \(S = 0 m\): AB \+ OB = 0\.6 m is 100 mm short of AO"
+    said = r"Short: B cannot be assembled at the sketch \(S = 0 mm\): AB \+ OB = 0\.6 m is 100 mm short of AO"
     with pytest.raises(AssemblyError, match=said) as caught:
 
         class Short(Mechanism):

@@ -171,7 +171,7 @@ def test_command_shows_the_modes(capsys, tmp_path):
 WRONG = {
     "a picture of nothing": (["-o", "hitch.png"], "the picture is of the assembly modes; say --modes too"),
     "another format": (["--modes", "-o", "hitch.doc"], "the file's name ends in one of .png, .svg, .pdf"),
-    "out of reach": (["--modes", "--at", "S=9.5m"], "S = 9.5 m"),
+    "out of reach": (["--modes", "--at", "S=9.5m"], "S = 9500 mm"),
 }
 
 

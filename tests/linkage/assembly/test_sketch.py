@@ -54,7 +54,7 @@ def test_a_cylinder_of_another_length_bends_no_plate_and_is_told(closed, sense):
     for P, Q in ("OB", "OT", "BT", "ON", "TN", "BN"):
         assert_allclose(motion.distance(P, Q), apart(P, Q), rtol=0, atol=1e-12)
     (text,) = remarks(machine)
-    assert f"AB = 528 mm at S = 0 m, the class says {closed * 1e3:.0f} mm: B stands" in text
+    assert f"AB = 528 mm at S = 0 mm, the class says {closed * 1e3:.0f} mm: B stands" in text
     off = np.hypot(*(machine.at(S=0.0)["B"] - (sense * 0.42, 1.02)))
     assert f"stands {off * 1e3:.2g} mm from its at=." in text
 

@@ -223,7 +223,7 @@ def written(tmp_path_factory):
     folder, made = tmp_path_factory.mktemp("pages"), {}
 
     def write(machine, **options):
-        key = type(machine), repr(sorted(options.items()))
+        key = type(machine), repr(machine), repr(sorted(options.items()))
         if key not in made:
             made[key] = page(machine, folder / f"{len(made)}.html", **options)
         return made[key]

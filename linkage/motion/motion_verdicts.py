@@ -283,11 +283,13 @@ def nearest_dead_points(limits: StrokeLimits, span: tuple[float, float]) -> Iter
     low, high = span if span[0] < span[1] else sorted((limits.start, limits.end))
     before = max((each for each in limits.dead_points if each[0] <= low), default=None)
     behind = min((each for each in limits.dead_points if each[0] >= high), default=None)
+    form = ("deg", "z.2f") if limits.unit == "rad" else ("m", "z.4f")  # as a stroke's ends are declared
     for is_behind, each in enumerate((before, behind)):
         if each is not None:
             away = max(low - each[0], each[0] - high)
             distance = said("{distance} beyond it", distance=show(away, "deg" if limits.unit == "rad" else "mm", 3))
-            yield bool(is_behind), away, f"{place_of(limits, *each)}, {distance}"
+            place = said("{what} at {stroke} = {value}", what=each[1], stroke=limits.stroke, value=show(each[0], *form))
+            yield bool(is_behind), away, f"{place}, {distance}"
 
 
 def dead_point_verdicts(limits: StrokeLimits, span: tuple[float, float], pushed: bool) -> Iterator[Verdict]:

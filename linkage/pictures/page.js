@@ -599,7 +599,7 @@ function render(work) {
     const each = strokes[k];
     const [low, high] = reachOf(each);
     each.slider.value = String((1000 * (value - low)) / (high - low));
-    const text = each.path && !each.unit ? say("place {n} of {count}", { n: short(value, 3), count: each.end }) : fixed(value / each.factor, places(max(abs(each.start), abs(each.end)) / each.factor, 4)) + unitText(each.unit);
+    const text = each.path && !each.unit ? say("place {n} of {count}", { n: short(value, 2), count: each.end }) : fixed(value / each.factor, places(max(abs(each.start), abs(each.end)) / each.factor, 4)) + unitText(each.unit);
     if (document.activeElement !== each.out) each.out.value = text;
     each.slider.setAttribute("aria-valuetext", text);
   });

@@ -795,6 +795,10 @@ def test_every_path_that_a_machine_declares_runs_and_what_is_out_of_bounds_is_to
         assert runs == ["alpha", "beta", "loading", "grading"]
         shown.slide('[data-stroke="grading"]', 0)
         assert shown.state["at"] == pytest.approx({"alpha": 0.4, "beta": -0.9, "loading": 1.0, "grading": 1.0})
+        for width in (1366, 390):  # a place between two is read whole
+            shown.tab.set_viewport_size({"width": width, "height": 700})
+            shown.slide('[data-stroke="grading"]', 870)
+            assert shown("[...document.querySelectorAll('.stroke input')].every((each) => each.scrollWidth <= each.clientWidth)")
     with Shown(chromium, page(HeaderBalancer(), tmp_path / "balancer.html"), PHONE) as shown:
         assert "F_R free \N{MINUS SIGN}196.6" in shown.text("#here") and "all kept" not in shown.text("#here")
         assert "2 no hang-up" in shown.text("#groups summary >> nth=0")

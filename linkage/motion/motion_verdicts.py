@@ -15,7 +15,7 @@ from ..assembly import sketch_words, width_words
 from ..errors import DefinitionError, LinkageError, unwarned
 from ..language import heading_of, said
 from ..loads import PLAIN_CASE, TwoPoint
-from ..plan import Mask, name_or_pins
+from ..plan import Mask, Plan, name_or_pins, opening
 from ..quantities import Member
 from ..units import deg, display_unit, show
 from ..verdict import Remark, Verdict
@@ -208,7 +208,7 @@ def dead_points_over(judge: Judge) -> list[Verdict]:
             found.setdefault(("", "dead points"), []).append(Verdict("dead points", False if pushed else None, text))
         for name, limits in stroke_search.limits(place.motion).items():
             if spans[name][0] < spans[name][1] or len(spans) == 1:
-                for is_behind, away, text in nearest_dead_points(limits, spans[name]):
+                for is_behind, away, text in nearest_dead_points(place.plan, limits, spans[name]):
                     nearest[name, is_behind] = min((away, text), nearest.get((name, is_behind), (away, text)))
                 for each in dead_point_verdicts(limits, spans[name], is_pushed(judge, name)):
                     if not (together and each.rule == "dead points"):
@@ -278,18 +278,18 @@ def strokes_exceeded(judge: Judge) -> dict[str, str]:
     return found
 
 
-def nearest_dead_points(limits: StrokeLimits, span: tuple[float, float]) -> Iterator[tuple[bool, float, str]]:
+def nearest_dead_points(plan: Plan, limits: StrokeLimits, span: tuple[float, float]) -> Iterator[tuple[bool, float, str]]:
     """Yield the nearest dead points before and behind the part of a stroke that runs: which of both, how far away, and that in words."""
     low, high = span if span[0] < span[1] else sorted((limits.start, limits.end))
     before = max((each for each in limits.dead_points if each[0] <= low), default=None)
     behind = min((each for each in limits.dead_points if each[0] >= high), default=None)
-    form = ("deg", "z.2f") if limits.unit == "rad" else ("m", "z.4f")  # as a stroke's ends are declared
     for is_behind, each in enumerate((before, behind)):
         if each is not None:
-            away = max(low - each[0], each[0] - high)
+            value, stop = each
+            away = max(low - value, value - high)
+            step = said("of {step}", step=opening(plan, stop) if stop in plan.members else stop)
             distance = said("{distance} beyond it", distance=show(away, "deg" if limits.unit == "rad" else "mm", 3))
-            place = said("{what} at {stroke} = {value}", what=each[1], stroke=limits.stroke, value=show(each[0], *form))
-            yield bool(is_behind), away, f"{place}, {distance}"
+            yield bool(is_behind), away, f"{place_of(limits, value, step)}, {distance}"
 
 
 def dead_point_verdicts(limits: StrokeLimits, span: tuple[float, float], pushed: bool) -> Iterator[Verdict]:

@@ -93,7 +93,7 @@ def test_one_that_ends_beyond_its_dead_point_is_told_as_before(off):
 
 def test_one_that_ends_well_before_its_dead_point_is_told_as_before():
     (verdict,) = told(lever(0.5, 0.79, 0.4, 0.4, 0.0)())
-    assert verdict.ok and "none within the stroke; the nearest: B at S = 0.3000 m, 10 mm beyond it" in verdict
+    assert verdict.ok and "none within the stroke; the nearest: of B = Dyad(A, O) at S = 300.0 mm, 10 mm beyond it" in verdict
 
 
 def test_sliders_cranks_and_batches_end_in_dead_points_too():

@@ -46,15 +46,15 @@ def test_a_machine_without_loads_is_told_where_it_is_assembled_and_how_far_its_d
     assert set(found) == {"assembly", "dead points"} and all(found.values())
     assert "S = 0 to 250 mm" in found["assembly"]
     far, near = np.hypot(0.1, 0.6) + 0.3, np.hypot(0.1, 0.6) - 0.3  # A, O and B in line
-    assert f"B at S = {near - 0.5:.4f} m, {(0.5 - near) * 1e3:.3g} mm beyond it" in found["dead points"]
-    assert f"B at S = {far - 0.5:.4f} m, {(far - 0.75) * 1e3:.3g} mm beyond it" in found["dead points"]
+    assert f"of B = Dyad(A, O) at S = {(near - 0.5) * 1e3:.1f} mm, {(0.5 - near) * 1e3:.3g} mm beyond it" in found["dead points"]
+    assert f"of B = Dyad(A, O) at S = {(far - 0.5) * 1e3:.1f} mm, {(far - 0.75) * 1e3:.3g} mm beyond it" in found["dead points"]
 
 
 def test_the_nearest_dead_points_of_all_strokes_and_places_are_one_row():
     """Of two boxes the nearer end counts on each side, of each stroke that runs."""
     judge = HookExcavator().judge([Over(lift=(0.1, 0.2), swing=0.2), Over(lift=(0.2, 0.38), swing=(0.1, 0.3))])
     (row,) = (each for each in geometry_verdicts(judge) if each.rule == "dead points")
-    places = ("lift = -0.1395 m, 239 mm", "lift = 0.4535 m, 73.5 mm", "swing = -0.0409 m, 141 mm", "swing = 0.5523 m, 252 mm")
+    places = ("lift = -139.5 mm, 239 mm", "lift = 453.5 mm, 73.5 mm", "swing = -40.9 mm, 141 mm", "swing = 552.3 mm, 252 mm")
     assert row.ok and all(f"{place} beyond it" in row for place in places) and str(row).count("beyond it") == 4
 
 

@@ -210,7 +210,7 @@ def test_what_cannot_be_assembled_is_masked_and_told():
     assert not found.complete.any() and (found.reached > 0.5).all()
     assert (found.low <= np.nanmin(direct["tilt"], axis=0)).all() and (np.nanmax(direct["tilt"], axis=0) <= found.high).all()
     (text,) = found.remarks
-    assert "of 169 settings looked at (S = 0.0000 to 0.2000), such as MK = 300 mm, CD = 300 mm, cannot be assembled" in text
+    assert "of 169 settings looked at (S = 0.0 to 200.0 mm), such as MK = 300 mm, CD = 300 mm, cannot be assembled" in text
     assert "mm short of" in text
 
 

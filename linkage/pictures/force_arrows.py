@@ -141,7 +141,8 @@ def force_layer(forces: ForcesAt, body: str = "") -> ArrowLayer:
         members = [found.members[each] for each in ((by,) if body else (on, by)) if each in found.members]
         colour, ends = MEMBER if members else PIN, f"from {by}" if body else f"on {on} from {by}"
         other = said("from the frame") if by == FRAME else said("from {body}", body=short_name(found, by))
-        text = other if body else " ".join([*members[:1], *([] if by == FRAME else [said("on {body}", body=short_name(found, on))])])
+        named = members[:1] if by == FRAME or on not in found.members else []  # one that it acts on is named once
+        text = other if body else " ".join([*named, *([] if by == FRAME else [said("on {body}", body=short_name(found, on))])])
         force, couple = sign * forces.one(joint.force), sign * float(forces.one(joint.couple))
         if joint.has_force:
             arrows.append(VectorArrow(f"force {joint.point} {place} {ends}", forces.spot(joint), force, colour, text))

@@ -48,6 +48,7 @@ from linkage.pictures.lever_arms import lever_arms, moment_about
 from linkage.pictures.overlays import asked_poles, pole_marks, pole_rates
 from linkage.pictures.page_forces import PageSituation, force_arrows
 from mechanisms.at_work.excavator import Excavator
+from mechanisms.at_work.one_pump import RegenerativePress
 from mechanisms.classics.four_bar import FourBar
 from mechanisms.classics.roberts import Roberts
 from mechanisms.crane import Crane
@@ -407,6 +408,12 @@ def test_a_lever_arm_is_drawn_with_its_length_and_the_moments_are_told():
 def test_a_pin_about_which_no_load_turns_is_refused(pin, words):
     with pytest.raises(DefinitionError, match=words):
         draw(ThreePointHitch().at(S=0.1), forces=pin)
+
+
+def test_a_force_on_a_spring_names_it_once():
+    """At the press's ram the spring's other end is a sliding block, which bears no name."""
+    texts = {each.get_text() for each in draw(RegenerativePress().at(S=0.2), forces=True).axes[0].texts}
+    assert any(text.endswith("kN on work") for text in texts) and not any("work on work" in text for text in texts)
 
 
 # -- velocities and poles ----------------------------------------------------------------------------------

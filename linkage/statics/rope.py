@@ -84,10 +84,11 @@ class Rope(ForceElement, Tabled, HasVerdicts):
             yield f"Rope: {count + 1} point{'s' * (count < 0)}; it runs from one to another one at least"
         if self.length is not None and self.force is not None:
             yield f"{self}: its length is held or its force is given; leave one out"
+        expected = f"{count} numbers above zero are expected, one a part"
         for weight in self.weights or ():
-            require_number(f"{self}: weights", weight, f"{count} numbers above zero are expected, one a part", above=0.0)
+            require_number(f"{self}: weights", weight, expected, above=0.0)
         if self.weights is not None and len(self.weights) != count:
-            yield f"{self}: weights={cited(self.weights)}: {count} numbers above zero are expected, one a part"
+            yield f"{self}: weights={cited(self.weights)}: {expected}"
         if self.against is not None and takes:
             yield f"{self}: it draws back against {label(self.against)}, which gives it its length; leave length= and force= out"
 

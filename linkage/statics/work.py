@@ -195,9 +195,10 @@ def member_thrust_on(motion: AnyMotion, member: TwoPoint, acting: Acting) -> Flo
     if line is not None and isinstance(motion, TracedMotion) and not is_written:
         raise UntracedError(f"{count} lines of cylinders hold together, and a program is written for {MOST_WRITTEN} at the most.")
     rates = member_rates(motion, member, acting, line if line in holders.lines else None)
-    rubs = any(each.in_case.heeds_direction(motion) or each.element.frictions(motion) for each in applied_elements(plan, acting))
-    if rates.has_friction and not (rubs or rates.is_timed):  # a direction alone changes nothing: it is as at rest, which is shared
-        return member_thrust(motion, member, replace(acting, direction=None, drive=None))
+    if rates.has_friction and not rates.is_timed:
+        elements = applied_elements(plan, acting)
+        if not any(each.in_case.heeds_direction(motion) or each.element.frictions(motion) for each in elements):
+            return member_thrust(motion, member, replace(acting, direction=None, drive=None))  # as at rest, which is shared
     applied = shared_by_cylinders(motion, acting, rates, "applied", lambda: applied_on(motion, acting, rates))
     laws = [each.thrust for each in applied.thrusts if same(each.member, member)]
     if line is None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import combinations, product
+from itertools import product
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -17,6 +17,7 @@ from matplotlib.transforms import Bbox
 from ..language import translated
 from ..program import FloatArray
 from ..units import current_system, factor, shown_in
+from ..vectors import Mask
 from . import style
 from .labels import distance_to_box
 from .scene import Bounds
@@ -191,6 +192,8 @@ ALONG_LEADER = np.linspace(0.0, 1.0, 24)[1:, None]
 """The shares of a leading line at which it is looked at."""
 AGAIN = 4
 """How often values that cover others choose again."""
+CROWDED = 40.0
+"""What a spot costs from which a value stands badly."""
 AROUND = np.radians(np.arange(0.0, 360.0, 22.5))
 FIRST_LED = LED * len(AROUND)
 """The first of the spots of a text that such a line leads to."""
@@ -251,17 +254,16 @@ class PlacedWording:
 
     def distances(self, points: FloatArray) -> FloatArray:
         """Return how far the text would be from the nearest of some points [pixels] at each of its spots, shape (n,)."""
-        return np.asarray(distance_to_box(points - self.spots[:, None], self.half).min(axis=1))
+        return np.asarray(distance_to_box(points - self.spots[:, None], self.half - CLEAR).min(axis=1))
 
-    def covering(self, points: FloatArray) -> FloatArray:
-        """Return how many of some points the text would cover [pixels] at each of its spots, shape (n,)."""
+    def inside(self, points: FloatArray) -> Mask:
+        """Return which of some points the text would cover [pixels] at each of its spots, shape (n, k)."""
         low, high, (x, y) = self.spots - self.half, self.spots + self.half, points.T
-        inside = (x > low[:, :1]) & (x < high[:, :1]) & (y > low[:, 1:]) & (y < high[:, 1:])
-        return np.asarray(np.count_nonzero(inside, axis=1), float)
+        return np.asarray((x > low[:, :1]) & (x < high[:, :1]) & (y > low[:, 1:]) & (y < high[:, 1:]))
 
     def keep_from(self, others: Sequence[PlacedWording], points: FloatArray) -> None:
         """Note the spots at which it would be nearer to other texts' objects than to its own, and how many points each would cover."""
-        self.covered = self.covering(points)
+        self.covered = np.asarray(np.count_nonzero(self.inside(points), axis=1), float)
         same = [len(each.mark) == len(self.mark) and np.allclose(each.mark, self.mark, atol=NEARER) for each in others]
         marks = [each.mark for each, is_same in zip(others, same, strict=True) if not is_same]
         near = self.distances(np.concatenate(marks)) if marks else np.full(len(self.spots), np.inf)
@@ -286,19 +288,23 @@ class PlacedWording:
         nearest = np.clip(self.anchor, far - self.half, far + self.half)
         return np.asarray(nearest[:, None] + ALONG_LEADER * (self.anchor - nearest)[:, None])
 
-    def choose(self, boxes: Sequence[FloatArray], points: FloatArray, lines: FloatArray, inside: Bbox) -> None:
-        """Choose the spot that costs least. `points` are along other texts' leading lines, `lines`, shape (k, 2, 2) [pixels]."""
+    def costs(self, boxes: Sequence[FloatArray], leaders: FloatArray, lines: FloatArray, inside: Bbox) -> FloatArray:
+        """Return the cost of each spot, shape (n,).
+
+        `leaders` are points along other texts' leading lines, shape (m, 2), `lines` the ends of all, shape (k, 2, 2) [pixels].
+        """
         texts = np.array(boxes).reshape(-1, 4)
         low, high = (self.spots - self.half)[:, None], (self.spots + self.half)[:, None]
         over = ((low < texts[:, 2:]) & (texts[:, :2] < high)).all(axis=2).sum(axis=1)
-        covered = self.covered + self.covering(points)
+        by_line = len(self.spots), len(leaders) // len(ALONG_LEADER), len(ALONG_LEADER)
+        covered = self.covered + CROSSED_TEXT * self.inside(leaders).reshape(by_line).any(axis=2).sum(axis=1)
         outside = ((low < inside.min) | (high > inside.max)).any(axis=(1, 2))
         costs = COVERED_TEXT * over + covered + OFF_SHEET * outside + self.strays + 0.04 * np.arange(len(self.spots))
         x, y = self.leaders[..., :1], self.leaders[..., 1:]
         inner = (x > texts[:, 0]) & (x < texts[:, 2]) & (y > texts[:, 1]) & (y < texts[:, 3])
         costs[FIRST_LED:] += LEADING + CROSSED_TEXT * inner.any(axis=1).sum(axis=1)
         costs[FIRST_LED:] += CROSSED_LEADER * lines_cross(self.leaders[:, [0, -1]][:, None], lines).sum(axis=1)
-        self.place = int(np.argmin(costs))
+        return np.asarray(costs)
 
     def write(self, ax: Axes) -> None:
         """Put the text at its chosen place, with a line that leads to its object where that is far."""
@@ -332,19 +338,24 @@ def place_wordings(ax: Axes, texts: Sequence[Wording], covered: FloatArray) -> N
     for one in chosen:
         one.keep_from(chosen, points)
 
-    def settle(one: PlacedWording) -> None:
-        others = [other for other in chosen if other is not one and other.place >= 0]
+    def costs(one: PlacedWording, *without: PlacedWording) -> FloatArray:
+        others = [other for other in chosen if other not in (one, *without) and other.place >= 0]
         leaders = [other.leader for other in others if len(other.leader)]
         lines = np.array([*led, *(each[[0, -1]] for each in leaders)]).reshape(-1, 2, 2)
-        one.choose([*boxes, *(other.box for other in others)], np.concatenate([points[:0], *leaders]), lines, inside)
+        return one.costs([*boxes, *(other.box for other in others)], np.concatenate([points[:0], *leaders]), lines, inside)
 
     for one in chosen * AGAIN:
-        settle(one)
-    for one, other in combinations(chosen, 2):  # where two lines cross the texts choose in the other order
-        if len(one.leader) and len(other.leader) and lines_cross(one.leader[[0, -1]], other.leader[[0, -1]]):
-            one.place = other.place = -1
-            settle(other)
-            settle(one)
+        one.place = int(np.argmin(costs(one)))
+    for one in chosen:  # one that stands badly chooses before another one does
+        for other in chosen if costs(one)[one.place] > CROWDED else ():
+            alone, places = costs(one, other), (one.place, other.place)
+            if other is not one and alone.min() < alone[one.place]:
+                before = alone[one.place] + costs(other)[other.place]
+                one.place = int(np.argmin(alone))
+                after = costs(other)
+                other.place = int(np.argmin(after))
+                if alone[one.place] + after[other.place] >= before:
+                    one.place, other.place = places
     for one in chosen:
         one.write(ax)
 
@@ -406,7 +417,7 @@ def scale_bar(ax: Axes, layer: ArrowLayer, scale: float, covered: FloatArray) ->
     ax.plot(*outline, color=colour, linewidth=1.6, zorder=19.0, solid_joinstyle="miter", gid=name)
     length_said = f"{value:g} {layer.sign}"
     haloed(ax, length_said, middle, style.SMALL, style.INK, ha="center", va="bottom", zorder=20.0, gid=f"{name} value")
-    return np.array([x, y]) + np.linspace(-0.3 * pad, length + 0.3 * pad, 60)[:, None] * [1.0, 0.0]
+    return np.array(list(product(np.linspace(x - 0.3 * pad, x + length + 0.3 * pad, 20), (y - half, y, y + half))))
 
 
 def add_keys(ax: Axes, layer: ArrowLayer) -> None:

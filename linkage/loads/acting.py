@@ -276,6 +276,11 @@ class Acting:
         """The direction as a plain value takes it."""
         return self.direction or FRICTIONLESS
 
+    @property
+    def is_moving(self) -> bool:
+        """Whether its direction is one of motion, extending or retracting: neither at rest nor as it runs."""
+        return self.direction in DIRECTIONS and self.direction != FRICTIONLESS
+
     def towards(self, direction: str | None) -> Self:
         """Return it in a direction, without rates that are given: these say another one.
 

@@ -20,12 +20,16 @@ def point_by_time(
 
     Those of all points are kept for the latest rates: several loads ask at the same ones.
     """
-    plan, what = motion.plan, "acceleration" if order > 1 else "velocity"
+    plan, what, gaps = motion.plan, "acceleration" if order > 1 else "velocity", motion.unreachable == "nan"
     given = (*rates, *rates.values(), None, *accelerations, *accelerations.values())
     known = motion._kept.get(what)
     if known is None or len(known[0]) != len(given) or not all(map(stays, known[0], given)):
-        kernel = plan.made(("by time", order), lambda twin: Kernel(points_by_time(twin, order)))
-        inputs = {**motion._grid.flat, **flat_rates(motion, rates, accelerations)}
+        kernel, inputs = plan.made(("by time", order), lambda twin: Kernel(points_by_time(twin, order))), dict(motion._grid.flat)
+        for place, (word, of_strokes) in enumerate((("rates", rates), ("accelerations", accelerations)), 1):
+            checked = rates_of(word, of_strokes, motion, gaps=gaps)
+            for name in plan.strokes:  # zero where none are given
+                full = np.broadcast_to(checked.get(name, np.zeros(())), motion.shape)
+                inputs[rate_name(name, place)] = full.reshape(motion._grid.size) if motion._design_shape else full.reshape(-1)
         known = motion._kept[what] = given, motion._grid.full(kernel(inputs, size=motion._grid.size).values)
     index = 2 * plan.moving.index(point)
     found = known[1][index : index + 2]
@@ -37,17 +41,6 @@ def stays(known: object, given: object) -> bool:
     """Return whether an argument is the known object and cannot have changed: a number, a name, an array that is read-only."""
     fixed = not given.flags.writeable if isinstance(given, np.ndarray) else given is None or isinstance(given, str | float | int)
     return known is given and fixed
-
-
-def flat_rates(motion: MotionLike, rates: Mapping[str, Any], accelerations: Mapping[str, Any]) -> dict[str, FloatArray]:
-    """Return rates and accelerations of all strokes as a kernel takes them, zero where none are given."""
-    gaps, found = motion.unreachable == "nan", {}
-    for order, (what, given) in enumerate((("rates", rates), ("accelerations", accelerations)), 1):
-        checked = rates_of(what, given, motion, gaps=gaps)
-        for name in motion.plan.strokes:
-            full = np.broadcast_to(checked.get(name, np.zeros(())), motion.shape)
-            found[rate_name(name, order)] = full.reshape(motion._grid.size) if motion._design_shape else full.reshape(-1)
-    return found
 
 
 def points_by_time(plan: Plan, order: int) -> list[Node]:

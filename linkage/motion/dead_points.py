@@ -9,7 +9,7 @@ the request's own program tells what rounding leaves of it (`Rounding`).
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import accumulate, pairwise
 from typing import Any
@@ -47,11 +47,6 @@ class Rounding:
     extent: Node
     made: dict[tuple[int, ...], Scatter] = field(default_factory=dict)
     """What scatters some of them, by their numbers."""
-
-    @classmethod
-    def for_nodes(cls, plan: Plan, nodes: Iterable[tuple[Node, ...]]) -> Rounding:
-        """Return the rounding of nodes of a plan's program, those of each result together."""
-        return cls(tuple(nodes), iterated(plan), plan.trace.graph.node(plan.trace.extent))
 
     def precision_at(self, inputs: Mapping[str, Numbers], among: Sequence[int]) -> list[PrecisionLeft]:
         """Return the precision left in some of the results at poses, inputs as floats or (n,)."""
@@ -147,17 +142,6 @@ class Conditioning:
         span = 1.0 / close[direction]
         apart = f"are {span:.1e} of the machine's size apart" if span > 1e-299 else "coincide"
         return direction, f"takes a direction between points that {apart}", False
-
-
-def conditioning(plan: Plan, reading: ArrayReading, steep: set[str], names: set[str], error: FloatArray, doubt: float) -> Conditioning:
-    """Return how far poses are from singular ones for a result built from some members, whose relative error (n,) is known.
-
-    `steep` are the members that it is differentiated through, `doubt` is the error above which it is reported.
-    """
-    moving = {name: span for name, span in reading.spans.items() if not name or (name in names and plan.moves(plan.members[name]))}
-    spans = {name: np.broadcast_to(span, error.shape) for name, span in moving.items()}
-    conditions = {name: np.broadcast_to(cond, error.shape) for name, cond in loop_conditions(plan, reading, names).items()}
-    return Conditioning(plan, conditions, spans, error, frozenset(steep), doubt)
 
 
 def loop_conditions(plan: Plan, reading: ArrayReading, names: set[str]) -> dict[str, FloatArray]:

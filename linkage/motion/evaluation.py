@@ -7,7 +7,7 @@ pose, has no value, or rests on another law than the one traced. What is said of
 from __future__ import annotations
 
 from collections.abc import Callable, Container, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import accumulate
 from typing import Any
@@ -17,7 +17,7 @@ import numpy as np
 from ..errors import DefinitionError
 from ..plan import NEAR, ArrayReading, Mask, Plan, failures, negative
 from ..program import LAST, QUICKEST, FloatArray, Kernel, Node, Result, RunOptions, disturbed
-from .dead_points import DOUBTFUL, ROUGH, Conditioning, PrecisionLeft, Rounding, conditioning, iterated
+from .dead_points import DOUBTFUL, ROUGH, Conditioning, PrecisionLeft, Rounding, iterated, loop_conditions
 from .grid import Angles, Grid, Made, angles_behind, angles_of, to_rounding
 from .over import Over
 from .requests import Request, Trait
@@ -109,12 +109,6 @@ class CloseLook:
     broken: Mask
     worst: dict[int, Conditioning]
 
-    @classmethod
-    def for_grid(cls, requests: int, size: tuple[int, int]) -> CloseLook:
-        """Return that of a grid where there is no trouble as yet."""
-        refused, doubtful, missing, empty = np.zeros((4, requests, *size), bool)
-        return cls(refused, doubtful, missing, empty, np.zeros(size, bool), {})
-
     def in_block(self, band: slice, part: slice) -> CloseLook:
         """Return the same of a part of the grid, written into this one."""
         refused, doubtful, missing, empty = (mask[:, band, part] for mask in (self.refused, self.doubtful, self.missing, self.empty))
@@ -159,8 +153,10 @@ class Evaluation:
 
     def _settle(self, place: FloatArray, among: Mask | None) -> CloseLook:
         """Put right the values (rows, m, n) where a guard tells: place poses to rounding, NaN where a request has none."""
-        plan, look = self.grid.plan, CloseLook.for_grid(len(self.requests), self.grid.size)
-        for band, part in grid_blocks(*self.grid.size):
+        plan, size = self.grid.plan, self.grid.size
+        refused, doubtful, missing, empty = np.zeros((4, len(self.requests), *size), bool)
+        look = CloseLook(refused, doubtful, missing, empty, np.zeros(size, bool), {})
+        for band, part in grid_blocks(*size):
             inputs = {name: part_of_input(value, band, part, name in plan.table.entries) for name, value in self.grid.flat.items()}
             block, here = place[:, band, part], look.in_block(band, part)
             _, height, width = block.shape
@@ -262,12 +258,6 @@ def part_of_input(value: Any, band: slice, part: slice, of_design: bool) -> Any:
 # Near singular poses.
 
 
-def near_singular(grid: Grid, what: Request) -> Mask:
-    """Return the mask of poses at which a request has to be looked at closely."""
-    _, unplaced, near, _ = guard_masks(grid.plan, (what,), grid.flat, grid.size)
-    return np.asarray(unplaced | near[0]).reshape(grid.shape)
-
-
 DIGITS = 3e-12
 """The relative error that a coarse look finds, below which rounding surely leaves nine digits: such a look errs by less than 100."""
 MANY = 1.0 / 64
@@ -314,22 +304,25 @@ def examined(
     plan: Plan, requests: Sequence[Request], inputs: Mapping[str, Any], reading: ArrayReading, among: Sequence[int]
 ) -> list[Conditioning]:
     """Return how far poses are from singular ones for some `among` the requests: inputs as floats or (n,), and the eager reading there."""
+    found = list[Conditioning]()
     rounding = of_all(
-        "rounding", plan, requests, lambda twin, these: Rounding.for_nodes(twin, [each.rounding_nodes(twin) for each in these])
-    )
-    left = rounding.precision_at(inputs, among)
-    return [_conditioned(plan, requests[k], reading.copied(), each) for k, each in zip(among, left, strict=True)]
-
-
-def _conditioned(plan: Plan, what: Request, reading: ArrayReading, left: PrecisionLeft) -> Conditioning:
-    """Return the conditioning of one request at poses; its own notes in the reading count for no other."""
-    what.read_own(reading)
-    error = what.error(plan, left)
-    found = conditioning(plan, reading, what.differentiated(plan), what.names(plan), error, DOUBTFUL if what.order else ROUGH)
-    if Trait.STANDS_FOR_OTHERS not in what.traits:
-        return found
-    by_loops = [0.3 * np.finfo(float).eps * cond * cond for cond in found.conditions.values()]  # what the loops alone lose
-    return replace(found, error=np.maximum.reduce([error, *by_loops]))
+        "rounding", plan, requests,
+        lambda twin, these: Rounding(
+            tuple(each.rounding_nodes(twin) for each in these), iterated(twin), twin.trace.graph.node(twin.trace.extent)
+        ),
+    )  # fmt: skip
+    for k, left in zip(among, rounding.precision_at(inputs, among), strict=True):
+        what, own = requests[k], reading.copied()  # its own notes in the reading count for no other
+        what.read_own(own)
+        names, error = what.names(plan), what.error(plan, left)
+        moving = {name: span for name, span in own.spans.items() if not name or (name in names and plan.moves(plan.members[name]))}
+        spans = {name: np.broadcast_to(span, error.shape) for name, span in moving.items()}
+        conditions = {name: np.broadcast_to(cond, error.shape) for name, cond in loop_conditions(plan, own, names).items()}
+        if Trait.STANDS_FOR_OTHERS in what.traits:  # what the loops alone lose
+            error = np.maximum.reduce([error, *(0.3 * np.finfo(float).eps * cond * cond for cond in conditions.values())])
+        steep = frozenset(what.differentiated(plan))
+        found.append(Conditioning(plan, conditions, spans, error, steep, DOUBTFUL if what.order else ROUGH))
+    return found
 
 
 def other_law_error(plan: Plan, what: Request) -> DefinitionError:

@@ -313,7 +313,13 @@ class Track:
             for each, target, name, least in zip(missing, places.targets, places.bound, self.route.tolerance, strict=True)
             if not abs(each) <= least
         )
-        loop = loop_in_line(places, strokes)
+        loop, clearances = "", places.plan.made("clearances", Clearances.for_plan)
+        if clearances.loops:
+            seen = np.abs(clearances.kernel(places.kernel_inputs(strokes[:, None]), way=ON_ARRAYS, size=(1, 1)).values[:, 0, 0])
+            kinds = [each.kind for each in clearances.loops]
+            share = [each / places.size if kind in ("length", "meeting") else each for each, kind in zip(seen, kinds, strict=True)]
+            worst = int(np.nanargmin(share))
+            loop = opening(places.plan, clearances.loops[worst].step) if share[worst] < IN_LINE else ""
         if not np.isfinite(self.last.values).all():
             what = said("at {strokes}, where it begins, there is no pose", strokes=at)
         elif loop:
@@ -327,14 +333,3 @@ class Track:
         poses = self.route.motion_at(np.where(self.inside[:, None], self.strokes, np.nan), "nan")
         point = loop.partition(" = ")[0]
         return SingularError(f"{self._opening(self.end)}: {what}.", point=point, mask=~self.inside, motion=poses)
-
-
-def loop_in_line(places: Places, strokes: FloatArray) -> str:
-    """Return the step whose loop stands at its dead point at some strokes (k,), as a sentence begins with it; "" where none does."""
-    clearances = places.plan.made("clearances", Clearances.for_plan)
-    if not clearances.loops:
-        return ""
-    seen = np.abs(clearances.kernel(places.kernel_inputs(strokes[:, None]), way=ON_ARRAYS, size=(1, 1)).values[:, 0, 0])
-    share = [each / places.size if loop.kind in ("length", "meeting") else each for each, loop in zip(seen, clearances.loops, strict=True)]
-    worst = int(np.nanargmin(share))
-    return opening(places.plan, clearances.loops[worst].step) if share[worst] < IN_LINE else ""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from math import isfinite, nan
-from typing import Any, NoReturn, TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -21,7 +21,7 @@ from .evaluation import BulkProgram, Evaluation, keeps_digits, members_behind, o
 from .grid import Grid, varies
 from .live import live_source, true_nodes
 from .motion import Motion
-from .requests import Request, RequestLike, all_bound, as_they_run, holds_given, identities_of, known_bound
+from .requests import Request, RequestLike, all_bound, as_they_run, holds_given, identities_of
 from .strokes import at_values, float_array, known_strokes, rate_values
 
 
@@ -50,18 +50,14 @@ def evaluate(
                 return found
     at = at_values(strokes, plan, float_array)
     if moving:
-        together = dict(zip((*at, *moving), broadcast_together(plan, [*at.values(), *map(real, moving.values())]), strict=True))
+        arrays = [*at.values(), *map(real, moving.values())]
+        try:
+            together = dict(zip((*at, *moving), np.broadcast_arrays(*arrays), strict=True))
+        except ValueError:
+            shapes = ", ".join(str(each.shape) for each in arrays)
+            raise DefinitionError(f"{plan.title}: the shapes of the strokes and of their rates do not fit each other: {shapes}.") from None
         at, moving = {name: together[name] for name in at}, {name: together[name] for name in moving}
     return evaluate_grid(Grid(plan, designs, at, per_design=per_design, rate_inputs=moving), requests, out, way, unreachable)
-
-
-def broadcast_together(plan: Plan, arrays: Sequence[FloatArray]) -> list[FloatArray]:
-    """Return strokes and their rates broadcast against each other. Raise DefinitionError where they do not fit."""
-    try:
-        return [*np.broadcast_arrays(*arrays)]
-    except ValueError:
-        shapes = ", ".join(str(each.shape) for each in arrays)
-        raise DefinitionError(f"{plan.title}: the shapes of the strokes and of their rates do not fit each other: {shapes}.") from None
 
 
 def evaluate_grid(
@@ -69,8 +65,12 @@ def evaluate_grid(
 ) -> list[FloatArray]:
     """Return the values of requests over a grid; see Mechanism.evaluate."""
     one_word("unreachable", unreachable, ("raise", "nan"))
+    plan, identities = grid.plan, identities_of(grid.plan, requests)
     try:
-        found = known_bound(grid.plan, requests)
+        if identities is None or holds_given(identities):
+            found = all_bound(plan, requests)
+        else:
+            found = plan.made(("all bound", identities), lambda _: all_bound(plan, requests))
     except UntracedError:
         return evaluate_apart(grid, requests, out, way, unreachable)
     return evaluate_bound(Evaluation(grid, found, way), out, unreachable)
@@ -80,26 +80,21 @@ def evaluate_bound(asked: Evaluation, out: FloatArray | None, unreachable: str) 
     """Return the values of requests that are bound; raise or warn as asked."""
     grid, rows = asked.grid, asked.program.row_count
     values, look = asked.evaluate(None if out is None else checked_out(grid, rows, out).reshape(rows, *grid.size))
-    if look is not None:
-        if look.broken.any() or (unreachable == "raise" and look.missing.any()):
-            refuse(asked, unreachable)
-        for number, worst in look.worst.items():
-            dead_points.warn_near(worst, f"{grid.plan.title}: {asked.requests[number].sentence}", "comes")
+    if look is None:
+        return values
+    if look.broken.any() or (unreachable == "raise" and look.missing.any()):  # refused in the words of a motion
+        motion = Motion(grid.plan, grid.designs, grid.strokes, unreachable, per_design=grid.per_design, rate_inputs=grid.rate_inputs)
+        for each in asked.requests:
+            each.refuse(motion)
+        for each in asked.requests:
+            if each.notes(grid.plan).assumed:
+                raise other_law_error(grid.plan, each)
+        names = ", ".join(each.sentence for each in asked.requests)
+        text = f'{grid.plan.title}: {names} has no value at some of these poses. Leave them out, or ask with unreachable="nan".'
+        raise SingularError(text, motion=motion)
+    for number, worst in look.worst.items():
+        dead_points.warn_near(worst, f"{grid.plan.title}: {asked.requests[number].sentence}", "comes")
     return values
-
-
-def refuse(asked: Evaluation, unreachable: str) -> NoReturn:
-    """Raise the error of poses without a value, in the words of a motion."""
-    grid = asked.grid
-    motion = Motion(grid.plan, grid.designs, grid.strokes, unreachable, per_design=grid.per_design, rate_inputs=grid.rate_inputs)
-    for each in asked.requests:
-        each.refuse(motion)
-    for each in asked.requests:
-        if each.notes(grid.plan).assumed:
-            raise other_law_error(grid.plan, each)
-    names = ", ".join(each.sentence for each in asked.requests)
-    text = f'{grid.plan.title}: {names} has no value at some of these poses. Leave them out, or ask with unreachable="nan".'
-    raise SingularError(text, motion=motion)
 
 
 def evaluate_apart(

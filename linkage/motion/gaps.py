@@ -157,7 +157,15 @@ def gap_in(plan: Plan, where: Reading, pick: Pick, a: str, b: str) -> Scalar:
     """Return the gap of two bodies or outlines in a reading [m], such as on arrays, where nothing is compiled."""
     shapes, gaps = two_shapes(plan, a, b), list[Scalar]()
     for one, other in product(*(each.pieces(plan, where, pick) for each in shapes)):
-        found, counts = signed_gap(one, other, pick), [each.counts for each in (one, other) if each.counts is not None]
+        a, b, edges, rounded = one.places, other.places, [one.edges, other.edges], one.radius + other.radius
+        if any(edges):  # the least distance, below zero by the least way that parts them
+            pairs = [(P, edge) for points, own in ((a, edges[1]), (b, edges[0])) for P in points for edge in own]
+            squares = [(P - nearest_on(edge, P)).square() for P, edge in pairs]
+            overlap = reduce(np.maximum, [separation(a, b, way) for own in edges for way in ways_across(own)])
+            found = pick(overlap, 0.0, overlap, np.sqrt(least_number(squares))) - rounded
+        else:
+            found = np.sqrt((a[0] - b[0]).square()) - rounded
+        counts = [each.counts for each in (one, other) if each.counts is not None]
         gaps.append(pick(0.0, least_number(counts), found, FAR) if counts else found)  # more than any gap where one is none in a design
     least = least_number(gaps)
     follow = any(each.outline is not None and follows_dimensions(each.outline) for each in shapes)
@@ -258,17 +266,6 @@ def shape_named(plan: Plan, name: str) -> BodyShape:
     if name not in known and len(found) != 1:
         raise unknown("Body", name, [*known, *plan.of_kind(Outline)], where=plan.title)
     return BodyShape(known.get(name, found[0] if found else ()), each_alone=name == plan.bodies[0].name)
-
-
-def signed_gap(one: Piece, other: Piece, pick: Pick) -> Scalar:
-    """Return the least distance of two convex pieces [m], below zero by the least way that parts them."""
-    a, b = one.places, other.places
-    edges, rounded = [one.edges, other.edges], one.radius + other.radius
-    if not any(edges):
-        return np.sqrt((a[0] - b[0]).square()) - rounded
-    squares = [(P - nearest_on(edge, P)).square() for points, own in ((a, edges[1]), (b, edges[0])) for P in points for edge in own]
-    overlap = reduce(np.maximum, [separation(a, b, way) for own in edges for way in ways_across(own)])
-    return pick(overlap, 0.0, overlap, np.sqrt(least_number(squares))) - rounded
 
 
 def ways_across(edges: Sequence[tuple[Vec, Vec]]) -> list[Vec]:
@@ -393,7 +390,7 @@ def nearest_places(plan: Plan, where: Reading, a: str, b: str) -> NearestPlaces:
 
 
 def between(one: Piece, other: Piece) -> NearestPlaces:
-    """Return where two convex pieces come nearest: the same numbers as `signed_gap`, with their places."""
+    """Return where two convex pieces come nearest: the same numbers as `gap_in`, with their places."""
     a, b, edges = one.places, other.places, (one.edges, other.edges)
     found = [(separation(a, b, way), way, k) for k, own in enumerate(edges) for way in ways_across(own)]
     deepest = max(found, key=lambda each: float(each[0]), default=None)

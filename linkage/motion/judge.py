@@ -86,16 +86,11 @@ class Situation:
     direction: str = ""
     drive: str = ""
 
-    @property
+    @cached_property
     def acting(self) -> Acting:
         """It as requests take it."""
         case = None if self.case in ("", PLAIN_CASE) else self.case
         return Acting(case=case, direction=self.direction or None, drive=self.drive or None)
-
-    @property
-    def is_moving(self) -> bool:
-        """Whether it is one of a movement."""
-        return self.direction not in ("", FRICTIONLESS)
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,22 +117,10 @@ class SearchRow:
         """Whether the searched request continues below zero, where the request itself does not."""
         return self.piece.below is not None and isinstance(self.leaf, Most)
 
-    def search_key(self, plan: Plan) -> Hashable:
-        """Return a cache key for the search, or None if it cannot be cached, as for a function."""
-        found = "nothing" if self.request is zeros_over else plain_identity(plan, self.request)
-        return None if found is None else (found, self.sense, self.is_reciprocal, self.stays_at_zero)
-
     @property
     def search_sign(self) -> float:
         """1.0 where the greatest value of the searched request is the worst, else -1.0."""
         return 1.0 if self.is_reciprocal else self.sense
-
-    def worst_value(self, highest: FloatArray) -> FloatArray:
-        """Return its worst value from the highest of the searched request times its sense; NaN where it has no bound anywhere."""
-        if self.is_reciprocal:
-            with np.errstate(all="ignore"):
-                return np.asarray(np.where(highest > 0.0, 1.0 / highest, np.nan))
-        return np.asarray(np.maximum(highest, 0.0) if self.stays_at_zero else self.sense * highest)
 
 
 @dataclass(frozen=True, eq=False)
@@ -289,7 +272,7 @@ class Domain:
         return [
             Situation(case, direction, drive)
             for case in [each for each in cases if request.occurs_in(self.plan, each)] or cases for direction in directions
-            for drive in (drives if direction not in ("", FRICTIONLESS) else [""])
+            for drive in (drives if Acting(direction=direction or None).is_moving else [""])
         ]  # fmt: skip
 
     def cases(self, acting: Acting) -> list[str]:
@@ -309,10 +292,11 @@ class Domain:
 
     def extremes(self, rows: Sequence[SearchRow]) -> tuple[list[WorstPiece], Coverage]:
         """Return the worst of every row, and the coverage of the search; equal designs are searched once."""
-        identities = [row.search_key(self.plan) for row in rows]
-        if self.over.only or None in identities:
+        searched = ["nothing" if row.request is zeros_over else identity_of(self.plan, row.request) for row in rows]
+        if self.over.only or None in searched:  # as of a function, which may change
             return self.searched(rows)
-        found, seen = recalled(self.motion, ("extremes", self.over.shape, *identities), lambda: self.searched(rows))
+        looked_for = [(each, row.sense, row.is_reciprocal, row.stays_at_zero) for each, row in zip(searched, rows, strict=True)]
+        found, seen = recalled(self.motion, ("extremes", self.over.shape, *looked_for), lambda: self.searched(rows))
         return [replace(each, row=row) for each, row in zip(found, rows, strict=True)], replace(seen)
 
     def searched(self, rows: Sequence[SearchRow]) -> tuple[list[WorstPiece], Coverage]:
@@ -335,8 +319,13 @@ class Domain:
         lawless, unlimited = (np.broadcast_to(each, shape) for each in (asked.seen.lawless, asked.seen.unlimited))
         pieces = list[WorstPiece]()
         for k, row in enumerate(rows):
-            where = {name: each[k] for name, each in strokes.items()}
-            pieces.append(WorstPiece(row, row.worst_value(value[k]), where, unbounded[k], lawless[k], unlimited[k], time[k]))
+            where, worst = {name: each[k] for name, each in strokes.items()}, row.sense * value[k]
+            if row.is_reciprocal:  # NaN where it has no bound anywhere
+                with np.errstate(all="ignore"):
+                    worst = np.where(value[k] > 0.0, 1.0 / value[k], np.nan)
+            elif row.stays_at_zero:
+                worst = np.maximum(value[k], 0.0)
+            pieces.append(WorstPiece(row, np.asarray(worst), where, unbounded[k], lawless[k], unlimited[k], time[k]))
         return pieces, asked.seen
 
     # -- what is lost ------------------------------------------------------------------------------------
@@ -424,6 +413,7 @@ class Coverage:
         time = float(np.broadcast_to(self.time, np.shape(self.lost_share))[design])
         return replace(self, lost_share=lost, outside=outside, deepest=deepest if lost else {}, time=time, design=design)
 
+
 class RowFunction:
     """Rows as one function of a motion: each times its sense, shape (rows, ...); NaN where a place is not asked for or has no value."""
 
@@ -462,9 +452,15 @@ class RowFunction:
     def row_values(self, motion: Motion) -> tuple[FloatArray, Mask]:
         """Return the rows' values over a motion, and where they have no bound: one kernel for rows with a program, others alone."""
         values, unlimited = np.full((len(self.rows), *motion.shape), np.nan), np.zeros((len(self.rows), *motion.shape), bool)
+        grid, reached = motion._grid, motion.reached
+        if self._bound and grid.per_design and not motion._design_shape and reached.any() and not reached.all():
+            # one that is reached stands for those out of reach, whose repair costs most and tells nothing; angles are those of known poses
+            first = np.unravel_index(int(np.argmax(reached)), motion.shape)
+            strokes = {name: np.where(reached, value, value[first]) for name, value in grid.strokes.items()}
+            grid = Grid(self.plan, motion.designs, strokes, per_design=True, joining=grid.joining, rate_inputs=grid.rate_inputs)
         with unwarned(), np.errstate(all="ignore"):
             if self._bound:
-                found = evaluate_bound(Evaluation(reached_grid(motion), tuple(self._bound.values())), None, "nan")
+                found = evaluate_bound(Evaluation(grid, tuple(self._bound.values())), None, "nan")
                 for k, each in zip(self._bound, found, strict=True):
                     values[k] = np.broadcast_to(each, motion.shape)
             for k, row in enumerate(self.rows):
@@ -511,19 +507,6 @@ class RowFunction:
         self.seen.unlimited = counted(unlimited & good) / count
 
 
-def reached_grid(motion: Motion) -> Grid:
-    """Return the grid of a motion's poses, those out of reach replaced by one that is reached: repairing them costs most and tells nothing.
-
-    Only where angles are those of poses that are known, not continued from pose to pose.
-    """
-    grid = motion._grid
-    if not grid.per_design or motion._design_shape or motion.reached.all() or not motion.reached.any():
-        return grid
-    first = np.unravel_index(int(np.argmax(motion.reached)), motion.shape)
-    strokes = {name: np.where(motion.reached, value, value[first]) for name, value in grid.strokes.items()}
-    return Grid(motion.plan, motion.designs, strokes, per_design=True, joining=grid.joining, rate_inputs=grid.rate_inputs)
-
-
 def gaps_kernel(plan: Plan, bound: Request) -> Kernel:
     """Return the kernel of nodes that are below zero where a request has no bound."""
     bound.nodes(plan)  # its gaps are known then
@@ -532,10 +515,19 @@ def gaps_kernel(plan: Plan, bound: Request) -> Kernel:
 
 def values_over(motion: Motion, quantity: Any) -> FloatArray:
     """Return a quantity over a motion's poses, infinite where a function says so; DefinitionError unless it is one number a pose."""
-    if isinstance(quantity, Worst):
-        return worst_at(motion, quantity)
+    plan = motion.plan
+    if isinstance(quantity, Worst):  # over another stroke at every pose
+        other = quantity.over
+        ensure(other in plan.strokes, f"{plan.title}: {quantity}: {other} is no stroke; its strokes are {', '.join(plan.strokes)}.")
+        along = np.linspace(plan.strokes[other].start, plan.strokes[other].end, INNER)
+        strokes = {name: np.broadcast_to(value[..., None], (*value.shape, INNER)) for name, value in motion.strokes.items()}
+        strokes[other] = np.broadcast_to(along, strokes[other].shape)
+        inner = Motion(plan, motion.designs, strokes, "nan", per_design=motion._grid.per_design)
+        found = quantity.sense * values_over(inner, quantity.quantity)
+        best = np.max(np.where(np.isnan(found), -np.inf, found), axis=-1)
+        return np.asarray(quantity.sense * np.where(np.isneginf(best), np.nan, best))
     if not is_quantity(quantity):
-        with errors_of(f"{motion.plan.title}: {words_of(quantity)}"):
+        with errors_of(f"{plan.title}: {words_of(quantity)}"):
             found = np.asarray(quantity(motion), float)
     else:
         found = np.asarray(motion[quantity], float)
@@ -543,21 +535,7 @@ def values_over(motion: Motion, quantity: Any) -> FloatArray:
         return np.broadcast_to(found, motion.shape)
     except ValueError:
         what = f"{words_of(quantity)} has the shape {found.shape} where {motion.shape} is expected"
-        raise DefinitionError(f"{motion.plan.title}: {what}; return a number for each pose.") from None
-
-
-def worst_at(motion: Motion, worst: Worst) -> FloatArray:
-    """Return the worst value of a quantity over another stroke at every pose of a motion."""
-    plan = motion.plan
-    ensure(worst.over in plan.strokes, f"{plan.title}: {worst}: {worst.over} is no stroke; its strokes are {', '.join(plan.strokes)}.")
-    stroke = plan.strokes[worst.over]
-    along = np.linspace(stroke.start, stroke.end, INNER)
-    strokes = {name: np.broadcast_to(value[..., None], (*value.shape, INNER)) for name, value in motion.strokes.items()}
-    strokes[worst.over] = np.broadcast_to(along, strokes[worst.over].shape)
-    inner = Motion(plan, motion.designs, strokes, "nan", per_design=motion._grid.per_design)
-    found = worst.sense * values_over(inner, worst.quantity)
-    best = np.max(np.where(np.isnan(found), -np.inf, found), axis=-1)
-    return np.asarray(worst.sense * np.where(np.isneginf(best), np.nan, best))
+        raise DefinitionError(f"{plan.title}: {what}; return a number for each pose.") from None
 
 
 # Questions.
@@ -659,7 +637,7 @@ class Judge:
     def parts_below(self, request: Request) -> tuple[Span, ...]:
         """Return the parts of its one way on which a request is below zero; DefinitionError for a batch of designs."""
         asked = RowFunction(self.places[0], [SearchRow(Least(request), SmoothPiece(request), Situation(), -1.0)])
-        way, key = self.places[0].motion, plain_identity(self.plan, request)
+        way, key = self.places[0].motion, identity_of(self.plan, request)
 
         def found() -> tuple[Span, ...]:
             return below_zero(way, lambda each: asked.row_values(each)[0][0])
@@ -732,10 +710,14 @@ class Judge:
         leaves = tuple(dict.fromkeys(leaf for key, _, each in held if key not in kept for one in each for leaf in leaves_of(one)))
         for number in range(len(self.places)):
             self.find(number, leaves)
-        found = [
-            kept[key] if key in kept else self.assembled_everywhere() if isinstance(question, Reachable) else self.worst(question, each)
-            for key, question, each in held
-        ]
+        found, shape = list[Answer](), self.motion._design_shape
+        for key, question, each in held:
+            if key in kept:
+                found.append(kept[key])
+            elif isinstance(question, Reachable):
+                found.append(of_batch([self.reached_by(design) for design in np.ndindex(shape)], shape))
+            else:
+                found.append(self.worst(question, each))
         kept.update((key, each) for (key, *_), each in zip(held, found, strict=True) if not each.lost)  # what is lost is told in a language
         return [replace(each, question=question) for (_, question, _), each in zip(held, found, strict=True)]
 
@@ -788,8 +770,7 @@ class Judge:
                 return [constraint]
             asked = [each.quantity for each in (*leaf.leaves, *constraint.right.leaves) if isinstance(each.quantity, Request)]
             known = dict.fromkeys(replace(each, case=None) for request in asked for each in self.actings(request))
-            moving = [each for each in known if each.direction not in (None, FRICTIONLESS)]
-            sides = [(in_situation(leaf, each), in_situation(constraint.right, each)) for each in moving]
+            sides = [(in_situation(leaf, each), in_situation(constraint.right, each)) for each in known if each.is_moving]
             return [constraint, *(replace(constraint, left=left, right=right) for left, right in sides)]
         rows = [row for place in self.places for row in self.search_rows(leaf, place)]
         if len(rows) == 1:
@@ -865,7 +846,7 @@ class Judge:
             self.answered(question, [each.of_design(design, shape) for each in candidates], margins[:, *design])
             for design in np.ndindex(shape)
         ]
-        return of_batch(each_of, shape) if shape else each_of[0]
+        return of_batch(each_of, shape)
 
     def answered(self, question: object, candidates: Sequence[Candidate], margins: FloatArray) -> Answer:
         """Return the answer of one design, with the names of load case, movement and `Over` where there are several."""
@@ -908,12 +889,6 @@ class Judge:
             measures_of(self.plan, question), float(worst.time) if known else np.nan, named,
         )  # fmt: skip
 
-    def assembled_everywhere(self) -> Answer:
-        """Return whether all places can be assembled."""
-        shape = self.motion._design_shape
-        each_of = [self.reached_by(design) for design in np.ndindex(shape)]
-        return of_batch(each_of, shape) if shape else each_of[0]
-
     def reached_by(self, design: tuple[int, ...]) -> Answer:
         """Return whether all places can be assembled, of one design by its place in a batch."""
         every = [seen.of_design(design) for seen in self._seen]
@@ -939,8 +914,9 @@ def judge_along(motion: Motion) -> Judge:
 
 
 def of_batch(each_of: Sequence[Answer], shape: tuple[int, ...]) -> Answer:
-    """Return the answers of the designs of a batch as one, arrays of their shape."""
-
+    """Return the answers of the designs of a batch as one, arrays of their shape; of a single design its own."""
+    if not shape:
+        return each_of[0]
     own: dict[str, PerDesign] = {name: np.array([getattr(each, name) for each in each_of]).reshape(shape) for name in PER_DESIGN}
     own["value"] = own["value"].astype(float)
     names = dict.fromkeys(name for each in each_of for name in each.strokes)
@@ -991,14 +967,9 @@ def leaf_key(plan: Plan, leaf: Leaf) -> Hashable:
     return type(leaf).__name__, inner, strokes, leaf.by if isinstance(leaf, Integral) else None
 
 
-def plain_identity(plan: Plan, quantity: object) -> Hashable:
-    """Return a key of a quantity or a request; None for a function of a motion, and for one that may change."""
-    return identity_of(plan, quantity) if is_quantity(quantity) else None
-
-
 def key_of(plan: Plan, quantity: object) -> Hashable:
     """Return a key of a piece, valid as long as it lives."""
-    identity = plain_identity(plan, quantity)
+    identity = identity_of(plan, quantity)
     return id(quantity) if identity is None else identity
 
 
@@ -1008,7 +979,7 @@ def combined_pieces(of_leaves: Sequence[Sequence[WorstPiece]]) -> list[tuple[Wor
     They are in the same load case, where they name one, and either at rest or moving: what is at rest only, as nothing has friction,
     goes with both. What the same stroke, path or cylinder moves goes the same way.
     """
-    moves = {id(each): any(one.row.situation.is_moving for one in pieces) for pieces in of_leaves for each in pieces}
+    moves = {id(each): any(one.row.situation.acting.is_moving for one in pieces) for pieces in of_leaves for each in pieces}
 
     def at_once(a: WorstPiece, b: WorstPiece) -> bool:
         one, other = a.row.situation, b.row.situation
@@ -1016,8 +987,8 @@ def combined_pieces(of_leaves: Sequence[Sequence[WorstPiece]]) -> list[tuple[Wor
             return False
         if not (one.direction and other.direction):
             return True
-        if one.is_moving != other.is_moving:
-            return not moves[id(b if one.is_moving else a)]
+        if one.acting.is_moving != other.acting.is_moving:
+            return not moves[id(b if one.acting.is_moving else a)]
         return a.mover != b.mover or (one.direction, one.drive) == (other.direction, other.drive)
 
     found: list[tuple[WorstPiece, ...]] = [()]
@@ -1029,7 +1000,7 @@ def combined_pieces(of_leaves: Sequence[Sequence[WorstPiece]]) -> list[tuple[Wor
 def situation_found(chosen: Sequence[WorstPiece]) -> Situation:
     """Return the situation of pieces that occur at once: their load case, and their movement where one of them moves."""
     every = [each.row.situation for each in chosen]
-    ways = [each for each in every if each.is_moving] or [each for each in every if each.direction] or [Situation()]
+    ways = [each for each in every if each.acting.is_moving] or [each for each in every if each.direction] or [Situation()]
     return Situation(next((each.case for each in every if each.case), ""), ways[0].direction, ways[0].drive)
 
 

@@ -391,20 +391,14 @@ def require_quantity(quantity: object, word: str) -> Any:
 
 def words_of(quantity: object) -> str:
     """Return a quantity in words, as one writes it: `abs(tilt)`, numbers with six digits."""
-    if isinstance(quantity, (str, Worst, Request)):
-        return as_typed(str(quantity))
-    if isinstance(quantity, Quantity):
-        return as_typed(str(quantity.name or quantity))
+    if isinstance(quantity, (str, Worst, Request, Quantity)):  # without NumPy's own names and digits that nobody reads
+        text = str(quantity.name or quantity) if isinstance(quantity, Quantity) else str(quantity)
+        return _LONG.sub(lambda number: f"{float(number[0]):.6g}", text).replace("absolute(", "abs(")
     name = str(getattr(quantity, "__name__", ""))
     return name.replace("_", " ") if name.isidentifier() else "the quantity"
 
 
 _LONG = re.compile(r"(?<![\w.])\d+\.\d{6,}(?:e[-+]?\d+)?")
-
-
-def as_typed(text: str) -> str:
-    """Return the text of a quantity without NumPy's own names and digits that nobody reads."""
-    return _LONG.sub(lambda number: f"{float(number[0]):.6g}", text).replace("absolute(", "abs(")
 
 
 # Conditions.
@@ -547,14 +541,6 @@ def mean_in_cases(measure: Measure, shares: Spectrum) -> Measure:
 # Quantities as requests of a plan.
 
 
-def which_component(plan: Plan, quantity: object) -> str:
-    """Return how one component of a quantity of two is asked for: `ratio(x(G), order=2)` of `ratio(G, order=2)`."""
-    if isinstance(quantity, Value) and name_of(quantity.target) in plan.points:
-        return f"say which, {' or '.join(str(replace(quantity, target=part(name_of(quantity.target)))) for part in (x, y))}"
-    name = words_of(quantity)
-    return f'say which, x("{name}") or y("{name}")' if quantity in plan.points else "take x(P) or y(P) for a point P in it"
-
-
 def traced(plan: Plan, quantity: object) -> Request | None:
     """Return a quantity bound to a plan as nodes of its program; None where it has none; DefinitionError for anything but a number."""
     if not is_quantity(quantity):
@@ -562,7 +548,12 @@ def traced(plan: Plan, quantity: object) -> Request | None:
     with suppress(UntracedError, LawError):
         request = bound_quantity(plan, quantity)
         if request.rows > 1:
-            raise DefinitionError(f"{plan.title}: {words_of(quantity)} has two components; {which_component(plan, quantity)}.")
+            name = words_of(quantity)
+            remedy = f'say which, x("{name}") or y("{name}")' if quantity in plan.points else "take x(P) or y(P) for a point P in it"
+            if isinstance(quantity, Value) and name_of(quantity.target) in plan.points:  # ratio(x(G), order=2) of ratio(G, order=2)
+                parts = [str(replace(quantity, target=part(name_of(quantity.target)))) for part in (x, y)]
+                remedy = f"say which, {' or '.join(parts)}"
+            raise DefinitionError(f"{plan.title}: {name} has two components; {remedy}.")
         if request.traced_with is not None:
             plan.made(("traced", request.traced_with), lambda twin: len(request.nodes(twin)))
         return request

@@ -25,7 +25,7 @@ from ..vectors import Numbers, Vec
 from . import dead_points, stroke_search
 from .by_time import point_by_time
 from .dead_points import Conditioning
-from .evaluation import BulkProgram, Evaluation, examined, near_singular, other_law_error
+from .evaluation import BulkProgram, Evaluation, examined, guard_masks, other_law_error
 from .grid import Grid, JoinedTo, Joining, MotionLike, joined_in_order, not_joined, to_rounding
 from .instants import Instants
 from .limits import Limits, no_joint, span_text, stroke_unit, where_words
@@ -150,16 +150,6 @@ class Motion(Shown):
     def _rates_of_order(self, order: int) -> dict[str, FloatArray]:
         names = {name: rate_name(name, order) for name in self.plan.strokes}
         return {name: self._grid.rate_inputs[each] for name, each in names.items() if each in self._grid.rate_inputs}
-
-    def _at_rates(self, rates: object, accelerations: object) -> Motion:
-        """Return the same poses at rates of strokes that are given, in the place of its own."""
-        grid, shape = self._grid, np.shape(next(iter(self.strokes.values()), 0.0))
-        given = rate_values(self.plan, rates, accelerations)
-        moving = {name: checked_rate(name, value, shape, self.plan.title) for name, value in given.items()}
-        joining, found = None if grid.joins_itself else grid.joining, copy(self)
-        own = Grid(self.plan, grid.designs, grid.strokes, per_design=grid.per_design, joining=joining, rate_inputs=moving)
-        vars(found).update(_grid=own, _kept={}, _instants=None)
-        return found
 
     @property
     def _rate_jump(self) -> tuple[str, str] | None:
@@ -615,6 +605,8 @@ class Motion(Shown):
         plan, title = self.plan, f"{self.plan.title}.rates_for"
         if not isinstance(velocities, Mapping) or not velocities:
             raise DefinitionError(f'{title}: {cited(velocities)}: rates by name are expected, such as {{"px": 0.2, "py": 0.0}}.')
+        extent = plan.made(("extent",), lambda fork: Kernel([fork.trace.graph.node(fork.trace.extent)]))
+        size = np.asarray(np.sqrt(self._grid.full(extent(self._grid.flat, size=self._grid.size).values)[0]))  # the machine's [m]
         names, slopes, wanted, sizes = list[str](), list[FloatArray](), list[FloatArray](), list[FloatArray]()
         for target, rate in dict[Any, object](velocities).items():
             what = bound(plan, target)
@@ -628,8 +620,9 @@ class Motion(Shown):
             wanted += [np.broadcast_to(checked_rate(f"rates_for: {what}", part, self.shape, plan.title), self.shape) for part in parts]
             along = [np.broadcast_to(self.ratio(target, wrt=stroke), (what.rows, *self.shape)) for stroke in self.strokes]
             slopes += list(np.stack(along, axis=1))
-            measured = what.member if isinstance(what, Value) else what.measured(plan)
-            sizes += [np.broadcast_to(self._natural_size(measured), self.shape)] * what.rows
+            is_length = not isinstance(what, Value) and what.measured(plan) == "length"
+            own = natural_size(what.member, size) if isinstance(what, Value) else size if is_length else None
+            sizes += [np.broadcast_to(np.ones_like(size) if own is None else own, self.shape)] * what.rows
         if len(wanted) != len(self.strokes):
             counted = f"{len(wanted)} rate{'s' * (len(wanted) != 1)} for {' and '.join(self.strokes)}"
             still = f'one that stands still is a rate too, "{[*self.strokes][-1]}": 0.0'
@@ -653,13 +646,6 @@ class Motion(Shown):
         found = np.linalg.solve(np.where(solvable, matrix, np.eye(len(wanted))), right)[..., 0]
         found = np.asarray(np.where(solvable[..., 0], found, np.nan), float)
         return {stroke: np.asarray(found[..., place], float) for place, stroke in enumerate(self.strokes)}
-
-    def _natural_size(self, measured: Member | str) -> FloatArray:
-        """Return the size that errors are compared with: for places and lengths that of the machine [m], for other values 1."""
-        extent = self.plan.made(("extent",), lambda fork: Kernel([fork.trace.graph.node(fork.trace.extent)]))
-        size = np.asarray(np.sqrt(self._grid.full(extent(self._grid.flat, size=self._grid.size).values)[0]))
-        found = natural_size(measured, size) if isinstance(measured, Member) else size if measured == "length" else None
-        return np.ones_like(size) if found is None else found
 
     def pole(
         self, body: Reference, other: Reference = "frame", *, wrt: str | None = None, rates: Mapping[str, object] | None = None
@@ -735,14 +721,20 @@ class Motion(Shown):
         DefinitionError
             A load's law cannot be traced.
         """
-        plan = self.plan
-        if rates is not None or accelerations is not None:
-            return self._at_rates(rates, accelerations).gradient(of, wrt)
+        plan, grid = self.plan, self._grid
+        if rates is not None or accelerations is not None:  # of the same poses at these rates
+            shape = np.shape(next(iter(self.strokes.values()), 0.0))
+            given = rate_values(plan, rates, accelerations)
+            moving = {name: checked_rate(name, value, shape, plan.title) for name, value in given.items()}
+            joining, at_rates = None if grid.joins_itself else grid.joining, copy(self)
+            own = Grid(plan, grid.designs, grid.strokes, per_design=grid.per_design, joining=joining, rate_inputs=moving)
+            vars(at_rates).update(_grid=own, _kept={}, _instants=None)
+            return at_rates.gradient(of, wrt)
         (of,) = as_they_run([of], bool(self.accelerations), self.time is not None) if self.rates else [of]
         what, dimensions = bound(plan, of), dimensions_of(plan, wrt)
         names, signs = tuple(name for name, _ in dimensions), np.tile([float(sign) for _, sign in dimensions], what.rows)
         kernel, touched = plan.made(("switches", what.key, names), lambda plan: switches_of(plan, what, names))
-        switches = self._grid.full(kernel(self._grid.flat).values) if touched else ()
+        switches = grid.full(kernel(grid.flat).values) if touched else ()
         found = self._looked_at(slope(what, names), f"The gradient of {what.sentence}", what, zip(touched, switches, strict=True))
         rows = found.reshape(len(signs), *self.shape) * signs.reshape(-1, *(1,) * len(self.shape))
         return np.stack(np.split(rows, what.rows), axis=1) if what.rows > 1 else rows
@@ -991,7 +983,8 @@ class Motion(Shown):
     def _refused_near(self, what: Request, words: str, are_places: bool = False) -> Mask:
         """Return the mask of poses where a result is refused, all that are near singular ones looked at; raise or warn as asked."""
         refused, doubtful = np.zeros(self.shape, bool), np.zeros(self.shape, bool)
-        near = near_singular(self._grid, what) & self.reached
+        _, unplaced, close, _ = guard_masks(self.plan, (what,), self._grid.flat, self._grid.size)
+        near = np.asarray(unplaced | close[0]).reshape(self.shape) & self.reached
         if near.any():
             found = self._near(what, near)
             refused[near], doubtful[near] = found.refused, found.doubtful

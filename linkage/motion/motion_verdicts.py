@@ -158,7 +158,13 @@ def judge_verdicts(judge: Judge, fault: str = "") -> list[Verdict]:
         if not fault:
             judge.answers(verdict_questions(judge))
         found, said_of = geometry_verdicts(judge), member_verdicts(judge.lost_allowed(), fault)
-        found += said_of if fault or not all(found) else map(valued_everywhere, said_of)
+        is_assembled = not fault and all(found)
+        for each in said_of:
+            lost = each.answer.lost if is_assembled and each.ok and each.answer is not None else NONE_LOST
+            if lost and not lost.strokes:  # a kept rule is a fault where its quantity has no value at some assembled places
+                text = said("{lost}; elsewhere: {sentence}", lost=each.answer.lost_words, sentence=each.sentence)
+                each = Verdict(each.rule, False, text, each.heading, each.answer).said_by(each.member)
+            found.append(each)
     return [*found, *map(Remark, filter(None, told)), *([] if fault else [*from_above(PACE)(judge), *from_above(DRIVES)(judge)])]
 
 
@@ -175,15 +181,6 @@ def over_time(judge: Judge, asked: Condition) -> Answer | None:
     return other.answer(asked) if timed else None
 
 
-def valued_everywhere(verdict: Verdict) -> Verdict:
-    """Return a verdict; a kept rule becomes a fault where its quantity has no value at some assembled places."""
-    lost = verdict.answer.lost if verdict.ok and verdict.answer is not None else NONE_LOST
-    if not lost or lost.strokes:
-        return verdict
-    text = said("{lost}; elsewhere: {sentence}", lost=verdict.answer.lost_words, sentence=verdict.sentence)
-    return Verdict(verdict.rule, False, text, verdict.heading, verdict.answer).said_by(verdict.member)
-
-
 # -- geometry ----------------------------------------------------------------------------------------------
 
 
@@ -193,7 +190,14 @@ def geometry_verdicts(judge: Judge) -> list[Verdict]:
         return []
     if not judge.is_reached:
         return assembly_verdicts(judge)
-    return [*assembly_verdicts(judge), *dead_points_over(judge), *transmission_remarks(judge)]
+    asked, found = transmissions(judge), [*assembly_verdicts(judge), *dead_points_over(judge)]
+    poor = {name: each for name, each in zip(asked, judge.answers([*asked.values()]), strict=True) if each.value < POOR}
+    if poor:  # it is no fault as such, a toggle lives of it
+        joint = min(poor, key=lambda name: float(poor[name].value))
+        given = {"angle": angle_text(float(poor[joint].value), 3), "joint": joint, "place": poor[joint].place, "poor": angle_text(POOR, 3)}
+        text = said("The least transmission angle is {angle}, of {joint} {place}: below {poor} pin forces and play grow.", **given)
+        found.append(Remark(text))
+    return found
 
 
 def dead_points_over(judge: Judge) -> list[Verdict]:
@@ -262,20 +266,14 @@ def assembly_verdicts(judge: Judge) -> list[Verdict]:
         text = said("over {spans} {share} cannot be assembled, deepest {place}: {why}", spans=spans, **deepest).rstrip(".")
         remedy = said('what follows holds for the rest. Shorten a stroke, or declare Over(..., lost="allowed").')
         text = said("{lost}; its Over allows that.", lost=text) if ok else f"{text}; {remedy}"
-    beyond = ", ".join(f"{name} = {span}" for name, span in strokes_exceeded(judge).items())
-    text = f"{text} {said('It runs beyond the declared {strokes}.', strokes=beyond)}" if beyond else text
-    return [Verdict("assembly", ok, text, answer=answer)]
-
-
-def strokes_exceeded(judge: Judge) -> dict[str, str]:
-    """Return the declared ends, in words, of the strokes that something runs beyond by more than a thousandth."""
-    found = {}
+    beyond = list[str]()
     for name, stroke in judge.plan.strokes.items():
         low, high = sorted((stroke.start, stroke.end))
-        run = np.concatenate([np.ravel(place.motion.strokes[name]) for place in judge.places])
-        if np.any((run < low - 1e-3 * (high - low)) | (run > high + 1e-3 * (high - low))):
-            found[name] = span_text([low, high], stroke_unit(judge.plan, name))
-    return found
+        run, room = np.concatenate([np.ravel(place.motion.strokes[name]) for place in judge.places]), 1e-3 * (high - low)
+        if np.any((run < low - room) | (run > high + room)):
+            beyond.append(f"{name} = {span_text([low, high], stroke_unit(judge.plan, name))}")
+    text = f"{text} {said('It runs beyond the declared {strokes}.', strokes=', '.join(beyond))}" if beyond else text
+    return [Verdict("assembly", ok, text, answer=answer)]
 
 
 def nearest_dead_points(plan: Plan, limits: StrokeLimits, span: tuple[float, float]) -> Iterator[tuple[bool, float, str]]:
@@ -330,18 +328,6 @@ def transmissions(judge: Judge) -> dict[str, Measure]:
     return {name: least(transmission(name)) for name in joints}
 
 
-def transmission_remarks(judge: Judge) -> list[Remark]:
-    """Return the least transmission angle, where it is poor; it is no fault as such, a toggle lives of it."""
-    asked = transmissions(judge)
-    found = {name: each for name, each in zip(asked, judge.answers([*asked.values()]), strict=True) if each.value < POOR}
-    if not found:
-        return []
-    joint = min(found, key=lambda name: float(found[name].value))
-    angle, poor = (angle_text(float(each), 3) for each in (found[joint].value, POOR))
-    given = {"angle": angle, "joint": joint, "place": found[joint].place, "poor": poor}
-    return [Remark(said("The least transmission angle is {angle}, of {joint} {place}: below {poor} pin forces and play grow.", **given))]
-
-
 # -- members -----------------------------------------------------------------------------------------------
 
 
@@ -377,7 +363,15 @@ def batch_verdicts(judge: Judge, fault: str = "") -> list[Verdict]:
     lost = np.flatnonzero(~whole)
     text = said("{n} of {total} designs cannot be assembled over the whole motion", n=lost.size, total=total)
     text += said("; the first is design {number}.", number=lost[0] + 1) if lost.size else "."
-    found: list[Verdict] = [Verdict("assembly", not lost.size, text), *batch_dead_points(judge, total)]
+    found = [Verdict("assembly", not lost.size, text)]
+    shape = judge.motion._design_shape
+    numbered = [(int(np.ravel_multi_index(design, shape)), text) for place in judge.places for design, text in in_line(place).items()]
+    if numbered:
+        number, place = min(numbered)
+        text = said("{n} of {total} designs come to one", n=len(dict(numbered)), total=total)
+        text += said("; the first is design {number}: {sentence}", number=number + 1, sentence=f"{place}.")
+        pushed = any(is_pushed(judge, name) for name in judge.plan.strokes)
+        found.append(Verdict("dead points", False if pushed else None, text))
     if fault or not speakers(judge.plan, HasVerdicts):
         return found
     if total > JUDGED:
@@ -399,19 +393,6 @@ def batch_verdicts(judge: Judge, fault: str = "") -> list[Verdict]:
         text += said("; the first is design {number}: {sentence}", number=each_of[0][0], sentence=each_of[0][1]) if each_of else "."
         found.append(Verdict(rule, not each_of, text))
     return found
-
-
-def batch_dead_points(judge: Judge, total: int) -> list[Verdict]:
-    """Return how many designs of a batch come to a dead point, with that of the first; nothing where none does."""
-    shape = judge.motion._design_shape
-    numbered = ((int(np.ravel_multi_index(design, shape)), text) for place in judge.places for design, text in in_line(place).items())
-    found = sorted(dict(sorted(numbered, reverse=True)).items())
-    if not found:
-        return []
-    number, place = found[0]
-    text = said("{n} of {total} designs come to one", n=len(found), total=total)
-    text += said("; the first is design {number}: {sentence}", number=number + 1, sentence=f"{place}.")
-    return [Verdict("dead points", False if any(is_pushed(judge, name) for name in judge.plan.strokes) else None, text)]
 
 
 def range_words(answers: Sequence[Answer]) -> str:
@@ -519,10 +500,23 @@ def pose_sentence(motion: Motion) -> str:
     judge = Judge(plan, designs, [*plan.of_kind(Over).values()] or [Over()])
     near = [place for place in judge.places if (covered(place, motion) & place.over.condition_mask(motion)).all()]
     occurring = dict.fromkeys(place.over.cases for place in near or judge.places)
-    found, unknown = answers_at(Judge(plan, designs, [over_pose(motion, cases) for cases in occurring]))
+    at_pose = Judge(plan, designs, [over_pose(motion, cases) for cases in occurring])
+    found, unknown, faults = dict[str, Answer](), list[str](), list[str]()
+    with unwarned():
+        for rule, (_, _, condition) in rules_of(at_pose).items():
+            heading = heading_of(rule)
+            try:
+                measures = measures_of(plan, conditions_of([condition], None)[0])
+                found[heading] = replace(at_pose.answer(condition), measures=measures)
+            except LinkageError:
+                unknown.append(heading)
     if not found and not unknown:
         return ""
-    faults = [f"{rule} {pose_value(each)}" for rule, each in found.items() if each.ok is False]
+    for rule, each in found.items():
+        if each.ok is False:
+            value = show(float(each.value), display_unit(each.measures, "mm"), 4) if np.isfinite(each.value) else said("no value")
+            case = said("own loads") if each.case == PLAIN_CASE else each.case
+            faults.append(f"{rule} {value} ({case})" if each.case and "case" in each.named else f"{rule} {value}")
     if near and not faults and not unknown:
         return all_kept_here()
     kept = said("all kept") if not unknown else said("{n} kept", n=len(found)) if found else ""
@@ -565,27 +559,6 @@ def rules_of(judge: Judge) -> dict[str, tuple[str, str, Condition]]:
             found += [(name, rule, each) for rule, each in member.conditions(judge).items()]
     named = told_apart(((name, rule) for name, rule, _ in found), members)
     return {f"{each[1]} {each[0]}" if each[:2] in named else each[1]: each for each in found}
-
-
-def answers_at(judge: Judge) -> tuple[dict[str, Answer], list[str]]:
-    """Return a judge's answers to the conditions of all members, by their rules, and the rules without an answer."""
-    found, unknown = dict[str, Answer](), list[str]()
-    with unwarned():
-        for rule, (_, _, condition) in rules_of(judge).items():
-            heading = heading_of(rule)
-            try:
-                measures = measures_of(judge.plan, conditions_of([condition], None)[0])
-                found[heading] = replace(judge.answer(condition), measures=measures)
-            except LinkageError:
-                unknown.append(heading)
-    return found, unknown
-
-
-def pose_value(answer: Answer) -> str:
-    """Return the value of an answer in its unit, with the load case where there are several."""
-    value = show(float(answer.value), display_unit(answer.measures, "mm"), 4) if np.isfinite(answer.value) else said("no value")
-    case = said("own loads") if answer.case == PLAIN_CASE else answer.case
-    return f"{value} ({case})" if answer.case and "case" in answer.named else value
 
 
 Motion._limits_of = limits_over  # a motion's limits ask the judge, who is made with motions

@@ -352,18 +352,6 @@ LOST = 1e10
 """A condition above which the slopes have lost a rank; where they have at every pose, the targets hang together."""
 
 
-def check_independent(places: Places, condition: FloatArray) -> None:
-    """Raise DefinitionError where the targets hang together at every pose, so that infinitely many strokes give them, or none do."""
-    if len(places.free) < 2 or not (condition > LOST).all():
-        return
-    looked = SCATTERED[:, : len(places.free)]
-    known = all_known(places.slopes(looked))
-    if known.any() and (places.condition(looked[known]) > LOST).all():
-        names = said(" and ").join(map(str, places.bound))
-        what = f"{names} hang together at every pose, so that they do not tell {' and '.join(places.free)} apart"
-        raise DefinitionError(f"{places.plan.title}: {what}; hold a stroke for one of them, or aim at something else.")
-
-
 # -- the search ----------------------------------------------------------------------------------------------
 
 
@@ -839,7 +827,12 @@ def positions_for(plan: Plan, designs: Mapping[str, object], targets: object, ho
     found = search.branches()
     condition, rows = places.condition(found.unit), rows_of_branches(places, found)
     if len(found.unit):
-        check_independent(places, condition)
+        looked = SCATTERED[:, : len(places.free)]
+        known = all_known(places.slopes(looked)) if len(places.free) > 1 and (condition > LOST).all() else np.zeros(len(looked), bool)
+        if known.any() and (places.condition(looked[known]) > LOST).all():  # infinitely many strokes give the targets, or none do
+            names = said(" and ").join(map(str, places.bound))
+            what = f"{names} hang together at every pose, so that they do not tell {' and '.join(places.free)} apart"
+            raise DefinitionError(f"{plan.title}: {what}; hold a stroke for one of them, or aim at something else.")
         return Positions(rows, condition, True, found.off, None, met_words(places, found, condition, wanted))
     near = search.nearest()
     words = unmet_words(places, wanted, near)

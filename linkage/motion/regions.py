@@ -11,6 +11,7 @@ Source: J. O'Rourke, Computational geometry in C (1998), 7.4.2.
 
 from __future__ import annotations
 
+import operator
 from dataclasses import dataclass
 from functools import reduce
 from itertools import pairwise
@@ -43,7 +44,12 @@ class Polygon:
         edges = list(pairwise((*corners, corners[0])))
         squares = [(X - nearest_on(edge, X)).square() for edge in edges]
         distance = np.sqrt(np.maximum(reduce(np.minimum, squares), SMALLEST))
-        return reduce(lambda a, b: a * b, [crossing(X, edge, choose) for edge in edges]) * -1.0 * distance
+        signs = []
+        for start, end in edges:  # -1 where a ray from the place to the right crosses the edge, else 1
+            from_start, to_end = choose(start.y, X.y, 1.0, -1.0), choose(end.y, X.y, -1.0, 1.0)
+            left = choose((X - start).cross(end - start), 0.0, 1.0, -1.0)
+            signs.append(choose(2.5, np.abs(from_start + to_end + left), -1.0, 1.0))
+        return reduce(operator.mul, signs) * -1.0 * distance
 
     def border(self, places: FloatArray) -> FloatArray:
         """Return the nearest places of its border to places (n, 2)."""
@@ -155,15 +161,6 @@ class Region:
 
     def __str__(self) -> str:
         return ", ".join([*map(str, self.within), *(f"outside({each})" for each in self.without)])
-
-
-def crossing(X: Vec, edge: tuple[Vec, Vec], choose: Pick) -> Scalar:
-    """Return -1 where a ray from a place to the right crosses an edge, else 1."""
-    start, end = edge
-    from_start = choose(start.y, X.y, 1.0, -1.0)
-    to_end = choose(end.y, X.y, -1.0, 1.0)
-    left = choose((X - start).cross(end - start), 0.0, 1.0, -1.0)
-    return choose(2.5, np.abs(from_start + to_end + left), -1.0, 1.0)
 
 
 def inside(point: Reference, *shapes: object) -> NodeRequest:

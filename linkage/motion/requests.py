@@ -272,8 +272,8 @@ def may_be_unlimited(quantity: object) -> bool:
     return isinstance(quantity, Request) and Trait.MAY_BE_UNLIMITED in quantity.traits
 
 
-def identity_of(plan: Plan, request: RequestLike) -> Hashable:
-    """Return a key of a request; None for a quantity without one, and for one that may change."""
+def identity_of(plan: Plan, request: object) -> Hashable:
+    """Return a key of a request; None for a quantity without one, for one that may change, and for a function of a motion."""
     if type(request) is str:
         return request
     if isinstance(request, Request):
@@ -295,14 +295,6 @@ def identities_of(plan: Plan, requests: Sequence[RequestLike]) -> Hashable:
         return tuple(requests)
     found = tuple([identity_of(plan, each) for each in requests])
     return None if None in found else found
-
-
-def known_bound(plan: Plan, requests: Sequence[RequestLike]) -> tuple[Request, ...]:
-    """Return a list of requests bound to a plan, as they were bound before where they are the same; the errors of `all_bound`."""
-    identities = identities_of(plan, requests)
-    if identities is None or holds_given(identities):
-        return all_bound(plan, requests)
-    return plan.made(("all bound", identities), lambda _: all_bound(plan, requests))
 
 
 def holds_given(identity: Hashable) -> bool:

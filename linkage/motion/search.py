@@ -491,36 +491,26 @@ def least_margins(motion: Motion, kept: Callable[[Motion], Mask] | None = None) 
         return []
 
     def asked(each: Motion) -> FloatArray:
-        found = margins(each, known)
-        return found if kept is None else np.where(kept(each), found, np.nan)
+        grid = each._grid
+        margins = grid.full(known.kernel(grid.flat, way=ON_ARRAYS, size=grid.size).values)
+        is_signed = known.is_signed.reshape(-1, *(1,) * len(grid.shape))  # sines of guides are squared, so that all are smooth
+        margins = np.where(is_signed, margins * margins, margins)
+        return margins if kept is None else np.where(kept(each), margins, np.nan)
 
     def found() -> list[LoopMargin]:
         least, each_of = extremum_reached(motion, asked, -1.0, everywhere=True), list[LoopMargin]()
         for row, loop in enumerate(known.loops):
             place = {name: value[row] for name, value in least.strokes.items()}
-            hole = np.asarray(least.value[row] < -rounding_at(motion, known, place)[row].reshape(motion._design_shape))[()]
+            there = {name: np.reshape(value, (*motion._design_shape, 1)) for name, value in place.items()}
+            grid = Motion(motion.plan, motion.designs, there, "nan", per_design=True)._grid
+            sizes = grid.full(known.rounding(grid.flat, way=ON_ARRAYS, size=grid.size).values)[row, ..., 0]
+            rounding = np.reshape(ROUNDING * np.fmax(np.abs(sizes), 1.0), motion._design_shape)
+            hole = np.asarray(least.value[row] < -rounding)[()]
             time = np.broadcast_to(least.time, np.shape(least.value))[row]
             each_of.append(LoopMargin(loop.step, loop.kind, least.value[row], hole, place, least.units, time))
         return each_of
 
     return recalled(motion, "margins", found, of_places=True) if kept is None else found()
-
-
-def margins(motion: Motion, known: Clearances) -> FloatArray:
-    """Return the margins of loops, shape (loops, ...), smooth: sines of guides are squared."""
-    grid = motion._grid
-    values = known.kernel(grid.flat, way=ON_ARRAYS, size=grid.size).values
-    found = grid.full(values)
-    is_signed = known.is_signed.reshape(-1, *(1,) * len(grid.shape))
-    return np.where(is_signed, found * found, found)
-
-
-def rounding_at(motion: Motion, known: Clearances, strokes: Mapping[str, Any]) -> FloatArray:
-    """Return by how much rounding moves the margins of loops, shape (loops, ...), at a place of each design."""
-    there = {name: np.reshape(value, (*motion._design_shape, 1)) for name, value in strokes.items()}
-    grid = Motion(motion.plan, motion.designs, there, "nan", per_design=True)._grid
-    sizes = known.rounding(grid.flat, way=ON_ARRAYS, size=grid.size).values
-    return np.asarray(ROUNDING * np.fmax(np.abs(grid.full(sizes))[..., 0], 1.0))
 
 
 def assembly_error_at(motion: Motion, strokes: Mapping[str, float], time: float = np.nan) -> AssemblyError | None:

@@ -139,16 +139,19 @@ class StrokeLine:
             found[k] = (known[0], at[int(np.argmin(seen.reached))]) if known else (inside, outside if sought[k] else np.nan)
         if sought.any():
             found[sought] = np.transpose(last_holding(self.is_reached, *found[sought].T))
-        return [(float(last), "" if np.isnan(beyond) else self.failing_at(beyond)) for last, beyond in found]
+        ends = list[tuple[float, str]]()
+        for last, beyond in found:
+            failing = ""
+            if not np.isnan(beyond):
+                there = self.motion_at(np.array([beyond]))
+                first = (name for name, mask in failures(self.plan, there._reading, there.shape) if mask.any())
+                failing = next((name_or_pins(self.plan, name) for name in first), "")
+            ends.append((float(last), failing))
+        return ends
 
     def is_reached(self, at: FloatArray) -> Mask:
         """Return the mask of strokes that are reached, of any shape."""
         return np.reshape(self.motion_at(np.ravel(at)).reached, np.shape(at))
-
-    def failing_at(self, beyond: float) -> str:
-        """Return the step that fails first at a stroke out of reach."""
-        there, plan = self.motion_at(np.array([beyond])), self.plan
-        return next((name_or_pins(plan, name) for name, mask in failures(plan, there._reading, there.shape) if mask.any()), "")
 
     # -- the least transmission angles: of every dyad whose angle changes with the stroke ------------------
 
@@ -384,24 +387,19 @@ def refuse_interrupted(motion: MotionLike) -> None:
     found = interruptions(motion)
     if not found:
         return
-    (values,) = motion.strokes.values()
-    start = float(np.ravel(values)[0])
-    first = min(found, key=lambda each: min(abs(each.low - start), abs(each.high - start)))
-    raise gap_error(motion, first, found) if first.is_gap else change_point_error(motion, first)
-
-
-def gap_error(motion: MotionLike, first: Interruption, found: Sequence[Interruption]) -> AssemblyError:
-    """Return the error for a stretch between the poses of a sweep that cannot be assembled."""
     ((name, values),) = motion.strokes.items()
-    plan, unit = motion.plan, stroke_unit(motion.plan, name)
+    plan, unit, start = motion.plan, stroke_unit(motion.plan, name), float(np.ravel(values)[0])
+    first = min(found, key=lambda each: min(abs(each.low - start), abs(each.high - start)))
+    if not first.is_gap:
+        raise change_point_error(motion, first)
     there = motion.moved({name: np.array([first.deepest])})
     step = next((each for each, mask in failures(plan, there._reading, (1,)) if mask.any()), first.step)
     words, shortfall = missing_words(plan, step, there._reading, np.ones(1, bool))
-    far = np.asarray(values > first.low if np.ravel(values)[0] <= first.low else values < first.high)
+    far = np.asarray(values > first.low if start <= first.low else values < first.high)
     edges = [float(values.min()), *(edge for each in found if each.is_gap for edge in (each.low, each.high)), float(values.max())]
     goes = spans_words(name, unit, list(zip(edges[::2], edges[1::2], strict=True)))
     where = f"cannot be assembled between two poses, {stretch_words(name, unit, first.low, first.high, 9)}"
-    return AssemblyError(f"{opening(plan, step)} {where}:\n{words}{goes}", point=step, mask=far, shortfall=shortfall)
+    raise AssemblyError(f"{opening(plan, step)} {where}:\n{words}{goes}", point=step, mask=far, shortfall=shortfall)
 
 
 def spans_words(name: str, unit: str, spans: Sequence[tuple[float, float]]) -> str:

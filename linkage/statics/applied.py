@@ -257,7 +257,7 @@ def rates_in(motion: AnyMotion, acting: Acting, drive: str | None = None) -> Rat
 def refuse_direction(motion: AnyMotion, acting: Acting) -> None:
     """Raise DefinitionError for a direction over a path in time."""
     is_timed = isinstance(motion, Motion) and motion.time is not None and not isinstance(acting.rates, Mapping)
-    if is_timed and acting.movement not in (FRICTIONLESS, AS_IT_RUNS):
+    if is_timed and acting.is_moving:
         what = f"{motion.plan.title}: direction={acting.direction!r}: over a path in time the machine moves one way, as it runs"
         raise DefinitionError(f"{what}; leave the direction out, or say direction={FRICTIONLESS!r}.")
 

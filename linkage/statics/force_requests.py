@@ -12,7 +12,7 @@ import numpy as np
 
 from ..errors import DefinitionError, UntracedError, cited, known_name
 from ..language import said
-from ..loads import AS_IT_RUNS, FRICTIONLESS, PLAIN, Acting, Case, Loads, TwoPoint, situation_of
+from ..loads import AS_IT_RUNS, PLAIN, Acting, Case, Loads, TwoPoint, situation_of
 from ..motion import Judge, Motion, most, require_motion, stroke_unit
 from ..motion.requests import stroke_of
 from ..plan import Plan
@@ -43,8 +43,7 @@ def require_rest(request: LawRequest, motion: TracedMotion) -> None:
     """Raise UntracedError where there is friction: it follows from the forces that it changes."""
     acting = request.situation
     as_it_runs = acting.movement == AS_IT_RUNS
-    rubs = as_it_runs and any(each.element.frictions(motion) for each in applied_elements(motion.plan, acting))
-    if rubs or not (as_it_runs or acting.movement == FRICTIONLESS):
+    if acting.is_moving or (as_it_runs and any(each.element.frictions(motion) for each in applied_elements(motion.plan, acting))):
         what = f"{motion.plan.title}: {request}: friction gives it values in a direction, and no program that gives derivatives"
         raise UntracedError(f'{what}. Ask with direction="frictionless".')
 

@@ -12,7 +12,7 @@ import numpy as np
 from ..checks import require_type
 from ..errors import DefinitionError, cited, ensure, unwarned
 from ..language import noted, said, translated
-from ..loads import FRICTIONLESS, Acting
+from ..loads import Acting
 from ..motion import Answer, Judge, Motion, Over, greatest, most, stroke_unit
 from ..motion.limits import places_text, timed_texts
 from ..quantities import body_name
@@ -174,7 +174,7 @@ def judged_row(judge: Judge, key: tuple[str, str, str, str], answer: Answer, kno
     of_design, one = (judge.for_design(number), answer.of_design(number)) if value.ndim else (judge, answer)
     acting, where = of_design.situation(one), (number, *one.strokes.items(), str(one.time), one.case, one.direction, one.drive)
     if where not in known:
-        known[where] = joint_forces(of_design.there(one), replace(acting, drive=acting.drive if acting.movement != FRICTIONLESS else None))
+        known[where] = joint_forces(of_design.there(one), replace(acting, drive=acting.drive if acting.is_moving else None))
     there = known[where]
     joint = next(each for each in there.joints if joint_key(each) == key)
     design = np.unravel_index(number, value.shape)

@@ -316,9 +316,8 @@ def poses_held(motion: Motion, applied: AppliedLoads, what: str) -> FlatPoses:
 def member_rates(motion: AnyMotion, member: TwoPoint, acting: Acting, line: PressureLine | None) -> Rates:
     """Return how strokes move while a member grows or shrinks: along the path, else by the stroke it holds or follows most."""
     direction, sense = acting.movement, SENSES[acting.movement]
-    is_own = direction in ("extending", "retracting")
-    moves = rates_in(motion, replace(acting, direction=None if is_own else acting.direction, drive=None))
-    if not is_own or moves.direction == AS_IT_RUNS:
+    moves = rates_in(motion, replace(acting, direction=None if acting.is_moving else acting.direction, drive=None))
+    if not acting.is_moving or moves.direction == AS_IT_RUNS:
         return moves  # over a path in time it goes as that runs, whichever direction is looked at
     if moves:
         growth = member.growth(motion, moves)

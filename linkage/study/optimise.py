@@ -398,7 +398,7 @@ def in_motion(request: object) -> bool:
     """Return whether a request is of forces in a direction of motion, or computed from such."""
     if isinstance(request, Combined):
         return any(map(in_motion, request.requests))
-    return isinstance(request, LawRequest) and request.situation.direction in ("extending", "retracting")
+    return isinstance(request, LawRequest) and request.situation.is_moving
 
 
 def worse_pieces(objective: Measure, sense: float, cases: Sequence[Case], judge: Judge) -> list[Measure]:

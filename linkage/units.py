@@ -256,8 +256,8 @@ def parse(text: str, kind: str = "") -> float:
         raise unknown("Unit", unit, UNITS, where=repr(text))
     factor, measured = (1.0, kind) if unit is None else UNITS[unit]
     if kind and measured != kind:
-        valid = ", ".join(units_of(kind))
-        raise DefinitionError(f"{text!r} is {article(measured)} {measured} where a value of kind {kind} is wanted; use one of: {valid}.")
+        wanted = f"value of kind {kind} is wanted; use one of: {', '.join(units_of(kind))}" if units_of(kind) else "plain number is wanted"
+        raise DefinitionError(f"{text!r} is {article(measured)} {measured} where a {wanted}.")
     whole = unit[:-4] if unit is not None and unit.endswith("/min") and unit[:-4] in UNITS else ""
     value = float(float(number) * UNITS[whole][0] / minute if whole else float(number) * factor)  # to the last bit as 40 * litre / minute
     if not math.isfinite(value):

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ..errors import LinkageError, unwarned
 from ..language import noted, said, translated
 from ..loads import PLAIN_CASE, Acting, Force, TwoPoint
-from ..motion import Column, Motion, Request, least, most, places_text, stroke_display_unit
+from ..motion import Column, Motion, Request, least, most, places_text, stroke_unit
 from ..plan import Plan
 from ..plan.members import FRAME
 from ..program import FloatArray
@@ -111,7 +111,7 @@ def thrusts_shown(subject: ReportSubject) -> dict[str, Request]:
 def drives_asked(subject: ReportSubject) -> list[tuple[str, Request, str]]:
     """Return the forces of the drives, then the thrusts that no member shows of itself, each with its name and unit."""
     one, plan, members = subject.forces[0], subject.machine.plan, thrusts_shown(subject)
-    drives = [(name, drive_force(name), "Nm" if stroke_display_unit(plan, name) == "deg" else "kN") for name in one.drives]
+    drives = [(name, drive_force(name), "kN" if stroke_unit(plan, name) == "m" else "Nm") for name in one.drives]
     others = [(said("thrust of {name}", name=name), thrust_from_forces(name), "kN") for name in one.thrusts if name not in members]
     return [*drives, *others]
 
@@ -217,8 +217,7 @@ def blocked_blocks(subject: ReportSubject) -> Iterator[Block]:
         "loads act too. Greatest thrusts, {unit}: {thrusts}. This table looks at {count} poses over all that the machine runs.",
         point=point, unit=unit_sign("kN"), thrusts=pressures, count=count,
     )  # fmt: skip
-    units = {name: stroke_display_unit(subject.machine.plan, name, "m") for name in subject.machine.strokes}
-    plain_units = {name: "rad" if unit == "deg" else unit for name, unit in units.items()}
+    plain_units = {name: stroke_unit(subject.machine.plan, name) for name in subject.machine.strokes}
     cells = []
     for row in rows:
         moves = said("{member} pushes", member=row.cylinder) if row.pushes else said("{member} pulls", member=row.cylinder)

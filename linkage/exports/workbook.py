@@ -215,7 +215,7 @@ class Sheets:
             sheet.write_string(row, 3, unit, self.muted)
             sheet.write_string(row, 6, f"{self.count} poses from one end to the other" if runs else "held", self.muted)
         top = self._stroke_head
-        sheet.write_row(top - 1, 0, ("pose", *(f"{name}, {stroke_unit(plan, name)}" for name in strokes)), self.head)
+        sheet.write_row(top - 1, 0, ("pose", *(f"{name}, {stroke_unit(plan, name)}".removesuffix(", ") for name in strokes)), self.head)
         for pose in range(self.count):
             sheet.write_number(top + pose, 0, pose, self.plain)
             for column, name in enumerate(strokes, 1):
@@ -359,7 +359,7 @@ class Sheets:
             x = columns[names.index(stroke)]
             name, along, across = x.heading, x.shown, self._range("Results", names.index(stroke), RESULT_ROWS_ABOVE)
         else:
-            name, along = f"{stroke}, {stroke_unit(self.design.plan, stroke)}", self.calculation.stroke_values[stroke]
+            name, along = f"{stroke}, {stroke_unit(self.design.plan, stroke)}".removesuffix(", "), self.calculation.stroke_values[stroke]
             across = self._range("Calculation", 1 + self.strokes.index(stroke), self.above)
         chart = self.book.add_chart({"type": "scatter", "subtype": "straight"})
         values = self._range("Results", shown, RESULT_ROWS_ABOVE)

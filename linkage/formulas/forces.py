@@ -212,7 +212,7 @@ class ForceLines:
         chains = self._chains = {stroke: Chain(self, stroke, pulled, holders) for stroke in self.plan.strokes}
         for stroke, chain in chains.items():
             self.lines += chain.lines
-            self._write(f"Q_{stroke}", chain.need(pulled), "Nm" if stroke_unit(self.plan, stroke) == "rad" else "kN")
+            self._write(f"Q_{stroke}", chain.need(pulled), "kN" if stroke_unit(self.plan, stroke) == "m" else "Nm")
         self._hold(holders.lines)
         self._stand(acting)
         self.design.formulas(self)

@@ -16,7 +16,7 @@ from sympy.matrices.expressions.matadd import MatAdd
 from sympy.matrices.expressions.matmul import MatMul
 
 from ..errors import DefinitionError
-from ..motion import stroke_unit
+from ..motion import stroke_measure
 from ..plan import Plan
 from ..program.traced import elementwise
 from ..quantities import Quantity, Tabulated, unnamed
@@ -102,7 +102,7 @@ def input_units(plan: Plan) -> dict[str, Unit]:
         for part in (member, *unnamed(member)):
             found += [each for each in part.lengths() if isinstance(each, Quantity)]
     lengths = set().union(*map(plan.terms, found))
-    units = {name: ANGLE if stroke_unit(plan, name) == "rad" else LENGTH for name in plan.strokes}
+    units = {name: KINDS.get(stroke_measure(plan, name), NUMBER) for name in plan.strokes}
     for name, entry in plan.table.entries.items():
         used = ANGLE if name in plan.turning else LENGTH if name in lengths else NUMBER
         factor, kind = UNITS[entry.unit] if entry.unit else (1.0, "")

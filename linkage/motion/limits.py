@@ -16,7 +16,7 @@ from ..language import ENGLISH, language, said, said_of, translated
 from ..plan import ArrayReading, Mask, Plan, failures, missing_words, opening
 from ..shown import Shown
 from ..steps import Step
-from ..units import UNITS, deg, display_unit, show, shown_number, unit_sign
+from ..units import SI, deg, show, shown_number, unit_sign
 
 
 @refuses_changes
@@ -67,8 +67,8 @@ class StrokeLimits:
             return [f"  {said('reachable all the way from {low} to {high}', low=low, high=high)}"]
         low, high = (stroke_number(value, self.unit) + ("" if stop else said(" (looked no farther)")) for value, stop in ends)
         stops = [f"    {stroke_number(value, self.unit)}: {said('dead point of {step}', step=stop)}" for value, stop in ends if stop]
-        sign = unit_sign(display_unit(UNITS[self.unit][1], "mm"))
-        return [f"  {said('reachable from {low} to {high} {unit}', low=low, high=high, unit=sign)}", *stops]
+        sign = unit_sign(shown_stroke_unit(self.unit))
+        return [f"  {said('reachable from {low} to {high} {unit}', low=low, high=high, unit=sign).rstrip()}", *stops]
 
 
 class Limits(FrozenDict[str, StrokeLimits], Shown):
@@ -321,9 +321,9 @@ def way_text(values: Any, unit: str) -> str:
 
 def place_text(value: Any, unit: str) -> str:
     """Return a stroke [m or rad], or the range of several, as a place of it is read: `123.4 mm`, `25.00 deg`, `100.0 to 200.0 mm`."""
-    digits, shown = 2 if unit == "rad" else 1, display_unit(UNITS[unit][1], "mm")
+    digits, shown = {"rad": 2, "": 4, "m3": 3}.get(unit, 1), shown_stroke_unit(unit)
     low, high = (shown_number(float(each), shown, f"z.{digits}f") for each in (np.min(value), np.max(value)))
-    return f"{low if low == high else said('{low} to {high}', low=low, high=high)} {unit_sign(shown)}"
+    return f"{low if low == high else said('{low} to {high}', low=low, high=high)} {unit_sign(shown)}".rstrip()
 
 
 def places_text(strokes: Mapping[str, object], units: Mapping[str, str]) -> str:
@@ -338,24 +338,29 @@ def timed_texts(strokes: Mapping[str, Any], units: Mapping[str, str], time: floa
 
 def stroke_text(value: float, unit: str, digits: int = 9) -> str:
     """Return a value of a stroke [m or rad] as it is read: `250 mm`, `90 deg`."""
-    return show(value, display_unit(UNITS[unit][1], "mm"), digits)
+    return show(value, shown_stroke_unit(unit), digits)
 
 
 def stroke_number(value: float, unit: str, digits: int = 9) -> str:
     """Return a value of a stroke [m or rad] as it is read, without its unit: lengths in millimetres, angles in degrees."""
-    return shown_number(value, display_unit(UNITS[unit][1], "mm"), digits)
+    return shown_number(value, shown_stroke_unit(unit), digits)
+
+
+def shown_stroke_unit(unit: str, length: str = "mm") -> str:
+    """Return the unit that a stroke [m, rad, m3 or a number] is shown in."""
+    return {"rad": "deg", "m": length, "m3": "l"}.get(unit, unit)
 
 
 def stroke_measure(plan: Plan, name: str) -> str:
-    """Return the kind of a stroke: "angle" or "length"."""
-    return UNITS[stroke_unit(plan, name)][1]
+    """Return the kind of a stroke: "angle", "length" or, of a share, "number"."""
+    return plan.stroke_kinds[name] or "length"
 
 
 def stroke_display_unit(plan: Plan, name: str, length: str = "m") -> str:
-    """Return the unit that a stroke is shown in: deg where it is an angle, else that of a length."""
-    return display_unit(UNITS[stroke_unit(plan, name)][1], length)
+    """Return the unit that a stroke is shown in: deg where it is an angle, none of a share, else that of a length."""
+    return shown_stroke_unit(stroke_unit(plan, name), length)
 
 
 def stroke_unit(plan: Plan, name: str) -> str:
-    """Return the unit of a stroke: rad where it is an angle or a part of one, else m."""
-    return "rad" if name in plan.turning else "m"
+    """Return the unit of a stroke: rad, m, or none where it is a share or a count."""
+    return SI.get(stroke_measure(plan, name), "")

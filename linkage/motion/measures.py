@@ -30,7 +30,7 @@ from ..quantities import Arithmetic, PoseCondition, Quantity, is_number, name_of
 from ..quantities.quantity import Function, Negative, Number, Operation, Sum, stands_for
 from ..steps import Point
 from ..units import IN_TIME, Amount, require_measure, show
-from .limits import stroke_unit
+from .limits import stroke_measure
 from .motion import Motion
 from .requests import Combined, NodeRequest, Request, Value, bound, measured_in, stroke_of
 
@@ -703,7 +703,7 @@ def kind_called(name: str) -> MeasureKind | None:
 
 def kind_of_stroke(plan: Plan, name: str) -> MeasureKind:
     """Return the kind of a stroke."""
-    return MeasureKind(KINDS["length" if stroke_unit(plan, name) == "m" else "angle"])
+    return MeasureKind(KINDS[stroke_measure(plan, name)])
 
 
 def unitless_number(measure: Measure) -> float | None:

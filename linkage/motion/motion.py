@@ -158,7 +158,7 @@ class Motion(Shown):
         if found is None:
             return None
         time, name, size = found
-        return name, f"the rate of {name} jumps by {size:.4g} {stroke_unit(self.plan, name)}/s at {time:.4g} s"
+        return name, f"the rate of {name} jumps by {size:.4g} {stroke_unit(self.plan, name) or 1}/s at {time:.4g} s"
 
     @property
     def over(self) -> Over:

@@ -99,7 +99,7 @@ class StrokeLine:
         plan, name, unit = self.plan, self.name, self.unit
         stroke = plan.strokes[name]
         start, end = min(stroke.start, stroke.end), max(stroke.start, stroke.end)
-        beyond = end - start if unit == "m" else max(0.0, np.pi - 0.5 * (end - start))
+        beyond = max(0.0, np.pi - 0.5 * (end - start)) if unit == "rad" else end - start
         low, high = start - beyond, end + beyond
         between = self.interruptions(low, high)
         gaps = [each.deepest for each in between if each.is_gap]  # they may lie between samples

@@ -84,7 +84,7 @@ def check_magnitude(name: str, values: tuple[float, ...], plan: Plan) -> None:
                 said = f"{name} = {value:.6g} is an angle in radians, {value / TURN:.3g} turns"
                 remedy = f"write {value:.6g} * deg if these are degrees, or declare the stroke as long as that"
                 raise DefinitionError(f"{plan.title}: {said}, and the stroke is {low:.6g} to {high:.6g} rad; {remedy}.")
-        elif abs(value) >= 1.0 and abs(value) > FAR * max(abs(low), abs(high)):
+        elif stroke_unit(plan, name) == "m" and abs(value) >= 1.0 and abs(value) > FAR * max(abs(low), abs(high)):
             remedy = f"write {value:.6g} * mm if these are millimetres, or declare the stroke as long as that"
             raise DefinitionError(f"{plan.title}: {name} = {value:.6g} m, and the stroke is {low:.6g} to {high:.6g} m; {remedy}.")
 

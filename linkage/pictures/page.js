@@ -358,6 +358,10 @@ function mark(each, list, up, dot, out) {
 
 /* ---- controls ---- */
 
+function expected({ name, unit }, text) {
+  return unit ? say("{name} = {text}: a number in {unit} is expected", { name, text, unit: signed(unit) }) : say("{name} = {text}: a number is expected", { name, text });
+}
+
 const sizeRows = new Map();
 function strokeSliders() {
   const rows = strokes.map((each, k) => {
@@ -368,11 +372,11 @@ function strokeSliders() {
     slider.setAttribute("aria-label", each.name);
     slider.dataset.stroke = each.name;
     Object.assign(out, { type: "text", inputMode: "decimal", autocomplete: "off", spellcheck: false, readOnly: each.path && !each.unit });
-    out.setAttribute("aria-label", `${each.name}, ${each.unit}`);
+    out.setAttribute("aria-label", each.unit ? `${each.name}, ${each.unit}` : each.name);
     on(out, "change", () => {
       const value = typed(out.value, each);
       out.blur();
-      if (isNumber(value)) put(within(value, each)); else { warn(say("{name} = {text}: a number in {unit} is expected", { name: each.name, text: out.value, unit: signed(each.unit) })); soon("pose"); }
+      if (isNumber(value)) put(within(value, each)); else { warn(expected(each, out.value)); soon("pose"); }
     });
     on(slider, "input", () => put(Number(slider.value) >= 1000 ? high : low + ((high - low) * Number(slider.value)) / 1000));
     const put = (value) => {
@@ -413,10 +417,9 @@ function listSizes() {
       put(i, abs(raw - each.value) < 0.006 * (each.high - each.low) ? each.value : min(max(value, each.low), each.high));
     });
     on(box, "change", () => {
-      const value = typed(box.value, each), given = { name: each.name, text: box.value, unit: signed(each.unit) };
+      const value = typed(box.value, each), given = { name: each.name, text: box.value };
       if (isNumber(value) && (value > 0 || !each.positive)) return put(i, value, true);
-      const plain = each.unit ? say("{name} = {text}: a number in {unit} is expected", given) : say("{name} = {text}: a number is expected", given);
-      warn(isNumber(value) ? say("{name} = {text}: a number above zero is expected", given) : plain);
+      warn(isNumber(value) ? say("{name} = {text}: a number above zero is expected", given) : expected(each, box.value));
       box.dataset.value = "";
       soon("size");
     });

@@ -59,7 +59,7 @@ class StrokeAxis:
     @property
     def heading(self) -> str:
         """Its name with its unit, in the language that is spoken: `S, mm`."""
-        return f"{self.name}, {translated(self.unit)}"
+        return f"{self.name}, {translated(self.unit)}" if self.unit else self.name
 
     @property
     def is_turning(self) -> bool:
@@ -71,8 +71,8 @@ def stroke_words(plan: Plan, name: str, value: float, *, fixed: bool = False) ->
     """Return a stroke's value [SI] as text: `S = 550 mm`, `phi = 90°`; fixed, with whole units."""
     unit = shown_in(stroke_display_unit(plan, name, "mm"))
     shown = round(value / factor(unit), 9)  # 0 where a turn of the drawing ends near 0
-    text = f"{name} = {shown:{'z.0f' if fixed else '.4g'}}".replace("-", "\N{MINUS SIGN}")
-    return text + ("°" if unit == "deg" else f" {translated(unit)}")
+    text = f"{name} = {shown:{('z.0f' if unit else 'z.2f') if fixed else '.4g'}}".replace("-", "\N{MINUS SIGN}")
+    return text + ("°" if unit == "deg" else f" {translated(unit)}" if unit else "")
 
 
 def pose_words(motion: Motion, pose: int, names: Iterable[str] | None = None) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from graphlib import CycleError, TopologicalSorter
@@ -16,9 +16,9 @@ from ..frozen import FrozenDict
 from ..language import translated
 from ..quantities import Dimension, Distance, Joint, Jointed, JointSide, Length, Stroke, Variable, body_name, joined_names
 from ..quantities.member import Member, name_of, needed_behind, needs, of_kind, unnamed
-from ..quantities.quantity import Function, Negative, Number, Operation, Quantity, Sum, in_degrees, signed_terms
+from ..quantities.quantity import Function, Negative, Number, Operation, Quantity, Sum, in_degrees, signed_terms, stands_for
 from ..steps import Arrow, Bar, Drawn, Group, Guide, Link, Point, strokes_drawn, with_bodies
-from ..units import Amount, require_measure, show
+from ..units import Amount, display_unit, require_measure, show
 from .table import Table
 
 FRAME = "frame"
@@ -162,10 +162,10 @@ class Members:
     def _check_kinds(self, name: str, member: Member) -> None:
         """Raise DefinitionError where a point, a vector, a quantity or an amount is given for another kind, as in `20 * mm + phi`."""
         if isinstance(member, Stroke) and any(isinstance(end, Amount) for end in (member.start, member.end)):
-            require_measure((member.start, member.end), self.known_stroke_kind(name), f"{self.title}: {name}")
+            require_measure((member.start, member.end), self.stroke_kinds[name], f"{self.title}: {name}")
         for each, value in member.strokes.items() if isinstance(member, Drawn) else ():
             if each in self.strokes and isinstance(value, Amount):
-                require_measure(value, self.known_stroke_kind(each), f"{self.title}: {name} = drawn(...): {each}")
+                require_measure(value, self.stroke_kinds[each], f"{self.title}: {name} = drawn(...): {each}")
         for _, coordinate in member.coordinates():
             self._check_terms(coordinate, "length", f"{self.title}: {name} = {member}")
         for angle in (each for part in self.with_parts(name) for each in part.in_radians()):
@@ -344,16 +344,45 @@ class Members:
         parts = [part for name in self.members for part in self.with_parts(name)]
         return frozenset().union(*(self.terms(angle) for part in parts for angle in part.in_radians()))
 
-    def known_stroke_kind(self, name: str) -> str:
-        """Return whether a stroke is an "angle" or a "length": by the sums it is in, else as it was given; "" where neither tells."""
-        if name in self.turning:
-            return "angle"
+    @cached_property
+    def stroke_kinds(self) -> Mapping[str, str]:
+        """What each stroke measures: by the sums it is in, else as it was given, else by what it multiplies; "" where nothing tells.
+
+        phi of `angle=phi / 2` is an "angle", k of `AB=L + k * S`, with a length S, a plain "number".
+        """
         jointed = [each for each in self.members.values() if isinstance(each, Jointed) and each.kind != "load"]
         driven = [drive.quantity for each in jointed for joint in each.joints() for drive in joint.drives]
-        if any(name in self.terms(length) for length in (*self.table.lengths.values(), *driven)):
-            return "length"
-        stroke = self.strokes[name]
-        return str(getattr(stroke.start, "measures", "") or getattr(stroke.end, "measures", ""))
+        lengths = (*self.table.lengths.values(), *driven)
+        summed = set[str]().union(*map(self.terms, lengths))
+        angles = [angle for name in self.members for part in self.with_parts(name) for angle in part.in_radians()]
+        found = {}
+        for name, stroke in self.strokes.items():
+            known = "angle" if name in self.turning else "length" if name in summed else ""
+            known = known or getattr(stroke.start, "measures", "") or getattr(stroke.end, "measures", "")
+            asked = ((given, kind) for kind, every in (("angle", angles), ("length", lengths)) for given in every)
+            found[name] = known or next(filter(None, (self.scaled_kind(name, given, kind) for given, kind in asked)), "")
+        return FrozenDict(found)
+
+    def scaled_kind(self, name: str, given: Quantity, kind: str) -> str:
+        """Return what a stroke measures that a product among the terms of a "length" or an "angle" has as a factor; "" for no such one."""
+        for _, term in signed_terms(given, self.members):
+            factors = list(self.factors(term))
+            if [power for power, each in factors if name in self.terms(each)] == [1]:
+                others = [(power, plan_measure(self, each.known_as) or each.measures or getattr(each.constant, "measures", "")) for power, each in factors if name not in self.terms(each)]
+                length, angle = ((kind == of) - sum(power for power, each in others if each == of) for of in ("length", "angle"))
+                return {0: "angle" if angle == 1 else "number", 1: "length"}.get(length, "")
+        return ""
+
+    def factors(self, given: Quantity, power: int = 1) -> Iterator[tuple[int, Quantity]]:
+        """Yield the factors of a product, each with its power, 1 or -1, names looked up among the members."""
+        match found := stands_for(self.members, given):
+            case Operation(symbol="*" | "/"):
+                yield from self.factors(found.a, power)
+                yield from self.factors(found.b, power if found.symbol == "*" else -power)
+            case Negative():
+                yield from self.factors(found.a, power)
+            case _:
+                yield power, found
 
     @cached_property
     def following(self) -> tuple[tuple[str, Quantity], ...]:
@@ -579,7 +608,20 @@ def as_written(member: Member, turning: frozenset[str]) -> str:
     return str(member)
 
 
+def plan_measure(plan: Members, variable: str) -> str:
+    """Return the kind of a design variable ("length", "angle", "pressure", ...); "" where nothing tells it.
+
+    A dimension without a unit of its own measures what it is added to: `L0` in `AB=L0 + S` is a length.
+    """
+    found = plan.table.entries[variable].measures if variable in plan.table.entries else ""
+    if found:
+        return found
+    if any(variable in plan.terms(length) for length in plan.table.lengths.values()):
+        return "length"
+    return "angle" if variable in plan.turning else ""
+
+
 def strokes_text(plan: Members, values: Mapping[str, float]) -> str:
     """Return stroke values [SI] as they are read: `S = 100 mm, phi = 60 deg`."""
-    words = (f"{name} = {show(value, 'deg' if name in plan.turning else 'mm', 4)}" for name, value in values.items())
+    words = (f"{name} = {show(value, display_unit(plan.stroke_kinds[name] or 'length', 'mm'), 4)}" for name, value in values.items())
     return ", ".join(words) or "no stroke"

@@ -20,7 +20,7 @@ from ..steps import Arrow, Point
 from ..units import Amount, amounts_in, require_measure
 from ..vectors import Scalar
 from .chain import KinematicChain, chain_of
-from .members import Members, named_by
+from .members import Members, named_by, plan_measure
 from .reading import ArrayReading, Reading
 from .trace import Trace
 
@@ -301,19 +301,6 @@ def restored(key: str, kind: type[Plan], parts: Mapping[str, object]) -> Plan:
     return plan
 
 
-def plan_measure(plan: Plan, variable: str) -> str:
-    """Return the kind of a design variable ("length", "angle", "pressure", ...); "" where nothing tells it.
-
-    A dimension without a unit of its own measures what it is added to: `L0` in `AB=L0 + S` is a length.
-    """
-    found = plan.table.entries[variable].measures
-    if found:
-        return found
-    if any(variable in plan.terms(length) for length in plan.table.lengths.values()):
-        return "length"
-    return "angle" if variable in plan.turning else ""
-
-
 def require_kinds(plan: Plan, given: Mapping[str, object]) -> None:
     """Refuse amounts of another kind than the strokes and dimensions measure that they are given for, by name; see `require_kind`."""
     for name, value in given.items():
@@ -343,7 +330,7 @@ def require_kind(plan: Plan, name: str, value: object, what: str) -> None:
     if next(amounts_in(value), None) is None:
         return
     if name in plan.strokes:
-        kind = plan.known_stroke_kind(name)
+        kind = plan.stroke_kinds[name]
     else:
         spelling = name if name in plan.table.spellings else f"{name}.x"
         kind = plan_measure(plan, plan.table.spellings[spelling][0]) if spelling in plan.table.spellings else ""

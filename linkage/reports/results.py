@@ -169,9 +169,10 @@ def force_columns(motion: Motion, case: Case = None, direction: str | None = Non
 
 def rate_columns(motion: Motion) -> list[Column]:
     """Return how fast the strokes of a motion in time go, and how that changes; nothing of any other motion."""
-    units = {name: stroke_unit(motion.plan, name) for name in motion.strokes}
-    rates = [Column(f"{noted('rate')} {name}", value, f"{units[name]}/s") for name, value in motion.rates.items()]
-    return rates + [Column(f"{noted('acceleration')} {name}", value, f"{units[name]}/s2") for name, value in motion.accelerations.items()]
+    units = {name: {"m": "m/s", "rad": "rad/s"}.get(stroke_unit(motion.plan, name), "") for name in motion.strokes}
+    rates = [Column(f"{noted('rate')} {name}", value, units[name]) for name, value in motion.rates.items()]
+    second = {name: unit and f"{unit}2" for name, unit in units.items()}
+    return rates + [Column(f"{noted('acceleration')} {name}", value, second[name]) for name, value in motion.accelerations.items()]
 
 
 def is_loaded(motion: Motion) -> bool:
@@ -182,7 +183,8 @@ def is_loaded(motion: Motion) -> bool:
 def drive_columns(motion: Motion, case: Case = None, direction: str | None = None) -> Iterator[Column]:
     """Yield the generalised force of each stroke under the machine's own loads: of a length [N], of an angle [Nm]."""
     for name in motion.strokes:
-        what, unit = (noted("torque"), "Nm") if stroke_unit(motion.plan, name) == "rad" else (noted("drive force"), "kN")
+        what = noted("torque") if stroke_unit(motion.plan, name) == "rad" else noted("drive force")
+        unit = "kN" if stroke_unit(motion.plan, name) == "m" else "Nm"
         force = driving_force(motion, drive=name, case=case, direction=direction)
         title, digits = what if len(motion.strokes) == 1 else f"{what} {name}", 2 if unit == "Nm" else 4
         yield Column(title, force, unit, digits, request=drive_force(name, case=case) if direction is None else None)

@@ -344,7 +344,7 @@ class PinForces(Shown):
         return work_gap(self._found.poses, without_held(self._found.applied, self._structure.holders), self.drives)
 
     def __str__(self) -> str:
-        units = {name: "Nm" if stroke_unit(self.motion.plan, name) == "rad" else "N" for name in self.drives}
+        units = {name: "N" if stroke_unit(self.motion.plan, name) == "m" else "Nm" for name in self.drives}
         lines = [f"  {name}: {range_text(values, units[name])}" for name, values in self.drives.items()]
         lines += [f"  thrust of {name}: {range_text(values, 'kN')}" for name, values in self.thrusts.items()]
         lines += [f"  tension of {name}: {range_text(values, 'kN')}" for name, values in self.tensions.items()]

@@ -319,6 +319,7 @@ class FloatCircuit(GasLine):
         {"charge_pressure": "bar", "at": "m", "seal_friction": "bar", "exponent": ""}
     )
     not_negative: ClassVar[frozenset[str]] = frozenset({"seal_friction"})
+    limited: ClassVar[Mapping[str, str]] = MappingProxyType({"exponent": "ratio"})
     stroke_values: ClassVar[frozenset[str]] = frozenset({"at"})
     argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"cylinder": "loads", "block": AccumulatorBlock})
 

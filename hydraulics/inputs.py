@@ -20,6 +20,7 @@ from linkage.loads import ForceElement, Poses
 from linkage.loads.element import value_text
 from linkage.motion.measures import FAINTEST
 from linkage.plan import ArrayReading
+from linkage.plan.table import efficiency_words
 from linkage.program import Comparison, is_traced
 from linkage.quantities import Member, NamedMembers, Quantity, Reference, name_of, needs, quantity
 from linkage.steps import Link
@@ -127,7 +128,7 @@ def efficient(value: ArrayLike, what: str) -> Array:
     """Return an efficiency, its shape kept; DefinitionError unless every one is above 0 and not above 1."""
     array = positive(value, what, "an efficiency lies between 0 and 1")
     if np.any(array > 1.0):
-        raise DefinitionError(f"{what} = {np.max(array):.6g} is above 1; an efficiency lies between 0 and 1.")
+        raise DefinitionError(f"{what} = {np.max(array):.6g} is above 1; {efficiency_words(float(np.max(array)))}.")
     return array
 
 

@@ -130,6 +130,7 @@ class OilLine(PumpLine, GasLine):
         {"oil": "l", "make_up": "bar", "charge_pressure": "bar", "seal_friction": "bar", "exponent": ""}
     )
     not_negative: ClassVar[frozenset[str]] = frozenset({"seal_friction"})
+    limited: ClassVar[Mapping[str, str]] = MappingProxyType({"exponent": "ratio"})
     optional: ClassVar[frozenset[str]] = frozenset({"charge_pressure"})
     argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType(
         {"on": lambda: on_line_kind(AccumulatorBlock, Pump, Relief, Tank), "at": filled_kind, "filled": filled_kind}

@@ -61,7 +61,8 @@ class HoldingValve(OnLines, HasVerdicts):
     setting: Parameter
     ratio: Parameter
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"setting": "bar", "ratio": ""})
-    not_negative: ClassVar[frozenset[str]] = frozenset({"setting", "ratio"})
+    not_negative: ClassVar[frozenset[str]] = frozenset({"setting"})
+    limited: ClassVar[Mapping[str, str]] = MappingProxyType({"ratio": "ratio"})
     argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"line": "load", "pilot": "load"})
 
     def __post_init__(self) -> None:

@@ -480,7 +480,7 @@ def run_start(machine: Mechanism, start: Mapping[str, float] | Motion | None) ->
     require_type(f"{plan.title}: start", start or {}, Mapping, f"strokes by their names are expected, {known}")
     for name, value in (start or {}).items():
         known_name("Stroke", name, found, where=f"{plan.title}: start")
-        require_number(f"{plan.title}: start: {name}", value, "one finite number is expected, in SI", kind=plan.stroke_kinds[name])
+        require_number(f"{plan.title}: start: {name}", value, "one finite number is expected, in SI", kind=plan.known_stroke_kind(name))
         low, high = sorted((float(plan.strokes[name].start), float(plan.strokes[name].end)))
         inside = low - AT_END <= float(value) <= high + AT_END
         require(inside, f"{plan.title}: start: {name}", value, f"a value from {low:.6g} to {high:.6g} is expected, its range")

@@ -134,6 +134,8 @@ SI: dict[str, str] = {
     "angular speed": "rad/s", "angular acceleration": "rad/s2", "angular jerk": "rad/s3", "angle per length": "rad/m", "inertia": "kg m2",
 }  # fmt: skip
 """What each measure has in SI."""
+MEASURED = tuple(SI)
+"""What the units of the framework's own table measure."""
 
 
 def add_unit(name: str, factor: float, measures: str, systems: Iterable[str] = ()) -> UnitFactor:
@@ -186,12 +188,12 @@ def require_measure(value: object, unit: str, what: str) -> None:
     Raises
     ------
     DefinitionError
-        The amount measures something else. Moments, stiffnesses and numbers of an open kind take forces, since `5 * kN` may stand for
-        5 kN m; they take no lengths, angles and pressures. A volume may be a stroke, of oil, where a length is expected.
+        The amount measures something else. Moments, stiffnesses, what a unit of one's own measures and numbers of an open kind take
+        forces, since `5 * kN` may stand for 5 kN m. A volume may be a stroke, of oil, where a length is expected.
     """
     wanted = unit if unit in SI or unit == "number" else UNITS[unit][1] if unit in UNITS else ""
     for each in amounts_in(value):
-        may_stand = {"force": wanted not in (*EXAMPLES, "number"), "volume": wanted in ("", "length")}
+        may_stand = {"force": wanted in ("moment", "stiffness") or wanted not in (*MEASURED, "number"), "volume": wanted in ("", "length")}
         if each.measures != wanted and not may_stand.get(each.measures, False):
             expected = f"value of {wanted}, such as {EXAMPLES[wanted]}" if wanted in EXAMPLES else "number in SI, without a unit"
             given = f"{article(each.measures)} {each.measures}"

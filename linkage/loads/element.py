@@ -734,7 +734,7 @@ class ForceElement(Jointed):
     def _check_numbers(self) -> None:
         for name, unit in self.numbers.items():
             if name not in self.stroke_values:
-                require_measure(self.given(name), unit, f"{type(self).__name__}: {name}")
+                require_measure(self.given(name), "number" if name in self.limited else unit, f"{type(self).__name__}: {name}")
             self._check_number(name)
 
     def _check_number(self, name: str) -> None:

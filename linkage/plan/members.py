@@ -162,10 +162,10 @@ class Members:
     def _check_kinds(self, name: str, member: Member) -> None:
         """Raise DefinitionError where a point, a vector, a quantity or an amount is given for another kind, as in `20 * mm + phi`."""
         if isinstance(member, Stroke) and any(isinstance(end, Amount) for end in (member.start, member.end)):
-            require_measure((member.start, member.end), self.stroke_kinds[name], f"{self.title}: {name}")
+            require_measure((member.start, member.end), self.known_stroke_kind(name), f"{self.title}: {name}")
         for each, value in member.strokes.items() if isinstance(member, Drawn) else ():
             if each in self.strokes and isinstance(value, Amount):
-                require_measure(value, self.stroke_kinds[each], f"{self.title}: {name} = drawn(...): {each}")
+                require_measure(value, self.known_stroke_kind(each), f"{self.title}: {name} = drawn(...): {each}")
         for _, coordinate in member.coordinates():
             self._check_terms(coordinate, "length", f"{self.title}: {name} = {member}")
         for angle in (each for part in self.with_parts(name) for each in part.in_radians()):
@@ -344,24 +344,31 @@ class Members:
         parts = [part for name in self.members for part in self.with_parts(name)]
         return frozenset().union(*(self.terms(angle) for part in parts for angle in part.in_radians()))
 
+    def known_stroke_kind(self, name: str) -> str:
+        """Return whether a stroke is an "angle" or a "length": by the sums it is in, else as it was given; "" where neither tells."""
+        if name in self.turning:
+            return "angle"
+        if any(name in self.terms(length) for length in self.driven_lengths):
+            return "length"
+        stroke = self.strokes[name]
+        return str(getattr(stroke.start, "measures", "") or getattr(stroke.end, "measures", ""))
+
+    @cached_property
+    def driven_lengths(self) -> tuple[Quantity, ...]:
+        """The lengths of bodies, and the ways along guides; what drives a crank is among them."""
+        jointed = [each for each in self.members.values() if isinstance(each, Jointed) and each.kind != "load"]
+        return (*self.table.lengths.values(), *(drive.quantity for each in jointed for joint in each.joints() for drive in joint.drives))
+
     @cached_property
     def stroke_kinds(self) -> Mapping[str, str]:
-        """What each stroke measures: by the sums it is in, else as it was given, else by what it multiplies; "" where nothing tells.
+        """What each stroke is shown as: by its sums, else as it was given, else by what it multiplies; "" where nothing tells.
 
         phi of `angle=phi / 2` is an "angle", k of `AB=L + k * S`, with a length S, a plain "number".
         """
-        jointed = [each for each in self.members.values() if isinstance(each, Jointed) and each.kind != "load"]
-        driven = [drive.quantity for each in jointed for joint in each.joints() for drive in joint.drives]
-        lengths = (*self.table.lengths.values(), *driven)
-        summed = set[str]().union(*map(self.terms, lengths))
         angles = [angle for name in self.members for part in self.with_parts(name) for angle in part.in_radians()]
-        found = {}
-        for name, stroke in self.strokes.items():
-            known = "angle" if name in self.turning else "length" if name in summed else ""
-            known = known or getattr(stroke.start, "measures", "") or getattr(stroke.end, "measures", "")
-            asked = ((given, kind) for kind, every in (("angle", angles), ("length", lengths)) for given in every)
-            found[name] = known or next(filter(None, (self.scaled_kind(name, given, kind) for given, kind in asked)), "")
-        return FrozenDict(found)
+        asked = [(given, kind) for kind, every in (("angle", angles), ("length", self.driven_lengths)) for given in every]
+        scaled = ((name, (self.scaled_kind(name, *each) for each in asked)) for name in self.strokes)
+        return FrozenDict({name: self.known_stroke_kind(name) or next(filter(None, kinds), "") for name, kinds in scaled})
 
     def scaled_kind(self, name: str, given: Quantity, kind: str) -> str:
         """Return what a stroke measures that a product among the terms of a "length" or an "angle" has as a factor; "" for no such one."""

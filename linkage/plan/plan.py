@@ -330,7 +330,7 @@ def require_kind(plan: Plan, name: str, value: object, what: str) -> None:
     if next(amounts_in(value), None) is None:
         return
     if name in plan.strokes:
-        kind = plan.stroke_kinds[name]
+        kind = plan.known_stroke_kind(name)
     else:
         spelling = name if name in plan.table.spellings else f"{name}.x"
         kind = plan_measure(plan, plan.table.spellings[spelling][0]) if spelling in plan.table.spellings else ""

@@ -37,7 +37,7 @@ class DesignVariable:
     @property
     def measures(self) -> str:
         """Its kind by its unit or its label: "length", "angle", "pressure"; "" where neither tells it."""
-        kinds = {"length": "length", "coordinate": "length", "angle": "angle", "friction": "number", "efficiency": "number"}
+        kinds = {"length": "length", "coordinate": "length", "angle": "angle", **dict.fromkeys(("friction", "efficiency", "ratio"), "number")}
         return UNITS[self.unit][1] if self.unit else kinds.get(self.kind, "")
 
 
@@ -144,8 +144,14 @@ RANGES: Mapping[str, tuple[float, float]] = {
     "not negative": (0.0, LARGEST),
     "friction": (0.0, ROUGHEST),
     "efficiency": (float(np.nextafter(0.0, 1.0)), 1.0),
+    "ratio": (0.0, LARGEST),
 }
 """The least and the greatest value that is in order [SI], by what a variable measures."""
+
+
+def efficiency_words(value: float) -> str:
+    """Return the words for an efficiency that cannot be; of one in % what it is."""
+    return "an efficiency lies between 0 and 1" + (f"; write {value / 100.0:.6g} for {value:.6g} %" if 2.0 <= value <= 100.0 else "")
 
 
 def signed(value: float | npt.ArrayLike, sign: int, entry: DesignVariable) -> Numbers:
@@ -168,10 +174,10 @@ def value_in_range(entry: DesignVariable, value: Numbers) -> Numbers:
     require(np.all(np.isfinite(values)), f"{entry.where}: {entry.name}", value, "is not a finite number; give a value in SI")
     least, far = float(values.min()), float(values[np.argmax(np.abs(values))])
     if entry.kind == "efficiency":
-        fault = f"{entry.name}={far:.6g}: an efficiency lies between 0 and 1"
+        fault = f"{entry.name}={far:.6g}: {efficiency_words(far)}"
     elif entry.kind == "friction" and least >= 0.0:
         fault = f"{entry.name}={far:.6g} is more than any friction; write 0.15 for 15 %"
-    elif entry.kind in ("not negative", "friction"):
+    elif entry.kind in ("not negative", "friction", "ratio"):
         fault = f"{entry.name}={least:.6g} is negative; give zero or more"
     elif entry.kind == "angle":
         said = f"the angle {entry.name}={far:.6g} rad ({far / deg:.6g} deg) is more than a full turn"

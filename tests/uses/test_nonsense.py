@@ -6,9 +6,11 @@ import numpy as np
 
 from hydraulics import (
     Accumulator,
+    AccumulatorBlock,
     Buckling,
     Cylinder,
     CylinderSize,
+    FloatCircuit,
     HoldingValve,
     LiftCircuit,
     OilLine,
@@ -91,6 +93,7 @@ class Arm(Mechanism):
 
 
 ARM = Arm()
+GAS = AccumulatorBlock([Accumulator(1e-3, 60 * bar)])
 FORCE = most(abs(drive_force()))
 KINDS = {
     "Weight, force": (lambda: Weight("T", mass=12 * kN), "mass=12000 was given as a force"),
@@ -132,6 +135,12 @@ KINDS = {
     "Pump": (lambda: Pump(200 * kN), "pressure=200000 was given as a force"),
     "Tank": (lambda: Tank(200 * mm), "pressure=0.2 was given as a length"),
     "LiftCircuit": (lambda: LiftCircuit("ram", pressure=200 * kN), "pressure=200000 was given as a force"),
+    "HoldingValve, ratio": (lambda: HoldingValve("line", "ram", setting=200 * bar, ratio=4 * kN), "ratio=4000 was given as a force"),
+    "Pump, power": (lambda: Pump(200 * bar, power=5 * kN), "power=5000 was given as a force"),
+    "FloatCircuit, exponent": (lambda: FloatCircuit("ram", GAS, charge_pressure=80 * bar, exponent=1.4 * kN), "exponent=1400 was given as"),
+    "OilLine, exponent": (lambda: OilLine("ram", GAS, charge_pressure=80 * bar, exponent=1.4 * kN), "exponent=1400 was given as a force"),
+    "LiftCircuit, percent": (lambda: LiftCircuit("ram", pressure=2e7, mechanical_efficiency=85), "is above 1; .* write 0.85 for 85 %"),
+    "efficiency of a design, percent": (lambda: Arm(**{"line.mechanical_efficiency": 92.5}), "write 0.925 for 92.5 %"),
     "HoldingValve": (lambda: HoldingValve("line", "ram", setting=200 * kN, ratio=4.0), "setting=200000 was given as a force"),
 }  # fmt: skip
 

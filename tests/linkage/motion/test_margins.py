@@ -107,7 +107,7 @@ def test_a_margin_by_hand():
     square = 1.0 + 9.0 - 6.0 * np.cos(turn)
     cosine = (4.0 + 6.25 - square) / 10.0
     assert found.value == pytest.approx((1.0 - cosine**2).min(), rel=1e-6) and not found.is_hole
-    assert str(found).startswith("the links of D are at least ") and found.units == {"u": "m"}
+    assert str(found).startswith("the links of D are at least ") and found.units == {"u": "rad"}
 
 
 def test_margins_of_a_batch_and_of_a_path():

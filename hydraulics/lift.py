@@ -589,7 +589,8 @@ class LiftingCylinder:
         elif self.ram.is_single_acting:
             text = said("it does not sink by itself {where} {against}: it lacks up to {push}, {place}, and no oil pushes it in.", **by)
         else:
-            by["push"] = show_enough(float(judge.answer(most(self.back(way, resistance, "whole push"))).value), self.unit)
+            (push,) = judge.answers([most(self.back(way, resistance, "whole push")) <= 0.0])
+            by |= {"push": self.show(push.value), "place": push.place}
             text = said("it does not sink by itself {where} {against}: the other side must push with up to {push}, {place}.", **by)
             if self.ram.side == "both":
                 enough = push.value <= float(self.circuit.supply(judge.motion)) * (1.0 + 1e-9)

@@ -95,7 +95,7 @@ def circuit_with(plan: Plan, ram: Ram, circuit: Circuits, word: str) -> LiftLine
     feeding = pumped if pumped and not circuit else feeding  # a tank or gas on the other side lifts nothing
     if circuit or len(feeding) == 1:
         return feeding[circuit or next(iter(feeding))]
-    ensure(not feeding, f"{plan.title}: {ram.name} is on {len(feeding)} circuits; say circuit= one of {', '.join(feeding)}.")
+    ensure(not feeding, f"{plan.title}: {ram.name} is on {len(feeding)} circuits; say which, circuit={' or '.join(map(repr, feeding))}.")
     remedy = f"declare one, circuit = LiftCircuit({ram.name}, pressure=...)"
     raise DefinitionError(f"{plan.title}: {word}({ram.name}): no LiftCircuit has it, whose pump and relief count; {remedy}.")
 

@@ -37,6 +37,11 @@ class StrokeLimits:
     """Where the length of a cylinder that hangs beside the drive stands still, so that its thrust moves nothing: (stroke, cylinder)."""
 
     @property
+    def shown_unit(self) -> str:
+        """The unit in which the stroke is shown: mm, deg, or none of a share."""
+        return shown_stroke_unit(self.unit)
+
+    @property
     def dead_points(self) -> tuple[tuple[float, str], ...]:
         """Where a loop's two links come into line and the motion ends: (stroke, step)."""
         ends = [(value, stop) for each in self.intervals for value, stop in ((each.low, each.low_stop), (each.high, each.high_stop))]
@@ -67,7 +72,7 @@ class StrokeLimits:
             return [f"  {said('reachable all the way from {low} to {high}', low=low, high=high)}"]
         low, high = (stroke_number(value, self.unit) + ("" if stop else said(" (looked no farther)")) for value, stop in ends)
         stops = [f"    {stroke_number(value, self.unit)}: {said('dead point of {step}', step=stop)}" for value, stop in ends if stop]
-        sign = unit_sign(shown_stroke_unit(self.unit))
+        sign = unit_sign(self.shown_unit)
         return [f"  {said('reachable from {low} to {high} {unit}', low=low, high=high, unit=sign).rstrip()}", *stops]
 
 

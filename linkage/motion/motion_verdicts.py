@@ -22,7 +22,7 @@ from ..verdict import Remark, Verdict
 from . import stroke_search
 from .answer import NONE_LOST, Answer, share_text
 from .judge import Domain, Judge, Question, measures_of
-from .limits import BoxLimits, Limits, LoopMargin, StrokeLimits, angle_text, place_text, places_text, shown_stroke_unit, span_text, stroke_unit, timed_texts
+from .limits import BoxLimits, Limits, LoopMargin, StrokeLimits, angle_text, place_text, places_text, span_text, stroke_unit, timed_texts
 from .measures import Condition, Measure, conditions_of, least, reachable
 from .motion import Motion, require_motion
 from .over import Over
@@ -286,7 +286,7 @@ def nearest_dead_points(plan: Plan, limits: StrokeLimits, span: tuple[float, flo
             value, stop = each
             away = max(low - value, value - high)
             step = said("of {step}", step=opening(plan, stop) if stop in plan.members else stop)
-            distance = said("{distance} beyond it", distance=show(away, shown_stroke_unit(limits.unit), 3))
+            distance = said("{distance} beyond it", distance=show(away, limits.shown_unit, 3))
             yield bool(is_behind), away, f"{place_of(limits, value, step)}, {distance}"
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -373,11 +374,14 @@ class Members:
     def scaled_kind(self, name: str, given: Quantity, kind: str) -> str:
         """Return what a stroke measures that a product among the terms of a "length" or an "angle" has as a factor; "" for no such one."""
         for _, term in signed_terms(given, self.members):
-            factors = list(self.factors(term))
-            if [power for power, each in factors if name in self.terms(each)] == [1]:
-                others = [(power, plan_measure(self, each.known_as) or each.measures or getattr(each.constant, "measures", "")) for power, each in factors if name not in self.terms(each)]
-                length, angle = ((kind == of) - sum(power for power, each in others if each == of) for of in ("length", "angle"))
-                return {0: "angle" if angle == 1 else "number", 1: "length"}.get(length, "")
+            own, sizes = list[int](), Counter({kind: 1})
+            for power, each in self.factors(term):
+                if name in self.terms(each):
+                    own.append(power)
+                else:
+                    sizes[plan_measure(self, each.known_as) or each.measures or getattr(each.constant, "measures", "")] -= power
+            if own == [1]:
+                return {0: "angle" if sizes["angle"] == 1 else "number", 1: "length"}.get(sizes["length"], "")
         return ""
 
     def factors(self, given: Quantity, power: int = 1) -> Iterator[tuple[int, Quantity]]:

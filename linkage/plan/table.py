@@ -37,7 +37,7 @@ class DesignVariable:
     @property
     def measures(self) -> str:
         """Its kind by its unit or its label: "length", "angle", "pressure"; "" where neither tells it."""
-        kinds = {"length": "length", "coordinate": "length", "angle": "angle", **dict.fromkeys(("friction", "efficiency", "ratio"), "number")}
+        kinds = {"length": "length", "coordinate": "length", "angle": "angle", **dict.fromkeys(SHARES, "number")}
         return UNITS[self.unit][1] if self.unit else kinds.get(self.kind, "")
 
 
@@ -147,6 +147,7 @@ RANGES: Mapping[str, tuple[float, float]] = {
     "ratio": (0.0, LARGEST),
 }
 """The least and the greatest value that is in order [SI], by what a variable measures."""
+SHARES = ("friction", "efficiency", "ratio")
 
 
 def efficiency_words(value: float) -> str:

@@ -162,7 +162,7 @@ def test_circuits_and_cases_are_named():
     machine, S = Both(), [0.05, 0.2]
     motion = machine.at(S=S)
     for request in (reserve("lift"), capacity("lift", "G"), pressure("lift")):
-        with pytest.raises(DefinitionError, match=r"lift is on 2 circuits.*(say circuit= one of circuit, spare|name one)"):
+        with pytest.raises(DefinitionError, match=r"lift is on 2 circuits.*(say which, circuit='circuit' or 'spare'|name one)"):
             machine.evaluate([request], S=S)
         with pytest.raises(DefinitionError, match="lift is on 2 circuits"):
             motion[request]

@@ -4,9 +4,21 @@ import numpy as np
 import pytest
 
 from linkage import (
-    Crank, Dimension, Ground, Guide, Mechanism, OnGuide, Stroke, Weight, drive_force, driving_force, most, page, pin_forces,
+    Crank,
+    Dimension,
+    Ground,
+    Guide,
+    Mechanism,
+    OnGuide,
+    Stroke,
+    Weight,
+    drive_force,
+    driving_force,
+    most,
+    page,
+    pin_forces,
     report,
-)  # fmt: skip
+)
 from linkage.files import load, to_toml
 from linkage.motion import stroke_unit
 from linkage.reports import results
@@ -78,7 +90,7 @@ def test_all_that_shows_a_stroke_knows_what_it_measures(kind, unit):
 
 @pytest.mark.parametrize(("kind", "unit"), [KINDS[place] for place in (1, 4, 7)])
 def test_a_page_and_a_report_say_it_in_its_unit(kind, unit, tmp_path):
-    machine, (shown, force, end) = kind(), SHOWN[unit]
+    machine, (shown, force, _) = kind(), SHOWN[unit]
     assert data_of(page(machine, tmp_path / "it.html").read_text())["strokes"][0]["unit"] == shown
     text = report(machine, tmp_path / "it.md").read_text()
     assert ("Nm" in text) == (force == "Nm")

@@ -145,8 +145,8 @@ def assigned(plan: Plan, elements: Sequence[ForceElement]) -> Holders:
         names = ", ".join(map(line_names, lines))
         many = f"{len(strokes)} stroke{'s' if len(strokes) != 1 else ''} ({', '.join(strokes) or 'none'})"
         what = f"{names} are more cylinders than there are strokes to hold, {many}: how they share the load is not settled"
-        remedy = f"Put those of one pressure on one line, LiftCircuit([{names}], pressure=...), or give one its own force by a FloatCircuit"
-        raise DefinitionError(f"{plan.title}: {what}. {remedy} or an Actuator.")
+        remedy = f"Put those of one pressure on one line, LiftCircuit([{names}], pressure=...), give each a stroke, or one its own"
+        raise DefinitionError(f"{plan.title}: {what}. {remedy} force by a FloatCircuit or an Actuator.")
     pairs = [(line, strokes[place]) for line, place in zip(lines, best, strict=True)]
     taken = {stroke for _, stroke in pairs}
     for (line, stroke), own in zip(pairs, tied, strict=True):

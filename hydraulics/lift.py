@@ -583,14 +583,14 @@ class LiftingCylinder:
                 text = said("it goes back by itself {against}; {where} the load presses on neither side and nothing drives it.", **by)
             return Verdict("lowering", True, text, answer=replace(push, ok=True))
         where, enough = self.stuck(replace(self.back(way, resistance), acting=replace(judge.situation(push), direction=None))), False
+        if not (push.unbounded or self.ram.is_single_acting):
+            (push,) = judge.answers([most(self.back(way, resistance, "whole push")) <= 0.0])
         by = {"where": where, "against": against, "place": push.place, "pose": push.place, "push": self.show(push.value)}
         if push.unbounded:
             text = said("it does not sink by itself {where} {against}, and no push moves it {pose}: keep away from that pose.", **by)
         elif self.ram.is_single_acting:
             text = said("it does not sink by itself {where} {against}: it lacks up to {push}, {place}, and no oil pushes it in.", **by)
         else:
-            (push,) = judge.answers([most(self.back(way, resistance, "whole push")) <= 0.0])
-            by |= {"push": self.show(push.value), "place": push.place}
             text = said("it does not sink by itself {where} {against}: the other side must push with up to {push}, {place}.", **by)
             if self.ram.side == "both":
                 enough = push.value <= float(self.circuit.supply(judge.motion)) * (1.0 + 1e-9)

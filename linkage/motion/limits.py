@@ -38,7 +38,7 @@ class StrokeLimits:
 
     @property
     def shown_unit(self) -> str:
-        """The unit in which the stroke is shown: mm, deg, or none of a share."""
+        """The unit in which the stroke is shown: mm, deg, or none for a share."""
         return shown_stroke_unit(self.unit)
 
     @property
@@ -357,15 +357,15 @@ def shown_stroke_unit(unit: str, length: str = "mm") -> str:
 
 
 def stroke_measure(plan: Plan, name: str) -> str:
-    """Return the kind of a stroke: "angle", "length" or, of a share, "number"."""
+    """Return the kind of a stroke: "angle", "length" or, for a share, "number"."""
     return plan.stroke_kinds[name] or "length"
 
 
 def stroke_display_unit(plan: Plan, name: str, length: str = "m") -> str:
-    """Return the unit that a stroke is shown in: deg where it is an angle, none of a share, else that of a length."""
+    """Return the unit that a stroke is shown in: deg for an angle, none for a share, else that of a length."""
     return shown_stroke_unit(stroke_unit(plan, name), length)
 
 
 def stroke_unit(plan: Plan, name: str) -> str:
-    """Return the unit of a stroke: rad, m, or none where it is a share or a count."""
+    """Return the unit of a stroke: rad, m, or none for a share."""
     return SI.get(stroke_measure(plan, name), "")

@@ -372,7 +372,7 @@ class Members:
         return FrozenDict({name: self.known_stroke_kind(name) or next(filter(None, kinds), "") for name, kinds in scaled})
 
     def scaled_kind(self, name: str, given: Quantity, kind: str) -> str:
-        """Return the kind of a stroke that a product among the terms of a "length" or an "angle" has as a factor; "" for no such one."""
+        """Return the kind of a stroke that a product among the terms of a "length" or an "angle" has as a factor; else ""."""
         for _, term in signed_terms(given, self.members):
             own, sizes = list[int](), Counter({kind: 1})
             for power, each in self.factors(term):

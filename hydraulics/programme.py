@@ -50,7 +50,13 @@ def programme_read(machine: Mechanism, file: str) -> Programme:
     """
     path = Path(file)
     if path.suffix.lower() == ".csv":
-        demands, until = speeds_over_time(path)
+        columns = measured_columns(path, path.name, lambda name: ("time" if name == "time" else "speed",))
+        time = columns.pop("time", [])
+        if len(time) < 2 or not columns:
+            raise DefinitionError(
+                f'{path.name}: two rows and the columns "time, s" and of a cylinder are expected, such as "boom.ram, m/s".'
+            )
+        demands, until = {name: Course(time, [*map(float, values)], "straight") for name, values in columns.items()}, float(time[-1])
         return Programme(pump_of(machine, None), demands, until, {})
     found = source(path)
     faults, data = found.faults, found.data
@@ -105,16 +111,6 @@ def demand_read(given: object, until: float) -> Demand:
     if times[0] > 0.0:
         times, speeds = [0.0, *times], [0.0, *speeds]
     return Course.of_phases([*times, until], [speeds])
-
-
-def speeds_over_time(path: Path) -> tuple[dict[Reference, Demand], float]:
-    """Return the demands of a table, linear between its rows, and its end; its headings are "time, s" and "boom.ram, m/s"."""
-
-    columns = measured_columns(path, path.name, lambda name: ("time" if name == "time" else "speed",))
-    time = columns.pop("time", [])
-    if len(time) < 2 or not columns:
-        raise DefinitionError(f'{path.name}: two rows and the columns "time, s" and of a cylinder are expected, such as "boom.ram, m/s".')
-    return {name: Course(time, [*map(float, values)], "straight") for name, values in columns.items()}, float(time[-1])
 
 
 def pump_of(machine: Mechanism, name: object) -> Pump:

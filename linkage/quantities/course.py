@@ -131,7 +131,14 @@ class Course:
         for step in steps:
             times, rows, end = phases_of(step, last)
             if breaks.size:
-                check_jump(last, float(rows[0, 0]), max(map(abs, (last, *rows[0], end))), measures)
+                after = float(rows[0, 0])
+                if abs(after - last) > JUMP * max(map(abs, (last, *rows[0], end))):
+                    unit, off = ("rad", display_unit("angle")) if measures == "angle" else ("m", "mm")
+                    apart = show(Amount(abs(after - last), measures), off, 4)
+                    words = f"ends at {last:.3f} {unit}, goes on at {after:.3f} {unit}: {apart} apart"
+                    raise DefinitionError(
+                        f"Course.then: {words}; let the next course begin where this one ends, or put a ramp between them."
+                    )
                 times = times - times[0] + breaks[-1]
             breaks = np.concatenate([breaks, times[1:] if breaks.size else times])
             phases.append(rows)
@@ -474,12 +481,3 @@ def check_rising(what: str, times: FloatArray) -> None:
     for row, (before, after) in enumerate(pairwise(times.tolist()), start=2):
         if after <= before:
             raise DefinitionError(f"{what} must rise from row to row: in row {row} {after:.6g} s follows {before:.6g} s.")
-
-
-def check_jump(before: float, after: float, size: float, measures: str) -> None:
-    """Raise DefinitionError where a course ends at another value than that at which the next one begins."""
-    if abs(after - before) > JUMP * size:
-        unit, off = ("rad", display_unit("angle")) if measures == "angle" else ("m", "mm")
-        apart = show(Amount(abs(after - before), measures), off, 4)
-        words = f"ends at {before:.3f} {unit}, goes on at {after:.3f} {unit}: {apart} apart"
-        raise DefinitionError(f"Course.then: {words}; let the next course begin where this one ends, or put a ramp between them.")

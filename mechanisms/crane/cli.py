@@ -93,22 +93,17 @@ def print_design(options: Namespace) -> int:
         write_table(machine.columns(motion), motion.reached.size, options.csv)
     code = print_verdicts(machine.verdicts(over=over), options)
     if folder is not None:
-        draw_all(machine, folder)
+        if isinstance(machine, Crane):
+            pictures = {name: partial(crane_figure, name, machine) for name in FIGURES}
+            drives: dict[str, BoomDrive | DrivenArm] = {"boom_": boom_drive_of(machine), "arm_": arm_drive_of(machine)}
+        else:
+            pictures, drives = {}, {"": machine}
+        pictures |= {f"{side}{name}": partial(drive_figure, name, drive) for side, drive in drives.items() for name in DRIVE_FIGURES}
+        for name, drawing in pictures.items():
+            path = folder / f"{name}.png"
+            drawing().savefig(path)
+            print(path)
     return code
-
-
-def draw_all(machine: Crane | BoomDrive | DrivenArm, folder: Path) -> None:
-    """Write the pictures of a crane and of its drives, or of a drive on its own, into a folder, and say where."""
-    if isinstance(machine, Crane):
-        pictures = {name: partial(crane_figure, name, machine) for name in FIGURES}
-        drives: dict[str, BoomDrive | DrivenArm] = {"boom_": boom_drive_of(machine), "arm_": arm_drive_of(machine)}
-    else:
-        pictures, drives = {}, {"": machine}
-    pictures |= {f"{side}{name}": partial(drive_figure, name, drive) for side, drive in drives.items() for name in DRIVE_FIGURES}
-    for name, drawing in pictures.items():
-        path = folder / f"{name}.png"
-        drawing().savefig(path)
-        print(path)
 
 
 def crane_or_drive(options: Namespace) -> Crane | BoomDrive | DrivenArm:

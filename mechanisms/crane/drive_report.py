@@ -125,13 +125,11 @@ def worst_movements(motion: Motion) -> list[WorstMovement]:
 
 def drive_verdicts(motion: Motion) -> list[Verdict]:
     """Return whether the drive carries the required moments, and its least lever; its cylinder's length has its own verdict."""
-    return [*(each.verdict for each in worst_movements(motion)), lever_verdict(motion)]
-
-
-def lever_verdict(motion: Motion) -> Verdict:
-    """Return the least lever of the cylinder about the driven joint; not above zero past a dead point."""
     sense = np.sign(np.ravel(motion.ratio("length"))[0])
     (found,) = answers_over(motion, [least(sense * ratio("length"))])
     beyond = "" if found.value > 0.0 else said("; the cylinder passes its dead point: move its pins")
     text = said("at least {lever}, {where}", lever=show(float(found.value), "mm", ".1f"), where=found.where)
-    return Verdict("lever", bool(found.value > 0.0), f"{text}{beyond}.", answer=found)
+    return [
+        *(each.verdict for each in worst_movements(motion)),
+        Verdict("lever", bool(found.value > 0.0), f"{text}{beyond}.", answer=found),
+    ]

@@ -122,7 +122,17 @@ class Duty:
 
     def __post_init__(self) -> None:
         hold_numbers(self, LENGTHS)
-        self._check_stems()
+        if self.d_0 >= self.D_0:
+            said = f"the smallest stem d_0 = {self.d_0 / mm:.4g} mm is not below the largest, D_0 = {self.D_0 / mm:.4g} mm"
+            raise DefinitionError(f"Duty: {said}; exchange them.")
+        if not 0.0 < self.alpha < RIGHT_ANGLE:
+            said = f"alpha = {self.alpha / deg:.4g} deg: the lever wraps the largest stem by more than 0 and less than 90 deg"
+            raise DefinitionError(f"Duty: {said}; 52 to 57 deg is the best (Shimkovich).")
+        if not -RIGHT_ANGLE < self.beta < RIGHT_ANGLE:
+            raise DefinitionError(f"Duty: beta = {self.beta / deg:.4g} deg lies between -90 and 90 deg; 0 is a lever end below the stem.")
+        if self.opening < 1.0:
+            said = f"opening = {self.opening:.4g}: a lever that opens by less than the release angle keeps the stem"
+            raise DefinitionError(f"Duty: {said}; 1.2 to 1.4 (2.81).")
         in_pascals(positive(self.pressure, "pressure"), "pressure")
         efficient(self.efficiency, "efficiency")
         try:
@@ -167,20 +177,6 @@ class Duty:
         bore, stroke = self.cylinders[0][0], self.strokes[0]
         stems = f"stems of {self.d_0 / mm:.4g} to {self.D_0 / mm:.4g} mm"
         return f"{stems}, {len(self.cylinders)} bores from {bore / mm:.4g} mm, {len(self.strokes)} strokes from {stroke / mm:.4g} mm"
-
-    def _check_stems(self) -> None:
-        """Raise DefinitionError for stems and angles that no lever holds."""
-        if self.d_0 >= self.D_0:
-            said = f"the smallest stem d_0 = {self.d_0 / mm:.4g} mm is not below the largest, D_0 = {self.D_0 / mm:.4g} mm"
-            raise DefinitionError(f"Duty: {said}; exchange them.")
-        if not 0.0 < self.alpha < RIGHT_ANGLE:
-            said = f"alpha = {self.alpha / deg:.4g} deg: the lever wraps the largest stem by more than 0 and less than 90 deg"
-            raise DefinitionError(f"Duty: {said}; 52 to 57 deg is the best (Shimkovich).")
-        if not -RIGHT_ANGLE < self.beta < RIGHT_ANGLE:
-            raise DefinitionError(f"Duty: beta = {self.beta / deg:.4g} deg lies between -90 and 90 deg; 0 is a lever end below the stem.")
-        if self.opening < 1.0:
-            said = f"opening = {self.opening:.4g}: a lever that opens by less than the release angle keeps the stem"
-            raise DefinitionError(f"Duty: {said}; 1.2 to 1.4 (2.81).")
 
 
 def numbers_of(given: Any) -> list[float]:

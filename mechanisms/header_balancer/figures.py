@@ -73,7 +73,13 @@ def figure(number: int | str, machine: HeaderBalancer | None = None, measured: S
         if key[0] == "6" and machine is None:
             _as_it_stands(ax, name)
         if is_reaction:  # it may fall below zero
-            _hanging(ax)
+            low, high = ax.get_ylim()
+            low = min(low, -0.05 * high)
+            ax.axhspan(low, 0.0, color=style.ACCENT, alpha=0.10, linewidth=0, zorder=1.0)
+            ax.set_ylim(low, high)
+            ax.axhline(0.0, color=style.ACCENT, linewidth=1.0, zorder=2.0)
+            look = {"ha": "right", "va": "top", "color": style.ACCENT}
+            beside(ax, "the shoe hangs", (1.0, 0.0), (-4, -3), xycoords=("axes fraction", "data"), **look)
         along = np.concatenate([x for x in (np.asarray(line.get_xdata(), float) for line in ax.get_lines()) if len(x) > 2])
         ax.set_xlim(float(along.min()), float(along.max()))
         ax.legend(loc="best", fontsize=style.SMALL, facecolor=style.PAPER, edgecolor="none", framealpha=0.85, labelcolor=style.INK)
@@ -270,14 +276,3 @@ def _level(ax: Axes, value: float, text: str) -> None:
     """Draw a pressure that matters as a line across, with its name."""
     ax.axhline(value, color=style.MUTED, linewidth=1.0, linestyle=(0, (4, 3)), zorder=2.0)
     beside(ax, text, (1.0, value), (-4, 3), xycoords=("axes fraction", "data"), ha="right", va="bottom")
-
-
-def _hanging(ax: Axes) -> None:
-    """Shade where the shoe hangs: a reaction below zero."""
-    low, high = ax.get_ylim()
-    low = min(low, -0.05 * high)
-    ax.axhspan(low, 0.0, color=style.ACCENT, alpha=0.10, linewidth=0, zorder=1.0)
-    ax.set_ylim(low, high)
-    ax.axhline(0.0, color=style.ACCENT, linewidth=1.0, zorder=2.0)
-    look = {"ha": "right", "va": "top", "color": style.ACCENT}
-    beside(ax, "the shoe hangs", (1.0, 0.0), (-4, -3), xycoords=("axes fraction", "data"), **look)

@@ -124,13 +124,9 @@ class JointPart:
 
     def force_over(self, motion: AnyMotion, acting: Acting) -> FloatArray:
         """Return it over a motion's poses [N], shape (...)."""
-        self.check_component(motion.plan)
+        known_name("Component", self.component, COMPONENTS, where=f"{motion.plan.title}: the force at {self.point}")
         force = pin_forces_under(require_motion(motion), acting).force(self.point, self.on, self.by)
         return np.asarray(COMPONENTS[self.component](force[0], force[1]))
-
-    def check_component(self, plan: Plan) -> None:
-        """Raise DefinitionError for a part that a force has not."""
-        known_name("Component", self.component, COMPONENTS, where=f"{plan.title}: the force at {self.point}")
 
     def contact(self, structure: Structure) -> tuple[Contact, JointForce, float]:
         """Return the contact that is meant, its joint without a value, and the sign of its force on the body."""
@@ -141,7 +137,7 @@ class JointPart:
     def in_plan(self, request: LawRequest, motion: TracedMotion) -> LawInPlan:
         """Return its law in the plan of a traced motion, where its bodies have their full names."""
         require_rest(request, motion)
-        self.check_component(motion.plan)
+        known_name("Component", self.component, COMPONENTS, where=f"{motion.plan.title}: the force at {self.point}")
         structure, acts = structure_in_plan(motion, request.situation)
         full = replace(self, on=structure.full_name(self.on), by=structure.full_name(self.by))
         _, joint, _ = full.contact(structure)

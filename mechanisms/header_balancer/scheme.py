@@ -42,14 +42,14 @@ def scheme(machine: HeaderBalancer, title: str) -> Figure:
     pump, relief, charge = (f"{float(machine[name]) / kgf_cm2:.4g} kgf/cm²" for name in ("pump", "valve", "charge"))
     for x in (PUMP, RELIEF):
         tank(ax, x)
-    dial(ax, PUMP, 0.8, 0.17)
+    ax.add_patch(Circle((PUMP, 0.8), 0.17, facecolor=style.PAPER, edgecolor=style.INK, zorder=12.0))
     ax.add_patch(Polygon([(PUMP, 0.97), (PUMP - 0.08, 0.84), (PUMP + 0.08, 0.84)], facecolor=style.INK, zorder=13.0))
     named(ax, (PUMP - 0.25, 0.8), f"pump\n{pump}", "right")
     valve(ax, RELIEF, 0.8, upright=True)
     named(ax, (RELIEF + 0.22, 0.72), f"relief valve\n{relief}", "left")
     valve(ax, VALVE, MAIN, upright=False)
     named(ax, (VALVE, MAIN - 0.27), "valve", "center")
-    dial(ax, GAUGE, MAIN + 0.4, 0.15)
+    ax.add_patch(Circle((GAUGE, (MAIN + 0.4)), 0.15, facecolor=style.PAPER, edgecolor=style.INK, zorder=12.0))
     ax.add_line(Line2D([GAUGE - 0.07, GAUGE + 0.08], [MAIN + 0.33, MAIN + 0.48], color=style.INK, zorder=13.0))
     named(ax, (GAUGE - 0.22, MAIN + 0.4), f"gauge\n{charge}", "right")
     named(ax, (PUMP, DRAIN - 0.22), "tank", "center")
@@ -71,11 +71,6 @@ def tank(ax: Axes, x: float) -> None:
     """Draw the sign of the tank under the end of a line."""
     low, high = DRAIN - 0.08, DRAIN + 0.08
     ax.add_line(Line2D([x - 0.16, x - 0.16, x + 0.16, x + 0.16], [high, low, low, high], color=style.INK, zorder=12.0))
-
-
-def dial(ax: Axes, x: float, y: float, radius: float) -> None:
-    """Draw the circle of a pump or a gauge."""
-    ax.add_patch(Circle((x, y), radius, facecolor=style.PAPER, edgecolor=style.INK, zorder=12.0))
 
 
 def valve(ax: Axes, x: float, y: float, *, upright: bool) -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from argparse import Namespace
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 
@@ -180,7 +179,13 @@ def print_cycle(options: Namespace) -> int:
         write_table(cycle_columns(found[0][1]), len(found[0][1].time), options.csv)
     if path is not None:
         ensure(len(found) == 1, f"-o {path}: there are {len(found)} cycles; choose one, --over NAME.")
-        draw_cycle(path, *found[0][1:])
+        _, cycle, motion = found[0]
+        if path.suffix.lower() in PICTURES:
+            plot_cycle(cycle).savefig(path)
+        else:
+            from linkage.pictures import animate, page
+
+            (page if path.suffix.lower() == PAGE else animate)(motion, path)
         print(path)
     return judged_code([cycle.verdict for _, cycle, _ in found], options)
 
@@ -210,13 +215,3 @@ def cycles_judged(machine: Mechanism, options: Namespace) -> list[tuple[str, Pum
         raise DefinitionError(f"{title}: no path in time that {pump.name} serves; {remedy}.")
     named = ["; ".join(filter(None, (place.over.title, cycle.case))) for place, cycle in found]
     return [(words, cycle, place.motion) for words, (place, cycle) in zip(named, found, strict=True)]
-
-
-def draw_cycle(path: Path, cycle: PumpCycle, motion: Motion) -> None:
-    """Draw a cycle's chart, its animation or its live page."""
-    if path.suffix.lower() in PICTURES:
-        plot_cycle(cycle).savefig(path)
-        return
-    from linkage.pictures import animate, page
-
-    (page if path.suffix.lower() == PAGE else animate)(motion, path)

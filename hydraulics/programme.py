@@ -48,7 +48,7 @@ def programme_read(machine: Mechanism, file: str) -> Programme:
     DefinitionError
         The machine has no pump on its lines, or several and the file names none.
     """
-    path = Path(file)
+    path, until, start, demands = Path(file), 1.0, dict[str, float](), dict[Reference, Demand]()
     if path.suffix.lower() == ".csv":
         columns = measured_columns(path, path.name, lambda name: ("time" if name == "time" else "speed",))
         time = columns.pop("time", [])
@@ -56,11 +56,10 @@ def programme_read(machine: Mechanism, file: str) -> Programme:
             raise DefinitionError(
                 f'{path.name}: two rows and the columns "time, s" and of a cylinder are expected, such as "boom.ram, m/s".'
             )
-        demands, until = {name: Course(time, [*map(float, values)], "straight") for name, values in columns.items()}, float(time[-1])
-        return Programme(pump_of(machine, None), demands, until, {})
+        demands |= {name: Course(time, [*map(float, values)], "straight") for name, values in columns.items()}
+        return Programme(pump_of(machine, None), demands, float(time[-1]), {})
     found = source(path)
     faults, data = found.faults, found.data
-    until, start, demands = 1.0, dict[str, float](), dict[Reference, Demand]()
     for key in data:
         with faults.at_key(key):
             known_name("Key", key, KEYS)

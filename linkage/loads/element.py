@@ -273,6 +273,9 @@ class Formulas(Poses, Protocol):
 
 ROUGHEST = 5.0
 """More than any coefficient of friction; a larger one was given in percent."""
+NEGATIVE = "is negative; give zero or more"
+TOO_ROUGH = "is more than any friction; write 0.15 for 15 %"
+"""What is wrong with a number that may not be below zero, and with a coefficient above ROUGHEST."""
 FRICTIONLESS = "frictionless"
 DIRECTIONS = (FRICTIONLESS, "extending", "retracting")
 """At rest, or without friction; while the stroke, or the cylinder that is asked for, grows; while it shrinks. Of a path: on, back."""
@@ -749,9 +752,9 @@ class ForceElement(Jointed):
         if not value.size or not np.all(np.isfinite(value)):
             raise DefinitionError(f"{self._opening()}: {name}={cited(given)} is not a finite number; give it in SI.")
         if name in self.not_negative and np.any(value < 0.0):
-            raise DefinitionError(f"{self._opening()}: {name}={cited(given)} is negative; give zero or more.")
+            raise DefinitionError(f"{self._opening()}: {name}={cited(given)} {NEGATIVE}.")
         if self.limited.get(name) == "friction" and np.any(value > ROUGHEST):
-            raise DefinitionError(f"{self._opening()}: {name}={cited(given)} is more than any friction; write 0.15 for 15 %.")
+            raise DefinitionError(f"{self._opening()}: {name}={cited(given)} {TOO_ROUGH}.")
 
     def _opening(self) -> str:
         """Return the element as it is written; its kind alone where its points have no names yet, as in a class."""

@@ -13,7 +13,7 @@ import numpy.typing as npt
 from ..checks import is_listed, require
 from ..errors import DefinitionError, unknown
 from ..frozen import read_only
-from ..loads.element import ROUGHEST
+from ..loads.element import NEGATIVE, ROUGHEST, TOO_ROUGH
 from ..quantities import Number, Operand, Quantity, Variable, quantity, real, source_text
 from ..steps import Slot
 from ..steps.step import TURN
@@ -177,9 +177,9 @@ def value_in_range(entry: DesignVariable, value: Numbers) -> Numbers:
     if entry.kind == "efficiency":
         fault = f"{entry.name}={far:.6g}: {efficiency_words(far)}"
     elif entry.kind == "friction" and least >= 0.0:
-        fault = f"{entry.name}={far:.6g} is more than any friction; write 0.15 for 15 %"
+        fault = f"{entry.name}={far:.6g} {TOO_ROUGH}"
     elif entry.kind in ("not negative", "friction", "ratio"):
-        fault = f"{entry.name}={least:.6g} is negative; give zero or more"
+        fault = f"{entry.name}={least:.6g} {NEGATIVE}"
     elif entry.kind == "angle":
         said = f"the angle {entry.name}={far:.6g} rad ({far / deg:.6g} deg) is more than a full turn"
         fault = f"{said}; write {far:.6g} * deg if these are degrees, or take whole turns off"

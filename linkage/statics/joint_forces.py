@@ -20,7 +20,7 @@ from ..program import FloatArray
 from ..quantities import Reference, name_of
 from ..shown import Shown
 from ..units import kN, show
-from .applied import AppliedLoads, applied_loads, rates_in
+from .applied import applied_loads, rates_in
 from .force_program import forces_at
 from .joints import FRAME, FRAME_NAME, Structure, acting_place, force_direction
 from .poses import FlatPoses
@@ -461,31 +461,26 @@ def remarks_on(found: PoseForces) -> Iterator[str]:
             yield said("no load acts, so that all forces are zero; declare one in the class, such as load = Weight(G, mass=1200).")
         else:
             yield said("No load acts in the load case {case}: all forces there are zero.", case=applied.case)
-    yield from inertia_words(applied, require_motion(poses.motion))
+    motion, rates = require_motion(poses.motion), applied.rates
+    if rates.accelerations is not None:
+        points = [each.name for each in applied.elements if isinstance(each, LinkMass) and each.at is not None and each.inertia is None]
+        if points:
+            yield said("{names}: without inertia= a mass counts as a point at its centre.", names=", ".join(points))
+    elif (jump := motion._rate_jump) is not None and applied.acting.inertia is None and not isinstance(applied.acting.rates, Mapping):
+        yield said("{jump}, so that inertia is left out: give its ramp an acceleration, or take a smooth course.", jump=jump[1])
     if applied.at_rest:
         names = ", ".join(applied.at_rest)
         yield said("{names}: at rest a damper gives nothing; give the speeds, rates=dict(S=0.05).", names=names)
     for name, tension in found.tensions.items():
         slack = tension < 0.0
         if slack.any():
-            where, push = where_said(poses.plan, slack, poses.motion.strokes), show(-float(np.nanmin(tension)), "N", 6)
+            where, push = where_said(poses.plan, slack, motion.strokes), show(-float(np.nanmin(tension)), "N", 6)
             yield said(
                 "{name} goes slack {where}: there it would have to push, with up to {push}, and the constraint is not kept. Hang more "
                 "weight on it, or take a rod.",
                 name=name, where=where, push=push,
             )  # fmt: skip
-    yield from tipping_words(require_motion(poses.motion), applied.acting)
-
-
-def inertia_words(applied: AppliedLoads, motion: Motion) -> Iterator[str]:
-    """Yield in words where inertia is left out over a path in time, and which masses count as points."""
-    jump = motion._rate_jump
-    if applied.rates.accelerations is not None:
-        points = [each.name for each in applied.elements if isinstance(each, LinkMass) and each.at is not None and each.inertia is None]
-        if points:
-            yield said("{names}: without inertia= a mass counts as a point at its centre.", names=", ".join(points))
-    elif jump is not None and applied.acting.inertia is None and not isinstance(applied.acting.rates, Mapping):
-        yield said("{jump}, so that inertia is left out: give its ramp an acceleration, or take a smooth course.", jump=jump[1])
+    yield from tipping_words(motion, applied.acting)
 
 
 def lift_off_words(found: PoseForces) -> Iterator[str]:

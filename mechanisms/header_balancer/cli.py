@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from argparse import Namespace
 
-from linkage import DefinitionError, Motion
+from linkage import DefinitionError
 from linkage.cli.command import CSV, Command, count_option, figure_path, machine_options, option, picture_option
 from linkage.cli.settings import CHECK, OVER, overs_of, parsed_setting, print_verdicts
 from linkage.cli.table import write_table
@@ -58,7 +58,15 @@ def print_balance(options: Namespace) -> int:
         print(ABOUT_TABLE)
         write_table(columns, len(columns[0].values), options.csv)
     if not options.table or options.header or options.pressure or options.reaction or compared:
-        print_header(motion, options)
+        following = over_following(motion, options.count)
+        horizon = show(float(following["h_horizon"][0]), "mm", 4)
+        alone = f"\nHeader {options.header} alone. " if options.header else "\nThe header that is set alone. "
+        charged = f"Charged to {kgf_cm2_text(float(motion.inputs['charge']))} at the horizon, h = {horizon}. Pressures are gauge."
+        print(f"{alone if options.table else ''}{charged}")
+        if not options.table:
+            print()
+            columns = reaction_columns(following)
+            write_table(columns, len(columns[0].values), options.csv)
         code = print_verdicts([*machine.verdicts(over=over), *(each.verdict for each in compared)], options)
     if path is not None:  # figure 6 of the machine as it is shipped shows the improved one
         number = options.figure or ("7" if compared else REACTION.get(options.header, "4"))
@@ -66,19 +74,6 @@ def print_balance(options: Namespace) -> int:
         figure(number, None if number[0] == "6" and as_shipped else machine, compared).savefig(path)
         print(path)
     return code
-
-
-def print_header(motion: Motion, options: Namespace) -> None:
-    """Print the charge and the reactions of one header; beside the table of all headers the charge alone."""
-    over = over_following(motion, options.count)
-    horizon = show(float(over["h_horizon"][0]), "mm", 4)
-    alone = f"\nHeader {options.header} alone. " if options.header else "\nThe header that is set alone. "
-    charged = f"Charged to {kgf_cm2_text(float(motion.inputs['charge']))} at the horizon, h = {horizon}. Pressures are gauge."
-    print(f"{alone if options.table else ''}{charged}")
-    if not options.table:
-        print()
-        columns = reaction_columns(over)
-        write_table(columns, len(columns[0].values), options.csv)
 
 
 def header_of(options: Namespace) -> HeaderBalancer:

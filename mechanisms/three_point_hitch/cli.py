@@ -38,7 +38,13 @@ Hitch = Command(
 @Hitch
 def print_hitch(options: Namespace) -> int:
     """Print a hitch's capacity and its limits."""
-    machine = hitch_of(options)
+    machine = machine_like(options, ThreePointHitch, "three-point hitch")
+    if options.category:
+        shipped = design_from(ThreePointHitch, options.settings)
+        if type(machine) is not ThreePointHitch or machine.dimensions != shipped.dimensions:
+            what = f"{options.machine} has dimensions of its own"
+            raise DefinitionError(f"--category {options.category} goes with three_point_hitch; {what}.")
+        machine = design_from(CATEGORIES[options.category].machine, options.settings)
     path = figure_path(options, machine, "hitch")
     motions, tables = motions_at(machine, options), list[Table]()
     if options.category:
@@ -64,14 +70,3 @@ def print_hitch(options: Namespace) -> int:
         figure(options.figure or ("zones" if options.zones else "capacity"), machine).savefig(path)
         print(path)
     return code
-
-
-def hitch_of(options: Namespace) -> ThreePointHitch:
-    """Return the hitch that the options mean."""
-    machine = machine_like(options, ThreePointHitch, "three-point hitch")
-    if not options.category:
-        return machine
-    shipped = design_from(ThreePointHitch, options.settings)
-    if type(machine) is not ThreePointHitch or machine.dimensions != shipped.dimensions:
-        raise DefinitionError(f"--category {options.category} goes with three_point_hitch; {options.machine} has dimensions of its own.")
-    return design_from(CATEGORIES[options.category].machine, options.settings)

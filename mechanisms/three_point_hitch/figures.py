@@ -77,7 +77,14 @@ def curves(hitch: ThreePointHitch) -> Figure:
     _mark(ax, motion)
     _named(ax, "", "stroke S, mm", "load that can be lifted, kN")
     ax.set_ylim(0.0, None)
-    _heights(ax, motion)
+    height = motion.y("F") / mm
+    if np.all(np.diff(height) > 0.0):  # an upper axis with the height of the hitch points where it follows the stroke
+        there_and_back = (lambda s: np.interp(np.asarray(s), S, height), lambda h: np.interp(np.asarray(h), height, S))
+        upper = ax.secondary_xaxis("top", functions=there_and_back)
+        upper.set_xticks(np.arange(np.ceil(height[0] / 100.0), np.floor(height[-1] / 100.0) + 1.0) * 100.0)
+        upper.set_xlabel("height of the hitch points F, mm", **WORDS)
+        upper.tick_params(colors=style.MUTED, labelsize=style.SMALL, length=3)
+        upper.spines["top"].set_color(style.RULE)
     ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=2, **CURVES)
     return sheet
 
@@ -93,22 +100,6 @@ def _mark(ax: Axes, motion: Motion) -> None:
     text = f"weakest: {found.capacity / kN:.1f} kN at S = {found.stroke / mm:.0f} mm,\nG rises {found.ratio:.2f} mm for 1 mm of stroke"
     side, aside = ("right", -8) if right else ("left", 8)
     beside(ax, text, at, (aside, -10), ha=side, va="top", color=style.CURVE, zorder=8.0)
-
-
-def _heights(ax: Axes, motion: Motion) -> None:
-    """Add an upper axis with the height of the hitch points where it follows the stroke."""
-    height, S = motion.y("F") / mm, motion.strokes["S"] / mm
-    if not np.all(np.diff(height) > 0.0):
-        return
-    there_and_back = (lambda s: np.interp(np.asarray(s), S, height), lambda h: np.interp(np.asarray(h), height, S))
-    upper = ax.secondary_xaxis("top", functions=there_and_back)
-    upper.set_xticks(np.arange(np.ceil(height[0] / 100.0), np.floor(height[-1] / 100.0) + 1.0) * 100.0)
-    upper.set_xlabel("height of the hitch points F, mm", **WORDS)
-    upper.tick_params(colors=style.MUTED, labelsize=style.SMALL, length=3)
-    upper.spines["top"].set_color(style.RULE)
-
-
-# -- the lift range ----------------------------------------------------------------------------------------
 
 
 def lift_range(hitch: ThreePointHitch) -> Figure:

@@ -22,11 +22,6 @@ def late(module: str, name: str) -> Callable[..., Any]:
     def call(*arguments: Any, **options: Any) -> Any:
         return getattr(import_module(module, __package__), name)(*arguments, **options)
 
-    return update_wrapper(call, written_there(module, name))
-
-
-def written_there(module: str, name: str) -> Callable[..., None]:
-    """Return a function with the signature and the docstring that the source of a module gives to one; it does nothing."""
     path = Path(__file__).parent.joinpath(*module.split(".")).with_suffix(".py")
     text = path.read_text(encoding="utf-8")
     *_, begun = re.finditer(rf"^def {name}\(", text, re.MULTILINE)  # overloads stand above it
@@ -36,5 +31,4 @@ def written_there(module: str, name: str) -> Callable[..., None]:
     ast.increment_lineno(tree, text.count("\n", 0, begun.start()) - 1)
     space: dict[str, Any] = {"__name__": __package__, "NOTHING": NOTHING}
     exec(compile(tree, str(path), "exec"), space)
-    found: Callable[..., None] = space[name]
-    return found
+    return update_wrapper(call, space[name])

@@ -142,14 +142,6 @@ def heard(make: Callable[[], Result]) -> tuple[Result, list[SingularWarning]]:
     return made, [each.message for each in every if isinstance(each.message, SingularWarning)]
 
 
-def warned_once(make: Callable[[], Result]) -> Result:
-    """Return the result of a function; of its warnings near singular poses only that with the largest expected error is given."""
-    made, near = heard(make)
-    if near:
-        warn(max(near, key=lambda each: (each.estimate == each.estimate, each.estimate)))  # NaN last
-    return made
-
-
 @contextmanager
 def errors_of(what: str) -> Iterator[None]:
     """Turn any error in a user's own function into a DefinitionError with its name and the line."""

@@ -54,9 +54,15 @@ def with_angles(found: GroupSolution, plan: Plan, designs: Mapping[str, Numbers]
     m = max([m, *(len(value) for value in strokes.values() if np.ndim(value) == 2)])
     n = max((np.shape(value)[-1] for value in strokes.values()), default=1)
     ways = StrokeLines.for_strokes(plan, {name: np.broadcast_to(value, (m, n)) for name, value in strokes.items()})
-    if m == 1 and len(strokes) == 1:
-        tracks = kept_paths(plan, single, ways)
-        turns = {name: np.rint(each.angle_at(ways.target, ways.place)) for name, each in tracks.items()}
+    if m == 1 and len(strokes) == 1:  # along both ways of the one stroke; those of the last design are kept
+        key, known = tuple(map(float, single.values())), KEPT.get(plan)
+        if known is None or known[0] != key or not np.all(known[1] >= ways.length):
+            ((name, stroke),) = plan.strokes.items()
+            ends = np.array([stroke.start, stroke.end]) - plan.sketch_strokes[name]
+            declared = np.ceil(np.array([ends.max(), -ends.min()]) / piece_length(plan, name)).astype(np.intp)
+            whole = replace(ways, length=np.maximum(ways.length, declared))
+            known = KEPT[plan] = key, whole.length, whole.tracks(plan, single)
+        turns = {name: np.rint(each.angle_at(ways.target, ways.place)) for name, each in known[2].items()}
         return replace(found, inputs={**found.inputs, **turns})
     references: dict[str, FloatArray] = {name: np.full((m, n), np.nan) for name in plan.followed}
     for part in ways.parts():
@@ -64,20 +70,6 @@ def with_angles(found: GroupSolution, plan: Plan, designs: Mapping[str, Numbers]
         for name, track in part.tracks(plan, single).items():
             references[name][here] = np.rint(track.angle_at(part.target[here], part.place[here]))
     return replace(found, inputs={**found.inputs, **references})
-
-
-def kept_paths(plan: Plan, designs: Mapping[str, Numbers], ways: StrokeLines) -> Mapping[str, AnglePath]:
-    """Return the followed angles of one design along both ways of its one stroke; those of the last design are kept."""
-    key, known = tuple(map(float, designs.values())), KEPT.get(plan)
-    if known is not None and known[0] == key and np.all(known[1] >= ways.length):
-        return known[2]
-    ((name, stroke),) = plan.strokes.items()
-    ends = np.array([stroke.start, stroke.end]) - plan.sketch_strokes[name]
-    declared = np.ceil(np.array([ends.max(), -ends.min()]) / piece_length(plan, name)).astype(np.intp)
-    whole = replace(ways, length=np.maximum(ways.length, declared))
-    found = whole.tracks(plan, designs)
-    KEPT[plan] = key, whole.length, found
-    return found
 
 
 def ambiguous_angle(
@@ -299,20 +291,14 @@ class Vectors:
         inputs = {name: value[design] if isinstance(value, np.ndarray) and value.ndim else value for name, value in self.designs.items()}
         moved = {name: self.ways.first[name][line] + slope[line] * place for name, slope in self.ways.along.items()}
         moved |= {name: np.rint(track.angle_at(line, place)) for name, track in self.known.items()}
-        if self.plan.groups:
-            moved |= self._groups(design, {name: moved[name] for name in self.plan.strokes})
-        return inputs | {name: value[:, None] if rows else value for name, value in moved.items()}, rows
-
-    def _groups(self, design: Index, strokes: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
-        """Return the pins of groups at strokes (k,), each of its design."""
-        found = {name: np.full(len(design), np.nan) for name in self.plan.grouped}
-        for each in np.unique(design):
+        pins = {name: np.full(len(design), np.nan) for name in self.plan.grouped}
+        for each in np.unique(design) if pins else ():
             here = design == each
             own = {name: value if np.ndim(value) == 0 else float(np.asarray(value)[each]) for name, value in self.designs.items()}
-            solved = solve_groups(self.plan, own, {name: value[here] for name, value in strokes.items()})
-            for name in found:
-                found[name][here] = np.broadcast_to(solved.inputs[name], (1, int(here.sum())))[0]
-        return found
+            solved = solve_groups(self.plan, own, {name: moved[name][here] for name in self.plan.strokes})
+            for name in pins:
+                pins[name][here] = np.broadcast_to(solved.inputs[name], (1, int(here.sum())))[0]
+        return inputs | {name: value[:, None] if rows else value for name, value in (moved | pins).items()}, rows
 
     def _placed(self, value: FloatArray, inputs: Mapping[str, Numbers]) -> FloatArray:
         """Return the vector with the places filled in that stand at a dead point, to rounding."""

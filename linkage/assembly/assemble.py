@@ -51,21 +51,6 @@ class Shape:
                 return derived
         return self.measured(P, Q)
 
-    def settled_link(self, link: Link) -> Link:
-        """Return the link with its labels as they are given, the drawn lengths of cylinders among them."""
-        pairs = combinations(self.points, 2) if any(not each.is_constant for each in self.labels.values()) else ()
-        found = {spelling: value for spelling, value in filter(None, starmap(self.labelled_side, pairs)) if spelling in link.labels}
-        changed = {spelling: value for spelling, value in found.items() if value is not self.labels[spelling]}
-        return link.renewed(labels={**link.labels, **changed}) if changed else link
-
-    def is_straight(self, P: str, Q: str, R: str) -> bool:
-        """Return whether three distances put three points in one line: such a link has no sides."""
-        sides = [self.distance(*pair) for pair in ((P, Q), (P, R), (Q, R))]
-        if not all(isinstance(side, Number) for side in sides):
-            return False
-        longest = max(lengths := [side.number for side in sides if isinstance(side, Number)])
-        return abs(2.0 * longest - sum(lengths)) <= 1e-9 * longest
-
     def coincide(self, P: str, Q: str) -> bool:
         """Return whether two points of the body stand at one place, measured by its longest distance and by where they are."""
         between = self.distance(P, Q)
@@ -253,7 +238,9 @@ def as_sketched(parts: Parts, pin: str, step: OnLink, what: str, shape: Shape) -
         found.labels |= missing_labels(pin, step, parents, np.array(X), parts.sketched)
     if {parents[1] + pin, pin + parents[1]} & set(found.labels):
         cross = (qx - px) * (X[1] - py) - (qy - py) * (X[0] - px)
-        if cross == 0.0 and not shape.is_straight(parents[0], parents[1], pin):
+        sides = [shape.distance(*pair) for pair in combinations((*parents, pin), 2)] if cross == 0.0 else []
+        lengths = [side.number for side in sides if isinstance(side, Number)]  # a link that three distances put in one line has no sides
+        if cross == 0.0 and (len(lengths) < 3 or abs(2.0 * max(lengths) - sum(lengths)) > 1e-9 * max(lengths)):
             raise DefinitionError(f"{what}: its pins are in one line in the sketch, so that {pin} has no side; move a near=(x, y).")
         found.side = Side.LEFT if cross >= 0.0 else Side.RIGHT
     found.near = found.drawn_at = None
@@ -473,8 +460,15 @@ class Parts:
                 self.settle(*found)
             elif any(name in points and name not in self.pins for name in self.pending):
                 return self.settled | self.pending | self.pins  # they hang on a step that never comes: a cycle or an unknown name
-            else:
-                self.add_group(next_group(self))
+            else:  # the pins of a group are settled together
+                group = next_group(self)
+                name = next(f"group{k}" for k in range(1, len(self.pins) + 2) if f"group{k}" not in self.settled)
+                object.__setattr__(group, "_name", name)
+                self.settled[name] = group
+                for pin in group.pins:
+                    self.settled[pin] = member = copy(self.pins[pin])
+                    member.group = group
+                self.known |= {name, *group.pins}
 
     def waits(self, member: Member) -> bool:
         """Return whether a load case that something runs in is not settled yet, for the loads of the case are not."""
@@ -492,20 +486,13 @@ class Parts:
                 member = sided(name, with_measured_labels(name, named, self.sketch), self.settled, self.title)
             if name in self.pins:
                 member.drawn_at = self.pins[name].drawn_at
-        if isinstance(member, Link) and name in self.links:
-            member = self.shapes[name].settled_link(member)
+        if isinstance(member, Link) and name in self.links:  # its labels as they are given, the drawn lengths of cylinders among them
+            shape, labels = self.shapes[name], member.labels
+            pairs = combinations(shape.points, 2) if any(not each.is_constant for each in shape.labels.values()) else ()
+            found = {spelling: value for spelling, value in filter(None, starmap(shape.labelled_side, pairs)) if spelling in labels}
+            changed = {spelling: value for spelling, value in found.items() if value is not shape.labels[spelling]}
+            member = member.renewed(labels={**labels, **changed}) if changed else member
         self.settled[name] = member
-
-    def add_group(self, group: Group) -> None:
-        """Settle the pins of a group together."""
-        name = next(f"group{k}" for k in range(1, len(self.pins) + 2) if f"group{k}" not in self.settled)
-        object.__setattr__(group, "_name", name)
-        found: dict[str, Member] = {name: group}
-        for pin in group.pins:
-            found[pin] = member = copy(self.pins[pin])
-            member.group = group
-        self.settled |= found
-        self.known |= found.keys()
 
     def sketch(self) -> Sketch:
         """Return the sketch of all that is settled."""

@@ -177,15 +177,6 @@ class Program:
 
         return compiled_loop(self.compiled_text, "fill", arguments)
 
-    def is_compiled(self, ahead: float) -> bool:
-        """Return whether so many steps ahead, with those done before, are worth compiled loops."""
-        return pays_compiled(self.spent + ahead * self.work, "follow" in vars(self), lambda: self.compiled_text)
-
-    def count_step(self, lanes: int) -> None:
-        """Count a step of some lanes that was done by operations on arrays."""
-        self.spent += (lanes + LEAST_LANES) * self.work
-
-
 DRIVERS = '''
 def follow(a, b, state, ends, out, count, start, begins):
     """Follow lanes from `start` on to their ends; return the first lane that finds no room in `out`, and how many places are there.
@@ -422,7 +413,11 @@ class GroupPath:
     def _compiled_program(self, steps: float) -> Program | None:
         """Return the program where so many steps are done by compiled loops."""
         asked, program = BACKEND.get(), self._program()
-        return program if program and (asked == "numba" or (asked is None and program.is_compiled(steps))) else None
+        if program is None or asked not in ("numba", None):
+            return None
+        ahead = program.spent + steps * program.work
+        pays = asked == "numba" or pays_compiled(ahead, "follow" in vars(program), lambda: program.compiled_text)
+        return program if pays else None
 
     def _lines(self, program: Program, lanes: Index) -> tuple[FloatArray, FloatArray]:
         """Return the inputs of some lanes at place 0 and their changes, shape (inputs, lanes)."""
@@ -489,8 +484,8 @@ class GroupPath:
         if not whole:
             self._state[:, k] = state
         self._record.append((k[taken], np.array(state[: self._kept, taken])))
-        if (program := self._program()) is not None:
-            program.count_step(len(k))
+        if (program := self._program()) is not None:  # a step that was done by operations on arrays
+            program.spent += (len(k) + LEAST_LANES) * program.work
 
     def _store(self) -> None:
         """Keep the places of all lanes one after the other."""
@@ -539,9 +534,12 @@ class GroupPath:
         """
         program = self._compiled_program(len(lane))
         if program is not None:
-            return self._between(lane, place, self._filled(program, lane, place))
+            a, b = self._lines(program, np.arange(len(self.lanes.lane)))
+            found, close = np.empty((len(self.u), len(lane))), np.empty(len(lane))
+            program.fill(lane, np.ascontiguousarray(place), a, b, self.first, self.kept, self.ended, found, close)
+            return self._between(lane, place, (found, close))
         if (made := self._program()) is not None:
-            made.count_step(len(lane))
+            made.spent += (len(lane) + LEAST_LANES) * made.work
         parts = []
         for block in (slice(k, k + BLOCK) for k in range(0, len(lane), BLOCK)):
             held = self._held(lane[block], place[block]) if inputs is None else self.newton.fixed_inputs(at_poses(inputs, block))
@@ -585,10 +583,3 @@ class GroupPath:
             found, done = self.newton.correct(held, np.where(within, guess, np.nan), sizes[0])
             close = done & (np.abs(found - guess).max(axis=0) <= bound)
         return found, np.where(within, close, -1.0)
-
-    def _filled(self, program: Program, lane: Index, place: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the same in a compiled loop."""
-        a, b = self._lines(program, np.arange(len(self.lanes.lane)))
-        found, close = np.empty((len(self.u), len(lane))), np.empty(len(lane))
-        program.fill(lane, np.ascontiguousarray(place), a, b, self.first, self.kept, self.ended, found, close)
-        return found, close

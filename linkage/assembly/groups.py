@@ -55,13 +55,19 @@ def solve_groups(plan: Plan, designs: Mapping[str, Numbers], strokes: Mapping[st
     shape = (start[0].shape[1], n)
     if len(strokes) == 1:
         ((name, values),) = strokes.items()
-        solved = along_one(plan, newtons, (start, tracks), designs, name, values)
+        pins, crossed, stops = along_one(plan, newtons, (start, tracks), designs, name, values)
     else:
         ways = {name: (plan.sketch_strokes[name], np.asarray(value) - plan.sketch_strokes[name]) for name, value in strokes.items()}
-        solved = along_many(newtons, start, InputRoute(designs, ways, n), shape[0] * n)
-    found, crossed, stops = solved
+        count = shape[0] * n
+        found = group_paths(
+            newtons, InputRoute(designs, ways, n), [np.repeat(each, n, axis=1) for each in start], np.ones(count), LINE, exact=True
+        )
+        pins, crossed = [np.where(np.isinf(track.ended), track.u[:, track.last], np.nan) for track in found], np.zeros(count, int)
+        for number, track in enumerate(found, 1):
+            crossed = np.where((crossed == 0) & track.crossed, number, crossed)
+        stops = ()
     inputs: dict[str, FloatArray] = {}
-    for newton, u in zip(newtons, found, strict=True):
+    for newton, u in zip(newtons, pins, strict=True):
         sine = sines(newton, {**designs, **strokes, **inputs}, strokes, u.reshape(-1, *shape))
         inputs |= dict(zip(newton.names, u.reshape(-1, *shape), strict=True))
         inputs[newton.group.inputs[-1]] = sine
@@ -174,18 +180,6 @@ def along_one(
         if m == 1 and 0.0 <= ended < place.max():
             stops.append(sketch + sense * ended)
     return [each.reshape(len(each), -1) for each in u], crossed, tuple(stops)
-
-
-def along_many(newtons: Sequence[Newton], start: Sequence[FloatArray], route: InputRoute, count: int) -> Found:
-    """Return the pins of every group at poses of several strokes, shape (coordinates, m * n), and the crossed groups."""
-    crossed = np.zeros(count, int)
-    found = group_paths(newtons, route, [np.repeat(each, route.n, axis=1) for each in start], np.ones(count), LINE, exact=True)
-    u = []
-    for number, track in enumerate(found):
-        arrived = np.isinf(track.ended)
-        u.append(np.where(arrived, track.u[:, track.last], np.nan))
-        crossed = np.where((crossed == 0) & track.crossed, number + 1, crossed)
-    return u, crossed, ()
 
 
 def sines(newton: Newton, inputs: Mapping[str, Numbers], strokes: Mapping[str, FloatArray], u: FloatArray) -> FloatArray:

@@ -133,13 +133,7 @@ def written_lines(
         elif isinstance(step := chosen[name], Step):
             lines[name] = as_written(sided_as(step, step.settled_side) if step.modes() else step, plan.turning).partition(", near=")[0]
             lines[name] += ")" * (lines[name].count("(") - lines[name].count(")"))
-    return lines | measured_links(plan, declared, pins) if is_drawn else lines
-
-
-def measured_links(plan: Plan, declared: Mapping[str, Member], pins: Mapping[str, tuple[float, float]]) -> dict[str, str]:
-    """Return the lines of links that some pins are on, with the lengths and angles that were measured from the drawing."""
-    lines = {}
-    for name, link in declared.items():
+    for name, link in declared.items() if is_drawn else ():  # links of the pins, with what was measured from the drawing
         if isinstance(link, Link) and not pins.keys().isdisjoint(points := [name_of(point) for point in link.points]):
             spelled = {joined_names(*several) for count in (2, 3) for several in permutations(points, count)}
             given = {plan.table.spellings[label][0] for label in link.labels if label in plan.table.spellings}
@@ -195,16 +189,21 @@ def group_modes(plan: Plan, inputs: Mapping[str, Numbers]) -> Iterator[tuple[dic
     yield {}, with_own_groups(plan, {}), {}
     if not plan.groups:
         return
-    known = at_sketch(plan)
+    known, designs = at_sketch(plan), {name: inputs[name] for name in plan.defaults}
+    strokes = {name: np.atleast_1d(np.asarray(inputs[name], float)) for name in plan.strokes}
     at: dict[str, Numbers] = {**plan.defaults, **plan.sketch_strokes}
     for name, group in plan.groups.items():  # the pins of one group elsewhere, then of the next
         newton = Newton(plan, group)
         for u in other_solutions(newton, at, known[name]):
             pins = {pin: (float(x), float(y)) for pin, x, y in zip(group.pins, u[0::2, 0], u[1::2, 0], strict=True)}
             members = with_own_groups(plan, pins)
-            solved = solved_from(Plan(members, plan.title), inputs)
-            if solved is not None:
-                yield pins, members, solved
+            try:
+                solved = solve_groups(Plan(members, plan.title), designs, strokes).inputs
+            except AssemblyError:  # the way from the sketch does not reach them
+                continue
+            flat = {pin: float(np.ravel(value)[0]) for pin, value in solved.items()}
+            if np.isfinite(list(flat.values())).all():
+                yield pins, members, flat
         at |= dict(zip(newton.names, known[name], strict=True))
 
 
@@ -219,18 +218,6 @@ def with_own_groups(plan: Plan, pins: Mapping[str, tuple[float, float]]) -> dict
             if pin in pins:
                 moved.near, moved.drawn_at = rounded_to(pins[pin], 6), None
     return members
-
-
-def solved_from(plan: Plan, inputs: Mapping[str, Numbers]) -> Mapping[str, Numbers] | None:
-    """Return the pins of a plan's groups at some inputs; None where the way from the sketch does not reach them."""
-    designs = {name: inputs[name] for name in plan.defaults}
-    strokes = {name: np.atleast_1d(np.asarray(inputs[name], float)) for name in plan.strokes}
-    try:
-        found = solve_groups(plan, designs, strokes).inputs
-    except AssemblyError:
-        return None
-    flat = {name: float(np.ravel(value)[0]) for name, value in found.items()}
-    return flat if np.isfinite(list(flat.values())).all() else None
 
 
 def other_solutions(newton: Newton, inputs: Mapping[str, Numbers], known: FloatArray) -> list[FloatArray]:

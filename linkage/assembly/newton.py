@@ -233,7 +233,13 @@ class Programs:
         steps = [*on, largest_of([size_of(each) for each in step]), elimination.worth(PIVOT)]
         clearance = elimination.clearance()
         constraints = [*equations.residuals, *(entry for row in equations.rows for entry in row)]
-        nodes = expanded([*steps, clearance, group_size(equations, len(group.rods)), *constraints])
+        lengths = [squares(row) for row in equations.rows[: len(group.rods)]]
+        for axis in (0, 1):
+            places = equations.roots[axis::2]
+            apart = largest_of(places) + largest_of([-each for each in places])
+            lengths.append(apart * apart)
+        size = largest_of(lengths) ** 0.5  # [m]: its longest rod, or how far its pins lie apart
+        nodes = expanded([*steps, clearance, size, *constraints])
         hangs = {root.origin for root in equations.roots}
         found: dict[Node, None] = {}
         for node in ancestors(nodes):
@@ -275,16 +281,6 @@ def squares(nodes: Sequence[Node]) -> Node:
     """Return the sum of the squares of nodes that are not zero by structure."""
     first, *others = (node * node for node in nodes if not is_zero(node))
     return sum(others, first)
-
-
-def group_size(equations: GroupEquations, rods: int) -> Node:
-    """Return the size of the group [m]: its longest rod, or how far its pins lie apart."""
-    lengths = [squares(row) for row in equations.rows[:rods]]
-    for axis in (0, 1):
-        places = equations.roots[axis::2]
-        apart = largest_of(places) + largest_of([-each for each in places])
-        lengths.append(apart * apart)
-    return largest_of(lengths) ** 0.5
 
 
 class Elimination:

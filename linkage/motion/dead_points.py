@@ -4,21 +4,20 @@ Where two links that close a loop come into line, a velocity ratio is off by abo
 scaled constraint Jacobian: (1 + cos) / sin of the angle between the links. Where the loop's other side is longer than its links the
 squares cancel more: cond^2 then grows by the reading's `rounding`. A direction between points that come close loses as much, and
 what goes through several such places loses by their product. The kernel watches the product of all these parts; where it is small,
-the request's own program tells what rounding leaves of it (`Rounding`).
+the request's own program tells what rounding leaves of it (`Scatter`).
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from itertools import accumulate, pairwise
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from ..errors import SingularError, SingularWarning, warn
 from ..plan import ArrayReading, Mask, Plan, name_or_pins, opening
-from ..program import FloatArray, Iterated, Node, Scatter
+from ..program import FloatArray, Iterated
 from ..steps import Point
 from ..vectors import Numbers
 from .grid import MotionLike
@@ -36,26 +35,6 @@ FAR = 100.0
 """The condition below which no loop and no direction is to blame for digits that are lost."""
 LEAST = 1e-3
 """Of a result's natural size: a value that is smaller counts as so large where its relative error is told."""
-
-
-@dataclass(frozen=True, eq=False)
-class Rounding:
-    """Rounding errors of the nodes of some results: their program, the groups' pins in it, and the machine's size."""
-
-    nodes: tuple[tuple[Node, ...], ...]
-    iterated: tuple[Iterated, ...]
-    extent: Node
-    made: dict[tuple[int, ...], Scatter] = field(default_factory=dict)
-    """What scatters some of them, by their numbers."""
-
-    def precision_at(self, inputs: Mapping[str, Numbers], among: Sequence[int]) -> list[PrecisionLeft]:
-        """Return the precision left in some of the results at poses, inputs as floats or (n,)."""
-        chosen, key = [self.nodes[k] for k in among], tuple(among)
-        if key not in self.made:
-            self.made[key] = Scatter([*(node for each in chosen for node in each), self.extent], self.iterated)
-        values, errors = self.made[key].at(inputs)
-        ends = list(accumulate(map(len, chosen), initial=0))
-        return [PrecisionLeft(values[a:b], errors[a:b], np.sqrt(values[-1])) for a, b in pairwise(ends)]
 
 
 def iterated(plan: Plan) -> tuple[Iterated, ...]:

@@ -9,15 +9,15 @@ from __future__ import annotations
 from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import accumulate
+from itertools import accumulate, pairwise
 from typing import Any
 
 import numpy as np
 
 from ..errors import DefinitionError
 from ..plan import NEAR, ArrayReading, Mask, Plan, failures, negative
-from ..program import LAST, QUICKEST, FloatArray, Kernel, Node, Result, RunOptions, disturbed
-from .dead_points import DOUBTFUL, ROUGH, Conditioning, PrecisionLeft, Rounding, iterated, loop_conditions
+from ..program import LAST, QUICKEST, FloatArray, Kernel, Node, Result, RunOptions, Scatter, disturbed
+from .dead_points import DOUBTFUL, ROUGH, Conditioning, PrecisionLeft, iterated, loop_conditions
 from .grid import Angles, Grid, Made, angles_behind, angles_of, to_rounding
 from .over import Over
 from .requests import Request, Trait
@@ -47,7 +47,8 @@ class BulkProgram:
     def compiled_on(cls, plan: Plan, requests: Sequence[Request]) -> BulkProgram:
         """Return the same, traced in a plan of its own."""
         nodes = [each.nodes(plan) for each in requests]
-        guards = [*assumed_of(plan, requests), *(node for each in requests for node in each.gaps(plan))]
+        guards = [node for each in requests for node in each.notes(plan).assumed]
+        guards += [node for each in requests for node in each.gaps(plan)]
         guards += plan.trace.watched(members_behind(plan, requests), max((each.regular for each in requests), default=0.0))
         lengths = [each.rows for each in requests]
         parts = tuple(zip(accumulate(lengths[:-1], initial=0), lengths, strict=True)) if lengths else ()
@@ -87,11 +88,6 @@ def require_rates(plan: Plan, kernel: Kernel, known: Container[str]) -> None:
 def members_behind(plan: Plan, requests: Sequence[Request]) -> set[str]:
     """Return the members that requests are built from."""
     return set().union(*(each.names(plan) for each in requests))
-
-
-def assumed_of(plan: Plan, requests: Sequence[Request]) -> list[Node]:
-    """Return the nodes that requests assume to be above zero."""
-    return [node for each in requests for node in each.notes(plan).assumed]
 
 
 @dataclass(frozen=True, eq=False)
@@ -212,7 +208,7 @@ def watch_of(plan: Plan, requests: Sequence[Request]) -> tuple[int, list[int], K
 
     Its outputs are the assumptions, what tells whether there is a place, how near each request is, and the gaps of each.
     """
-    assumed = assumed_of(plan, requests)
+    assumed = [node for each in requests for node in each.notes(plan).assumed]
     near = list[Node]()
     for each in requests:
         each.nodes(plan)  # directions of its own are noted then
@@ -304,16 +300,25 @@ def examined(
     plan: Plan, requests: Sequence[Request], inputs: Mapping[str, Any], reading: ArrayReading, among: Sequence[int]
 ) -> list[Conditioning]:
     """Return how far poses are from singular ones for some `among` the requests: inputs as floats or (n,), and the eager reading there."""
-    found = list[Conditioning]()
-    rounding = of_all(
-        "rounding", plan, requests,
-        lambda twin, these: Rounding(
-            tuple(each.rounding_nodes(twin) for each in these), iterated(twin), twin.trace.graph.node(twin.trace.extent)
+    nodes, pins, extent, scatters = of_all(
+        "rounding",
+        plan,
+        requests,
+        lambda twin, these: (
+            [each.rounding_nodes(twin) for each in these],
+            iterated(twin),
+            twin.trace.graph.node(twin.trace.extent),
+            dict[tuple[int, ...], Scatter](),
         ),
-    )  # fmt: skip
-    for k, left in zip(among, rounding.precision_at(inputs, among), strict=True):
-        what, own = requests[k], reading.copied()  # its own notes in the reading count for no other
-        what.read_own(own)
+    )
+    chosen, key = [nodes[k] for k in among], tuple(among)
+    if key not in scatters:
+        scatters[key] = Scatter([*(node for each in chosen for node in each), extent], pins)
+    values, errors = scatters[key].at(inputs)
+    found, size = list[Conditioning](), np.sqrt(values[-1])
+    for k, (first, last) in zip(among, pairwise(accumulate(map(len, chosen), initial=0)), strict=True):
+        what, own, left = requests[k], reading.copied(), PrecisionLeft(values[first:last], errors[first:last], size)
+        what.read_own(own)  # its own notes in the reading count for no other
         names, error = what.names(plan), what.error(plan, left)
         moving = {name: span for name, span in own.spans.items() if not name or (name in names and plan.moves(plan.members[name]))}
         spans = {name: np.broadcast_to(span, error.shape) for name, span in moving.items()}

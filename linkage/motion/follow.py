@@ -56,8 +56,11 @@ def follow_path(plan: Plan, designs: Mapping[str, object], targets: object, hold
     first, starts = 0, [] if start is None else [start_of(places, start)]
     with unwarned():
         if start is None:
+            begun = (np.array([plan.sketch_strokes[name] for name in places.free]) - places.low) / places.span
             for place in range(len(route.goals) if unreachable == "nan" else 1):
-                starts = route.first_branches(place)
+                found = BranchSearch(places, route.goals[place]).branches().unit
+                order = np.argsort(np.abs(found - begun).max(axis=1), kind="stable")  # the nearest to the declared first pose first
+                starts = [*(places.low + found[order] * places.span)]
                 if starts:
                     first = place
                     break
@@ -140,13 +143,6 @@ class Route:
             (b - a) - TURN * round((b - a) / TURN) if is_angle else b - a
             for a, b, is_angle in zip(values, goal, self.angles, strict=True)
         ]
-
-    def first_branches(self, place: int) -> list[FloatArray]:
-        """Return the strokes (k,) of all branches of a place, the nearest to the declared first pose of the strokes first."""
-        places = self.places
-        found = BranchSearch(places, self.goals[place]).branches().unit
-        begun = (np.array([places.plan.sketch_strokes[name] for name in places.free]) - places.low) / places.span
-        return [*(places.low + found[np.argsort(np.abs(found - begun).max(axis=1), kind="stable")] * places.span)]
 
     def tracked(self, start: FloatArray, first: int) -> Track:
         """Return the strokes of each place from the first one on, from some strokes near those of it; NaN from where it ends."""

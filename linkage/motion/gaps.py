@@ -77,7 +77,8 @@ def gap(a: Reference, b: Reference, *, width: float = 0.0) -> NodeRequest:
     one, other = name_of(a), name_of(b)
 
     def nodes(plan: Plan) -> tuple[Node, ...]:
-        return (plan.trace.graph.node(gap_of(plan, one, other) - float(width)),)
+        found = gap_in(plan, plan.trace, plan.trace.graph.pick, one, other)
+        return (plan.trace.graph.node(found - float(width)),)
 
     def names(plan: Plan) -> set[str]:
         return plan.reaches(*(name for shape in two_shapes(plan, one, other) for name in shape.parts_behind))
@@ -148,23 +149,18 @@ class BodyShape:
         return [Piece(tuple(where.at(P) for P in self.points))]
 
 
-def gap_of(plan: Plan, a: str, b: str) -> Scalar:
-    """Return the gap of two bodies or outlines in a plan's trace [m]."""
-    return gap_in(plan, plan.trace, plan.trace.graph.pick, a, b)
-
-
 def gap_in(plan: Plan, where: Reading, pick: Pick, a: str, b: str) -> Scalar:
     """Return the gap of two bodies or outlines in a reading [m], such as on arrays, where nothing is compiled."""
     shapes, gaps = two_shapes(plan, a, b), list[Scalar]()
     for one, other in product(*(each.pieces(plan, where, pick) for each in shapes)):
-        a, b, edges, rounded = one.places, other.places, [one.edges, other.edges], one.radius + other.radius
+        p, q, edges, rounded = one.places, other.places, [one.edges, other.edges], one.radius + other.radius
         if any(edges):  # the least distance, below zero by the least way that parts them
-            pairs = [(P, edge) for points, own in ((a, edges[1]), (b, edges[0])) for P in points for edge in own]
+            pairs = [(P, edge) for points, own in ((p, edges[1]), (q, edges[0])) for P in points for edge in own]
             squares = [(P - nearest_on(edge, P)).square() for P, edge in pairs]
-            overlap = reduce(np.maximum, [separation(a, b, way) for own in edges for way in ways_across(own)])
+            overlap = reduce(np.maximum, [separation(p, q, way) for own in edges for way in ways_across(own)])
             found = pick(overlap, 0.0, overlap, np.sqrt(least_number(squares))) - rounded
         else:
-            found = np.sqrt((a[0] - b[0]).square()) - rounded
+            found = np.sqrt((p[0] - q[0]).square()) - rounded
         counts = [each.counts for each in (one, other) if each.counts is not None]
         gaps.append(pick(0.0, least_number(counts), found, FAR) if counts else found)  # more than any gap where one is none in a design
     least = least_number(gaps)

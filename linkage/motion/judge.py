@@ -17,7 +17,7 @@ from typing import Any, TypeAlias, TypeVar, cast
 import numpy as np
 
 from ..checks import is_listed, require_type
-from ..errors import DefinitionError, cited, ensure, errors_of, known_name, unwarned, warned_once
+from ..errors import DefinitionError, cited, ensure, errors_of, heard, known_name, unwarned, warn
 from ..language import current_language, said
 from ..loads import AS_IT_RUNS, FRICTIONLESS, PLAIN, PLAIN_CASE, Acting, ForceElement, LoadCase
 from ..numeric.box import values_a_stroke
@@ -59,7 +59,7 @@ from .measures import (
 from .motion import Motion
 from .over import ALLOWED, Over, Run, with_strokes
 from .requests import Request, SmoothPiece, Trait, identity_of, is_of_force, measured_in
-from .search import Span, assembly_error_at, below_zero, extremum, least_margins, strokes_moved
+from .search import Span, assembly_error_at, below_zero, extremum_reached, least_margins, strokes_moved
 from .strokes import at_values, strokes_over_axes
 
 Question: TypeAlias = "Measure | Condition"
@@ -312,7 +312,9 @@ class Domain:
             every = {name: np.broadcast_to(np.ravel(each), flat.shape) for name, each in self.motion.strokes.items()}
             strokes = {name: np.take_along_axis(each, place, axis=-1)[..., 0] for name, each in every.items()}
         else:
-            found = warned_once(lambda: extremum(self.motion, asked, 1.0))
+            found, near = heard(lambda: extremum_reached(self.motion, asked, 1.0))
+            if near:  # only that with the largest expected error, NaN last
+                warn(max(near, key=lambda each: (each.estimate == each.estimate, each.estimate)))
             value, unbounded = (np.broadcast_to(np.asarray(each), shape) for each in (found.value, found.unbounded))
             strokes = {name: np.broadcast_to(np.asarray(each), shape) for name, each in found.strokes.items()}
             time = np.broadcast_to(np.asarray(found.time), shape)

@@ -52,7 +52,16 @@ class StrokeLimits:
         start, end = stroke_number(self.start, self.unit, 6), stroke_text(self.end, self.unit, 6)
         lines = [f"{self.stroke}: {said('declared {low} to {high}', low=start, high=end)}{held}"]
         for each in self.intervals:
-            lines += self._reach(each)
+            ends = (each.low, each.low_stop), (each.high, each.high_stop)
+            if each.low_stop or each.high_stop:
+                low, high = (stroke_number(value, self.unit) + ("" if stop else said(" (looked no farther)")) for value, stop in ends)
+                sign = unit_sign(self.shown_unit)
+                lines.append(f"  {said('reachable from {low} to {high} {unit}', low=low, high=high, unit=sign).rstrip()}")
+                stops = [(stroke_number(value, self.unit), said("dead point of {step}", step=stop)) for value, stop in ends if stop]
+                lines += [f"    {value}: {text}" for value, text in stops]
+            else:
+                low, high = stroke_number(each.low, self.unit), stroke_text(each.high, self.unit)
+                lines.append(f"  {said('reachable all the way from {low} to {high}', low=low, high=high)}")
         for value, step in self.change_points:
             place = stroke_text(value, self.unit)
             lines.append("  " + said("change point at {place}: the branches of {step} cross", place=place, step=step))
@@ -63,17 +72,6 @@ class StrokeLimits:
             given = {"joint": least.joint, "angle": angle_text(least.angle, 4), "place": stroke_text(least.stroke, self.unit, 6)}
             lines.append("  " + said("least transmission angle at {joint}: {angle} at {place}", **given))
         return "\n".join([*lines, *([f"  {self.open_turn}"] if self.open_turn else [])])
-
-    def _reach(self, interval: Interval) -> list[str]:
-        """Return the lines of an interval."""
-        ends = (interval.low, interval.low_stop), (interval.high, interval.high_stop)
-        if not (interval.low_stop or interval.high_stop):
-            low, high = stroke_number(interval.low, self.unit), stroke_text(interval.high, self.unit)
-            return [f"  {said('reachable all the way from {low} to {high}', low=low, high=high)}"]
-        low, high = (stroke_number(value, self.unit) + ("" if stop else said(" (looked no farther)")) for value, stop in ends)
-        stops = [f"    {stroke_number(value, self.unit)}: {said('dead point of {step}', step=stop)}" for value, stop in ends if stop]
-        sign = unit_sign(self.shown_unit)
-        return [f"  {said('reachable from {low} to {high} {unit}', low=low, high=high, unit=sign).rstrip()}", *stops]
 
 
 class Limits(FrozenDict[str, StrokeLimits], Shown):

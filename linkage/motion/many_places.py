@@ -252,17 +252,13 @@ class PlaceGrid:
         row = np.repeat(np.arange(len(cell)), count)
         inner = np.arange(len(row)) - np.repeat(np.cumsum(count) - count, count)
         place = (first[1][row] + inner // np.maximum(wide[row], 1)) * len(x) + first[0][row] + inner % np.maximum(wide[row], 1)
-        return PlacePoses(place, self._begun(cell)[row])
-
-    def _begun(self, cell: Index) -> FloatArray:
-        """Return where it is begun in some cells, unit coordinates (n, k): in the middle of the corners that are assembled."""
+        # each cell is begun in the middle of its corners that are assembled
         counts = [len(axis) for axis in (*self.spare, *self.axes)]
-        inner = [len(axis) - 1 for axis in self.axes]
-        index = np.stack(np.unravel_index(cell, (*counts[: len(self.spare)], *inner)), axis=1)
+        index = np.stack(np.unravel_index(cell, (*counts[: len(self.spare)], *(len(axis) - 1 for axis in self.axes))), axis=1)
         known: Mask = np.asarray(np.isfinite(self.values).all(axis=0))
         total, weight = np.zeros((len(cell), self.unit.shape[1])), np.zeros(len(cell))
         for corner in product((0, 1), repeat=len(self.axes)):
-            at = np.ravel_multi_index(tuple((index + np.array([*[0] * len(self.spare), *corner])).T), counts)
-            total[known[at]] += self.unit[at[known[at]]]
-            weight += known[at]
-        return np.asarray(total / np.maximum(weight, 1.0)[:, None])
+            near = np.ravel_multi_index(tuple((index + np.array([*[0] * len(self.spare), *corner])).T), counts)
+            total[known[near]] += self.unit[near[known[near]]]
+            weight += known[near]
+        return PlacePoses(place, (total / np.maximum(weight, 1.0)[:, None])[row])

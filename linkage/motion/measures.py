@@ -666,7 +666,9 @@ def kind_of_measure(plan: Plan, measure: Measure) -> MeasureKind | None:
     if measure.symbol == "**":
         power = measure.right.value if isinstance(measure.right, FixedNumber) else None
         return None if left is None or power is None else left.to_the(power)
-    return product_of(measure.symbol == "/", (left, unitless_number(measure.left)), (right, unitless_number(measure.right)))
+    sides = (measure.left, measure.right)
+    a, b = (each.value if isinstance(each, FixedNumber) and not each.measures else None for each in sides)  # numbers without a unit
+    return product_of(measure.symbol == "/", (left, a), (right, b))
 
 
 def kind_of_quantity(plan: Plan, quantity: object) -> MeasureKind | None:
@@ -704,11 +706,6 @@ def kind_called(name: str) -> MeasureKind | None:
 def kind_of_stroke(plan: Plan, name: str) -> MeasureKind:
     """Return the kind of a stroke."""
     return MeasureKind(KINDS[stroke_measure(plan, name)])
-
-
-def unitless_number(measure: Measure) -> float | None:
-    """Return a number without a unit; None for any other measure."""
-    return measure.value if isinstance(measure, FixedNumber) and not measure.measures else None
 
 
 def constant_part(part: object) -> float | None:

@@ -17,7 +17,7 @@ from ..frozen import FrozenDict, read_only
 from ..numeric import differences
 from ..plan import ArrayReading, Mask, Part, Plan, failures, negative, rate_name, require_kinds
 from ..program import FloatArray, Kernel
-from ..quantities import FRAME_AXES, Angle, Axes, Coordinate, Distance, Number, Quantity, quantity
+from ..quantities import FRAME_AXES, Angle, Axes, Coordinate, Distance, Number, Quantity, is_number, quantity
 from ..quantities.member import Member, Reference, as_mapping, name_of, needs
 from ..shown import Shown
 from ..steps import Arrow, Point
@@ -29,11 +29,11 @@ from .evaluation import BulkProgram, Evaluation, examined, guard_masks, other_la
 from .grid import Grid, JoinedTo, Joining, MotionLike, joined_in_order, not_joined, to_rounding
 from .instants import Instants
 from .limits import Limits, no_joint, span_text, stroke_unit, where_words
-from .over import Over, over_of
+from .over import Over, with_strokes
 from .poles import body_points, body_rates, pole_of, whole_body
 from .requests import Request, RequestLike, Value, as_they_run, bound, dimensions_of, natural_size, places_of, slope, stroke_of, switches_of
 from .stroke_search import Interruption
-from .strokes import check_any, checked_name, checked_rate, method_of, order_of, rate_values, rates_of
+from .strokes import check_any, checked_name, checked_rate, order_of, rate_values, rates_of
 
 Made = TypeVar("Made")
 Kind = TypeVar("Kind", bound=Member)
@@ -100,7 +100,7 @@ class Motion(Shown):
             rate_inputs = {rate_name(name, order): each for order, known in enumerate(ways, 1) for name, each in known.items()}
         self._grid = Grid(plan, designs, strokes, per_design=per_design, joining=joining, rate_inputs=rate_inputs)
         self.plan, self.unreachable = plan, unreachable
-        self.shape, self._design_shape = self._grid.shape, self._grid.design_shape
+        self.shape, self._design_shape, self._stroke_shape = self._grid.shape, self._grid.design_shape, self._grid.stroke_shape
         self._tangent, self._over, self._instants = tangent if instants is None else instants.rates, over, instants
         self._held: tuple[Motion, str] | None = None
         self._values: dict[Hashable, FloatArray] = {}
@@ -172,7 +172,13 @@ class Motion(Shown):
             what = "in this motion each design has strokes of its own, and what is looked for between poses is looked for over the same"
             raise DefinitionError(f"{self.plan.title}: {what} strokes of all designs; take the designs one by one, or give one Over.")
         check_any(self.strokes, self.plan)
-        return over_of(self.strokes, self._grid.per_design)
+        strokes = with_strokes(self.strokes)
+        several = sum(float(np.ptp(value)) > 0.0 for value in strokes.values()) > 1
+        if several and not self._grid.per_design and all(value.ndim == 1 for value in strokes.values()):
+            return Over.path(**{name: value.tolist() for name, value in strokes.items()})
+        ends = {name: (float(np.min(value)), float(np.max(value))) for name, value in strokes.items()}
+        given: dict[str, Any] = {name: (low, high) if low < high else low for name, (low, high) in ends.items()}
+        return Over(**given)
 
     @property
     def is_swept(self) -> bool:
@@ -188,11 +194,6 @@ class Motion(Shown):
     def inputs(self) -> dict[str, Any]:
         """Design variables and strokes by name, shaped to broadcast against results."""
         return self._grid.inputs
-
-    @property
-    def _stroke_shape(self) -> tuple[int, ...]:
-        """The shape of the poses of each design."""
-        return self._grid.stroke_shape
 
     def __repr__(self) -> str:
         spans = [f"{name} = {span_text(values, stroke_unit(self.plan, name))}" for name, values in self.strokes.items()]
@@ -493,8 +494,11 @@ class Motion(Shown):
         SingularError
             A dead point.
         """
-        stroke = stroke_of(self.plan, wrt)
-        order, method = order_of(order), method_of(method, step)
+        stroke, order = stroke_of(self.plan, wrt), order_of(order)
+        one_word("method", method, ("exact", "central"))
+        if step is not None and not (is_number(step) and step > 0.0 and method == "central"):
+            fault = f"step={step!r}: a positive number in the unit of the stroke"
+            raise DefinitionError(f'{fault}, together with method="central", is expected.')
         what = Value(self._member(target), (stroke,) * order)
         words = f"The ratio of {what.name}"
         refused = self._refused(what, words)

@@ -573,17 +573,3 @@ def with_strokes(strokes: Mapping[str, FloatArray]) -> Mapping[str, FloatArray]:
     if known.all() or not known.any():
         return strokes
     return {name: value[known] for name, value in strokes.items()}
-
-
-def over_of(strokes: Mapping[str, FloatArray], per_design: bool) -> Over:
-    """Return where poses are: of one stroke its range, of several in arrays of one axis their path, of a grid the box.
-
-    Places of a path that have no strokes are left out.
-    """
-    strokes = with_strokes(strokes)
-    several = sum(float(np.ptp(value)) > 0.0 for value in strokes.values()) > 1
-    if several and not per_design and all(value.ndim == 1 for value in strokes.values()):
-        return Over.path(**{name: value.tolist() for name, value in strokes.items()})
-    ends = {name: (float(np.min(value)), float(np.max(value))) for name, value in strokes.items()}
-    given: dict[str, Any] = {name: (low, high) if low < high else low for name, (low, high) in ends.items()}
-    return Over(**given)

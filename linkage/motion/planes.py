@@ -23,7 +23,7 @@ from ..surroundings import Outline
 from ..units import require_measure, show
 from ..vectors import pick
 from ..verdict import Verdict
-from .gaps import body_points_of, check_forms, corner_pieces, follows_dimensions, gap_in, gap_of, least_number, shape_named
+from .gaps import body_points_of, check_forms, corner_pieces, follows_dimensions, gap_in, least_number, shape_named
 from .judge import Judge, Question
 from .measures import Condition, least
 from .motion import Motion
@@ -161,8 +161,9 @@ def clearance() -> NodeRequest:
     def nodes(plan: Plan) -> tuple[Node, ...]:
         found = pairs_of(plan)
         ensure(found, f"{plan.title}: clearance(): no two bodies lie in one plane that share no pin; ask gap(a, b) of two.")
-        width = plan.trace.value(width_of(plan))
-        return (plan.trace.graph.node(least_number([gap_of(plan, a, b) - (width if thick else 0.0) for (a, b), thick in found.items()])),)
+        width, choose = plan.trace.value(width_of(plan)), plan.trace.graph.pick
+        gaps = [gap_in(plan, plan.trace, choose, a, b) - (width if thick else 0.0) for (a, b), thick in found.items()]
+        return (plan.trace.graph.node(least_number(gaps)),)
 
     def behind(plan: Plan) -> set[str]:
         shapes = [shape_named(plan, name) for pair in pairs_of(plan) for name in pair]

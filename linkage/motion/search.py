@@ -50,23 +50,18 @@ def greatest(motion: Motion, f: Function) -> Answer:
     three, 1/12 of four, 1/7 of five, 1/5 of six. The value is right to 1e-9 of its range where f is smooth, to 1e-6 on borders of what is
     reached, to 1e-3 on kinks.
     """
-    return extremum(motion, f, 1.0)
+    return extremum_reached(motion, f, 1.0)
 
 
 def lowest(motion: Motion, f: Function) -> Answer:
     """Return the lowest value of f over all that a motion covers, and where; as `greatest`."""
-    return extremum(motion, f, -1.0)
-
-
-def extremum(motion: Motion, f: Function, sense: float) -> Answer:
-    """Return the greatest (sense 1.0) or the lowest (-1.0) value of f over all that a motion covers."""
-    require_function(motion, f)
-    ensure(motion.strokes, f"{motion.plan.title} has no stroke, so there is nothing between its poses.")
-    return extremum_reached(motion, f, sense)
+    return extremum_reached(motion, f, -1.0)
 
 
 def extremum_reached(motion: Motion, f: Function, sense: float, *, everywhere: bool = False) -> Answer:
-    """Return the same of poses that are reached only, or `everywhere`."""
+    """Return the greatest (sense 1.0) or the lowest (-1.0) value of f over all poses that a motion covers and reaches, or `everywhere`."""
+    require_function(motion, f)
+    ensure(motion.strokes, f"{motion.plan.title} has no stroke, so there is nothing between its poses.")
     if len(motion._stroke_shape) > 1 and len(strokes_moved(motion)) > 1:
         box = InBox(motion, f, sense, everywhere=everywhere)
         (value, unit, unbounded), front = highest_in(box), box.front

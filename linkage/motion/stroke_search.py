@@ -266,11 +266,6 @@ class StrokeLine:
         found = self.clearances.kernel(self.kernel_inputs(x), way=ON_ARRAYS, size=(1, x.size)).values[:, 0]
         return np.where(self.clearances.is_signed, np.abs(found), found)
 
-    def rounding(self, x: FloatArray) -> FloatArray:
-        """Return by how much rounding moves every loop's clearance at the most along the values, shape (loops, 1)."""
-        sizes = self.clearances.rounding(self.kernel_inputs(x), way=ON_ARRAYS, size=(1, x.size)).values[:, 0]
-        return np.asarray(ROUNDING * np.fmax.reduce(np.abs(sizes), axis=1, initial=1.0)[:, None])
-
     def grid(self, low: float, high: float) -> FloatArray:
         """Return the values at which a way is looked at first."""
         turns = (high - low) / (2.0 * np.pi) if self.name in self.plan.turning else 1.0
@@ -290,7 +285,8 @@ class StrokeLine:
 
     def _narrowed(self, x: FloatArray, seen: FloatArray, bends: FloatArray) -> tuple[Interruption, ...]:
         """Return the interruptions, narrowed down from the grid."""
-        noise = self.rounding(x)
+        sizes = self.clearances.rounding(self.kernel_inputs(x), way=ON_ARRAYS, size=(1, x.size)).values[:, 0]
+        noise = ROUNDING * np.fmax.reduce(np.abs(sizes), axis=1, initial=1.0)[:, None]  # how far rounding moves a clearance at the most
         tops = np.fmax.reduce(seen, axis=1)
         tells = np.array([loop.kind != "length" for loop in self.clearances.loops])
         level = np.where([[loop.kind == "links"] for loop in self.clearances.loops], TOUCH**2, 2.0 * DEPTH * tops[:, None])
@@ -308,6 +304,10 @@ class StrokeLine:
 
     def _of_loop(self, row: int, x: FloatArray, seen: FloatArray, level: float, noise: float) -> list[Interruption]:
         """Return where one loop interrupts the way: runs of values that have come to zero."""
+
+        def is_under(at: FloatArray) -> Mask:
+            return np.asarray(self.seen(at)[row] < -noise)
+
         found, loop = [], self.clearances.loops[row]
         low_end, high_end, known = x[0], x[-1], np.isfinite(seen)  # the ends of the way: where the loop has values it may begin within
         x, seen = x[known], seen[known]
@@ -316,20 +316,13 @@ class StrokeLine:
             deepest = float(x[run][seen[run] <= seen[run].min() + noise].mean())
             if seen[run].min() < -noise:
                 under = first + np.flatnonzero(seen[run] < -noise)
-                low = self._border(row, x, int(under[0]), -1, noise)
-                high = self._border(row, x, int(under[-1]), 1, noise)
+                places = ((int(under[0]), -1), (int(under[-1]), 1))
+                pairs = [(x[place], x[min(max(place + side, 0), len(x) - 1)]) for place, side in places]
+                low, high = (float(last_holding(is_under, inside, outside)[1]) for inside, outside in pairs)
                 found.append(Interruption(self.name, self.unit, loop.step, low, high, deepest, loop.kind))
             elif loop.kind != "length" and min(deepest - low_end, high_end - deepest) > END * (high_end - low_end):
                 found.append(Interruption(self.name, self.unit, loop.step, deepest, deepest, deepest, loop.kind))
         return found
-
-    def _border(self, row: int, x: FloatArray, place: int, side: int, noise: float) -> float:
-        """Return the end of a stretch that is out of reach, on one side of a value in it."""
-        def is_under(at: FloatArray) -> Mask:
-            return np.asarray(self.seen(at)[row] < -noise)
-
-        return float(last_holding(is_under, x[place], x[min(max(place + side, 0), len(x) - 1)])[1])
-
 
 def roots_between(rate: Curve, low: float, high: float) -> list[float]:
     """Return where a function passes zero between two strokes, or at one of them, to 1e-13 of the range between them."""

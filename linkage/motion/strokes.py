@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 
 from ..checks import require_whole
-from ..errors import DefinitionError, cited, ensure, known_name, one_word
+from ..errors import DefinitionError, cited, ensure, known_name
 from ..frozen import read_only
 from ..plan import Plan, rate_name, require_kind, require_kinds
 from ..program import FloatArray
-from ..quantities import Member, Stroke, as_mapping, is_number, is_whole, keywords, real
+from ..quantities import Member, Stroke, as_mapping, is_whole, keywords, real
 from ..units import Amount
 from .grid import MotionLike
 from .limits import stroke_unit
@@ -205,11 +205,3 @@ def checked_rate(what: str, value: object, shape: tuple[int, ...], title: str, *
 def order_of(order: object) -> int:
     """Return the order of a derivative; DefinitionError unless it is 1 or 2."""
     return require_whole("order", order, "derivatives of order 1 and 2 are provided", least=1, most=2)
-
-
-def method_of(method: object, step: object) -> str:
-    """Return how to differentiate; DefinitionError for an unknown word or a step that is not a positive number."""
-    word = one_word("method", method, ("exact", "central"))
-    if step is not None and not (is_number(step) and step > 0.0 and method == "central"):
-        raise DefinitionError(f'step={step!r}: a positive number in the unit of the stroke, together with method="central", is expected.')
-    return word

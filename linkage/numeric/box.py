@@ -398,9 +398,15 @@ def ridden(box: SeenBox, climbs: Climbs, least: FloatArray) -> Climbs:
     for number in range(FALLS):
         cube = evenly(k, number * m, m)
         wanted = climbs.unit[:, None] + climbs.half[:, None, None] * cube
-        places, slopes, values = slopes_about(box, climbs, wanted)
+        places = np.clip(wanted, 0.0, 1.0)
+        delta = (1e-4 * climbs.half[:, None, None] * np.where(places > 0.5, -1.0, 1.0))[..., None] * np.eye(k)  # (r, m, k, k)
+        every = np.concatenate([places[:, :, None], places[:, :, None] + delta], axis=2)
+        seen = own_values(box, climbs, every.reshape(len(places), -1, k)).reshape(*places.shape[:2], k + 1)
+        slopes = (seen[..., 1:] - seen[..., :1]) / np.einsum("rmkk->rmk", delta)
+        steep = 10.0 * np.where(np.isfinite(slopes), np.abs(slopes), 0.0).max(axis=(1, 2))[:, None, None]
+        slopes = np.where(wanted == places, slopes, -np.sign(wanted - places) * steep)  # it falls ten times as steep beyond a border
         way = shortest(slopes, np.asarray(np.isfinite(slopes).all(axis=-1)))
-        climbs = stepped(box, climbs, way, places, values, least)
+        climbs = stepped(box, climbs, way, places, seen[..., 0], least)
         going = climbs.half >= NARROW
         ended.append(climbs.subset(~going))
         climbs, least = climbs.subset(going), least[going]
@@ -416,20 +422,6 @@ def evenly(k: int, first: int, count: int) -> FloatArray:
         root = (1.0 + root) ** (1.0 / (k + 1))
     numbers = first + np.arange(count)[:, None]
     return np.asarray(2.0 * ((0.5 + numbers * root ** -np.arange(1.0, k + 1)) % 1.0) - 1.0)
-
-
-def slopes_about(box: SeenBox, climbs: Climbs, wanted: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return the places (r, m, k) in the box that are next to those wanted, the slopes there and the values (r, m).
-
-    Beyond a border of the box a function falls, ten times as steep as anywhere else.
-    """
-    k, places = box.k, np.clip(wanted, 0.0, 1.0)
-    delta = (1e-4 * climbs.half[:, None, None] * np.where(places > 0.5, -1.0, 1.0))[..., None] * np.eye(k)  # (r, m, k, k)
-    every = np.concatenate([places[:, :, None], places[:, :, None] + delta], axis=2)
-    seen = own_values(box, climbs, every.reshape(len(places), -1, k)).reshape(*places.shape[:2], k + 1)
-    slopes = (seen[..., 1:] - seen[..., :1]) / np.einsum("rmkk->rmk", delta)
-    steep = 10.0 * np.where(np.isfinite(slopes), np.abs(slopes), 0.0).max(axis=(1, 2))[:, None, None]
-    return places, np.where(wanted == places, slopes, -np.sign(wanted - places) * steep), seen[..., 0]
 
 
 def stepped(box: SeenBox, climbs: Climbs, way: FloatArray, near: FloatArray, seen: FloatArray, least: FloatArray) -> Climbs:
@@ -637,7 +629,12 @@ def highest_in(box: SeenBox) -> tuple[FloatArray, FloatArray, Mask]:
     value, unit = value_of(best, K, D), np.zeros((K, D, box.k))
     doubtful = doubtful.subset(doubtful.value >= value[doubtful.function, doubtful.design])
     grows = grows_in_box(box, doubtful)
-    unit[best.function, best.design] = at_the_start(box, best, least)
+    place = best.unit
+    for axis in range(box.k if len(place) else 0):  # a stroke that changes the value by no more than rounding stands at its start
+        there = np.where(np.arange(box.k) == axis, 0.0, place)
+        is_tie = own_values(box, best, there[:, None, :])[:, 0] >= best.value - least[best.function, best.design]
+        place = np.where(is_tie[:, None], there, place)
+    unit[best.function, best.design] = place
     unbounded = np.isposinf(value)
     poles = Climbs.concatenated([doubtful.subset(grows), *found[5:]])
     unbounded[poles.function, poles.design] = True
@@ -660,16 +657,6 @@ def best_of(climbs: Climbs, K: int, D: int, count: int) -> Climbs:
     return climbs.subset(order[rank < count])
 
 
-def at_the_start(box: SeenBox, best: Climbs, least: FloatArray) -> FloatArray:
-    """Return the places (r, k) of the best searches; a stroke that changes their value by no more than rounding stands at its start."""
-    unit = best.unit
-    for axis in range(box.k if len(unit) else 0):
-        there = np.where(np.arange(box.k) == axis, 0.0, unit)
-        is_tie = own_values(box, best, there[:, None, :])[:, 0] >= best.value - least[best.function, best.design]
-        unit = np.where(is_tie[:, None], there, unit)
-    return unit
-
-
 def value_of(best: Climbs, K: int, D: int) -> FloatArray:
     """Return the values (K, D) of the best searches, one each."""
     value = np.full((K, D), -np.inf)
@@ -678,7 +665,7 @@ def value_of(best: Climbs, K: int, D: int) -> FloatArray:
 
 
 def grows_in_box(box: SeenBox, climbs: Climbs) -> Mask:
-    """Return at which places (r,) a value grows beyond bounds along a stroke; see `line.grows_along_leg`."""
+    """Return at which places (r,) a value grows beyond bounds along a stroke; see `line.is_pole`."""
     if not len(climbs.value):
         return np.zeros(0, bool)
     far = np.ldexp(1.0, -np.arange(1, 41))

@@ -73,16 +73,11 @@ def is_ear(corners: Corners, order: Sequence[int], place: int) -> bool:
     a, b, c = (order[(place + step) % len(order)] for step in (-1, 0, 1))
     if corner_turn(corners, a, b, c) < -FLAT * squared_extent(corners):
         return False
-    others = [each for each in order if each not in (a, b, c)]
-    return not any(is_in_triangle(corners, each, (a, b, c)) for each in others)
-
-
-def is_in_triangle(corners: Corners, place: int, triangle: tuple[int, int, int]) -> bool:
-    """Return whether a corner lies in a triangle or on its edges, but on none of its corners."""
-    a, b, c = triangle
-    if any(np.array_equal(corners[place], corners[each]) for each in triangle):
-        return False
-    return all(corner_turn(corners, start, end, place) >= 0.0 for start, end in ((a, b), (b, c), (c, a)))
+    for each in order:  # none of the others lies in the triangle or on its edges, but on its corners
+        is_corner = any(np.array_equal(corners[each], corners[known]) for known in (a, b, c))
+        if not is_corner and all(corner_turn(corners, start, end, each) >= 0.0 for start, end in ((a, b), (b, c), (c, a))):
+            return False
+    return True
 
 
 def across_edge(one: tuple[int, ...], other: tuple[int, ...]) -> tuple[tuple[int, ...], tuple[int, int]]:

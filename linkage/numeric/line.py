@@ -9,7 +9,7 @@ A line is made of legs, a place on it is a leg and a share t of it, 0 to 1. Noth
   highest, by what it rises above the places next to it, is narrowed 16-fold (4-fold) a round until the bracket is 1e-13 of the leg, or
   flat to rounding. A kink is found like a smooth top, and so is a jump from its larger side.
 * Every border of the places that have a value is bisected to 1e-13 of the leg, and looked at in steps that halve towards it.
-* A value that grows with a power of the distance up to a border, or as far as numbers go, is unbounded there; see `grows_along_leg`.
+* A value that grows with a power of the distance up to a border, or as far as numbers go, is unbounded there; see `is_pole`.
 """
 
 from __future__ import annotations
@@ -102,7 +102,13 @@ def highest(look: Look, counts: Sequence[int]) -> Highest:
         tops = narrowed(look, tops.best(MANY if rounds < PATIENCE else LAST))
         rounds += 1
     ends = tops if edges is None else tops.concatenated(edges)
-    unbounded = grows_along_leg(look, ends)
+    # looked at from 2^-1 to 2^-48 of the leg before and behind a place
+    far, (K, D, c) = np.ldexp(1.0, -np.arange(1, HALVINGS + 1)), ends.t.shape
+    beside = ends.t[..., None, None] + np.array([-1.0, 1.0])[:, None] * far
+    on = (beside >= 0.0) & (beside <= 1.0)
+    near, reached = at_own_legs(look, ends.leg, np.clip(beside, 0.0, 1.0).reshape(K, D, c, -1))
+    near, reached = np.where(on, near.reshape(on.shape), np.nan), reached.reshape(on.shape) & on
+    unbounded = np.asarray(np.isposinf(ends.value) | is_pole(ends.value, near, reached, far).any(axis=-1))
     any_unbounded = np.asarray(unbounded.any(axis=-1))
     score = np.where(any_unbounded[..., None] & ~unbounded, -np.inf, ends.value)
     place = np.argmax(score, axis=-1)[..., None]
@@ -300,17 +306,6 @@ def steps_to_borders(look: Look, edges: Tops) -> Tops:
 
 
 # -- without bounds ------------------------------------------------------------------------------------------
-
-
-def grows_along_leg(look: Look, tops: Tops) -> Mask:
-    """Return at which places (K, D, c) a value grows beyond bounds: looked at from 2^-1 to 2^-48 of the leg before and behind a place."""
-    far = np.ldexp(1.0, -np.arange(1, HALVINGS + 1))
-    t = tops.t[..., None, None] + np.array([-1.0, 1.0])[:, None] * far
-    on = (t >= 0.0) & (t <= 1.0)
-    K, D, c = tops.t.shape
-    seen, reached = at_own_legs(look, tops.leg, np.clip(t, 0.0, 1.0).reshape(K, D, c, -1))
-    seen, reached = np.where(on, seen.reshape(t.shape), np.nan), reached.reshape(t.shape) & on
-    return np.asarray(np.isposinf(tops.value) | is_pole(tops.value, seen, reached, far).any(axis=-1))
 
 
 def is_pole(value: FloatArray, seen: FloatArray, reached: Mask, far: FloatArray, border: float = 1e-12, near: float = SEEN) -> Mask:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cache
-from typing import Any
 
 import numpy as np
 
@@ -44,7 +43,10 @@ def quadrature(values: Callable[[FloatArray], FloatArray], edges: FloatArray | N
         apart, size = np.abs(pairs.sum(axis=-1) - shares), np.abs(pairs).sum(axis=(-2, -1))
         error = apart.sum(axis=-1)
         coarse = apart > WORK * size[..., None]
-        coarse |= bent_at_ends(inside, ends).reshape(*shares.shape, 2).any(axis=-1)
+        inside = inside.reshape(*inside.shape[:-1], -1, NODES)
+        off = np.abs(inside @ gauss_rule()[2] - np.stack([ends[..., :-1], ends[..., 1:]], axis=-1)).max(axis=-1)
+        bent = off > WORK**0.5 * np.abs(inside).max(axis=(-2, -1), initial=0.0)[..., None]  # a kink lies beside the end
+        coarse |= bent.reshape(*shares.shape, 2).any(axis=-1)
         coarse = coarse.reshape(-1, coarse.shape[-1]).any(axis=0)
         if not coarse.any():
             return Quadrature(pairs.sum(axis=(-2, -1)), error, edges)
@@ -73,10 +75,3 @@ def gauss(edges: FloatArray) -> tuple[FloatArray, FloatArray]:
 def by_panel(values: FloatArray, edges: FloatArray) -> FloatArray:
     """Return the integrals (..., panels) over the panels between edges, of values (..., n) at Gauss's places."""
     return np.asarray((values * gauss(edges)[1]).reshape(*values.shape[:-1], len(edges) - 1, NODES).sum(axis=-1))
-
-
-def bent_at_ends(values: FloatArray, ends: FloatArray) -> Any:
-    """Return the panels whose end value differs from the polynomial through Gauss's places: a kink lies beside the end."""
-    shown = values.reshape(*values.shape[:-1], -1, NODES) @ gauss_rule()[2]
-    apart = np.abs(shown - np.stack([ends[..., :-1], ends[..., 1:]], axis=-1)).max(axis=-1)
-    return apart > WORK**0.5 * np.abs(values).max(axis=-1, initial=0.0)[..., None]

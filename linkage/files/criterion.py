@@ -36,11 +36,12 @@ from ..motion.measures import (
 from ..motion.requests import Combined
 from ..plugins import Plugins
 from ..quantities import Number, Quantity, angle, distance, is_number, x, y
+from ..quantities.quantity import OPERATORS
 from ..statics import acceleration, axle_load, drive_force, dynamic_factor, pin_force, slipping, speed
 from ..steps import Point
 from ..study.problem import NOWHERE, Problem
 from ..units import UNITS, Amount
-from .expression import BINARY, NUMERIC, Grammar, Token, constant, finite
+from .expression import NUMERIC, Grammar, Token, constant, finite
 from .names import Keywords
 
 # What a study file may ask for: the requests and conditions of this package, and those that others bring.
@@ -133,7 +134,12 @@ def criterion_of(text: object, machine: Mechanism) -> Any:
     """Return the number, quantity, measure or condition of a machine that a text says; DefinitionError for anything else."""
     if not isinstance(text, str) or not text.strip():
         raise DefinitionError(f'{text!r:.60} is no text in quotes, such as "least(tilt)".')
-    return CriterionParser(text, machine).criterion()
+    parser = CriterionParser(text, machine)
+    try:
+        return parser.compared(parser.tree) if isinstance(parser.tree, ast.Compare) else parser.meaning(parser.tree)
+    except DefinitionError as error:
+        said = str(error)
+        raise DefinitionError(said if said.startswith(repr(text)) else f"{text!r}: {said}") from None
 
 
 class CriterionParser(Grammar):
@@ -145,14 +151,6 @@ class CriterionParser(Grammar):
     def __init__(self, text: str, machine: Mechanism) -> None:
         super().__init__(text)
         self.machine, self.plan = machine, machine.plan
-
-    def criterion(self) -> Any:
-        """Return the meaning of the whole text: a number, a quantity, a measure or a condition."""
-        try:
-            return self.compared(self.tree) if isinstance(self.tree, ast.Compare) else self.meaning(self.tree)
-        except DefinitionError as error:
-            said = str(error)
-            raise DefinitionError(said if said.startswith(repr(self.text)) else f"{self.text!r}: {said}") from None
 
     def compared(self, node: ast.Compare) -> Condition:
         """Return the condition that two sums make."""
@@ -176,7 +174,7 @@ class CriterionParser(Grammar):
         if sign in ("+", "-"):
             common_kind(self.plan, said, self.kind_of(a), self.kind_of(b))
         try:
-            found = BINARY[sign](a, b)
+            found = OPERATORS[sign](a, b)
         except ArithmeticError:
             raise DefinitionError(f"{a!r} {sign} {b!r} has no finite value.") from None
         except TypeError:

@@ -280,7 +280,11 @@ class FileEntry:
                     parents = self.built_from[0].kind.read(given[self.word], names)
                     parents = parents if self.built_from[0].name == self.spread else (parents,)
                 else:
-                    parents = self._read_parents(given[self.word], names)
+                    words, several = self._kind_words(), given[self.word]
+                    what = f"two {words[0]}s" if words in (["point"] * 2, ["guide"] * 2) else " and ".join(f"a {word}" for word in words)
+                    fits = is_listed(several) and len(several) == len(self.built_from)
+                    require_entry(fits, several, f"is not {what}, such as {self._parents()}")
+                    parents = [argument.kind.read(each, names) for argument, each in zip(self.built_from, several, strict=True)]
         else:
             under_keys = read_table(given, names, self.built_from, mistakes)
             parents = under_keys.pop(self.spread, under_keys.values())
@@ -305,14 +309,6 @@ class FileEntry:
             if not (isinstance(key, str) and key.isidentifier() and len(key) <= 3 * NAME_LENGTH) or key in taken:
                 raise DefinitionError(f"{shortened(key)} is not a label; write the points' names joined, such as AB or BOC.")
         return dict.fromkeys(labels)
-
-    def _read_parents(self, given: Any, names: Names) -> tuple[Any, ...]:
-        """Return the references that a member is built from, of a list."""
-        words = self._kind_words()
-        what = f"two {words[0]}s" if words in (["point"] * 2, ["guide"] * 2) else " and ".join(f"a {word}" for word in words)
-        fits = is_listed(given) and len(given) == len(self.built_from)
-        require_entry(fits, given, f"is not {what}, such as {self._parents()}")
-        return tuple(argument.kind.read(each, names) for argument, each in zip(self.built_from, given, strict=True))
 
     # -- writing ---------------------------------------------------------------------------------------
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import ast
 import math
-import operator
 import re
 from abc import ABC, abstractmethod
 from bisect import bisect_right
@@ -23,7 +22,7 @@ import numpy as np
 
 from ..errors import DefinitionError, ensure, unknown
 from ..quantities import Function, Length, Member, Number, Quantity, angle, distance, x, y
-from ..quantities.quantity import FUNCTIONS
+from ..quantities.quantity import FUNCTIONS, OPERATORS
 from ..steps import Arrow, CosineAngle, Turn, Vector
 from ..units import DIGITS, UNITS, parse
 from .names import Keywords, Names
@@ -126,10 +125,6 @@ VECTORS: Mapping[str, tuple[str, ...]] = MappingProxyType({"Vector": (), "Turn":
 """Those that make a vector, with the arguments that they take by name; the others make a quantity."""
 
 # -- reading -----------------------------------------------------------------------------------------------
-
-BINARY: dict[str, Callable[[Any, Any], Any]] = {
-    "+": operator.add, "-": operator.sub, "*": operator.mul, "/": operator.truediv, "**": operator.pow,
-}  # fmt: skip
 
 
 def constant(name: str) -> float | None:
@@ -253,11 +248,11 @@ class Parser(Grammar):
 
     def operation(self, sign: str, a: Quantity, b: Quantity) -> Quantity:
         if not (isinstance(a, Number) and isinstance(b, Number)):
-            made: Quantity = BINARY[sign](a, b)
+            made: Quantity = OPERATORS[sign](a, b)
             return made
         text = f"{a.number!r} {sign} {b.number!r}"
         try:
-            return Number(finite(BINARY[sign](a.number, b.number), text))
+            return Number(finite(OPERATORS[sign](a.number, b.number), text))
         except ArithmeticError:
             raise DefinitionError(f"{text} has no finite value.") from None
 

@@ -61,13 +61,10 @@ class Names:
         if name not in self.kinds and kind in ("quantity", "link", "point") and self.kinds.get(owner) == "load" and own:
             return name  # what a load holds by a name of its own, such as the length of a cylinder or its barrel
         if name not in self.kinds:
-            raise unknown(kind.capitalize(), shortened(name, quote=False), self.names_of_kind(kind))
+            known = [each for each, its_kind in self.kinds.items() if its_kind == kind]
+            raise unknown(kind.capitalize(), shortened(name, quote=False), known)
         ensure(self.kinds[name] == kind, f"{name} of [{self.sections.get(name, 'parts')}] is not a {kind}.")
         return name
-
-    def names_of_kind(self, kind: str) -> list[str]:
-        """Return the names of a kind."""
-        return [name for name, each in self.kinds.items() if each == kind]
 
 
 def by_whole_names(given: Mapping[str, object], words: Sequence[str] = (), depth: int = 1) -> Iterator[tuple[str, Any]]:

@@ -6,9 +6,7 @@ another file in the same folder, `machine = "arm.toml"`.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from functools import cache
-from pathlib import Path
+from collections.abc import Mapping
 from typing import Any
 
 from .. import plugins
@@ -19,7 +17,7 @@ from ..plan import Part
 from ..quantities import Member, is_member_or_name, is_nothing, label, name_of, quantity
 from ..steps import Point
 from .design import Design, degrees_text
-from .names import Keywords, Names, by_whole_names, entry_as, require_entry, shortened
+from .names import Keywords, Names, by_whole_names, entry_as, require_entry
 from .validators import coordinates_of, points_of, quantity_of, switch_of
 
 OWN_KEYS = {"on": points_of, "at": coordinates_of, "angle": quantity_of, "mirrored": switch_of}
@@ -101,17 +99,3 @@ def machines_of(members: Mapping[str, Member]) -> dict[str, type[Mechanism]]:
             if known is not member.machine:
                 raise DefinitionError(f"{member.plan.title}: two classes of parts have this name; a file holds each once, so rename one.")
     return found
-
-
-def beside(folder: Path | None, load: Callable[[Path], type[Mechanism]]) -> Callable[[str], type[Mechanism]]:
-    """Return a loader of machines from files in the folder of the current one, each once; DefinitionError for one elsewhere."""
-
-    @cache
-    def loaded(name: str) -> type[Mechanism]:
-        if folder is None:
-            raise DefinitionError(f"{shortened(name)}: a text has no folder; put the machine in it, [machines.Name...].")
-        where = "the file of a part stands in the folder of the one that names it; give its name alone"
-        require_entry(Path(name).name == name, name, where)
-        return load(folder / name)
-
-    return loaded

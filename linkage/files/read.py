@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Collection, Mapping
 from copy import copy
+from functools import cache, partial
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 from types import MappingProxyType
@@ -16,10 +17,9 @@ from ..errors import AssemblyError, DefinitionError, FileError, about, ensure
 from ..mechanism import Mechanism
 from ..motion import Featured
 from ..plan import Table
-from ..quantities import Member
 from ..steps import Point
-from .names import FileTable, Names, by_whole_names, member_name, shortened
-from .parts_file import beside, dotted_kinds, machine_named
+from .names import FileTable, Names, by_whole_names, member_name, require_entry, shortened
+from .parts_file import dotted_kinds, machine_named
 from .registry import registry
 from .source import Faults, source
 
@@ -106,14 +106,11 @@ def built(
     if depth > DEEPEST:
         raise FileError(f"{faults.source}: files of parts name each other more than {DEEPEST} deep, or in a circle.")
 
-    def load_part(path: Path) -> type[Mechanism]:
-        found = source(path)
-        return built(found.data, found.faults, trust, folder, depth + 1)
-
     found = names_of(sections, faults)
     kinds = {name: registry().kind(section) for name, section in found.items()}
     held = machines_read(data, faults, trust, folder, depth, machines)
-    names = Names(found, kinds, machines=held, load_beside=beside(folder, load_part), folder=folder)
+    load_beside = cache(partial(machine_beside, folder, trust, depth + 1))
+    names = Names(found, kinds, machines=held, load_beside=load_beside, folder=folder)
     for name, entry in sections.get("parts", {}).items():
         if isinstance(entry, Mapping) and "machine" in entry:
             with faults.at_key("parts", name, "machine"):
@@ -124,9 +121,26 @@ def built(
     for name in ordered(data, names, faults):
         section = names.sections[name]
         with faults.at_key(section, name), np.errstate(all="ignore"):
-            names.built[name] = member_read(name, section, sections[section][name], names, title, trust)
+            given = sections[section][name]
+            names.built[name] = member = registry().reading(section, given, trust).read(given, names)
+            member.__set_name__(Mechanism, name)  # what follows shows that it is sound by itself, whatever the others are
+            table = Table(title)
+            for variable, default, kind, unit in member.variables():
+                table.add_variable(variable, default, kind, f"{name} = {member}", unit)
+            member.enter(table)
+            if isinstance(member, Point):
+                member.bind(name, table)
     faults.check()
     return class_made(title, doc, featured, names, faults)
+
+
+def machine_beside(folder: Path | None, trust: Collection[str], depth: int, name: str) -> type[Mechanism]:
+    """Return the machine of another file in the folder of the current one; DefinitionError for one elsewhere."""
+    if folder is None:
+        raise DefinitionError(f"{shortened(name)}: a text has no folder; put the machine in it, [machines.Name...].")
+    require_entry(Path(name).name == name, name, "the file of a part stands in the folder of the one that names it; give its name alone")
+    found = source(folder / name)
+    return built(found.data, found.faults, trust, folder, depth)
 
 
 # -- the tables --------------------------------------------------------------------------------------------
@@ -218,22 +232,6 @@ def ordered(data: FileTable, names: Names, faults: Faults) -> list[str]:
     if unknown or len(set(given)) < len(given):
         faults.add(("order",), f"a list of names is expected, each once; {', '.join(unknown[:3]) or 'one'} is not such a name.")
     return list(dict.fromkeys([*(each for each in given if each in names.sections), *names.sections]))
-
-
-# -- the members -------------------------------------------------------------------------------------------
-
-
-def member_read(name: str, section: str, given: object, names: Names, title: str, trust: Collection[str]) -> Member:
-    """Return a member that is sound by itself, whatever the others are."""
-    member = registry().reading(section, given, trust).read(given, names)
-    member.__set_name__(Mechanism, name)
-    table = Table(title)
-    for variable, default, kind, unit in member.variables():
-        table.add_variable(variable, default, kind, f"{name} = {member}", unit)
-    member.enter(table)
-    if isinstance(member, Point):
-        member.bind(name, table)
-    return member
 
 
 # -- the class ---------------------------------------------------------------------------------------------

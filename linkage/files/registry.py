@@ -325,14 +325,10 @@ class Registry:
 
 @lru_cache(maxsize=1)
 def registry() -> Registry:
-    """Return the entries of this package and of those that are installed beside it."""
-    return Registry((*OWN, *(FileEntry(cls, cls.file_section, cls.__name__ if worded(cls) else "") for cls in extensions())))
-
-
-def extensions() -> list[type[Member]]:
-    """Return the classes that other packages bring; DefinitionError, with its name, for one that cannot be loaded."""
-    entries = plugins.entry_points(plugins.MEMBERS).items()
-    return [plugins.guarded(entry.load, f"the entry {name} ({entry.value}) of a file") for name, entry in entries]
+    """Return the entries of this package and of those that are installed beside it; DefinitionError for one that cannot be loaded."""
+    points = plugins.entry_points(plugins.MEMBERS).items()
+    brought = [plugins.guarded(point.load, f"the entry {name} ({point.value}) of a file") for name, point in points]
+    return Registry((*OWN, *(FileEntry(cls, cls.file_section, cls.__name__ if worded(cls) else "") for cls in brought)))
 
 
 # -- classes that are named by their import path -----------------------------------------------------------

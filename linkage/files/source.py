@@ -13,6 +13,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from io import StringIO
 from math import isfinite, nan
+from operator import itemgetter
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -161,16 +162,11 @@ def csv_rows(path: Path) -> Iterator[tuple[int, list[str]]]:
     yield from text_rows(path.name, text)
 
 
-def delimiter_of(text: str) -> str:
-    """Return the delimiter of a table's cells, by its first row."""
-    first = next((line for line in text.splitlines() if line.strip() and not line.startswith("#")), "")
-    unquoted = re.sub(r'"[^"]*"', "", first)
-    return next((each for each in DELIMITERS if each in unquoted), ",")
-
-
 def text_rows(name: str, text: str) -> Iterator[tuple[int, list[str]]]:
     """Yield the rows of a table with their lines, without empty ones and those that begin with #; decimal commas as points."""
-    delimiter = delimiter_of(text)
+    first = next((line for line in text.splitlines() if line.strip() and not line.startswith("#")), "")
+    unquoted = re.sub(r'"[^"]*"', "", first)
+    delimiter = next((each for each in DELIMITERS if each in unquoted), ",")
     reader = csv.reader(StringIO(text), delimiter=delimiter, skipinitialspace=True)
     try:
         for row in reader:
@@ -303,16 +299,13 @@ class Faults(Mistakes):
 
     def text(self) -> str:
         """Return all mistakes, one a line."""
-        lines = [self.line(key, message) for key, message in sorted(self.found, key=lambda fault: self.line_of(fault[0]))]
+        lines = []
+        for line, key, message in sorted(((self.line_of(key), key, message) for key, message in self.found), key=itemgetter(0)):
+            parts = [part if len(part) <= NAME_LENGTH and (part.isidentifier() or part.isdecimal()) else shortened(part) for part in key]
+            places = [*([f"line {line}"] if line else []), *([".".join(parts)] if parts else [])]
+            lines.append(f"{', '.join(places)}: {message}" if places else message)
         if len(lines) == 1:
             return f"{self.source}: {lines[0]}"
         rest = len(lines) - FAULTS_SHOWN
         more = [f"and {rest} more"] if rest > 0 else []
         return "\n  ".join([f"{self.source}: {len(lines)} mistakes:", *lines[:FAULTS_SHOWN], *more])
-
-    def line(self, key: Key, message: str) -> str:
-        """Return one mistake with its place."""
-        line = self.line_of(key)
-        parts = [part if len(part) <= NAME_LENGTH and (part.isidentifier() or part.isdecimal()) else shortened(part) for part in key]
-        places = [*([f"line {line}"] if line else []), *([".".join(parts)] if parts else [])]
-        return f"{', '.join(places)}: {message}" if places else message

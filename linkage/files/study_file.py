@@ -5,8 +5,8 @@
 
 A range is `"270 mm to 330 mm"`, `"270 to 330 mm in steps of 5 mm"`, `"within 60 mm"` of the present value; a list is the choices.
 
-A table holds the keywords of one function. What reads a key stands at the keyword, `count: Annotated[int, count_from(1)] = 1024`, or in
-a mapping by names beside the function. It takes the head of the file and what stands under the key.
+A table holds the keywords of one function. What reads a key stands at the keyword, `over: Annotated[Keywords | None, over_said] = None`, or
+in a mapping by names beside the function. It takes the head of the file and what stands under the key.
 """
 
 from __future__ import annotations
@@ -208,8 +208,13 @@ def vary_said(head: StudyHead, given: object) -> dict[Any, Any]:
         if len(names) == 1:
             found[names[0]] = range_said(value, head.plan, names[0])
         else:
-            rows = entry_as(value, list, f"rows are expected, a list [...] with {len(names)} values each")
-            found[names] = [row_said(row, head.plan, names) for row in rows]
+            found[names] = []
+            for row in entry_as(value, list, f"rows are expected, a list [...] with {len(names)} values each"):
+                fits = isinstance(row, list) and len(row) == len(names)
+                require_entry(fits, row, f"is no row of {', '.join(names)}; it has a value for each of them")
+                kinds = [measure_of_name(head.plan, each) for each in names]
+                values = zip(names, row, kinds, strict=True)
+                found[names].append([each if is_side(part) else amount_said(each, kind) for part, each, kind in values])
         Space.of(head.machine, found)
         return found
 
@@ -244,32 +249,21 @@ def range_said(given: object, plan: Plan, name: str) -> Any:
     return ends
 
 
-def row_said(given: Any, plan: Plan, names: Sequence[str]) -> list[Any]:
-    """Return a row of a catalogue, a value for each of some names."""
-    fits = isinstance(given, list) and len(given) == len(names)
-    require_entry(fits, given, f"is no row of {', '.join(names)}; it has a value for each of them")
-    pairs = zip(names, given, strict=True)
-    return [value if is_side(name) else amount_said(value, measure_of_name(plan, name)) for name, value in pairs]
-
-
 # Tolerances.
 
 TOLERANCE_KEYS = ("limits", "law")
 
 
-def tolerances_said(key: str) -> Read:
-    """Return a reader of tolerances by the names of dimensions under a key."""
+def tolerances_said(key: str, head: StudyHead, given: object) -> Keywords:
+    """Return the tolerances under a key by the names of dimensions."""
 
-    def read(head: StudyHead, given: object) -> Keywords:
-        def one(name: str, value: object) -> Tolerance:
-            tolerances_of(head.plan, {name: 0.0})
-            return tolerance_said(value, measure_of_name(head.plan, name))
+    def one(name: str, value: object) -> Tolerance:
+        tolerances_of(head.plan, {name: 0.0})
+        return tolerance_said(value, measure_of_name(head.plan, name))
 
-        found = by_dimensions(given, key, one, TOLERANCE_KEYS)
-        ensure(found, f'no tolerance is given; write {key} = {{ OB = "0.1 mm", CD = ["-0.1 mm", "0.2 mm"] }}.')
-        return found
-
-    return read
+    found = by_dimensions(given, key, one, TOLERANCE_KEYS)
+    ensure(found, f'no tolerance is given; write {key} = {{ OB = "0.1 mm", CD = ["-0.1 mm", "0.2 mm"] }}.')
+    return found
 
 
 def tolerance_said(given: object, measures: str) -> Tolerance:
@@ -342,19 +336,15 @@ def case_said(head: StudyHead, given: object) -> Any:
     return given
 
 
-def count_from(least: int) -> Read:
-    """Return a reader of a whole number of at least so much."""
-
-    def read(head: StudyHead, given: Any) -> int:
-        require_entry(is_whole(given) and given >= least, given, f"a whole number is expected, at least {least}")
-        return int(given)
-
-    return read
+def whole_number(least: int, head: StudyHead, given: Any) -> int:
+    """Return a whole number of at least so much."""
+    require_entry(is_whole(given) and given >= least, given, f"a whole number is expected, at least {least}")
+    return int(given)
 
 
-def one_of(words: Sequence[str]) -> Read:
-    """Return a reader of one of a few words."""
-    return lambda head, given: one_word("it", given, words)
+def word_said(words: Sequence[str], head: StudyHead, given: Any) -> str:
+    """Return one of a few words."""
+    return one_word("it", given, words)
 
 
 def texts_said(given: object, read: Callable[[object], Any]) -> list[Any]:

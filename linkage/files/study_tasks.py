@@ -19,6 +19,7 @@ import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -69,8 +70,7 @@ class TextMeasures:
 
     def __call__(self, machine: Mechanism) -> Keywords:
         """Return a number or a truth value for each design of a machine, shape (m,), by name."""
-        measures, conditions = self.measures_and_conditions(machine)
-        problem = self.problem(machine, measures, conditions)
+        measures, conditions, problem = self.problem(machine)
         drawn = {name: entry.default for name, entry in machine.plan.table.entries.items()}
         for leaf in problem.leaves:  # panels are those of the machine as its class has it, whatever the batch
             if isinstance(leaf, Integral):
@@ -83,12 +83,19 @@ class TextMeasures:
             return np.asarray(look.is_assembled & ~np.any([np.zeros(count, bool), *(look.rows[leaf].lost for leaf in leaves)], axis=0))
 
         found = {name: np.where(sound(each.leaves), design_values(each, numbers, count), np.nan) for name, each in measures.items()}
-        for name, kept in conditions.items():
-            found[name] = sound(leaf for one in kept for leaf in one.margin.leaves) & keeps(kept, numbers, count)
+        for name, constraints in conditions.items():
+            found[name] = sound(leaf for one in constraints for leaf in one.margin.leaves)
+            for one in constraints:
+                size = np.maximum(*(np.abs(design_values(side, numbers, count)) for side in (one.left, one.right)))
+                with np.errstate(all="ignore"):
+                    found[name] &= missed(one, numbers, 1.0) <= MET_TO_ROUNDING * size
         return {name: found[name] for name in self.texts}
 
-    def measures_and_conditions(self, machine: Mechanism) -> tuple[dict[str, Measure], dict[str, Sequence[Constraint]]]:
-        """Return the measures, and the constraints of the conditions, by name; DefinitionError for a text that says none."""
+    def problem(self, machine: Mechanism) -> tuple[dict[str, Measure], dict[str, Sequence[Constraint]], Problem]:
+        """Return the measures, and the constraints of the conditions, by name, and the problem that evaluates them.
+
+        DefinitionError for a text that says none, and for measures that a machine does not have.
+        """
         measures, conditions = dict[str, Measure](), dict[str, Sequence[Constraint]]()
         for name, text in self.texts.items():
             found = criterion_of(text, machine)
@@ -96,18 +103,13 @@ class TextMeasures:
                 conditions[name] = found.constraints(machine)
             else:
                 measures[name] = measure_or_constant(found, machine)
-        return measures, conditions
-
-    def problem(self, machine: Mechanism, measures: Mapping[str, Measure], conditions: Mapping[str, Sequence[Constraint]]) -> Problem:
-        """Return the problem that evaluates them; DefinitionError for measures that a machine does not have."""
-        kept = [one for each in conditions.values() for one in each]
+        constraints = [one for each in conditions.values() for one in each]
         counts = {0: 1} | {each: max(3, round(self.poses ** (1.0 / each))) for each in range(1, 6)}
-        return Problem(machine, [*measures.values()], kept, NOWHERE, over=dict(self.over), counts=counts)
+        return measures, conditions, Problem(machine, [*measures.values()], constraints, NOWHERE, over=dict(self.over), counts=counts)
 
     def units(self, machine: Mechanism) -> dict[str, str]:
         """Return the units that they are shown in, by name; raises as `problem` does."""
-        measures, conditions = self.measures_and_conditions(machine)
-        self.problem(machine, measures, conditions)
+        measures, conditions, _ = self.problem(machine)
         return dict.fromkeys(conditions, "") | {name: unit_of_measure(machine.plan, each) for name, each in measures.items()}
 
 
@@ -115,16 +117,6 @@ def design_values(measure: Measure, numbers: Mapping[Leaf, FloatArray], count: i
     """Return a measure of designs, shape (count,), from the numbers of its leaves."""
     with np.errstate(all="ignore"):
         return np.broadcast_to(np.asarray(measure.from_leaves(lambda leaf: numbers[leaf]), float), (count,))
-
-
-def keeps(constraints: Sequence[Constraint], numbers: Mapping[Leaf, FloatArray], count: int) -> Mask:
-    """Return which designs keep all of some constraints, shape (count,)."""
-    with np.errstate(all="ignore"):
-        kept: Mask = np.ones(count, bool)
-        for each in constraints:
-            size = np.maximum(*(np.abs(design_values(side, numbers, count)) for side in (each.left, each.right)))
-            kept &= missed(each, numbers, 1.0) <= MET_TO_ROUNDING * size
-    return kept
 
 
 def named_measures(given: Any) -> dict[str, str]:
@@ -278,11 +270,11 @@ def survey_task(
     vary: Annotated[Keywords, box_said, 'vary = { OB = "270 to 330 mm" }'],
     over: Annotated[Keywords | None, study_file.over_said] = None,
     measure: Annotated[dict[str, tuple[str, str]], measures_said, 'measure = { travel = "most(G_y) - least(G_y)" }'],
-    count: Annotated[int, study_file.count_from(1)] = 1024,
-    method: Annotated[str, study_file.one_of(SAMPLE_METHODS)] = "sobol",
-    seed: Annotated[int, study_file.count_from(0)] = 0,
-    poses: Annotated[int, study_file.count_from(2)] = 101,
-    piece: Annotated[int, study_file.count_from(0)] = 0,
+    count: Annotated[int, partial(study_file.whole_number, 1)] = 1024,
+    method: Annotated[str, partial(study_file.word_said, SAMPLE_METHODS)] = "sobol",
+    seed: Annotated[int, partial(study_file.whole_number, 0)] = 0,
+    poses: Annotated[int, partial(study_file.whole_number, 2)] = 101,
+    piece: Annotated[int, partial(study_file.whole_number, 0)] = 0,
     folder: Path | None = None,
     progress: bool | Progress = False,
 ) -> TaskResult:
@@ -296,7 +288,16 @@ def survey_task(
     for name, (_, unit) in measure.items():
         values = np.asarray(found[name])
         columns.append(Column(name, values.astype(float), unit))
-        lines.append(f"  {name}: {summary_of(values, unit)}")
+        known = values[np.isfinite(values)]
+        if values.dtype.kind == "b":
+            words = f"{100.0 * float(np.mean(values)):.1f} % keep it"
+        elif known.size:
+            least, most, half = (show(float(of(known)), unit) for of in (np.min, np.max, np.median))
+            lost = values.size - known.size
+            words = f"{least} to {most}, half below {half}" + (f"; {lost} have none" if lost else "")
+        else:
+            words = "none has a value"
+        lines.append(f"  {name}: {words}")
     return TaskResult("\n".join(lines), tuple(columns), found)
 
 
@@ -305,24 +306,12 @@ def setting_parts(name: str, value: object) -> list[tuple[str, Any]]:
     return [*zip((f"{name}.x", f"{name}.y"), value, strict=True)] if isinstance(value, tuple) else [(name, value)]
 
 
-def summary_of(values: Any, unit: str) -> str:
-    """Return a survey's values of a measure, in words."""
-    if values.dtype.kind == "b":
-        return f"{100.0 * float(np.mean(values)):.1f} % keep it"
-    known = values[np.isfinite(values)]
-    if not known.size:
-        return "none has a value"
-    least, most, half = (show(float(of(known)), unit) for of in (np.min, np.max, np.median))
-    lost = values.size - known.size
-    return f"{least} to {most}, half below {half}" + (f"; {lost} have none" if lost else "")
-
-
 def zone_task(
     machine: Mechanism,
     *,
     quantity: Annotated[Any, pose_quantity, 'quantity = "tilt"'],
     vary: Annotated[Keywords, box_said, 'vary = { OB = "270 to 330 mm" }'],
-    poses: Annotated[int, study_file.count_from(2)] = 51,
+    poses: Annotated[int, partial(study_file.whole_number, 2)] = 51,
     strokes: Annotated[Keywords | None, swept_strokes] = None,
 ) -> TaskResult:
     """Look for the extremes of a quantity at every stroke over a box."""
@@ -361,13 +350,13 @@ def tolerance_task(
     *,
     case: Annotated[str | None, one_case] = None,
     of: Annotated[Keywords, quantities_said, 'of = ["tilt"]'],
-    tolerances: Annotated[Keywords, study_file.tolerances_said("tolerances")],
+    tolerances: Annotated[Keywords, partial(study_file.tolerances_said, "tolerances")],
     subject_to: Annotated[Sequence[Constraint], condition_limits] = (),
-    count: Annotated[int, study_file.count_from(1)] = 1 << 14,
-    seed: Annotated[int, study_file.count_from(0)] = 0,
-    method: Annotated[str, study_file.one_of(SAMPLE_METHODS)] = "sobol",
+    count: Annotated[int, partial(study_file.whole_number, 1)] = 1 << 14,
+    seed: Annotated[int, partial(study_file.whole_number, 0)] = 0,
+    method: Annotated[str, partial(study_file.word_said, SAMPLE_METHODS)] = "sobol",
     percentiles: Annotated[tuple[float, ...], percentile_list] = (5.0, 50.0, 95.0),
-    poses: Annotated[int, study_file.count_from(2)] = 21,
+    poses: Annotated[int, partial(study_file.whole_number, 2)] = 21,
     strokes: Annotated[Keywords | None, swept_strokes] = None,
 ) -> TaskResult:
     """Vary dimensions within their tolerances at random: bands, the worst case, and the share of good machines."""
@@ -391,7 +380,7 @@ def tornado_task(
     machine: Mechanism,
     *,
     quantity: Annotated[Any, pose_quantity, 'quantity = "tilt"'],
-    tolerances: Annotated[Keywords, study_file.tolerances_said("tolerances")],
+    tolerances: Annotated[Keywords, partial(study_file.tolerances_said, "tolerances")],
     strokes: Annotated[Keywords, pose_said],
 ) -> TaskResult:
     """Look for the tolerance that matters most for a quantity at one pose."""

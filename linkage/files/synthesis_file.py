@@ -184,12 +184,12 @@ SEARCH: Mapping[str, Read] = {
     "subject_to": conditions_said,
     "regions": regions_said,
     "case": study_file.case_said,
-    "robust": study_file.tolerances_said("robust"),
+    "robust": partial(study_file.tolerances_said, "robust"),
     "sigmas": lambda head, given: amount_said(given, ""),
-    "method": study_file.one_of(SEARCH_METHODS),
-    "starts": study_file.count_from(1),
-    "seed": study_file.count_from(0),
-    "limit": study_file.count_from(1),
+    "method": partial(study_file.word_said, SEARCH_METHODS),
+    "starts": partial(study_file.whole_number, 1),
+    "seed": partial(study_file.whole_number, 0),
+    "limit": partial(study_file.whole_number, 1),
     "folder": study_file.file_path,
     "round": rounding_said,
 }
@@ -228,25 +228,21 @@ def read_synthesis(path: str | os.PathLike[str], find: FindMachine, settings: Se
 # What reads a key of a synthesis.
 
 
-def by_class(read: Read, *, is_of_points: bool = False) -> Read:
-    """Return a reader of one thing of a machine; of several machines by class, from a table by their names or from one thing for all.
+def by_class(read: Read, head: StudyHead, given: Any, *, is_of_points: bool = False) -> Any:
+    """Return one thing of a machine; of several machines by class, from a table by their names or from one thing for all.
 
     What is read by points is one thing where another name than a machine's stands in the table.
     """
-
-    def read_each(head: StudyHead, given: Any) -> Any:
-        if not head.machines:
-            return read(head, given)
-        is_table = isinstance(given, Mapping) and not (is_of_points and not set(given) <= set(head.machines))
-        found, mistakes = {}, Mistakes()
-        for name, said in (given if is_table else dict.fromkeys(head.machines, given)).items():
-            with mistakes.at_key():
-                machine = head.machines[known_name("Machine", name, head.machines)]
-                found[type(machine)] = read(replace(head, machine=machine), said)
-        mistakes.check()
-        return found
-
-    return read_each
+    if not head.machines:
+        return read(head, given)
+    is_table = isinstance(given, Mapping) and not (is_of_points and not set(given) <= set(head.machines))
+    found, mistakes = {}, Mistakes()
+    for name, said in (given if is_table else dict.fromkeys(head.machines, given)).items():
+        with mistakes.at_key():
+            machine = head.machines[known_name("Machine", name, head.machines)]
+            found[type(machine)] = read(replace(head, machine=machine), said)
+    mistakes.check()
+    return found
 
 
 def timed_said(head: StudyHead, given: object) -> object:
@@ -258,72 +254,66 @@ def timed_said(head: StudyHead, given: object) -> object:
 # The task.
 
 
-def switch_said(key: str) -> Read:
-    """Return a reader of true or false under a key."""
-
-    def read(head: StudyHead, given: object) -> bool:
-        if not isinstance(given, bool):
-            raise DefinitionError(f"{key} = {shortened(given)}: true or false is expected.")
-        return given
-
-    return read
+def switch_said(key: str, head: StudyHead, given: object) -> bool:
+    """Return true or false under a key."""
+    if not isinstance(given, bool):
+        raise DefinitionError(f"{key} = {shortened(given)}: true or false is expected.")
+    return given
 
 
 OF = {"path": 'of = "P"', "function": 'of = "psi"', "motion": 'of = "A B"'}
 POINTS = 'points = [[30, 60], [15, 70]] with unit = "mm", or a CSV file, "points.csv"'
 
 
-def whose(name: str) -> Read:
-    """Return a reader of the task's subject: a point, a quantity, two points; of several machines by class."""
-
-    def read(head: StudyHead, given: object) -> Any:
-        if not isinstance(given, str) or not given.strip():
-            raise DefinitionError(f"of is missing; write {OF[name]}." if given is None else f"{shortened(given)}: write {OF[name]}.")
-        if name == "function":
-            found = quantity_said(given, head.machine)
-            return given.strip() if given.strip() in head.plan.members else found
-        parts = given.split()
-        for each in parts:
-            known_name("Point", each, head.plan.moving, where=head.plan.title)
-        if len(parts) != (1 if name == "path" else 2):
-            raise DefinitionError(f"{given!r}: {'one point' if name == 'path' else 'two points of the body'} expected.")
-        return given
-
-    return by_class(read)
+def subject_said(name: str, head: StudyHead, given: object) -> Any:
+    """Return the task's subject: a point, a quantity, two points."""
+    if not isinstance(given, str) or not given.strip():
+        raise DefinitionError(f"of is missing; write {OF[name]}." if given is None else f"{shortened(given)}: write {OF[name]}.")
+    if name == "function":
+        found = quantity_said(given, head.machine)
+        return given.strip() if given.strip() in head.plan.members else found
+    parts = given.split()
+    for each in parts:
+        known_name("Point", each, head.plan.moving, where=head.plan.title)
+    if len(parts) != (1 if name == "path" else 2):
+        raise DefinitionError(f"{given!r}: {'one point' if name == 'path' else 'two points of the body'} expected.")
+    return given
 
 
-def wanted_points(name: str) -> Read:
-    """Return a reader of the points of a task; the column of the stroke goes by its own name or `at`."""
-
-    def read(head: StudyHead, given: object) -> Keywords:
-        if "of" not in head.found:
-            return {}  # which is told
-        of = head.found["of"]
-        moving = [each for each, one in ranges_of(head.machine, head.found["over"]).items() if not is_still(one)]
-        stroke = (moving or [*head.plan.strokes])[0]
-        at = PointColumn(("at", stroke), stroke_measure(head.plan, stroke), optional=name != "function")
-        columns = [PointColumn(("x",), "length"), PointColumn(("y",), "length"), at]
-        if name == "motion":
-            columns.insert(2, PointColumn(("angle",), "angle"))
-        if name == "function":
-            first = next(iter(of.values())) if head.machines else of
-            columns = [at, PointColumn(("value", words_of(first)), measure_of(head.plan, first))]
-        return points_said(given, columns, head.found["unit"] or {}, head.base)
-
-    return read
+def wanted_points(name: str, head: StudyHead, given: object) -> Keywords:
+    """Return the points of a task; the column of the stroke goes by its own name or `at`."""
+    if "of" not in head.found:
+        return {}  # which is told
+    of = head.found["of"]
+    moving = [each for each, one in ranges_of(head.machine, head.found["over"]).items() if not is_still(one)]
+    stroke = (moving or [*head.plan.strokes])[0]
+    at = PointColumn(("at", stroke), stroke_measure(head.plan, stroke), optional=name != "function")
+    columns = [PointColumn(("x",), "length"), PointColumn(("y",), "length"), at]
+    if name == "motion":
+        columns.insert(2, PointColumn(("angle",), "angle"))
+    if name == "function":
+        first = next(iter(of.values())) if head.machines else of
+        columns = [at, PointColumn(("value", words_of(first)), measure_of(head.plan, first))]
+    return points_said(given, columns, head.found["unit"] or {}, head.base)
 
 
-Units: TypeAlias = Annotated[dict[str, float] | None, lambda head, given: units_said(given)]
+def units_said(head: StudyHead, given: object) -> dict[str, float]:
+    """Return factors of units by their kinds: of `"mm"`, or of a list `["mm", "deg"]`; DefinitionError for anything but a unit."""
+    names = [known_name("Unit", each, UNITS) for each in (given if isinstance(given, list) else [given])]
+    return {UNITS[name][1]: factor(name) for name in names}
+
+
+Units: TypeAlias = Annotated[dict[str, float] | None, units_said]
 """Factors of the units of points that have none, by what they measure."""
 
 
 def path_task(
     *,
-    of: Annotated[Any, whose("path"), OF["path"]],
+    of: Annotated[Any, partial(by_class, partial(subject_said, "path")), OF["path"]],
     unit: Units = None,
-    points: Annotated[Keywords, wanted_points("path"), POINTS],
-    in_order: Annotated[bool, switch_said("in_order")] = True,
-    closed: Annotated[bool | None, switch_said("closed")] = None,
+    points: Annotated[Keywords, partial(wanted_points, "path"), POINTS],
+    in_order: Annotated[bool, partial(switch_said, "in_order")] = True,
+    closed: Annotated[bool | None, partial(switch_said, "closed")] = None,
 ) -> PathTask:
     """Return the task of a path."""
     return PathTask([*zip(points["x"], points["y"], strict=True)], of or None, points.get("at"), in_order=in_order, closed=closed)
@@ -331,9 +321,9 @@ def path_task(
 
 def function_task(
     *,
-    of: Annotated[Any, whose("function"), OF["function"]],
+    of: Annotated[Any, partial(by_class, partial(subject_said, "function")), OF["function"]],
     unit: Units = None,
-    points: Annotated[Keywords, wanted_points("function"), POINTS],
+    points: Annotated[Keywords, partial(wanted_points, "function"), POINTS],
 ) -> FunctionTask:
     """Return the task of a function of the stroke."""
     return FunctionTask(points["at"], points["value"], of)
@@ -341,10 +331,10 @@ def function_task(
 
 def motion_task(
     *,
-    of: Annotated[Any, whose("motion"), OF["motion"]],
+    of: Annotated[Any, partial(by_class, partial(subject_said, "motion")), OF["motion"]],
     unit: Units = None,
-    points: Annotated[Keywords, wanted_points("motion"), POINTS],
-    in_order: Annotated[bool, switch_said("in_order")] = True,
+    points: Annotated[Keywords, partial(wanted_points, "motion"), POINTS],
+    in_order: Annotated[bool, partial(switch_said, "in_order")] = True,
     length: Annotated[float | None, lambda head, given: amount_said(given, "length")] = None,
 ) -> PoseTask:
     """Return the task of the poses of a body."""
@@ -354,32 +344,28 @@ def motion_task(
 SYNTHESIS_TASKS: Mapping[str, Callable[..., Any]] = {"path": path_task, "function": function_task, "motion": motion_task}
 
 
-def task_said(name: str) -> Read:
-    """Return a reader of a task's table. The path of several machines may be left to their couplers' points."""
-
-    def read(head: StudyHead, given: object) -> Any:
-        given = entry_as(given, Mapping, f'a table is expected, {name} = {{ of = "P", points = "points.csv" }}')
-        if name == "path" and head.machines and given.get("of") is None:
-            given = {**given, "of": {}}
-        return SYNTHESIS_TASKS[name](**study_file.keywords_read(head, SYNTHESIS_TASKS[name], given))
-
-    return read
+def task_said(name: str, head: StudyHead, given: object) -> Any:
+    """Return the task of a table. The path of several machines may be left to their couplers' points."""
+    given = entry_as(given, Mapping, f'a table is expected, {name} = {{ of = "P", points = "points.csv" }}')
+    if name == "path" and head.machines and given.get("of") is None:
+        given = {**given, "of": {}}
+    return SYNTHESIS_TASKS[name](**study_file.keywords_read(head, SYNTHESIS_TASKS[name], given))
 
 
 SYNTHESIS: Mapping[str, Read] = {
     "over": study_file.over_said,
-    "vary": by_class(study_file.vary_said),
-    "subject_to": by_class(conditions_said),
-    "regions": by_class(regions_said, is_of_points=True),
+    "vary": partial(by_class, study_file.vary_said),
+    "subject_to": partial(by_class, conditions_said),
+    "regions": partial(by_class, regions_said, is_of_points=True),
     "timed": timed_said,
-    "rank": by_class(objective_said),
+    "rank": partial(by_class, objective_said),
     "case": study_file.case_said,
-    "starts": lambda head, given: given if given == "catalogue" else study_file.count_from(1)(head, given),
-    "seed": study_file.count_from(0),
-    "limit": study_file.count_from(1),
+    "starts": lambda head, given: given if given == "catalogue" else study_file.whole_number(1, head, given),
+    "seed": partial(study_file.whole_number, 0),
+    "limit": partial(study_file.whole_number, 1),
     "folder": study_file.file_path,
     "round": rounding_said,
-    **{name: task_said(name) for name in SYNTHESIS_TASKS},
+    **{name: partial(task_said, name) for name in SYNTHESIS_TASKS},
 }
 """The keywords of `synthesise` that a file may say, and the steps of `round`, each with what reads it."""
 
@@ -388,8 +374,6 @@ SYNTHESIS: Mapping[str, Read] = {
 #
 #     x [mm], y [mm], phi [deg]
 #     30.0, 60.0, 12
-
-
 
 
 @dataclass(frozen=True)
@@ -404,12 +388,6 @@ class PointColumn:
     def name(self) -> str:
         """Its first name."""
         return self.names[0]
-
-
-def units_said(given: object) -> dict[str, float]:
-    """Return factors of units by their kinds: of `"mm"`, or of a list `["mm", "deg"]`; DefinitionError for anything but a unit."""
-    names = [known_name("Unit", each, UNITS) for each in (given if isinstance(given, list) else [given])]
-    return {UNITS[name][1]: factor(name) for name in names}
 
 
 def points_said(given: object, columns: Sequence[PointColumn], units: Mapping[str, float], base: Path) -> dict[str, FloatArray]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from math import inf
 from types import MappingProxyType
 from typing import Any, TypeAlias
@@ -102,30 +103,22 @@ def amount_of(given: object, names: Names, measures: str) -> Any:
     return Amount(found.constant, UNITS[unit][1]) if unit and not measures else found.constant
 
 
-def several(what: str, one: Read) -> Read:
-    """Return the check of a list of two, each by itself."""
-
-    def read(given: Any, names: Names) -> tuple[Any, Any]:
-        require_entry(is_listed(given) and len(given) == 2, given, f"is not {what}")
-        return one(given[0], names), one(given[1], names)
-
-    return read
+def two_of(what: str, one: Read, given: Any, names: Names) -> tuple[Any, Any]:
+    """Return the items of a list of two, each read by itself."""
+    require_entry(is_listed(given) and len(given) == 2, given, f"is not {what}")
+    return one(given[0], names), one(given[1], names)
 
 
-def list_reader(one: Read, wrong: str, most: float = inf) -> Read:
-    """Return a reader of a list, each item by itself; `wrong` is the message for anything else, {given}."""
-
-    def read(given: object, names: Names) -> tuple[Any, ...]:
-        if not is_listed(given) or len(given) > most:
-            raise DefinitionError(wrong.format(given=shortened(given)))
-        return tuple(each_of(enumerate(given), lambda place, each: one(each, names)))
-
-    return read
+def items_of(one: Read, wrong: str, most: float, given: object, names: Names) -> tuple[Any, ...]:
+    """Return the items of a list, each read by itself; `wrong` is the message for anything else, {given}."""
+    if not is_listed(given) or len(given) > most:
+        raise DefinitionError(wrong.format(given=shortened(given)))
+    return tuple(each_of(enumerate(given), lambda place, each: one(each, names)))
 
 
-def point_or(place: Read) -> Read:
-    """Return a reader of a point's name, or of a place by two coordinates."""
-    return lambda given, names: names.checked(given, "point") if isinstance(given, str) else place(given, names)
+def point_or(place: Read, given: object, names: Names) -> Any:
+    """Return a point's name, or a place by two coordinates."""
+    return names.checked(given, "point") if isinstance(given, str) else place(given, names)
 
 
 def lists_of(given: object, names: Names, depth: int = 0) -> Any:
@@ -278,18 +271,18 @@ def amount(unit: str) -> Kind:
     return Kind(lambda given, names: amount_of(given, names, measures), lambda value, design, name: design.amount(value, unit, name))
 
 
-place_of = several("a position in m, such as [0.51, 0.94]", lambda given, names: float(number_of(given, names)))
-pair_of = several("two numbers, such as [0, 1]", number_of)
-gravity_of = several("two numbers in m/s2, such as [0, -9.81]", number_of)
-force_of = several('a force of two parts in N, such as ["-5 kN", 0]', lambda given, names: amount_of(given, names, "force"))
-stroke_ends = several("two numbers, such as [0.0, 0.25]", number_of)
-coordinates_of = several("two coordinates in m, such as [0.20, 0.55]", quantity_of)
+place_of = partial(two_of, "a position in m, such as [0.51, 0.94]", lambda given, names: float(number_of(given, names)))
+pair_of = partial(two_of, "two numbers, such as [0, 1]", number_of)
+gravity_of = partial(two_of, "two numbers in m/s2, such as [0, -9.81]", number_of)
+force_of = partial(two_of, 'a force of two parts in N, such as ["-5 kN", 0]', lambda given, names: amount_of(given, names, "force"))
+stroke_ends = partial(two_of, "two numbers, such as [0.0, 0.25]", number_of)
+coordinates_of = partial(two_of, "two coordinates in m, such as [0.20, 0.55]", quantity_of)
 
 
-corners_of = list_reader(coordinates_of, f"{{given}} is no list of up to {CORNERS} places in m, such as [[0, 0], [0.4, 0]].", CORNERS)
-lengths_of = list_reader(amount("m").read, '{given} is no list of lengths, such as ["145 mm", "125 mm"].')
-loads_listed = list_reader(reference("load").read, "is not a list [...].")
-word_list_of = list_reader(word_of, "{given} is no list of words.")
+corners_of = partial(items_of, coordinates_of, f"{{given}} is no list of up to {CORNERS} places in m, such as [[0, 0], [0.4, 0]].", CORNERS)
+lengths_of = partial(items_of, amount("m").read, '{given} is no list of lengths, such as ["145 mm", "125 mm"].', inf)
+loads_listed = partial(items_of, reference("load").read, "is not a list [...].", inf)
+word_list_of = partial(items_of, word_of, "{given} is no list of words.", inf)
 
 
 KINDS: Mapping[str, Kind] = MappingProxyType(
@@ -307,14 +300,14 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
         "run": Kind(rope_points_of, refers=True),
         "load list": Kind(loads_listed),
         "load factors": Kind(factors_of),
-        "origin": Kind(point_or(place_of), written_origin),
+        "origin": Kind(partial(point_or, place_of), written_origin),
         "place": Kind(place_of, written_pair),
         "pair": Kind(pair_of, written_pair),
         "gravity": Kind(gravity_of, written_pair),
         "force vector": Kind(force_of, written_force),
         "corner": Kind(coordinates_of),
         "corners": Kind(corners_of, refers=True),
-        "centre": Kind(point_or(coordinates_of), refers=True),
+        "centre": Kind(partial(point_or, coordinates_of), refers=True),
         "carrier": Kind(points_of, written_carrier),
         "path": Kind(word_of, refers=True),
         "lengths": Kind(lengths_of, written_lengths),

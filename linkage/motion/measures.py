@@ -9,14 +9,12 @@ most(abs(tilt)) / 2 - at(tilt, S=0.1)
 
 from __future__ import annotations
 
-import operator
 import re
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import partial, reduce
-from types import MappingProxyType
 from typing import Any, ClassVar, NoReturn, TypeAlias, TypeGuard
 
 import numpy as np
@@ -27,7 +25,7 @@ from ..loads import Acting, Case, LoadCase
 from ..plan import Plan, plan_measure, require_kind
 from ..program import FloatArray
 from ..quantities import Arithmetic, PoseCondition, Quantity, is_number, name_of, x, y
-from ..quantities.quantity import Function, Negative, Number, Operation, Sum, stands_for
+from ..quantities.quantity import OPERATORS, UFUNCS, Function, Negative, Number, Operation, Sum, stands_for
 from ..steps import Point
 from ..units import IN_TIME, Amount, require_measure, show
 from .limits import stroke_measure
@@ -37,10 +35,6 @@ from .requests import Combined, NodeRequest, Request, Value, bound, measured_in,
 MeasuredQuantity: TypeAlias = "str | Quantity | Request | Worst | Callable[[Motion], FloatArray]"
 """What has a value at every pose: a named output, a quantity, a request, or a function of a motion."""
 
-OPERATIONS: Mapping[str, Callable[[Any, Any], Any]] = MappingProxyType(
-    {"+": operator.add, "-": operator.sub, "*": operator.mul, "/": operator.truediv, "**": operator.pow}
-)
-SYMBOLS = {"add": "+", "subtract": "-", "multiply": "*", "divide": "/", "power": "**"}
 BINDS = {"+": 1, "-": 1, "*": 2, "/": 2, "**": 3}
 Spectrum: TypeAlias = Mapping[str, float]
 """A duty: load cases by name, each with its hours or its share."""
@@ -80,10 +74,10 @@ class Measure(Arithmetic):
         """Apply an operation to measures and numbers; DefinitionError for any other of NumPy's functions."""
         if function == "negative":
             return CombinedMeasure("*", FixedNumber(-1.0), self)
-        if function not in SYMBOLS:
+        if function not in UFUNCS:
             raise DefinitionError(f"{self}: measures take + - * / **; take np.{function} of the quantity in it.")
         left, right = map(as_measure, operands)
-        return CombinedMeasure(SYMBOLS[function], left, right)
+        return CombinedMeasure(UFUNCS[function], left, right)
 
     def __ge__(self, other: Operand) -> Constraint:
         return Constraint(self, ">=", as_measure(other))
@@ -163,8 +157,8 @@ class CombinedMeasure(Measure):
         left, right = self.left.from_leaves(value), self.right.from_leaves(value)
         if isinstance(left, float) and isinstance(right, float):  # by NumPy's rules, where nothing is raised
             with np.errstate(all="ignore"):
-                return float(OPERATIONS[self.symbol](np.float64(left), np.float64(right)))
-        return OPERATIONS[self.symbol](left, right)
+                return float(OPERATORS[self.symbol](np.float64(left), np.float64(right)))
+        return OPERATORS[self.symbol](left, right)
 
     def tree(self, of_leaf: Callable[[Leaf], object]) -> tuple[object, ...]:
         return self.symbol, self.left.tree(of_leaf), self.right.tree(of_leaf)

@@ -8,6 +8,7 @@ from __future__ import annotations
 import operator
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Hashable, Iterator, Mapping
+from types import MappingProxyType
 from typing import Any, NoReturn, TypeAlias, cast
 
 import numpy as np
@@ -52,7 +53,10 @@ class Arithmetic(Operators[Any, Any], ABC):
 FUNCTIONS: dict[str, Callable[..., Scalar]] = {
     name: getattr(np, name) for name in ("sqrt", "sin", "cos", "tan", "arctan2", "exp", "log", "absolute", "minimum", "maximum")
 }
-OPERATORS: dict[str, Callable[[Scalar, Scalar], Scalar]] = {"*": operator.mul, "/": operator.truediv, "**": operator.pow}
+OPERATORS: Mapping[str, Callable[[Any, Any], Any]] = MappingProxyType(
+    {"+": operator.add, "-": operator.sub, "*": operator.mul, "/": operator.truediv, "**": operator.pow}
+)
+"""What Python's operators compute."""
 UFUNCS = {"add": "+", "subtract": "-", "multiply": "*", "true_divide": "/", "divide": "/", "power": "**"}
 BINDS = {"*": (2, 2, 3), "/": (2, 2, 3), "**": (3, 4, 4)}
 """How strongly an operator binds, and how strongly its left and its right side must, to stand without brackets."""
@@ -474,7 +478,8 @@ class Operation(Expression):
         self.binds, self.left, self.right = BINDS[symbol]
 
     def rule(self, where: Where) -> Scalar:
-        return OPERATORS[self.symbol](where.value(self.a), where.value(self.b))
+        made: Scalar = OPERATORS[self.symbol](where.value(self.a), where.value(self.b))
+        return made
 
     def text(self, measures: str = "") -> str:
         return f"{source_text(self.a, self.left)} {self.symbol} {source_text(self.b, self.right)}"

@@ -6,7 +6,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from linkage import FileError, FunctionTask, Outline, PathTask, PoseTask, deg, mm, outside
 from linkage.cli.optimise import finder
-from linkage.files.synthesis_file import PointColumn, points_said, read_synthesis, units_said
+from linkage.files.synthesis_file import PointColumn, points_said, read_synthesis
 from linkage.motion.regions import region_of
 
 HEAD = """machine = "four_bar"
@@ -213,5 +213,5 @@ def test_a_seeded_table_comes_back_from_any_way_to_write_it(tmp_path):
         found = points_said(file.name, LENGTHS, {}, tmp_path)
         assert_allclose([found["x"], found["y"] / mm, found["at"] / deg], values.T, rtol=1e-14)
         rows = [[f"{x!r} m", y, f"{phi!r} deg"] for x, y, phi in values.tolist()]
-        again = points_said(rows, LENGTHS, units_said("mm"), tmp_path)
+        again = points_said(rows, LENGTHS, {"length": mm}, tmp_path)
         assert_allclose([again[name] for name in ("x", "y", "at")], [found[name] for name in ("x", "y", "at")], rtol=1e-14)

@@ -18,9 +18,9 @@ from ..quantities import Member, is_member_or_name, is_nothing, label, name_of, 
 from ..steps import Point
 from .design import Design, degrees_text
 from .names import Keywords, Names, by_whole_names, entry_as, require_entry
-from .validators import coordinates_of, points_of, quantity_of, switch_of
+from .validators import Read, coordinates_of, points_of, quantity_of, switch_of
 
-OWN_KEYS = {"on": points_of, "at": coordinates_of, "angle": quantity_of, "mirrored": switch_of}
+OWN_KEYS: Mapping[str, Read] = {"on": points_of, "at": coordinates_of, "angle": quantity_of, "mirrored": switch_of}
 """What a part has beside its machine and the members that it is given, each with what reads it."""
 FILES = (".toml", ".json")
 

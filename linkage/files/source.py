@@ -162,11 +162,16 @@ def csv_rows(path: Path) -> Iterator[tuple[int, list[str]]]:
     yield from text_rows(path.name, text)
 
 
-def text_rows(name: str, text: str) -> Iterator[tuple[int, list[str]]]:
-    """Yield the rows of a table with their lines, without empty ones and those that begin with #; decimal commas as points."""
+def delimiter_of(text: str) -> str:
+    """Return the delimiter of a table's cells, by its first row."""
     first = next((line for line in text.splitlines() if line.strip() and not line.startswith("#")), "")
     unquoted = re.sub(r'"[^"]*"', "", first)
-    delimiter = next((each for each in DELIMITERS if each in unquoted), ",")
+    return next((each for each in DELIMITERS if each in unquoted), ",")
+
+
+def text_rows(name: str, text: str) -> Iterator[tuple[int, list[str]]]:
+    """Yield the rows of a table with their lines, without empty ones and those that begin with #; decimal commas as points."""
+    delimiter = delimiter_of(text)
     reader = csv.reader(StringIO(text), delimiter=delimiter, skipinitialspace=True)
     try:
         for row in reader:

@@ -69,18 +69,26 @@ class DrawingReader:
         self.found.ensure(self.pins, "there is no circle on the layers of pins; a circle is a pin, see --layer pins=NAME.")
         lines = ("LINE", "LWPOLYLINE", "POLYLINE")
         for each in [*self.entities_on(lines, "links")] or [*self.entities_on(lines, "")]:
-            self.read_link(each)
+            keys = self.met(corners_of(each))
+            if len(keys) > 1:
+                self.found.add_link("", keys)
+            else:
+                what = f"a {each.dxftype().lower()} of the layer {each.dxf.layer} with {len(keys)} pins"
+                self.found.left_out.append(f"{what}{self.loose_ends(each)}")
         for each in self.entities_on(("LINE",), "slides"):
-            self.slide(each)
+            P, Q = corners_of(each)
+            keys = [key for key in self.met([P, Q]) if not self.found.points[key].fixed]
+            self.found.slides += [(key, line_angle(P, Q)) for key in keys]
+            if not keys:
+                self.found.left_out.append(f"a line of the layer {each.dxf.layer} without pins")
         for role in ("crank", "cylinder"):
             for each in self.entities_on(("LINE",), role):
                 keys = self.met(corners_of(each))
                 if len(keys) == 2:
                     self.drive(role, keys[0], keys[1])
                 else:
-                    self.found.left_out.append(
-                        f"a line of the layer {each.dxf.layer} that ends at {len(keys)} pins instead of two{self.loose_ends(each)}"
-                    )
+                    what = f"a line of the layer {each.dxf.layer} that ends at {len(keys)} pins instead of two"
+                    self.found.left_out.append(f"{what}{self.loose_ends(each)}")
 
     def met(self, corners: Sequence[Place]) -> list[str]:
         """Return the pins that a line meets, or that a closed outline surrounds."""
@@ -99,24 +107,6 @@ class DrawingReader:
         ends = dict.fromkeys([*corners[:1], *corners[-1:]])
         places = [f"({x:.6g}, {y:.6g})" for x, y in ends if not self.met([(x, y), (x, y)])]
         return f": no pin at {' and '.join(places)}" if places else ""
-
-    def read_link(self, entity: Any) -> None:
-        """Enter a line or an outline with the pins on it; one with fewer than two is left out."""
-        keys = self.met(corners_of(entity))
-        if len(keys) > 1:
-            self.found.add_link("", keys)
-        else:
-            self.found.left_out.append(
-                f"a {entity.dxftype().lower()} of the layer {entity.dxf.layer} with {len(keys)} pins{self.loose_ends(entity)}"
-            )
-
-    def slide(self, line: Any) -> None:
-        """Let the pins on a line slide on it."""
-        P, Q = corners_of(line)
-        keys = [key for key in self.met([P, Q]) if not self.found.points[key].fixed]
-        self.found.slides += [(key, line_angle(P, Q)) for key in keys]
-        if not keys:
-            self.found.left_out.append(f"a line of the layer {line.dxf.layer} without pins")
 
     def drive(self, role: str, P: str, Q: str) -> None:
         """Enter a drive between two pins; a crank turns about the fixed one, and brings its own link."""

@@ -36,8 +36,17 @@ def read_linkage_xml(found: FoundMachine, text: str) -> None:
     is_one = len(connectors) == sum(not is_drawn(each) for each in root.findall("connector"))
     found.ensure(is_one, "two connectors have one id; give each its own.")
     for each in (*root.findall("Link"), *root.findall("element")):
-        if not is_drawn(each):
-            read_element(found, each)
+        if is_drawn(each):
+            continue
+        keys, name = [end.get("id", "") for end in each.findall("connector")], each.get("name") or f"L{each.get('id', '')}"
+        if each.get("gear") == "true":
+            found.left_out.append(f"the gear {name}")
+        if each.get("actuator") == "true" and len(keys) == 2:
+            P, Q = (found.known(key, f"the actuator {name}") for key in keys)
+            throw = found.number(each.get("throw") or 0.0, f"the throw of {name}")
+            found.drives.append(FoundDrive("cylinder", (P, Q), throw or None, each.get("name", "")))
+        elif len(keys) > 1:  # Linkage also has links of one connector, an anchor by itself
+            found.add_link(name, keys)
     for key, each in connectors.items():
         if each.get("slider") == "true":
             limits = [found.known(limit.get("id"), "a slide") for limit in each.findall("slidelimit")]
@@ -52,20 +61,6 @@ def read_linkage_xml(found: FoundMachine, text: str) -> None:
             found.turn(key, backwards=found.number(each.get("rpm") or 0.0, "rpm") < 0.0)
     for ratio in root.iter("ratio"):
         found.left_out.append(f"a ratio of {ratio.get('type') or 'gears'}")
-
-
-def read_element(found: FoundMachine, element: Element) -> None:
-    """Read a link, or a cylinder where it is an actuator."""
-    keys = [each.get("id", "") for each in element.findall("connector")]
-    name = element.get("name") or f"L{element.get('id', '')}"
-    if element.get("gear") == "true":
-        found.left_out.append(f"the gear {name}")
-    if element.get("actuator") == "true" and len(keys) == 2:
-        P, Q = (found.known(key, f"the actuator {name}") for key in keys)
-        throw = found.number(element.get("throw") or 0.0, f"the throw of {name}")
-        found.drives.append(FoundDrive("cylinder", (P, Q), throw or None, element.get("name", "")))
-    elif len(keys) > 1:  # Linkage also has links of one connector, an anchor by itself
-        found.add_link(name, keys)
 
 
 def is_drawn(element: Element) -> bool:
@@ -101,10 +96,15 @@ def linkage_xml(sketch: MachineSketch) -> str:
     root = Element("linkage2")
     SubElement(root, "program", zoom="1", xoffset="0", yoffset="0", scalefactor="1", units="Millimeters")
     points, links = dict(sketch.points), {name: [*points] for name, points in sketch.links.items()}
-    fixed, slides = {*sketch.fixed}, {}
+    fixed, slides = {*sketch.fixed}, dict[str, tuple[str, str]]()
     for name, slide in sketch.slides.items():
-        slides[slide.point], added = slide_ends(sketch, name, points)
-        fixed |= added
+        if isinstance(slide.along, tuple):
+            slides[slide.point] = slide.along
+            continue
+        (x, y), slides[slide.point] = points[slide.point], (f"{name}_a", f"{name}_b")  # two anchors on its line
+        for end, sign in zip(slides[slide.point], (-sketch.size, sketch.size), strict=True):
+            points[end] = x + sign * cos(slide.along), y + sign * sin(slide.along)
+            fixed.add(end)
     inputs = {drive.ends[0]: drive for drive in sketch.drives.values() if drive.kind == "crank"}
     is_one = len(inputs) == sum(drive.kind == "crank" for drive in sketch.drives.values())
     ensure(is_one, f"{sketch.name}: two cranks turn about one pin, which a file of Linkage cannot say.")
@@ -126,18 +126,6 @@ def linkage_xml(sketch: MachineSketch) -> str:
             add_element(root, {"id": str(number), "name": name, "layer": "16", **throw}, [ids[each] for each in drive.ends])
     indent(root, "\t")
     return tostring(root, encoding="unicode") + "\n"
-
-
-def slide_ends(sketch: MachineSketch, name: str, points: dict[str, tuple[float, float]]) -> tuple[tuple[str, str], set[str]]:
-    """Return the two connectors that a slide runs between, and which of them are new anchors; these are added to the points."""
-    slide = sketch.slides[name]
-    if isinstance(slide.along, tuple):
-        return slide.along, set()
-    (x, y), reach = points[slide.point], sketch.size
-    ends = tuple(f"{name}_{mark}" for mark in "ab")
-    for end, sign in zip(ends, (-reach, reach), strict=True):
-        points[end] = x + sign * cos(slide.along), y + sign * sin(slide.along)
-    return (ends[0], ends[1]), {*ends}
 
 
 def add_element(root: Element, given: dict[str, str], ids: Sequence[str]) -> None:

@@ -298,7 +298,10 @@ class MachineSketch:
                 lengths[joined_names(*drive.ends)] = round((self.length(*drive.ends) - drive.drawn) / step) * step
         for label, value in lengths.items():
             ensure(value > 0.0, f"{self.name}: {label} rounds to nothing in steps of {show(step, 'mm')}; take a finer step.")
-        places = {name: grid(place, step) if name in self.fixed else place for name, place in self.points.items()}
+        places = dict(self.points)
+        for name in self.fixed:
+            x, y = (clean(round(each / step) * step) for each in places[name])
+            places[name] = x, y
         put = replace(self, points=places, lengths={label: clean(value) for label, value in lengths.items()})
         strokes: dict[str, Any] = {name: drive.drawn for name, drive in self.drives.items()}
         motion = put.to_class()().at(**strokes)
@@ -308,12 +311,6 @@ class MachineSketch:
         most = max(moved, key=lambda each: moved[each])
         note = f"Lengths are rounded to {show(step, 'mm')}; {most} moves most, by {show(moved[most], 'mm', 3)}."
         return replace(put, points=settled, notes=(*self.notes, note))
-
-
-def grid(place: Place, step: float) -> Place:
-    """Return the nearest place with round coordinates [m]."""
-    x, y = (clean(round(each / step) * step) for each in place)
-    return x, y
 
 
 def longer_side(places: Iterable[Place]) -> float:

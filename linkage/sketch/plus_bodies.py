@@ -126,7 +126,9 @@ class BodyReader:
             self.cylinder(each)
         for key, driver in self.drivers.items():
             if self.entry(self.joints, key, "joint").get("kind") == "revolute":
-                self.crank(self.joints[key], driver)
+                profile = self.found.table(driver.get("profile"), "a profile")
+                backwards = self.found.number(profile.get("speed", 1.0), "a speed") < 0.0
+                self.found.turn(self.found.known(self.root(self.frame(self.joints[key], "A")[0]), "a driver"), backwards)
 
     def slide(self, key: str, joint: JsonTable, bodies: dict[str, list[str]]) -> None:
         """Enter a slide: the point of one body on a line of the other, without turning where it is prismatic."""
@@ -165,9 +167,3 @@ class BodyReader:
             self.found.drives.append(FoundDrive("cylinder", (ends[0], ends[1]), self.reach(key), str(given.get("label") or "")))
         else:
             self.found.left_out.append(f"the cylinder {given.get('label')}, which nothing drives")
-
-    def crank(self, joint: JsonTable, driver: JsonTable) -> None:
-        """Enter a crank about a pin of the frame."""
-        profile = self.found.table(driver.get("profile"), "a profile")
-        backwards = self.found.number(profile.get("speed", 1.0), "a speed") < 0.0
-        self.found.turn(self.found.known(self.root(self.frame(joint, "A")[0]), "a driver"), backwards)

@@ -7,7 +7,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import takewhile
 from math import pi, radians
-from typing import Any
 from urllib.parse import parse_qs, unquote
 
 import numpy as np
@@ -127,29 +126,22 @@ def read_short_address(found: FoundMachine, text: str) -> None:
     texts = iter(rest.split("."))  # each joint and link ends with a dot, and so does each section
     joint_texts, link_texts = [*takewhile(bool, texts)], [*takewhile(bool, texts)]
     found.ensure(joint_texts and ".." in rest, "the address has no joints and links; copy it whole.")
-    joints = [short_joint(found, each.split(",")) for each in joint_texts]
-    links = [short_link(found, each.split(",")) for each in link_texts]
-    read_plus(found, joints, [each for each in links if each is not None], clockwise=bool(whole_of(found, flags) & 1))
-
-
-def short_joint(found: FoundMachine, fields: list[str]) -> PlusJoint:
-    """Return a joint: flags and key, name, x, y, angle, then the link and the two joints of its slot."""
-    found.ensure(len(fields) >= 5 and len(fields[0]) > 1, f"a joint of the address has {len(fields)} parts instead of five or more.")
-    bits = DIGITS.find(fields[0][0])
-    key, name, (x, y, angle) = fields[0][1:], fields[1], (whole_of(found, each) / 1000.0 for each in fields[2:5])
-    quarter = round(angle / RIGHT) * RIGHT
-    line = (fields[6], fields[7]) if len(fields) > 7 and fields[6] and fields[7] else None
-    return PlusJoint(
-        key, name or key, x, y, slides=bool(bits & 1), drives=bool(bits & 2), fixed=bool(bits & 4), rigid=bool(bits & 8),
-        angle=quarter if abs(angle - quarter) < COARSE else angle, line=line,
-    )  # fmt: skip
-
-
-def short_link(found: FoundMachine, fields: list[str]) -> PlusLink | None:
-    """Return a link: kind and key, name, mass, inertia, centre, colour, joints; None for one that is within another."""
-    found.ensure(len(fields) >= 9 and len(fields[0]) > 2, f"a link of the address has {len(fields)} parts instead of nine or more.")
-    keys = fields[7 : 7 + fields[7:].index("")] if "" in fields[7:] else fields[7:]
-    return None if fields[0][0] in "Namg4567" else PlusLink(fields[1] or fields[0][2:], tuple(keys), block=fields[0][1] == "P")
+    joints, links = list[PlusJoint](), list[PlusLink]()
+    for fields in (each.split(",") for each in joint_texts):  # flags and key, name, x, y, angle, then link and two joints of its slot
+        found.ensure(len(fields) >= 5 and len(fields[0]) > 1, f"a joint of the address has {len(fields)} parts instead of five or more.")
+        bits = DIGITS.find(fields[0][0])
+        key, name, (x, y, angle) = fields[0][1:], fields[1], (whole_of(found, each) / 1000.0 for each in fields[2:5])
+        quarter = round(angle / RIGHT) * RIGHT
+        angle = quarter if abs(angle - quarter) < COARSE else angle
+        line = (fields[6], fields[7]) if len(fields) > 7 and fields[6] and fields[7] else None
+        slides, drives, fixed, rigid = (bool(bits & bit) for bit in (1, 2, 4, 8))
+        joints.append(PlusJoint(key, name or key, x, y, slides, fixed, drives, rigid, angle, line))
+    for fields in (each.split(",") for each in link_texts):  # kind and key, name, mass, inertia, centre, colour, joints
+        found.ensure(len(fields) >= 9 and len(fields[0]) > 2, f"a link of the address has {len(fields)} parts instead of nine or more.")
+        keys = fields[7 : 7 + fields[7:].index("")] if "" in fields[7:] else fields[7:]
+        if fields[0][0] not in "Namg4567":  # one that is within another
+            links.append(PlusLink(fields[1] or fields[0][2:], tuple(keys), block=fields[0][1] == "P"))
+    read_plus(found, joints, links, clockwise=bool(whole_of(found, flags) & 1))
 
 
 def whole_of(found: FoundMachine, text: str) -> int:
@@ -182,7 +174,12 @@ def read_old_address(found: FoundMachine, text: str) -> None:
     parts = parse_qs(text, keep_blank_values=True, max_num_fields=20)
     rows = {name: [row.split(",") for row in parts.get(name, [""])[0].splitlines() if row.strip()] for name in "jls"}
     found.ensure(rows["j"] and rows["l"], "the address has no joints and links; copy it whole.")
-    joints = [old_joint(found, row) for row in rows["j"]]
+    joints = []
+    for row in rows["j"]:  # key, x, y, links, R or P, fixed, angle [rad], whether it drives
+        found.ensure(len(row) >= 8 and row[4] in ("R", "P"), "a joint of the address has no eight parts with R or P; copy it whole.")
+        key, x, y, _, kind, fixed, angle, drives = row[:8]
+        turned = found.number(angle, f"the angle of {key}") if kind == "P" and angle != "Null" else 0.0
+        joints.append(PlusJoint(key, key, x, y, slides=kind == "P", fixed=fixed == "t", drives=drives == "t", angle=turned))
     links = [PlusLink(row[0], tuple(filter(None, row[6].split("|"))), block=row[1] == "P") for row in rows["l"] if len(row) > 6]
     found.ensure(len(links) == len(rows["l"]), "a link of the address has fewer than seven parts; copy it whole.")
     settings = rows["s"][0] if rows["s"] else []
@@ -191,34 +188,21 @@ def read_old_address(found: FoundMachine, text: str) -> None:
     read_plus(found, joints, links, clockwise=settings[1:2] == ["true"])
 
 
-def old_joint(found: FoundMachine, row: list[str]) -> PlusJoint:
-    """Return a joint: key, x, y, links, R or P, fixed, angle [rad], whether it drives."""
-    found.ensure(len(row) >= 8 and row[4] in ("R", "P"), "a joint of the address has no eight parts with R or P; copy it whole.")
-    angle = found.number(row[6], f"the angle of {row[0]}") if row[4] == "P" and row[6] != "Null" else 0.0
-    return PlusJoint(row[0], row[0], row[1], row[2], slides=row[4] == "P", fixed=row[5] == "t", drives=row[7] == "t", angle=angle)
-
-
 def read_plus_json(found: FoundMachine, data: JsonTable) -> None:
     """Read rows of joints under "j" and of links under "l"."""
-    joints = [json_joint(found, found.list_of(row, "a joint")) for row in found.list_of(data["j"], "j")]
-    links = []
+    joints, links = list[PlusJoint](), list[PlusLink]()
+    for row in (found.list_of(each, "a joint") for each in found.list_of(data["j"], "j")):
+        # key, name, x, y, kind (0 slides), angle [deg], fixed, whether it drives, speed, welded
+        found.ensure(len(row) >= 9, f"a joint has {len(row)} cells instead of nine or more.")
+        long = len(row) > 12  # the shorter rows, of an earlier version, have no cell of their own for what drives
+        angle = radians(found.number(row[5] or 0, f"the angle of {row[1]}"))
+        slides, fixed, drives, rigid = joint_number(row[4]) == 0, is_set(row[6]), long and is_set(row[7]), is_set(row[9 if long else 8])
+        joints.append(PlusJoint(str(joint_number(row[0])), str(row[1]), row[2], row[3], slides, fixed, drives, rigid, angle))
     for row in found.list_of(data["l"], "l"):
         cells = found.list_of(row, "a link")
         found.ensure(len(cells) > 6, f"a link has {len(cells)} cells instead of seven or more.")
         links.append(PlusLink(str(cells[1]), tuple(str(joint_number(key)) for key in str(cells[6]).split("|") if key)))
     read_plus(found, joints, links)
-
-
-def json_joint(found: FoundMachine, row: list[Any]) -> PlusJoint:
-    """Return a joint: key, name, x, y, kind (0 slides), angle [deg], fixed, whether it drives, speed, welded."""
-    found.ensure(len(row) >= 9, f"a joint has {len(row)} cells instead of nine or more.")
-    long = len(row) > 12  # the shorter rows, of an earlier version, have no cell of their own for what drives
-    weld = row[9] if long else row[8]
-    angle = radians(found.number(row[5] or 0, f"the angle of {row[1]}"))
-    return PlusJoint(
-        str(joint_number(row[0])), str(row[1]), row[2], row[3], slides=joint_number(row[4]) == 0, fixed=is_set(row[6]),
-        drives=long and is_set(row[7]), rigid=is_set(weld), angle=angle,
-    )  # fmt: skip
 
 
 def joint_number(given: object) -> object:

@@ -65,7 +65,16 @@ def read_pmks_text(found: FoundMachine, text: str) -> None:
             found.add_slide(joint.key, joint.angle, along, bodies[mover] if joint.kind == "P" else None)
     for name, keys in bodies.items():
         found.add_link(name, keys)
-    drive_pmks(found, joints)
+    chosen = [joint for joint in joints if joint.drives]
+    on_frame = [joint for joint in joints if joint.kind != "RP" and len(joint.links) == 2 and any(map(is_frame, joint.links))]
+    if not chosen and on_frame:
+        chosen = on_frame[:1]
+        found.notes.append(f"No joint of the file drives; as in PMKS the first of the frame does, {chosen[0].key}.")
+    for joint in chosen:
+        if joint.kind == "R":
+            found.turn(joint.key)
+        else:
+            found.push(joint.key, joint.angle, next(along for point, along in found.slides if point == joint.key))
 
 
 def joint_of(found: FoundMachine, line: str, number: int) -> PmksJoint:
@@ -88,20 +97,6 @@ def joint_of(found: FoundMachine, line: str, number: int) -> PmksJoint:
 def is_frame(name: str) -> bool:
     """Return whether a link is the frame."""
     return name.lower().startswith(FRAME)
-
-
-def drive_pmks(found: FoundMachine, joints: list[PmksJoint]) -> None:
-    """Enter the drive: the joint marked so, else the first of the frame."""
-    chosen = [joint for joint in joints if joint.drives]
-    on_frame = [joint for joint in joints if joint.kind != "RP" and len(joint.links) == 2 and any(map(is_frame, joint.links))]
-    if not chosen and on_frame:
-        chosen = on_frame[:1]
-        found.notes.append(f"No joint of the file drives; as in PMKS the first of the frame does, {chosen[0].key}.")
-    for joint in chosen:
-        if joint.kind == "R":
-            found.turn(joint.key)
-        else:
-            found.push(joint.key, joint.angle, next(along for point, along in found.slides if point == joint.key))
 
 
 def pmks_text(sketch: MachineSketch) -> str:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import csv
 import io
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
+from functools import partial
 from math import degrees
 
 from ..errors import DefinitionError, FileError
@@ -76,21 +77,19 @@ def read_drive(kind: str, found: FoundMachine, name: str, words: list[str]) -> N
     found.ensure(len(words) in (2, 3, 4), f"a {kind} names its two ends and how far it goes, such as `{example}`.")
     P, Q = (found.known(word, f"a {kind}") for word in words[:2])
     found.ensure(P != Q and not {*words[2:]} & found.points.keys(), f"a {kind} has two ends, such as `{example}`.")
-    back, *reach = [reach_in(found, word, measures) for word in (["0", *words[2:]] if len(words) < 4 else words[2:])]
+    limits: list[float | str] = []
+    for word in ["0", *words[2:]] if len(words) < 4 else words[2:]:
+        value = value_in(found, word, measures)  # a length with a unit stays a text, one without has that of the table
+        limits.append(value if measures == "angle" or PLAIN.fullmatch(word) else word)
+    back, *reach = limits
     found.drives.append(FoundDrive(kind, (P, Q), reach[0] if reach else None, name, back))
-
-
-def reach_in(found: FoundMachine, text: str, measures: str) -> float | str:
-    """Return an angle [rad]; a length as its text, or as a number in the unit of the table where it has no unit of its own."""
-    value = value_in(found, text, measures)
-    return value if measures == "angle" or PLAIN.fullmatch(text) else text
 
 
 ROWS: dict[str, Callable[[FoundMachine, str, list[str]], None]] = {
     "link": read_link,
     "slide": read_slide,
-    "crank": lambda *row: read_drive("crank", *row),
-    "cylinder": lambda *row: read_drive("cylinder", *row),
+    "crank": partial(read_drive, "crank"),
+    "cylinder": partial(read_drive, "cylinder"),
 }
 
 
@@ -110,20 +109,15 @@ def points_csv(sketch: MachineSketch) -> str:
     stream = io.StringIO(newline="")
     writer = csv.writer(stream, lineterminator="\n")
     writer.writerow(["kind", "name", "x [mm]", "y [mm]", "what"])
-    writer.writerows(point_rows(sketch))
-    return stream.getvalue()
-
-
-def point_rows(sketch: MachineSketch) -> Iterator[list[str]]:
-    """Yield the rows below the header."""
     for name, (x, y) in sketch.points.items():
-        yield ["point", name, written(1e3 * x), written(1e3 * y), "fixed" if name in sketch.fixed else "pin"]
+        writer.writerow(["point", name, written(1e3 * x), written(1e3 * y), "fixed" if name in sketch.fixed else "pin"])
     for name, points in sketch.links.items():
-        yield ["link", name, "", "", " ".join(points)]
+        writer.writerow(["link", name, "", "", " ".join(points)])
     for name, slide in sketch.slides.items():
         along = f"{written(degrees(slide.along))}deg" if isinstance(slide.along, (int, float)) else " ".join(slide.along)
-        yield ["slide", name, "", "", f"{slide.point} {along}"]
+        writer.writerow(["slide", name, "", "", f"{slide.point} {along}"])
     for name, drive in sketch.drives.items():
         ends = [each - drive.drawn for each in (drive.start, drive.end) if each != drive.drawn]
         reach = [f"{written(degrees(each))}deg" if drive.kind == "crank" else f"{written(1e3 * each)}mm" for each in ends]
-        yield [drive.kind, name, "", "", " ".join([*drive.ends, *reach])]
+        writer.writerow([drive.kind, name, "", "", " ".join([*drive.ends, *reach])])
+    return stream.getvalue()

@@ -74,7 +74,7 @@ def read_sketch(
     if asked:
         found.drives = []
         for kind, *ends in asked:
-            add_drive(found, kind, *(point_key(found, name) for name in ends))
+            add_drive(found, kind, ends)
     if found.board_sketch is not None:
         return found.driven_anew(found.board_sketch) if asked else found.board_sketch
     return found.sketch(title)
@@ -121,21 +121,16 @@ def content_of(file: Place, layers: Mapping[str, Sequence[str]]) -> tuple[FoundM
         read_json(found, decoded(path.name, raw, True).data)
         return found, found.board_sketch.name if found.board_sketch else title
     found.ensure(len(raw) <= FILE_BYTES, f"the file is larger than {FILE_BYTES / 1e6:g} MB; a machine is a few kB.")
-    content = text_of_bytes(raw)
+    try:
+        content = raw.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        content = raw.decode("cp1252", "replace")  # the letters of Windows
     found.ensure(content.strip(), "the file is empty.")
     found.ensure("\0" not in content, "the file is no text.")
     readers: dict[str, Callable[[FoundMachine, str], None]] = {".csv": read_points_csv, ".linkage2": read_linkage_xml}
     reader = read_address if is_address(content.strip()) else readers.get(suffix, read_pmks_text)
     reader(found, content.strip())
     return found, title
-
-
-def text_of_bytes(raw: bytes) -> str:
-    """Return a text in UTF-8, or in the letters of Windows where it is not that."""
-    try:
-        return raw.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        return raw.decode("cp1252", "replace")
 
 
 def read_address(found: FoundMachine, text: str) -> None:
@@ -185,16 +180,13 @@ def read_json(found: FoundMachine, data: object) -> None:
     reader(found, data)  # type: ignore[arg-type]
 
 
-def point_key(found: FoundMachine, name: str) -> str:
-    """Return the key of a point by its name; DefinitionError for any other."""
-    keys = [key for key, point in found.points.items() if name in (point.name, key)]
-    if not keys:
-        raise unknown("Point", name, [point.name for point in found.points.values()], where=found.file)
-    return keys[0]
-
-
-def add_drive(found: FoundMachine, kind: str, P: str, Q: str) -> None:
+def add_drive(found: FoundMachine, kind: str, ends: Sequence[str]) -> None:
     """Enter a drive that is asked for; DefinitionError for a crank whose pivot is not fixed, or that no link joins to its pin."""
+    keys = {name: key for key, point in reversed(found.points.items()) for name in (point.name, key)}
+    for name in ends:
+        if name not in keys:
+            raise unknown("Point", name, [point.name for point in found.points.values()], where=found.file)
+    P, Q = (keys[name] for name in ends)
     names = found.points[P].name, found.points[Q].name
     if kind == "crank":
         fixed = ", ".join(point.name for point in found.points.values() if point.fixed)

@@ -75,23 +75,18 @@ def sketch_of(machine: Mechanism | type[Mechanism], at: Mapping[str, float] | No
         name: each for name, each in plan.of_kind(Weight).items() if f"{name}.mass" in design.dimensions and each.gravity == Weight.gravity
     }
     weights = {name: SketchWeight(name_of(each.point), float(design.dimensions[f"{name}.mass"])) for name, each in hung.items()}
-    rams = dict(rams_of(design, drives))
-    drives |= {name: replace(drives[name], bore=bore, rod=rod) for name, (_, bore, rod) in rams.items()}
-    told = {*weights, *(name for name, _, _ in rams.values())}
+    rams = dict[str, str]()
+    for name, each in plan.of_kind(TwoPoint).items():  # single cylinders by the drives that they follow
+        bore, rod = (float(design.dimensions.get(f"{name}.{part}", 0.0)) for part in ("bore", "rod"))
+        stroke = next((stroke for stroke, drive in drives.items() if {*drive.ends} == {*each.ends} and drive.kind == "cylinder"), None)
+        if bore and rod and stroke is not None and vars(each).get("count") == 1:
+            rams[stroke], drives[stroke] = name, replace(drives[stroke], bore=bore, rod=rod)
+    told = {*weights, *rams.values()}
     others = [
         name for name, each in plan.members.items() if not isinstance(each, FOUND_ANEW) and each.kind not in NOT_TOLD and name not in told
     ]
     notes = (f"Not in the sketch of {title}: {', '.join(others)}.",) if others else ()
     return MachineSketch(title, places, frame, links, slides, drives, weights=weights, notes=notes)
-
-
-def rams_of(design: Mechanism, drives: Mapping[str, SketchDrive]) -> Iterator[tuple[str, tuple[str, float, float]]]:
-    """Yield single cylinders by the drives that they follow: name, bore and rod [m]."""
-    for name, each in design.plan.of_kind(TwoPoint).items():
-        bore, rod = (float(design.dimensions.get(f"{name}.{part}", 0.0)) for part in ("bore", "rod"))
-        stroke = next((stroke for stroke, drive in drives.items() if {*drive.ends} == {*each.ends} and drive.kind == "cylinder"), None)
-        if bore and rod and stroke is not None and vars(each).get("count") == 1:
-            yield stroke, (name, bore, rod)
 
 
 def drives_of(design: Mechanism, joints: list[tuple[str, Joint]], strokes: Mapping[str, float]) -> Iterator[tuple[str, SketchDrive]]:
@@ -107,17 +102,13 @@ def drives_of(design: Mechanism, joints: list[tuple[str, Joint]], strokes: Mappi
         own = [each for each in plan.strokes if each in reached]
         slope = 0.0
         if len(own) == 1 and plan.points.keys().isdisjoint(reached):
-            ends_of = [value_at(design, quantity, {**strokes, own[0]: strokes[own[0]] + step}) for step in (0.0, 1.0)]
-            slope = ends_of[1] - ends_of[0]
+            values = {**plan.defaults, **design.dimensions, **strokes}
+            here, there = (float(plan.reading({**values, own[0]: strokes[own[0]] + step}).value(quantity)) for step in (0.0, 1.0))
+            slope = there - here
         if abs(slope - 1.0) > ONE_TO_ONE:
             raise DefinitionError(f"{plan.title}: the {kind} {name} does not follow one stroke one to one, which a sketch needs of it.")
         stroke = plan.strokes[own[0]]
         yield own[0], SketchDrive(kind, ends, float(stroke.start), float(stroke.end), float(strokes[own[0]]))
-
-
-def value_at(design: Mechanism, quantity: Quantity, strokes: Mapping[str, float]) -> float:
-    """Return a quantity that follows strokes alone [SI]."""
-    return float(design.plan.reading({**design.plan.defaults, **design.dimensions, **strokes}).value(quantity))
 
 
 def slides_of(design: Mechanism, joints: list[tuple[str, Joint]], motion: Motion) -> Iterator[SketchSlide]:
@@ -132,19 +123,14 @@ def slides_of(design: Mechanism, joints: list[tuple[str, Joint]], motion: Motion
             raise DefinitionError(f"{plan.title}: {name} = {plan.members[name]} is no pin, link, slide, crank or cylinder of a sketch.")
         seen.add((joint.point, joint.track))
         if len(ends) == 2:
-            P, Q = ends
+            places = np.array([(float(motion.x(each)), float(motion.y(each))) for each in (joint.point, *ends)])
+            size = float(np.max(np.abs(places))) or 1.0
+            is_in_line = abs(corner_turn(places, 0, 1, 2)) <= 1e-9 * size * size  # to the digits of their places
             what = f"{plan.title}: the slot of {name} = {plan.members[name]}"
-            ensure(is_in_line(motion, joint.point, P, Q), f"{what} misses its pins; a sketch needs it through two of them.")
-            yield SketchSlide(joint.point, (P, Q))
+            ensure(is_in_line, f"{what} misses its pins; a sketch needs it through two of them.")
+            yield SketchSlide(joint.point, (ends[0], ends[1]))
         else:
             assert guide is not None
             ensure(not ends, f"{plan.title}: the guide {guide.name} = {guide} goes through a moving point in a direction of the frame.")
             line = guide.line(plan.reading({**plan.defaults, **design.dimensions}))
             yield SketchSlide(joint.point, float(np.arctan2(line.direction.y, line.direction.x)))
-
-
-def is_in_line(motion: Motion, *points: str) -> bool:
-    """Return whether three points stand in one line, to the digits of their places."""
-    places = np.array([(float(motion.x(each)), float(motion.y(each))) for each in points])
-    size = float(np.max(np.abs(places))) or 1.0
-    return abs(corner_turn(places, 0, 1, 2)) <= 1e-9 * size * size

@@ -176,7 +176,7 @@ def print_cycle(options: Namespace) -> int:
             print(*head, says, "", *lined_up([line_heads(), *line_rows(cycle)]), "", *lined_up(energy_rows(cycle)), *events, sep="\n")
     if options.csv is not None:
         ensure(len(found) == 1, f"--csv {options.csv}: there are {len(found)} cycles; choose one, --over NAME.")
-        write_table(cycle_columns(found[0][1]), len(found[0][1].time), options.csv)
+        write_table(cycle_columns(found[0][1]), options.csv)
     if path is not None:
         ensure(len(found) == 1, f"-o {path}: there are {len(found)} cycles; choose one, --over NAME.")
         _, cycle, motion = found[0]

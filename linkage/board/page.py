@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from importlib import import_module
+from keyword import kwlist, softkwlist
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +15,8 @@ from ..mechanism import Mechanism
 from ..pictures.page_data import signs
 from ..pictures.page_file import page_place, page_text
 from ..sketch import MachineSketch, sketch_of
-from .drawing import drawing_data
+from ..sketch.board_json import board_tables
+from ..sketch.found import WORDS
 
 PARTS = (
     "board/board.html", "page.css", "board/board.css", "mechanism.js", "labels.js", "copy.js", "board/model.js", "board/solver.js",
@@ -60,14 +62,7 @@ def drawing_board(
     """
     target = page_place(path)
     check_place(target)
-    sketch = machine if machine is None or isinstance(machine, MachineSketch) else sketch_of(machine)
-    data = drawing_data(sketch) | {
-        "sizes": cylinder_sizes(),
-        "scene": {name: [] for name in SCENE},
-        "rows": {"points": []},
-        "cylinders": [],
-        "signs": signs({*UNITS, "kg"}),
-    }
+    data = drawing_data(machine if machine is None or isinstance(machine, MachineSketch) else sketch_of(machine))
     with spoken_language(language):
         title = said("Drawing board")
     with replacing_text(target) as stream:
@@ -75,10 +70,29 @@ def drawing_board(
     return target
 
 
-def cylinder_sizes() -> dict[str, list[Any]]:
-    """Return the pairs of bore and rod and the strokes of the catalogue [m], of the package that brings cylinders; empty without one."""
-    entry = plugins.entry_points(plugins.MEMBERS).get("cylinder")
-    if entry is None:
-        return {"pairs": [], "strokes": []}
-    rows = plugins.guarded(lambda: import_module(entry.module).catalogue(dead=1.0), f"The package {entry.module}")
-    return {"pairs": sorted({(each.bore, each.rod) for each in rows}), "strokes": sorted({each.stroke for each in rows})}
+def drawing_data(sketch: MachineSketch | None = None) -> dict[str, Any]:
+    """Return the data of a page on which a sketch is drawn, or nothing yet.
+
+    Parameters
+    ----------
+    sketch : MachineSketch, optional
+        What is drawn already.
+
+    Returns
+    -------
+    dict
+        `drawing`, the tables of the board's file or None, `reserved`, the names that no member may have, `sizes`, the pairs of bore and
+        rod and the strokes of the catalogue [m], empty where no package brings cylinders, and what the page fills as one draws.
+    """
+    entry, rows = plugins.entry_points(plugins.MEMBERS).get("cylinder"), []
+    if entry is not None:
+        rows = plugins.guarded(lambda: import_module(entry.module).catalogue(dead=1.0), f"The package {entry.module}")
+    return {
+        "drawing": None if sketch is None else board_tables(sketch),
+        "reserved": sorted({*WORDS, *kwlist, *softkwlist}),
+        "sizes": {"pairs": sorted({(each.bore, each.rod) for each in rows}), "strokes": sorted({each.stroke for each in rows})},
+        "scene": {name: [] for name in SCENE},
+        "rows": {"points": []},
+        "cylinders": [],
+        "signs": signs({*UNITS, "kg"}),
+    }

@@ -7,7 +7,7 @@ import os
 import re
 import sys
 import warnings
-from argparse import ArgumentParser, Namespace
+from argparse import ArgumentParser
 from collections.abc import Callable, Sequence
 from contextlib import redirect_stdout
 from importlib.metadata import EntryPoint, PackageNotFoundError, version
@@ -104,7 +104,15 @@ def execute(arguments: list[str]) -> int:
     commands = commands_for(arguments)
     if arguments and not arguments[0].startswith("-"):
         (command,) = commands
-        options = parsed(command, arguments[1:])
+        parser = OneLineParser(prog=f"{PROGRAM} {command.name}", description=command.help, allow_abbrev=False)
+        command.add(parser)
+        common = parser.add_argument_group("of every command")  # stand behind its own
+        common.add_argument("--units", choices=SYSTEMS, help="show everything in one system of units (default: each number in its own)")
+        common.add_argument("--language", choices=languages(), default=ENGLISH, help="the language of sentences and headings")
+        try:
+            options = parser.parse_intermixed_args(arguments[1:])
+        except TypeError:  # a command with commands of its own takes them as they stand
+            options = parser.parse_args(arguments[1:])
         files = {name: getattr(options, name, None) for name in FILES}
         if files["csv"] not in (None, "-"):
             check_place(files["csv"])  # before the work, of which nothing would be left
@@ -149,19 +157,6 @@ def rearranged(arguments: list[str]) -> list[str]:
         else:
             found.append(each)
     return found
-
-
-def parsed(command: Command, arguments: list[str]) -> Namespace:
-    """Return a command's arguments by name, options and others in any order; those of every command stand behind its own."""
-    parser = OneLineParser(prog=f"{PROGRAM} {command.name}", description=command.help, allow_abbrev=False)
-    command.add(parser)
-    group = parser.add_argument_group("of every command")
-    group.add_argument("--units", choices=SYSTEMS, help="show everything in one system of units (default: each number in its own)")
-    group.add_argument("--language", choices=languages(), default=ENGLISH, help="the language of sentences and headings")
-    try:
-        return parser.parse_intermixed_args(arguments)
-    except TypeError:  # a command with commands of its own takes them as they stand
-        return parser.parse_args(arguments)
 
 
 # A reader that has gone, as `head` does: what is written into files is written all the same.

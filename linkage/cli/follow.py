@@ -67,7 +67,7 @@ def follow_command(options: Namespace) -> int:
         columns = columns_picked(machine, motion, list(motion.strokes), [])
         asked = {name: each for name, each in targets.items() if name not in motion.strokes}
         columns += [Column.of(motion, each.quantity, each.shown_in(motion.plan) or None, name) for name, each in asked.items()]
-    write_table(columns, motion.reached.size, options.csv)
+    write_table(columns, options.csv)
     if path is not None:
         draw_along(machine, motion, path, options.language)
         print(path)

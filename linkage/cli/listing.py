@@ -35,7 +35,11 @@ def registered() -> Mapping[str, EntryPoint]:
 def list_command(options: Namespace) -> int:
     """Print every installed machine with its first line, kind by kind, and the commands."""
     entries = registered()
-    packages = {name: package_of(entry) for name, entry in entries.items()}
+    packages: dict[str, str] = {}
+    for name, entry in entries.items():  # the package that a machine is in, of two words at most: `mechanisms.classics`, `mechanisms`
+        two = ".".join(entry.module.split(".")[:2])
+        path = source_file(two)
+        packages[name] = two if path is not None and path.name == "__init__.py" else two.partition(".")[0]
     count = Counter(packages.values())
     groups: dict[str, list[tuple[str, str]]] = {}
     titles: dict[str, str] = {}
@@ -46,12 +50,22 @@ def list_command(options: Namespace) -> int:
         except DefinitionError as error:
             print(f"hydrolinkage: warning: {error}", file=sys.stderr)
         else:
-            title = titles[package] = titles.get(package) or group_title(entry, package)
-            groups.setdefault(title, []).append(row)
+            if package not in titles:  # by its docstring, and the distribution where it is not shipped
+                node = syntax(package)
+                says = (ast.get_docstring(node) or "").partition("\n")[0] if node is not None else ""
+                title = re.split(r"[,:.]", says)[0].strip() or package
+                whose = entry.dist.metadata["Name"] if entry.dist is not None else PROGRAM
+                titles[package] = title if whose == PROGRAM else f"{title} ({whose})"
+            groups.setdefault(titles[package], []).append(row)
     ensure(groups, f"No machine is installed; install the package (pip install -e .). {OWN}")
     commands = {**BUILT_IN, **plugins.entry_points(plugins.COMMANDS)}
-    says = {name: command_help(entry) for name, entry in commands.items()}  # none of them is loaded
-    for title, rows in (groups | {"Commands": [*says.items()]}).items():
+    groups["Commands"] = []
+    for name, entry in commands.items():  # none of them is loaded: a help stands in the source, `Command("name", "help", ...)`
+        path = source_file(entry.module)
+        text = path.read_text(encoding="utf-8") if path is not None else ""
+        found = re.search(rf"""\bCommand\(\s*"{entry.name}",\s*("(?:[^"\\\n]|\\.)*")""", text)
+        groups["Commands"].append((name, "" if found is None else str(ast.literal_eval(found[1]))))
+    for title, rows in groups.items():
         size = max(len(name) for name, _ in rows)
         print(title, *(line for name, text in rows for line in wrapped(text, f"  {name.ljust(size)}  ")), "", sep="\n")
     print(*wrapped(OWN, ""), sep="\n")
@@ -60,23 +74,6 @@ def list_command(options: Namespace) -> int:
 
 KIND = 3
 """Machines of a package that make a kind of their own; those of fewer are of the kind of the package around it."""
-
-
-def package_of(entry: EntryPoint) -> str:
-    """Return the package that a machine is in, of two words at most: `mechanisms.classics`, `mechanisms`."""
-    first, *rest = entry.module.split(".")
-    two = ".".join([first, *rest[:1]])
-    path = source_file(two)
-    return two if path is not None and path.name == "__init__.py" else first
-
-
-def group_title(entry: EntryPoint, package: str) -> str:
-    """Return the title of a machine's group: its package's docstring, and the distribution where it is not shipped."""
-    node = syntax(package)
-    says = (ast.get_docstring(node) or "").partition("\n")[0] if node is not None else ""
-    title = re.split(r"[,:.]", says)[0].strip() or package
-    whose = entry.dist.metadata["Name"] if entry.dist is not None else PROGRAM
-    return title if whose == PROGRAM else f"{title} ({whose})"
 
 
 def wrapped(text: str, start: str, hanging: str = "") -> list[str]:
@@ -95,14 +92,6 @@ def first_line(entry: EntryPoint) -> str:
     if text is None:
         text = guarded(entry.load, f"The machine {entry.name} ({entry.value})").__doc__ or ""
     return text.strip().partition("\n")[0]
-
-
-def command_help(entry: EntryPoint) -> str:
-    """Return a command's help from its source, `Command("name", "help", ...)`; "" without one."""
-    path = source_file(entry.module)
-    text = path.read_text(encoding="utf-8") if path is not None else ""
-    found = re.search(rf"""\bCommand\(\s*"{entry.name}",\s*("(?:[^"\\\n]|\\.)*")""", text)
-    return "" if found is None else str(ast.literal_eval(found[1]))
 
 
 def class_node(module: str, name: str) -> ast.ClassDef | None:

@@ -15,9 +15,9 @@ import numpy as np
 from ..disk import check_place, in_words
 from ..errors import DefinitionError, StudyError, ensure, unknown
 from ..files import load, save
-from ..files.study_file import FindMachine, Settings
+from ..files.names import Keywords
 from ..files.study_tasks import TaskResult, read_study
-from ..files.synthesis_file import SearchFile, read_search, read_synthesis
+from ..files.synthesis_file import read_search, read_synthesis
 from ..mechanism import Mechanism
 from ..motion import Column
 from ..study import Front, Tornado, Zone
@@ -47,29 +47,25 @@ STUDY = (
 """What every command on a study file takes."""
 
 
-def finder(trust: list[str]) -> FindMachine:
-    """Return a finder of a study file's machine: an installed one, a file beside it, or a class of a trusted file."""
-
-    def find_machine(text: str, base: Path) -> type[Mechanism]:
-        place, name = split(text)
-        if text in registered():
-            return find(text)
-        if text.endswith((".toml", ".json")):
-            return machine(load(base / text, trust), text)
-        is_file = place.endswith(".py")
-        if not is_file and not name:
-            raise DefinitionError(f"{unknown('Machine', text, registered())} {OWN}")
-        if place not in trust and (is_file or not any(place.startswith(f"{each}.") for each in trust)):
-            word = place if is_file else place.partition(".")[0]
-            raise DefinitionError(f"{place} is code, and a file runs none unasked; say --trust {word} if you trust it.")
-        return find(f"{base / text}" if is_file else text)
-
-    return find_machine
+def machine_of_study(trust: list[str], text: str, base: Path) -> type[Mechanism]:
+    """Return a study file's machine: an installed one, a file beside it, or a class of a trusted file."""
+    place, name = split(text)
+    if text in registered():
+        return find(text)
+    if text.endswith((".toml", ".json")):
+        return machine(load(base / text, trust), text)
+    is_file = place.endswith(".py")
+    if not is_file and not name:
+        raise DefinitionError(f"{unknown('Machine', text, registered())} {OWN}")
+    if place not in trust and (is_file or not any(place.startswith(f"{each}.") for each in trust)):
+        word = place if is_file else place.partition(".")[0]
+        raise DefinitionError(f"{place} is code, and a file runs none unasked; say --trust {word} if you trust it.")
+    return find(f"{base / text}" if is_file else text)
 
 
-def settings_of(texts: list[str]) -> Settings:
-    """Return a reader of settings such as `OB=180mm` for a machine."""
-    return lambda found: dict(parsed_setting(found.plan, text) for text in texts)
+def settings_said(texts: list[str], found: type[Mechanism]) -> Keywords:
+    """Return the dimensions of a machine that settings such as `OB=180mm` say."""
+    return dict(parsed_setting(found.plan, text) for text in texts)
 
 
 @contextmanager
@@ -87,7 +83,7 @@ def say_progress(done: int, total: int) -> None:
 @Command("optimise", "the best dimensions: the search that a file asks for", *STUDY)
 def optimise_command(options: Namespace) -> int:
     """Search the best design."""
-    search = read_search(options.file, finder(options.trust), settings_of(options.settings))
+    search = read_search(options.file, partial(machine_of_study, options.trust), partial(settings_said, options.settings))
     try:
         with study_progress(f"searching {Path(options.file).stem}", asked=options.progress) as progress:
             found = search.run(options.folder, progress)
@@ -96,7 +92,14 @@ def optimise_command(options: Namespace) -> int:
         return NOT_FEASIBLE
     print(found)
     if isinstance(found, Front):
-        write_results(search.outputs, {"designs": partial(write_columns, front_columns(search, found))})
+        plan = search.machine.plan
+        objectives = zip(map(str, found.objectives), found.units, zip(*(each.values for each in found.points), strict=True), strict=True)
+        columns = [Column(name, np.array(values, float), unit) for name, unit, values in objectives]
+        for name in tried_names(Space.of(search.machine, search.arguments["vary"])):
+            owner, sign = plan.table.spellings[name]
+            values = np.array([sign * float(each.machine.dimensions[owner]) for each in found.points])
+            columns.append(Column(name, values, unit_of(plan, name)))
+        write_results(search.outputs, {"designs": partial(write_columns, columns)})
         return 0
     rounded = None if search.rounding is None else found.rounded(**search.rounding)
     if rounded is not None:
@@ -123,17 +126,6 @@ def write_results(outputs: Mapping[str, Sequence[Path]], writers: Mapping[str, C
             print(path)
 
 
-def front_columns(search: SearchFile, found: Front) -> list[Column]:
-    """Return the designs of a front: their objectives and variables."""
-    plan = search.machine.plan
-    objectives = zip(map(str, found.objectives), found.units, zip(*(each.values for each in found.points), strict=True), strict=True)
-    columns = [Column(name, np.array(values, float), unit) for name, unit, values in objectives]
-    for name in tried_names(Space.of(search.machine, search.arguments["vary"])):
-        owner, sign = plan.table.spellings[name]
-        columns.append(Column(name, np.array([sign * float(each.machine.dimensions[owner]) for each in found.points]), unit_of(plan, name)))
-    return columns
-
-
 # A synthesis.
 
 ANSWERS = 3
@@ -153,7 +145,7 @@ STEP, TURN = 1.0 * mm, 0.1 * deg
 )
 def synthesise_command(options: Namespace) -> int:
     """Search machines for a path, a function or poses."""
-    asked = read_synthesis(options.file, finder(options.trust), settings_of(options.settings))
+    asked = read_synthesis(options.file, partial(machine_of_study, options.trust), partial(settings_said, options.settings))
     outputs = {name: [*paths] for name, paths in asked.outputs.items()}
     for name, path in outputs_asked(options).items():
         outputs.setdefault(name, []).append(path)
@@ -202,7 +194,7 @@ def outputs_asked(options: Namespace) -> dict[str, Path]:
 @Command("study", "a survey, a zone, tolerances, a tornado or settings that a file asks for", *STUDY)
 def study_command(options: Namespace) -> int:
     """Run the studies of a file."""
-    study = read_study(options.file, finder(options.trust), settings_of(options.settings))
+    study = read_study(options.file, partial(machine_of_study, options.trust), partial(settings_said, options.settings))
     folder = Path(options.folder) if options.folder else None
     solved = True
     for section in study.tasks:

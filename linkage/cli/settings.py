@@ -20,6 +20,7 @@ from ..plan import Plan, plan_measure
 from ..program import FloatArray
 from ..quantities import Dimension, Quantity, Stroke
 from ..reports import NOTHING, At, Run, case_along, force_columns, motion_over, reached_motion, results, run_of, runs_of, stroke_middles
+from ..reports.runs import stroke_grid
 from ..steps import Point
 from ..units import UNITS, parse, parse_span
 from ..verdict import Verdict
@@ -236,14 +237,6 @@ def poses_at(machine: Mechanism, options: Namespace, count: int | None = None) -
     free = {name: stroke for name, stroke in machine.strokes.items() if name not in given}
     count = count or int(POSES ** (3 / max(3, len(free))))
     return stroke_grid(machine, given | {name: np.linspace(stroke.start, stroke.end, count) for name, stroke in free.items()})
-
-
-def stroke_grid(machine: Mechanism, axes: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
-    """Return the strokes of a grid, arrays of one shape: an axis for each stroke that has more than one value."""
-    axes = {name: axes[name] for name in machine.strokes}
-    many = {name: axis for name, axis in axes.items() if len(axis) > 1}
-    grids = dict(zip(many, np.meshgrid(*many.values(), indexing="ij"), strict=True)) if many else {}
-    return {name: grids.get(name, axis[0]) for name, axis in axes.items()}
 
 
 def with_gaps(machine: Mechanism, strokes: At) -> Motion:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import sys
 from argparse import Namespace
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from inspect import cleandoc
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -59,13 +59,26 @@ def show_command(options: Namespace) -> int:
     if options.latex:
         print(printed_equations(machine, options, at).latex())
         return 0
-    for title, lines in show_sections(machine):
-        print_section(title, lines)
+    plan = machine.plan
+    print_section(f"{type(machine).__name__}: strokes", lined_up(list(stroke_rows(machine))))
+    print_section("Design variables", lined_up(list(design_rows(machine))))
+    names = plan.link_names  # the links and cylinders that bodies are: `boom.beam: boom.B boom.D`
+    bodies = [f"{names[body.name]}: {body}" if body.name in names else str(body) for body in machine.links]
+    bodies += [f"cylinder {spanning_name(plan, bar.P, bar.Q)}: {bar.P} {bar.Q}" for bar in plan.cylinders]
+    count = f"{len(machine.strokes)} stroke{'s' if len(machine.strokes) != 1 else ''}"
+    print_section("Bodies", [*bodies, f"Gruebler count {machine.gruebler} (a cylinder is two bodies on a slide), {count}"])
+    changed = {name: value for name, value in machine.dimensions.items() if value != plan.defaults[name]}
+    written = written_out(plan, changed)  # as this design has the members, without the dimensions listed already
+    dimensions = plan.of_kind(Dimension)
+    print_section("Construction, in order", [f"{name} = {text}" for name, text in written.items() if name not in dimensions])
     if options.equations:
         print_section("Equations", str(printed_equations(machine, options, at)).splitlines(), fits=False)
     verdicts = machine.verdicts(over=over)
     print_section("Verdict", verdicts, fits=sys.stdout.isatty())  # else a rule a line, for programs that read it
-    print_section("About it", said_of_itself(machine), fits=False)
+    about: list[str] = []  # its paragraphs as wide as the terminal; indented lines stay as they are written
+    for each in re.split(r"\n[ \t]*\n", cleandoc(type(machine).__doc__ or "")):
+        about += [*(each.splitlines() if re.search(r"^[ *-]", each, re.MULTILINE) else wrapped(" ".join(each.split()), "")), ""]
+    print_section("About it", about[:-1], fits=False)
     return judged_code(verdicts, options)
 
 
@@ -112,34 +125,6 @@ def printed_equations(machine: Mechanism, options: Namespace, at: Mapping[str, f
         machine, start=options.start or 1, ratio=options.ratio or (), wrt=options.wrt, forces=options.forces, numbers=options.numbers,
         at=at or None,
     )  # fmt: skip
-
-
-def show_sections(machine: Mechanism) -> Iterator[tuple[str, Iterable[str]]]:
-    """Yield the title and the lines of each section that describes a design."""
-    yield f"{type(machine).__name__}: strokes", lined_up(list(stroke_rows(machine)))
-    yield "Design variables", lined_up(list(design_rows(machine)))
-    count = f"{len(machine.strokes)} stroke{'s' if len(machine.strokes) != 1 else ''}"
-    freedoms = f"Gruebler count {machine.gruebler} (a cylinder is two bodies on a slide), {count}"
-    yield "Bodies", [*body_rows(machine), freedoms]
-    dimensions, defaults = machine.plan.of_kind(Dimension), machine.plan.defaults
-    changed = {name: value for name, value in machine.dimensions.items() if value != defaults[name]}
-    written = written_out(machine.plan, changed)  # as this design has the members, without the dimensions listed already
-    yield "Construction, in order", [f"{name} = {text}" for name, text in written.items() if name not in dimensions]
-
-
-def body_rows(machine: Mechanism) -> Iterator[str]:
-    """Yield the bodies with their points, by the names of the links and cylinders that they are: `boom.beam: boom.B boom.D`."""
-    names = machine.plan.link_names
-    yield from (f"{names[body.name]}: {body}" if body.name in names else str(body) for body in machine.links)
-    yield from (f"cylinder {spanning_name(machine.plan, bar.P, bar.Q)}: {bar.P} {bar.Q}" for bar in machine.plan.cylinders)
-
-
-def said_of_itself(machine: Mechanism) -> list[str]:
-    """Return a class's docstring, its paragraphs as wide as the terminal; indented lines stay as they are written."""
-    lines = []
-    for each in re.split(r"\n[ \t]*\n", cleandoc(type(machine).__doc__ or "")):
-        lines += [*(each.splitlines() if re.search(r"^[ *-]", each, re.MULTILINE) else wrapped(" ".join(each.split()), "")), ""]
-    return lines[:-1]
 
 
 def print_section(title: str, lines: Iterable[object], *, fits: bool = True) -> None:

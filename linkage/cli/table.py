@@ -114,20 +114,15 @@ def write_tables(tables: Sequence[Table], file: str | None) -> None:
     if file != "-":  # what a file of numbers does not say
         print(*(f"{heading}\n\n" for heading, _, _ in tables if heading), sep="", end="")
     if len(tables) == 1:
-        write_table(tables[0][1], row_count(tables[0][1]), file)
+        write_table(tables[0][1], file)
     else:
         first = tables[0][1]
         joined = [replace(each, values=np.concatenate([np.ravel(one[k].values) for _, one, _ in tables])) for k, each in enumerate(first)]
-        labels = [heading.partition(":")[0] for heading, columns, _ in tables for _ in range(row_count(columns))]
-        write_table(joined, len(labels), file, labels)
+        labels = [heading.partition(":")[0] for heading, columns, _ in tables for _ in range(max(np.size(each.values) for each in columns))]
+        write_table(joined, file, labels)
 
 
-def row_count(columns: Sequence[Column]) -> int:
-    """Return the number of rows of a table."""
-    return max(np.size(each.values) for each in columns)
-
-
-def write_table(columns: Sequence[Column], rows: int, file: str | None, labels: Sequence[str] = ()) -> None:
+def write_table(columns: Sequence[Column], file: str | None, labels: Sequence[str] = ()) -> None:
     """Print a table, or write it as CSV where a file is named, "-" being stdout; `labels` are the first field of each row there."""
     if file is None:
         print_table(columns)
@@ -137,7 +132,7 @@ def write_table(columns: Sequence[Column], rows: int, file: str | None, labels: 
     with nullcontext(sys.stdout) if file == "-" else replacing_text(file) as stream, progress_bar("writing CSV") as progress:
         write_csv(columns, stream, progress, labels)
     if file != "-":
-        print(f"{file}: {rows} rows")
+        print(f"{file}: {max(np.size(each.values) for each in columns)} rows")
 
 
 def print_table(columns: Sequence[Column], outside: Sequence[bool] = ()) -> None:

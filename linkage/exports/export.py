@@ -23,6 +23,7 @@ from ..pictures.strokes import pose_words
 from ..plugins import Plugins
 from ..quantities import as_mapping, numbers_in
 from ..reports import NOTHING, Run, first_stroke, one_run, rate_columns, reached_motion, results, runs_of, stroke_middles, write_csv
+from ..reports.runs import stroke_grid
 from ..sketch import sketch_of, sketch_text
 from ..study import WorkingField
 from .calculation import Calculation
@@ -311,16 +312,15 @@ def over_strokes(machine: Mechanism, at: Mapping[str, Any], count: int) -> Motio
     first_stroke(machine)
     free = {name: np.linspace(each.start, each.end, count) for name, each in machine.strokes.items()}
     axes = {name: np.atleast_1d(at.get(name, values)) for name, values in free.items()}
-    many = {name: axis for name, axis in axes.items() if len(axis) > 1 or name not in at}
-    rows = int(np.prod([float(len(axis)) for axis in many.values()]))
+    many = [name for name, axis in axes.items() if len(axis) > 1 or name not in at]
+    rows = int(np.prod([float(len(axes[name])) for name in many]))
     if rows > MOST_ROWS:
-        each = " x ".join(str(len(axis)) for axis in many.values())
+        each = " x ".join(str(len(axes[name])) for name in many)
         most = int(MOST_ROWS ** (1.0 / len(many)))
-        hold = as_mapping(dict.fromkeys(list(many)[1:] or many, "..."))
+        hold = as_mapping(dict.fromkeys(many[1:] or many, "..."))
         said = f"{machine.plan.title}: {each} poses are {rows:,} rows, some {rows * ROW / 1e9:.1f} GB"
         raise DefinitionError(f"{said}; give count={most} at most, or hold strokes, at={hold}.")
-    grids = dict(zip(many, np.meshgrid(*many.values(), indexing="ij"), strict=True)) if many else {}
-    return reached_motion(machine, {**at, **{name: grids.get(name, axis[0]) for name, axis in axes.items()}})
+    return reached_motion(machine, {**at, **stroke_grid(machine, axes, many)})
 
 
 def drawing_of(job: ExportJob) -> tuple[list[DrawnPose], tuple[Part, ...], str]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from types import MappingProxyType
 from typing import Any, TypeAlias
@@ -181,6 +181,13 @@ def first_stroke(machine: Mechanism) -> str:
         raise DefinitionError(f"{machine!r:.60} is no mechanism; give a design such as Boom(), and its strokes by at=.")
     ensure(machine.strokes, f"{machine.plan.title} has no stroke, so there is nothing to move; declare one, S = Stroke(0, 0.25).")
     return next(iter(machine.strokes))
+
+
+def stroke_grid(machine: Mechanism, axes: Mapping[str, FloatArray], crossed: Collection[str] = ()) -> dict[str, FloatArray]:
+    """Return the strokes of a grid, arrays of one shape: an axis for each one with more than one value, and for those `crossed`."""
+    many = [name for name in machine.strokes if len(axes[name]) > 1 or name in crossed]
+    grids = dict(zip(many, np.meshgrid(*(axes[name] for name in many), indexing="ij"), strict=True)) if many else {}
+    return {name: grids.get(name, axes[name][0]) for name in machine.strokes}
 
 
 def stroke_middles(machine: Mechanism) -> dict[str, float]:

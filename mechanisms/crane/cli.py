@@ -90,7 +90,7 @@ def print_design(options: Namespace) -> int:
         print_crane(machine, options)
     else:
         motion = machine.working(2 * COUNT - 1)
-        write_table(machine.columns(motion), motion.reached.size, options.csv)
+        write_table(machine.columns(motion), options.csv)
     code = print_verdicts(machine.verdicts(over=over), options)
     if folder is not None:
         if isinstance(machine, Crane):
@@ -146,11 +146,11 @@ def print_crane(crane: Crane, options: Namespace) -> None:
     arm = {"M_l1": falls, "M_g1": folds, "M_l2": rises, "M_g2": opens}
     columns = [Column("phi", phi, "deg", 2), *(Column(name, values, "kNm", 2) for name, values in named.items())]
     columns += [Column("psi", psi, "deg", 2), *(Column(name, values, "kNm", 2) for name, values in arm.items())]
-    write_table(columns, COUNT, None)
+    write_table(columns, None)
     found = envelope(crane)
     over = load_map(crane, np.linspace(8.0, -1.0, 10), np.linspace(1.0, np.floor(float(found.border[..., 0].max())), 10))
     if options.csv:
-        write_table(over.columns(), over.x.size, options.csv)
+        write_table(over.columns(), options.csv)
     else:
         print()
         print_chart(over)

@@ -56,7 +56,7 @@ def print_balance(options: Namespace) -> int:
     if options.table:
         columns = setting_table(WANTED, changes(machine.plan, options))
         print(ABOUT_TABLE)
-        write_table(columns, len(columns[0].values), options.csv)
+        write_table(columns, options.csv)
     if not options.table or options.header or options.pressure or options.reaction or compared:
         following = over_following(motion, options.count)
         horizon = show(float(following["h_horizon"][0]), "mm", 4)
@@ -66,7 +66,7 @@ def print_balance(options: Namespace) -> int:
         if not options.table:
             print()
             columns = reaction_columns(following)
-            write_table(columns, len(columns[0].values), options.csv)
+            write_table(columns, options.csv)
         code = print_verdicts([*machine.verdicts(over=over), *(each.verdict for each in compared)], options)
     if path is not None:  # figure 6 of the machine as it is shipped shows the improved one
         number = options.figure or ("7" if compared else REACTION.get(options.header, "4"))

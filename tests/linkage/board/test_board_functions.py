@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from linkage import DefinitionError, FileError, LinkageError
-from linkage.board.drawing import drawing_data
+from linkage.board.page import drawing_data
 from linkage.cli import main
 from linkage.files import load
 from linkage.mobility import mobility

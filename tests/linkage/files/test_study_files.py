@@ -438,9 +438,11 @@ def test_a_killed_search_goes_on_to_the_same_bits(here, said):
     file = written(here, QUICK.replace("starts = 2", "starts = 3\nfolder = 'run'") + OUTPUTS)
     program = """if True:
         import os, signal, sys
-        from linkage.cli.optimise import finder
+        from functools import partial
+
+        from linkage.cli.optimise import machine_of_study
         from linkage.files.synthesis_file import read_search
-        search = read_search("study.toml", finder([]))
+        search = read_search("study.toml", partial(machine_of_study, []))
         search.run(None, lambda done, total: done == 2 and os.kill(os.getpid(), signal.SIGKILL))
     """
     killed = subprocess.run([sys.executable, "-c", program], cwd=here, capture_output=True, env=os.environ | {"PYTHONPATH": str(ROOT)})

@@ -1,11 +1,13 @@
 """A synthesis as a file: what it says, points in the file and in CSV files, and mistakes with their lines."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
 from linkage import FileError, FunctionTask, Outline, PathTask, PoseTask, deg, mm, outside
-from linkage.cli.optimise import finder
+from linkage.cli.optimise import machine_of_study
 from linkage.files.synthesis_file import PointColumn, points_said, read_synthesis
 from linkage.motion.regions import region_of
 
@@ -22,7 +24,7 @@ def read(folder, text):
     """Return the synthesis of a file."""
     file = folder / "task.toml"
     file.write_text(HEAD + text, encoding="utf-8")
-    return read_synthesis(file, finder([]))
+    return read_synthesis(file, partial(machine_of_study, []))
 
 
 @pytest.mark.parametrize(
@@ -52,7 +54,7 @@ def test_points_in_the_file(tmp_path):
     assert found["timed"] is True and not found["path"].in_order and not found["path"].closed
     text = HEAD.replace("starts = 4", 'starts = "catalogue"') + 'path = { of = "P", points = [[1, 2], [2, 3], [2, 1]], closed = true }'
     (tmp_path / "task.toml").write_text(text, encoding="utf-8")
-    asked = read_synthesis(tmp_path / "task.toml", finder([])).arguments
+    asked = read_synthesis(tmp_path / "task.toml", partial(machine_of_study, [])).arguments
     assert asked["path"].closed and asked["starts"] == "catalogue"
     assert found["vary"]["OA"] == (0.02, 0.06) and found["starts"] == 4
 
@@ -60,20 +62,20 @@ def test_points_in_the_file(tmp_path):
 def test_it_may_begin_from_a_catalogue(tmp_path):
     text = HEAD.replace("starts = 4", 'starts = "catalogue"') + 'path = { of = "P", points = [[1, 2], [2, 3], [2, 1]], closed = true }'
     (tmp_path / "task.toml").write_text(text, encoding="utf-8")
-    assert read_synthesis(tmp_path / "task.toml", finder([])).arguments["starts"] == "catalogue"
+    assert read_synthesis(tmp_path / "task.toml", partial(machine_of_study, [])).arguments["starts"] == "catalogue"
     (tmp_path / "task.toml").write_text(text.replace("catalogue", "atlas"), encoding="utf-8")
     with pytest.raises(FileError, match="starts"):
-        read_synthesis(tmp_path / "task.toml", finder([]))
+        read_synthesis(tmp_path / "task.toml", partial(machine_of_study, []))
 
 
 def test_a_side_is_a_choice(tmp_path):
     text = HEAD.replace(" }\n", ', B = { side = ["LEFT", "RIGHT"] } }\n') + 'path = { of = "P", points = [[1, 2]] }'
     (tmp_path / "task.toml").write_text(text, encoding="utf-8")
-    vary = read_synthesis(tmp_path / "task.toml", finder([])).arguments["vary"]
+    vary = read_synthesis(tmp_path / "task.toml", partial(machine_of_study, [])).arguments["vary"]
     assert vary["B.side"] == ["LEFT", "RIGHT"] and vary["OA"] == (0.02, 0.06)
     (tmp_path / "task.toml").write_text(text.replace("RIGHT", "UP"), encoding="utf-8")
     with pytest.raises(FileError, match=r"B\.side: 'UP' is no side"):
-        read_synthesis(tmp_path / "task.toml", finder([]))
+        read_synthesis(tmp_path / "task.toml", partial(machine_of_study, []))
 
 
 SEVERAL = """machine = ["four_bar", "slider_crank"]
@@ -89,7 +91,7 @@ OA = "20 to 60 mm"
 
 def test_several_machines_are_told_class_by_class(tmp_path):
     (tmp_path / "task.toml").write_text(SEVERAL, encoding="utf-8")
-    asked = read_synthesis(tmp_path / "task.toml", finder([]))
+    asked = read_synthesis(tmp_path / "task.toml", partial(machine_of_study, []))
     assert [type(each).__name__ for each in asked.machine] == ["FourBar", "SliderCrank"]
     bar, crank = map(type, asked.machine)
     assert asked.arguments["vary"] == {bar: {"OA": (0.02, 0.06)}}
@@ -98,7 +100,7 @@ def test_several_machines_are_told_class_by_class(tmp_path):
     assert set(asked.arguments["rank"]) == {bar, crank} == set(asked.arguments["path"].of)
     (tmp_path / "task.toml").write_text(SEVERAL.replace("vary.four_bar", "vary.fourbar"), encoding="utf-8")
     with pytest.raises(FileError, match=r"Machine 'fourbar' is unknown\. Did you mean four_bar"):
-        read_synthesis(tmp_path / "task.toml", finder([]))
+        read_synthesis(tmp_path / "task.toml", partial(machine_of_study, []))
 
 
 REGIONS = """
@@ -116,7 +118,7 @@ def test_regions_are_those_of_a_call(tmp_path):
     assert given.without == wanted.without
     both = SEVERAL.replace("[synthesis.vary", REGIONS.replace("C =", "O =") + "[synthesis.vary")
     (tmp_path / "task.toml").write_text(both, encoding="utf-8")
-    of_each = read_synthesis(tmp_path / "task.toml", finder([])).arguments["regions"]
+    of_each = read_synthesis(tmp_path / "task.toml", partial(machine_of_study, [])).arguments["regions"]
     assert len(of_each) == 2 and all(set(each) == {"O"} for each in of_each.values())
 
 

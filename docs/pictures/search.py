@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 from matplotlib.figure import Figure
 
 from hydraulics import capacity
 from linkage import around, at, deg, draw, least, mm, most, optimise, plot, ref, transmission, y
-from linkage.cli.optimise import finder
+from linkage.cli.optimise import machine_of_study
 from linkage.files.synthesis_file import read_search
 from linkage.study import Optimum
 from mechanisms.three_point_hitch import ThreePointHitch
@@ -35,7 +36,7 @@ def mower() -> Figure:
     text = re.search(r'write_text\("""\n(.*?)\.\.\. """\)', (DOCS / "files.md").read_text(encoding="utf-8"), re.DOTALL)
     assert text is not None
     lines = [line.removeprefix("...").removeprefix(" ") for line in text[1].splitlines()]
-    found = read_search("\n".join(lines[: lines.index("[outputs]")]), finder([])).run()
+    found = read_search("\n".join(lines[: lines.index("[outputs]")]), partial(machine_of_study, [])).run()
     assert isinstance(found, Optimum)
     return plot(found)
 

@@ -403,14 +403,12 @@ class Members:
         names = sorted(self.reaches(*self.points), key=place)
         found += [(name, length) for name in names for part in self.with_parts(name) for length in part.lengths()]
         called = {str(length) for _, length in found}
-        found += [(name, self.members[name]) for name in names if name not in called and self.is_inner_length(name)]
+        for name in names:  # also the length of a part of a rope, or of a cylinder on a closed line
+            owner, _, own = name.rpartition(".")
+            if owner and name not in called and self.members[owner].inside.get(own) == "quantity":
+                found.append((name, self.members[name]))
         never = (Variable, Number, Length, Distance)
         return tuple((name, length) for name, length in found if isinstance(length, Quantity) and not isinstance(length, never))
-
-    def is_inner_length(self, name: str) -> bool:
-        """Return whether it is the length of a part of a rope, or of a cylinder on a closed line."""
-        owner, _, own = name.rpartition(".")
-        return bool(owner) and self.members[owner].inside.get(own) == "quantity"
 
     def with_parts(self, name: str) -> tuple[Member, ...]:
         """Return a member and its parts that have no name of their own."""
@@ -569,25 +567,16 @@ def printed(plan: Members, values: Mapping[str, float] = MappingProxyType({})) -
     A part is one line, which says what it was given and which of its dimensions have other values.
     """
     spelled = respelled(plan, values)
-    own = asked_first({name: member for name, member in plan.members.items() if "." not in name})
+    members, own = {name: member for name, member in plan.members.items() if "." not in name}, dict[str, Member]()
+    for name, member in members.items():  # those of which others ask something before these, what they name in quotes until it is written
+        for owner in dict.fromkeys(each.rpartition(".")[0] for each in needs(member)):
+            if owner in members and owner not in own and members[owner].kind != "part":
+                given = {place: getattr(members[owner], place) for place in getattr(members[owner], "places", ())}
+                own[owner] = members[owner].renewed(**{place: in_quotes(each, own) for place, each in given.items()})
+        own.setdefault(name, member)
     set_in = {name: value for name, value in spelled.items() if "." in name and name in plan.defaults and value != plan.defaults[name]}
     parts = {name: member.having(set_in) for name, member in own.items() if member.kind == "part"}
     return {name: as_written(parts[name] if name in parts else member.having(spelled), plan.turning) for name, member in own.items()}
-
-
-def asked_first(members: Mapping[str, Member]) -> dict[str, Member]:
-    """Return members as they can be written one behind the other: those of which others ask something, `lift.length`, before these.
-
-    What such a one names stands in quotes, where it is written later.
-    """
-    found: dict[str, Member] = {}
-    for name, member in members.items():
-        for owner in dict.fromkeys(each.rpartition(".")[0] for each in needs(member)):
-            if owner in members and owner not in found and members[owner].kind != "part":
-                given = {place: getattr(members[owner], place) for place in getattr(members[owner], "places", ())}
-                found[owner] = members[owner].renewed(**{place: in_quotes(each, found) for place, each in given.items()})
-        found.setdefault(name, member)
-    return found
 
 
 def in_quotes(given: Any, known: Collection[str]) -> Any:

@@ -59,15 +59,6 @@ def missing_words(plan: Members, name: str, reading: ArrayReading, lost: Mask) -
         least = float(np.min(reading.value(length)))
         if owner == name and least < 0.0:
             return f"the length {source_text(length)} = {least:.4g} m is negative. Keep the stroke where it is positive.", -least
-    told = coinciding_words(plan, name, reading) or followed_words(plan, name, reading)
-    tables = [reading.outside[each] for each in (name, *sorted(plan.reaches(name))) if each in reading.outside]
-    if tables and not told:
-        told = f"{tables[0]}. Shorten the stroke or give the table more rows."
-    return (told, float("nan")) if told else triangle_words(plan, name, reading, lost)
-
-
-def coinciding_words(plan: Members, name: str, reading: ArrayReading) -> str:
-    """Return which two points of a step or its guides coincide, so that no direction goes from one to the other; "" where none do."""
     step = plan.members[name]
     parents = [getattr(step, letter) for letter in step.parent_letters] if isinstance(step, Step) else []
     guides = plan.of_kind(Guide)
@@ -76,20 +67,19 @@ def coinciding_words(plan: Members, name: str, reading: ArrayReading) -> str:
             continue
         base = reading.at(names[1]) - reading.at(names[0])
         if np.any((base.x == 0.0) & (base.y == 0.0)):
-            return f"{names[0]} and {names[1]} coincide there, so that no direction goes from one to the other. Move one of them."
-    return ""
-
-
-def followed_words(plan: Members, name: str, reading: ArrayReading) -> str:
-    """Return which angle of a point cannot be followed from the sketch; "" where none is lost."""
-    lost = [angle for angle in reading.directions if np.any(np.isnan(reading.inputs.get(angle, 0.0)))]
-    used = {str(part) for each in plan.reaches(name) for part in plan.with_parts(each)} if lost else set[str]()
-    for angle in lost:
+            told = f"{names[0]} and {names[1]} coincide there, so that no direction goes from one to the other. Move one of them."
+            return told, float("nan")
+    angles = [angle for angle in reading.directions if np.any(np.isnan(reading.inputs.get(angle, 0.0)))]
+    used = {str(part) for each in plan.reaches(name) for part in plan.with_parts(each)} if angles else set[str]()
+    for angle in angles:
         if angle in used:
             why = "on the way its ends meet, or a pose is out of reach"
-            remedy = "Take a whole multiple of it, which need not be followed, or drive the angle by a Stroke"
-            return f"{angle}, whose whole turns count here, cannot be followed there from the sketch: {why}. {remedy}."
-    return ""
+            other = "Take a whole multiple of it, which need not be followed, or drive the angle by a Stroke"
+            return f"{angle}, whose whole turns count here, cannot be followed there from the sketch: {why}. {other}.", float("nan")
+    tables = [reading.outside[each] for each in (name, *sorted(plan.reaches(name))) if each in reading.outside]
+    if tables:
+        return f"{tables[0]}. Shorten the stroke or give the table more rows.", float("nan")
+    return triangle_words(plan, name, reading, lost)
 
 
 def triangle_words(plan: Members, name: str, reading: ArrayReading, lost: Mask) -> tuple[str, float]:

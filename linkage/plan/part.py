@@ -428,12 +428,16 @@ class Renamed(Renaming):
             owner = self.part.name if before is None else f"{self.part.name}.{before.owner}"
             letters = {name: name for name in self.plan.members} if before is None else before.letters
             object.__setattr__(found, "spoken", Spoken(owner, {self.names.get(name, name): letter for name, letter in letters.items()}))
-        placed = found
-        if self.axes is not None:
-            coordinate = self._own_coordinate(given)
-            placed = self._in_axes(given, found) if coordinate is None else coordinate
-        self.memo[id(given)] = placed
-        return placed
+        placed = None if self.axes is None else self._own_coordinate(given)
+        if placed is None and self.axes is not None:
+            has_sides = isinstance(given, Arrow) or (isinstance(given, Quantity) and not given.parts())
+            if self.axes.mirrored and has_no_axes(given) and has_sides:
+                what = f"{self.part.name} = {self.part}: {given.name} = {given} cannot be mirrored"
+                remedy = f"{type(given).__name__} does not say how; give that class in_axes(axes)."
+                raise DefinitionError(f"{what}: {remedy}", member=self.part.name)
+            found = found.in_axes(self.axes)
+        self.memo[id(given)] = found if placed is None else placed
+        return self.memo[id(given)]
 
     def _own_coordinate(self, given: Member) -> Quantity | None:
         """Return the coordinate of a fixed point of the part, for x(O) of it follows nothing that carries the part; None for all else."""
@@ -450,15 +454,6 @@ class Renamed(Renaming):
         if each.is_constant:
             return Variable(f"{self.part.name}.{own}.{given.axis}")
         return each if own in self.part.given else self.member(each)  # type: ignore[return-value]
-
-    def _in_axes(self, given: Member, found: Member) -> Member:
-        """Return a member where the part stands; DefinitionError for one of another package that does not say how it is mirrored."""
-        assert self.axes is not None
-        has_sides = isinstance(given, Arrow) or (isinstance(given, Quantity) and not given.parts())
-        if self.axes.mirrored and has_no_axes(given) and has_sides:
-            what = f"{self.part.name} = {self.part}: {given.name} = {given} cannot be mirrored"
-            raise DefinitionError(f"{what}: {type(given).__name__} does not say how; give that class in_axes(axes).", member=self.part.name)
-        return found.in_axes(self.axes)
 
     def named_member(self, given: Member) -> Any:
         if given.name and self.names.get(given.name, given.name) in self.foreign:

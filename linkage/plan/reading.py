@@ -154,12 +154,12 @@ class Reading(Where):
     @cached_property
     def extent(self) -> Scalar:
         """The square of the machine's size [m2]: the longest length that follows no stroke, or the distance of two fixed points."""
-
-        def follows_place(length: Quantity) -> bool:
+        lengths = []
+        for length in self.lengths.values():
             behind = (self.members[name] for name in self.behind(length))
-            return any(isinstance(member, Point) and not member.is_fixed for member in behind)
-
-        return self.sizing().longest([each for each in self.lengths.values() if not follows_place(each)])
+            if not any(isinstance(member, Point) and not member.is_fixed for member in behind):
+                lengths.append(length)
+        return self.sizing().longest(lengths)
 
     def longest(self, lengths: Iterable[Quantity]) -> Scalar:
         """Return the square of the longest of some lengths that follow no stroke, or of the distance of two fixed points [m2]."""

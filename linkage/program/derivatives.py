@@ -47,19 +47,6 @@ class Tangent:
             return self._known[node]
         return self.beyond._lookup(node) if self.beyond is not None and node.number < self.limit else self.zero
 
-    def _solved(self, node: Node) -> Node:
-        """Return the derivative of one unknown of A u = b: the solution of A du = db - dA u."""
-        system = node.args[0]
-        if system not in self._systems:
-            matrix, right = entries(system)
-            found = [self.graph.apply("component", system, float(place)) for place in range(len(right))]
-            drive = [
-                sum((-(self._lookup(entry) * u) for entry, u in zip(row, found, strict=True)), self._lookup(b))
-                for row, b in zip(matrix, right, strict=True)
-            ]
-            self._systems[system] = solution(self.graph, matrix, drive)
-        return self._systems[system][int(node.args[1].value)]
-
     def _settle(self, node: Node) -> None:
         if node.closure is not None:
             loop, graph = node.closure, self.graph  # r_u du = -r_v dv
@@ -70,8 +57,20 @@ class Tangent:
         if node.op == "alias":
             self._known[node] = self._lookup(node.args[1])
             return
-        if node.op in ("solve", "component"):
-            self._known[node] = self._solved(node) if node.op == "component" else self.zero
+        if node.op == "solve":
+            self._known[node] = self.zero
+            return
+        if node.op == "component":
+            system = node.args[0]
+            if system not in self._systems:  # of A u = b: the solution of A du = db - dA u
+                matrix, right = entries(system)
+                found = [self.graph.apply("component", system, float(place)) for place in range(len(right))]
+                drive = [
+                    sum((-(self._lookup(entry) * u) for entry, u in zip(row, found, strict=True)), self._lookup(b))
+                    for row, b in zip(matrix, right, strict=True)
+                ]
+                self._systems[system] = solution(self.graph, matrix, drive)
+            self._known[node] = self._systems[system][int(node.args[1].value)]
             return
         moving = [(index, change) for index, arg in enumerate(node.args) if (change := self._lookup(arg)) is not self.zero]
         total = self.zero
@@ -147,7 +146,14 @@ class Shares:
     def _passed_on(self, node: Node, found: Mapping[Node, Node]) -> Iterator[tuple[Node, Node]]:
         """Yield the shares that a node passes on to the nodes that it is built from."""
         if node.closure is not None:
-            yield from self._through_loop(node.closure, found)
+            closure, weights = node.closure, dict[Node, Node]()
+            turned = [list(column) for column in zip(*jacobian(self.graph, closure), strict=True)]
+            wanted = [-found.get(root, self.zero) for root in closure.roots]
+            for residual, share in zip(closure.residuals, solution(self.graph, turned, wanted, closure.determinant), strict=True):
+                weights[residual] = weights[residual] + share if residual in weights else share
+            first = closure.roots[0].number
+            spread = self.spread(weights, floor=first, held=closure.roots)
+            yield from ((each, share) for each, share in spread.items() if each.number < first)
         elif node.op == "alias":
             yield node.args[1], found[node]
         elif node.op == "component":
@@ -162,17 +168,6 @@ class Shares:
         else:
             partials = OPERATIONS[node.op].partials(node, *node.args) if node.args else ()
             yield from ((arg, found[node] * partial) for arg, partial in zip(node.args, partials, strict=True))
-
-    def _through_loop(self, closure: Closure, found: Mapping[Node, Node]) -> Iterator[tuple[Node, Node]]:
-        rows = jacobian(self.graph, closure)
-        turned = [list(column) for column in zip(*rows, strict=True)]
-        wanted = [-found.get(root, self.zero) for root in closure.roots]
-        weights = dict[Node, Node]()
-        for residual, share in zip(closure.residuals, solution(self.graph, turned, wanted, closure.determinant), strict=True):
-            weights[residual] = weights[residual] + share if residual in weights else share
-        first = closure.roots[0].number
-        spread = self.spread(weights, floor=first, held=closure.roots)
-        yield from ((node, share) for node, share in spread.items() if node.number < first)
 
 
 def built_from(node: Node) -> Sequence[Node]:

@@ -30,10 +30,15 @@ def interpret(
     terms: dict[Node, Numbers] = {}
     with np.errstate(all="ignore"):
         for node in ancestors(outputs, known or {}):
-            if node not in values:
-                is_told = clipped and node.op == "sqrt" and node.args[0].origin in terms
-                least = -TO_ROUNDING * terms[node.args[0].origin] if is_told else None
-                values[node] = node_value(node, values, inputs, clipped=clipped, least=least)
+            if node.op in ("constant", "input") and node not in values:
+                values[node] = inputs[node.value] if node.op == "input" else float(node.value)
+            elif node not in values:
+                args = [*map(values.__getitem__, map(ORIGIN, node.args))]
+                if clipped and node.op == "sqrt":
+                    radicand = node.args[0].origin
+                    negligible = args[0] >= -TO_ROUNDING * terms[radicand] if radicand in terms else True
+                    args = [np.where(negligible, np.maximum(args[0], 0.0), np.nan)]  # a dead point is reached to rounding; NaN stays
+                values[node] = OPERATIONS[node.op].array(*args)
             if clipped:
                 terms[node] = size_of_terms(node, values, terms)
     return [values[node.origin] for node in outputs]
@@ -61,19 +66,6 @@ def size_of_terms(node: Node, values: Mapping[Node, Numbers], terms: Mapping[Nod
     if node.op in ("minimum", "maximum"):
         return np.maximum(sizes[0], sizes[1])
     return np.abs(values[node])
-
-
-def node_value(
-    node: Node, values: Mapping[Node, Numbers], inputs: Mapping[str, Numbers], *, clipped: bool, least: Numbers | None = None
-) -> Numbers:
-    """Return the value of a node from those of its arguments; `clipped`: the root of a negative number, not below `least`, is zero."""
-    if node.op in ("constant", "input"):
-        return inputs[node.value] if node.op == "input" else float(node.value)
-    args = [*map(values.__getitem__, map(ORIGIN, node.args))]
-    if clipped and node.op == "sqrt":
-        negligible = True if least is None else args[0] >= least
-        args = [np.where(negligible, np.maximum(args[0], 0.0), np.nan)]  # a dead point is reached to rounding; NaN stays
-    return OPERATIONS[node.op].array(*args)
 
 
 # What rounding leaves of a program's results: the same program run again with its last digits shaken.

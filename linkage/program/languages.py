@@ -276,9 +276,9 @@ class Inputs:
 
 def arrow_function(results: Sequence[Node], inputs: Inputs, turning: Sequence[Node] = ()) -> str:
     """Return `d=>{...;return p=>{...;return[...]}}`: the design's part is worked out once, angles are continued from pose to pose."""
-    results, angles = (found := lowered([*results, *turning]))[: len(results)], found[len(results) :]
+    both, count = lowered([*results, *turning]), len(results)
+    results, angles = both[:count], both[count:]
     nodes = [node for node in ancestors(results) if node.op != "constant"]
-    given = [node for node in nodes if node.op == "input"]
     order = {node: place for place, node in enumerate(angles)}
     writer = Expressions({}, {"d", "p", "u"}, order, uses=counted(results, nodes))
     own = [node for node in nodes if node.level is Level.DESIGN]
@@ -287,23 +287,17 @@ def arrow_function(results: Sequence[Node], inputs: Inputs, turning: Sequence[No
     writer.uses.update({node: 2 for node in own if node in across and node.op != "input"})  # once a design, not once a pose
     texts = []
     for part in (own, moving):
-        texts.append(named_inputs(writer, [node for node in part if node in given], inputs))
-        texts[-1] += writer.statements([node for node in part if node not in given])
+        names, found = short_names(writer.taken), list[str]()
+        for node in (node for node in part if node.op == "input"):  # one that is read once is read in place
+            writer.named[node] = text = inputs.read(node)
+            if writer.uses[node] > 1:
+                writer.named[node] = name = next(names)
+                writer.taken.add(name)
+                found.append(f"{name}={text}")
+        heads = f"const {','.join(found)};" if found else ""
+        texts.append(heads + writer.statements([node for node in part if node.op != "input"]))
     ends = ",".join(map(writer.read, results))
     return f"d=>{{{CONTINUED if order else ''}{texts[0]}return p=>{{{texts[1]}return[{ends}]}}}}"
-
-
-def named_inputs(writer: Expressions, given: Sequence[Node], inputs: Inputs) -> str:
-    """Return the text that names the inputs that are read more than once; the others are read in place."""
-    names, found = short_names(writer.taken), []
-    for node in given:
-        text = inputs.read(node)
-        writer.named[node] = text
-        if writer.uses[node] > 1:
-            writer.named[node] = name = next(names)
-            writer.taken.add(name)
-            found.append(f"{name}={text}")
-    return f"const {','.join(found)};" if found else ""
 
 
 def function_body(given: Mapping[Node, str], results: Sequence[Node], outer: Collection[str] = (), maths: Mapping[str, str] = MATHS) -> str:

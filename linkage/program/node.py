@@ -407,9 +407,10 @@ def sum_of_products(graph: Graph, sign: float, a: Node, b: Node) -> Node | None:
     if c is d and abs(p) == abs(q) and not (abs(p) == 1.0 and equals(c, 1.0)):
         inner = graph.apply("add" if p == q else "subtract", x, y)
         return graph.apply("multiply", graph.apply("multiply", p, c), inner)
-    shared = shared_factor(x, y)
+    sides = ((w, u, other, v) for w, u in (x.args, x.args[::-1]) for other, v in (y.args, y.args[::-1]))
+    shared = next((each for each in sides if each[0] is each[2]), None) if x.op == y.op == "multiply" else None
     if shared is not None:
-        w, u, v = shared
+        w, u, _, v = shared
         u, v = times(graph, abs(p), c, u), times(graph, abs(q), d, v)
         inner = graph.apply("add" if p * q > 0 else "subtract", u, v)
         return graph.apply("multiply", w, inner if p > 0 else graph.apply("negative", inner))
@@ -418,16 +419,6 @@ def sum_of_products(graph: Graph, sign: float, a: Node, b: Node) -> Node | None:
         if p > 0.0:
             return graph.apply("add" if q > 0.0 else "subtract", u, v)
         return graph.apply("negative", graph.apply("add", u, v)) if q < 0.0 else graph.apply("subtract", v, u)
-    return None
-
-
-def shared_factor(x: Node, y: Node) -> tuple[Node, Node, Node] | None:
-    """Return the factor two products share, and the rest of each; None where they share none."""
-    if x.op == y.op == "multiply":
-        for w, u in (x.args, x.args[::-1]):
-            for other, v in (y.args, y.args[::-1]):
-                if w is other:
-                    return w, u, v
     return None
 
 

@@ -95,7 +95,11 @@ class NumbaLoop:
             for first in range(0, n, WIDE):
                 here = slice(first, min(first + WIDE, n))
                 seen = poses if m <= PART and n <= WIDE else [columns_part(rows_part(value, part), here) for value in poses]
-                inputs = input_cube(seen, here.stop - first)
+                rows, count = max([len(value) for value in seen if is_table(value)], default=1), here.stop - first
+                if len(seen) == 1 and np.size(seen[0]) == rows * count:
+                    inputs = np.ascontiguousarray(seen[0], float).reshape(1, rows, count)
+                else:
+                    inputs = stacked(seen, rows, count)
                 if turned:
                     inputs = np.array(inputs.transpose(0, 2, 1))
                 block = target[:, here, part] if turned else target[:, part, here]
@@ -138,14 +142,6 @@ def memory(block: FloatArray) -> FloatArray:
 def constant_table(passed: Sequence[Numbers], part: slice) -> FloatArray:
     """Return the design part as one array, shape (count, designs or 1)."""
     return stacked(passed, 1 if all(np.ndim(value) == 0 for value in passed) else part.stop - part.start)
-
-
-def input_cube(poses: Sequence[Numbers], n: int) -> FloatArray:
-    """Return the inputs of the poses as one array, shape (count, designs or 1, poses)."""
-    rows = max([len(value) for value in poses if is_table(value)], default=1)
-    if len(poses) == 1 and np.size(poses[0]) == rows * n:
-        return np.ascontiguousarray(poses[0], float).reshape(1, rows, n)
-    return stacked(poses, rows, n)
 
 
 def stacked(values: Sequence[Numbers], *shape: int) -> FloatArray:

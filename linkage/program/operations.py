@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -142,7 +143,7 @@ OPERATIONS: dict[str, OperationRule] = {
     "power": OperationRule(np.power, "power({}, {})", lambda r, a, b: (b * a ** (b - 1.0), r * np.log(a))),
     "absolute": OperationRule(np.absolute, "absolute({})", lambda r, a: (np.sign(a),)),
     "sign": OperationRule(np.sign, "sign({})", lambda r, a: (0.0,)),
-    "minimum": OperationRule(np.minimum, "minimum({}, {})", lambda r, a, b: choice_partials(r, a, b)),
+    "minimum": OperationRule(np.minimum, "minimum({}, {})", choice_partials),
     "maximum": OperationRule(np.maximum, "maximum({}, {})", lambda r, a, b: choice_partials(r, b, a)),
     "solve": OperationRule(solve_arrays, "solve({})", lambda r, *entries: ()),
     "component": OperationRule(component, "component({}, {})", lambda r, *entries: ()),
@@ -166,17 +167,12 @@ def _log(a: float) -> float:
     return math.log(a) if a > 0.0 else (-math.inf if a == 0.0 else math.nan)
 
 
-def _quiet(name: str) -> Callable[..., float]:
-    """Return a function of math that answers as NumPy does where math would raise."""
-    function = getattr(math, name)
-
-    def guarded(argument: float) -> float:
-        try:
-            return float(function(argument))
-        except (OverflowError, ValueError):
-            return math.inf if name == "exp" else math.nan
-
-    return guarded
+def _quiet(function: Callable[[float], float], argument: float) -> float:
+    """Return a value of a function of math; where it would raise, that of NumPy."""
+    try:
+        return function(argument)
+    except (OverflowError, ValueError):
+        return math.inf if function is math.exp else math.nan
 
 
 def _power(a: float, b: float) -> float:
@@ -189,11 +185,11 @@ FLOATS: Mapping[str, Callable[..., object]] = {
     "reciprocal": _reciprocal,
     "divide": _divide,
     "sqrt": _sqrt,
-    "sin": _quiet("sin"),
-    "cos": _quiet("cos"),
-    "tan": _quiet("tan"),
+    "sin": partial(_quiet, math.sin),
+    "cos": partial(_quiet, math.cos),
+    "tan": partial(_quiet, math.tan),
     "arctan2": math.atan2,
-    "exp": _quiet("exp"),
+    "exp": partial(_quiet, math.exp),
     "log": _log,
     "power": _power,
     "absolute": abs,

@@ -34,6 +34,7 @@ from linkage import (
     Stroke,
     deg,
     driving_force,
+    plugins,
     ref,
 )
 from linkage.files import from_dict, load, registry, to_dict, to_json, to_toml
@@ -271,7 +272,7 @@ TEXT = to_toml(Carried)
 @pytest.fixture
 def without_plug_ins(monkeypatch):
     """Let no other package bring kinds."""
-    monkeypatch.setattr(registry, "extensions", lambda: [])
+    monkeypatch.setattr(plugins, "entry_points", lambda group: {})
     registry.registry.cache_clear()
     yield
     registry.registry.cache_clear()

@@ -1,12 +1,13 @@
 """Loads and load cases as files: every kind there and back, with the same forces; mistakes in words."""
 
 from functools import cache
+from importlib.metadata import EntryPoint
 from typing import ClassVar
 
 import numpy as np
 import pytest
 
-from linkage import DefinitionError, FileError, Mechanism, Pulley, Rope, bar, driving_force, pin_forces, ref
+from linkage import DefinitionError, FileError, Mechanism, Pulley, Rope, bar, driving_force, pin_forces, plugins, ref
 from linkage.files import from_dict, left_out, load, registry, to_dict, to_json, to_toml
 from linkage.loads import ForceElement, Load, LoadCase, Support, Weight
 from linkage.units import N, kgf, kN
@@ -202,7 +203,8 @@ class Drag(ForceElement):
 @pytest.fixture
 def drags(monkeypatch):
     """Install a package that brings a kind of load."""
-    monkeypatch.setattr(registry, "extensions", lambda: [Drag])
+    point = EntryPoint("drag", f"{__name__}:Drag", plugins.MEMBERS)
+    monkeypatch.setattr(plugins, "entry_points", lambda group: {"drag": point})
     registry.registry.cache_clear()
     yield
     registry.registry.cache_clear()

@@ -63,7 +63,7 @@ def machine_of_study(trust: list[str], text: str, base: Path) -> type[Mechanism]
     return find(f"{base / text}" if is_file else text)
 
 
-def settings_said(texts: list[str], found: type[Mechanism]) -> Keywords:
+def settings_of(texts: list[str], found: type[Mechanism]) -> Keywords:
     """Return the dimensions of a machine that settings such as `OB=180mm` say."""
     return dict(parsed_setting(found.plan, text) for text in texts)
 
@@ -83,7 +83,7 @@ def say_progress(done: int, total: int) -> None:
 @Command("optimise", "the best dimensions: the search that a file asks for", *STUDY)
 def optimise_command(options: Namespace) -> int:
     """Search the best design."""
-    search = read_search(options.file, partial(machine_of_study, options.trust), partial(settings_said, options.settings))
+    search = read_search(options.file, partial(machine_of_study, options.trust), partial(settings_of, options.settings))
     try:
         with study_progress(f"searching {Path(options.file).stem}", asked=options.progress) as progress:
             found = search.run(options.folder, progress)
@@ -145,7 +145,7 @@ STEP, TURN = 1.0 * mm, 0.1 * deg
 )
 def synthesise_command(options: Namespace) -> int:
     """Search machines for a path, a function or poses."""
-    asked = read_synthesis(options.file, partial(machine_of_study, options.trust), partial(settings_said, options.settings))
+    asked = read_synthesis(options.file, partial(machine_of_study, options.trust), partial(settings_of, options.settings))
     outputs = {name: [*paths] for name, paths in asked.outputs.items()}
     for name, path in outputs_asked(options).items():
         outputs.setdefault(name, []).append(path)
@@ -194,7 +194,7 @@ def outputs_asked(options: Namespace) -> dict[str, Path]:
 @Command("study", "a survey, a zone, tolerances, a tornado or settings that a file asks for", *STUDY)
 def study_command(options: Namespace) -> int:
     """Run the studies of a file."""
-    study = read_study(options.file, partial(machine_of_study, options.trust), partial(settings_said, options.settings))
+    study = read_study(options.file, partial(machine_of_study, options.trust), partial(settings_of, options.settings))
     folder = Path(options.folder) if options.folder else None
     solved = True
     for section in study.tasks:

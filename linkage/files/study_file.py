@@ -336,7 +336,7 @@ def case_said(head: StudyHead, given: object) -> Any:
     return given
 
 
-def whole_number(least: int, head: StudyHead, given: Any) -> int:
+def count_at_least(least: int, head: StudyHead, given: Any) -> int:
     """Return a whole number of at least so much."""
     require_entry(is_whole(given) and given >= least, given, f"a whole number is expected, at least {least}")
     return int(given)

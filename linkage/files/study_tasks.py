@@ -270,11 +270,11 @@ def survey_task(
     vary: Annotated[Keywords, box_said, 'vary = { OB = "270 to 330 mm" }'],
     over: Annotated[Keywords | None, study_file.over_said] = None,
     measure: Annotated[dict[str, tuple[str, str]], measures_said, 'measure = { travel = "most(G_y) - least(G_y)" }'],
-    count: Annotated[int, partial(study_file.whole_number, 1)] = 1024,
+    count: Annotated[int, partial(study_file.count_at_least, 1)] = 1024,
     method: Annotated[str, partial(study_file.word_said, SAMPLE_METHODS)] = "sobol",
-    seed: Annotated[int, partial(study_file.whole_number, 0)] = 0,
-    poses: Annotated[int, partial(study_file.whole_number, 2)] = 101,
-    piece: Annotated[int, partial(study_file.whole_number, 0)] = 0,
+    seed: Annotated[int, partial(study_file.count_at_least, 0)] = 0,
+    poses: Annotated[int, partial(study_file.count_at_least, 2)] = 101,
+    piece: Annotated[int, partial(study_file.count_at_least, 0)] = 0,
     folder: Path | None = None,
     progress: bool | Progress = False,
 ) -> TaskResult:
@@ -311,7 +311,7 @@ def zone_task(
     *,
     quantity: Annotated[Any, pose_quantity, 'quantity = "tilt"'],
     vary: Annotated[Keywords, box_said, 'vary = { OB = "270 to 330 mm" }'],
-    poses: Annotated[int, partial(study_file.whole_number, 2)] = 51,
+    poses: Annotated[int, partial(study_file.count_at_least, 2)] = 51,
     strokes: Annotated[Keywords | None, swept_strokes] = None,
 ) -> TaskResult:
     """Look for the extremes of a quantity at every stroke over a box."""
@@ -352,11 +352,11 @@ def tolerance_task(
     of: Annotated[Keywords, quantities_said, 'of = ["tilt"]'],
     tolerances: Annotated[Keywords, partial(study_file.tolerances_said, "tolerances")],
     subject_to: Annotated[Sequence[Constraint], condition_limits] = (),
-    count: Annotated[int, partial(study_file.whole_number, 1)] = 1 << 14,
-    seed: Annotated[int, partial(study_file.whole_number, 0)] = 0,
+    count: Annotated[int, partial(study_file.count_at_least, 1)] = 1 << 14,
+    seed: Annotated[int, partial(study_file.count_at_least, 0)] = 0,
     method: Annotated[str, partial(study_file.word_said, SAMPLE_METHODS)] = "sobol",
     percentiles: Annotated[tuple[float, ...], percentile_list] = (5.0, 50.0, 95.0),
-    poses: Annotated[int, partial(study_file.whole_number, 2)] = 21,
+    poses: Annotated[int, partial(study_file.count_at_least, 2)] = 21,
     strokes: Annotated[Keywords | None, swept_strokes] = None,
 ) -> TaskResult:
     """Vary dimensions within their tolerances at random: bands, the worst case, and the share of good machines."""

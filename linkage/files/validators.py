@@ -103,7 +103,7 @@ def amount_of(given: object, names: Names, measures: str) -> Any:
     return Amount(found.constant, UNITS[unit][1]) if unit and not measures else found.constant
 
 
-def two_of(what: str, one: Read, given: Any, names: Names) -> tuple[Any, Any]:
+def two_items(what: str, one: Read, given: Any, names: Names) -> tuple[Any, Any]:
     """Return the items of a list of two, each read by itself."""
     require_entry(is_listed(given) and len(given) == 2, given, f"is not {what}")
     return one(given[0], names), one(given[1], names)
@@ -271,12 +271,12 @@ def amount(unit: str) -> Kind:
     return Kind(lambda given, names: amount_of(given, names, measures), lambda value, design, name: design.amount(value, unit, name))
 
 
-place_of = partial(two_of, "a position in m, such as [0.51, 0.94]", lambda given, names: float(number_of(given, names)))
-pair_of = partial(two_of, "two numbers, such as [0, 1]", number_of)
-gravity_of = partial(two_of, "two numbers in m/s2, such as [0, -9.81]", number_of)
-force_of = partial(two_of, 'a force of two parts in N, such as ["-5 kN", 0]', lambda given, names: amount_of(given, names, "force"))
-stroke_ends = partial(two_of, "two numbers, such as [0.0, 0.25]", number_of)
-coordinates_of = partial(two_of, "two coordinates in m, such as [0.20, 0.55]", quantity_of)
+place_of = partial(two_items, "a position in m, such as [0.51, 0.94]", lambda given, names: float(number_of(given, names)))
+pair_of = partial(two_items, "two numbers, such as [0, 1]", number_of)
+gravity_of = partial(two_items, "two numbers in m/s2, such as [0, -9.81]", number_of)
+force_of = partial(two_items, 'a force of two parts in N, such as ["-5 kN", 0]', lambda given, names: amount_of(given, names, "force"))
+stroke_ends = partial(two_items, "two numbers, such as [0.0, 0.25]", number_of)
+coordinates_of = partial(two_items, "two coordinates in m, such as [0.20, 0.55]", quantity_of)
 
 
 corners_of = partial(items_of, coordinates_of, f"{{given}} is no list of up to {CORNERS} places in m, such as [[0, 0], [0.4, 0]].", CORNERS)

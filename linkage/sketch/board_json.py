@@ -45,14 +45,14 @@ def read_board(found: FoundMachine, data: Mapping[str, Any]) -> None:
 def drawn_sketch(found: FoundMachine, data: Mapping[str, Any]) -> MachineSketch:
     """Return the sketch of a file of the board; FileError for a file of another kind."""
     parts = "slides", "drives", "weights"
-    tables = {part: {name: found.table(each, name) for name, each in entries(found, data, part).items()} for part in parts}
+    tables = {part: {name: found.table(each, name) for name, each in named_entries(found, data, part).items()} for part in parts}
     title, points = legal(found, data.get("name")), dict[str, Place]()
-    for name, given in entries(found, data, "points").items():
+    for name, given in named_entries(found, data, "points").items():
         place = [found.number(each, name) for each in found.list_of(given, name)]
         found.ensure(len(place) == 2, f"the point {name} has no two coordinates [x, y].")
         points[name] = place[0], place[1]
     fixed = texts(found, data.get("fixed", []), "what is fixed")
-    links = {name: texts(found, each, f"the link {name}", 2) for name, each in entries(found, data, "links").items()}
+    links = {name: texts(found, each, f"the link {name}", 2) for name, each in named_entries(found, data, "links").items()}
     slides, drives, weights = dict[str, SketchSlide](), dict[str, SketchDrive](), dict[str, SketchWeight]()
     for name, table in tables["slides"].items():
         along = table.get("along")
@@ -71,7 +71,7 @@ def drawn_sketch(found: FoundMachine, data: Mapping[str, Any]) -> MachineSketch:
         is_sound = not sizes or (kind == "cylinder" and len(sizes) == 2 and 0.0 < sizes[1] < sizes[0])
         found.ensure(is_sound, f"the rod of {name} is not thinner than its bore; give both in metres.")
         drives[name] = SketchDrive(kind, (ends[0], ends[1]), start, end, drawn, *sizes)
-    lengths = {name: found.number(each, name) for name, each in entries(found, data, "lengths").items()}
+    lengths = {name: found.number(each, name) for name, each in named_entries(found, data, "lengths").items()}
     for name, table in tables["weights"].items():
         mass = found.number(table.get("mass"), f"mass of {name}")
         found.ensure(mass >= 0.0, f"the mass of {name} is {mass:g} kg; give 0 or more.")
@@ -80,7 +80,7 @@ def drawn_sketch(found: FoundMachine, data: Mapping[str, Any]) -> MachineSketch:
     return MachineSketch(title, points, fixed, links, slides, drives, lengths, weights, notes)
 
 
-def entries(found: FoundMachine, data: Mapping[str, Any], part: str) -> dict[str, Any]:
+def named_entries(found: FoundMachine, data: Mapping[str, Any], part: str) -> dict[str, Any]:
     """Return a table of members, whose names are legal."""
     table = found.table(data.get(part, {}), part)
     found.ensure(len(table) <= 1000, f"{part} has {len(table)} entries, more than a drawing has.")

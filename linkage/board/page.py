@@ -81,8 +81,8 @@ def drawing_data(sketch: MachineSketch | None = None) -> dict[str, Any]:
     Returns
     -------
     dict
-        `drawing`, the tables of the board's file or None, `reserved`, the names that no member may have, `sizes`, the pairs of bore and
-        rod and the strokes of the catalogue [m], empty where no package brings cylinders, and what the page fills as one draws.
+        `drawing`, the tables of the board's file or None, and `reserved`, the names that no member may have. `sizes` are the pairs of bore
+        and rod and the strokes of the catalogue [m], none where no package brings cylinders. The rest is filled as one draws.
     """
     entry, rows = plugins.entry_points(plugins.MEMBERS).get("cylinder"), []
     if entry is not None:

@@ -340,21 +340,20 @@ def columns_picked(
     """
     plan, is_plain = machine.plan, acting == PLAIN
     acting = replace(acting, case=run_case) if acting.case is None else acting
-    columns = results(machine, motion, acting.case or PLAIN_CASE) if is_plain else columns_of_all(motion, acting)
+    if is_plain:
+        columns = results(machine, motion, acting.case or PLAIN_CASE)
+    else:
+        columns = [*columns_of(motion), *force_columns(motion, acting.case, acting.direction)]
     known = {column.name: column for column in columns}
     ensure(known, f"{plan.title} has no results: it declares no stroke, no point that moves and no output.")
     if not names:
         return columns
     if is_plain and not known.keys() >= {*names}:
-        known = {column.name: column for column in columns_of_all(motion, acting)} | known
+        every = [*columns_of(motion), *force_columns(motion, acting.case, acting.direction)]
+        known = {column.name: column for column in every} | known
     led = [known[name] for name in (*([] if motion.time is None else [said("time")]), *strokes) if name in known]
     found = [column for name in names for column in ([known[name]] if name in known else requested(machine, motion, name, acting, known))]
     return list({column.name: column for column in [*led, *found]}.values())
-
-
-def columns_of_all(motion: Motion, acting: Acting) -> list[Column]:
-    """Return the columns that every machine has, in a load case and a direction."""
-    return [*columns_of(motion), *force_columns(motion, acting.case, acting.direction)]
 
 
 def requested(machine: Mechanism, motion: Motion, text: str, acting: Acting, known: Mapping[str, Column]) -> list[Column]:

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import DefinitionError, ensure
-from ..mechanism import Mechanism, declared
+from ..mechanism import Mechanism
 from ..plan import Part
 from ..quantities import InnerQuantity, Member, Number, Quantity, Ref, is_number, joined_names, label, name_of, quantity, source_text
 from ..quantities.quantity import plain
@@ -108,17 +108,6 @@ def changed(machine: Mechanism) -> dict[str, float]:
     if many:
         raise DefinitionError(f"{machine.plan.title}: {many[0]} has several values; a file holds one design.")
     return {name: value for name, value in machine.dimensions.items() if value != machine.plan.defaults[name]}
-
-
-def members_to_write(machine: type[Mechanism] | Mechanism) -> dict[str, Member]:
-    """Return the members to write, in the order they are declared.
-
-    An instance with changed dimensions has moved away from its sketch: sides are said, pins stand where they are now.
-    """
-    if not isinstance(machine, Mechanism):
-        return declared(machine)
-    members = declared(type(machine))
-    return {name: without_sketch(name, member, machine) for name, member in members.items()} if changed(machine) else members
 
 
 def without_sketch(name: str, member: Member, machine: Mechanism) -> Member:

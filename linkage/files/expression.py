@@ -13,7 +13,7 @@ from abc import ABC, abstractmethod
 from bisect import bisect_right
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
 from itertools import accumulate
 from types import MappingProxyType
 from typing import Any, ClassVar
@@ -83,17 +83,13 @@ def one_unit(text: str) -> str:
 # -- what an expression may call, and nothing else ----------------------------------------------------------
 
 
-def applied(function: str) -> Callable[..., Quantity]:
+def applied(function: str, *arguments: Quantity) -> Quantity:
     """Return NumPy's function of quantities; of numbers alone it is a number, as it is in a class."""
-
-    def make(*arguments: Quantity) -> Quantity:
-        values = [each.number for each in arguments if isinstance(each, Number)]
-        if len(values) < len(arguments):
-            return Function(function, *arguments)
-        with np.errstate(all="ignore"):
-            return Number(finite(float(FUNCTIONS[function](*values)), f"{function}({', '.join(map(repr, values))})"))
-
-    return make
+    values = [each.number for each in arguments if isinstance(each, Number)]
+    if len(values) < len(arguments):
+        return Function(function, *arguments)
+    with np.errstate(all="ignore"):
+        return Number(finite(float(FUNCTIONS[function](*values)), f"{function}({', '.join(map(repr, values))})"))
 
 
 def finite(value: object, text: str) -> float:
@@ -105,7 +101,7 @@ def finite(value: object, text: str) -> float:
 
 def length_or_size(argument: Arrow | str | Quantity) -> Quantity:
     """Return the length of a vector or of the one with that name, the absolute value of a quantity."""
-    return applied("absolute")(argument) if isinstance(argument, Quantity) else Length(argument)
+    return applied("absolute", argument) if isinstance(argument, Quantity) else Length(argument)
 
 
 PAIR = ("point", "point")
@@ -118,7 +114,7 @@ CALLS: Mapping[str, tuple[tuple[str, ...], Callable[..., Member]]] = MappingProx
     "angle": (PAIR, angle), "distance": (PAIR, distance), "x": (("point",), x), "y": (("point",), y),
     "CosineAngle": (("quantity",) * 3, CosineAngle), "abs": (("any",), length_or_size), "absolute": (("any",), length_or_size),
     "Vector": (PAIR, Vector), "Turn": (("vector", "quantity"), Turn),
-    **{name: (("quantity",) * getattr(np, own).nin, applied(own)) for name, own in NUMERIC.items() if own != "absolute"},
+    **{name: (("quantity",) * getattr(np, own).nin, partial(applied, own)) for name, own in NUMERIC.items() if own != "absolute"},
 })  # fmt: skip
 """The functions by name: the kinds of their arguments, and what each makes of them."""
 VECTORS: Mapping[str, tuple[str, ...]] = MappingProxyType({"Vector": (), "Turn": ("length",)})

@@ -255,7 +255,7 @@ def targets_said(head: StudyHead, given: object) -> list[Target]:
             for one, other in ((condition.left, condition.right), (condition.right, condition.left)):
                 if isinstance(one, At) and isinstance(other, FixedNumber):
                     quantity: Any = one.quantity
-                    return Target(quantity, other.value, unit=unit_of_quantity(head.plan, quantity), **one.strokes)
+                    return Target(quantity, other.value, unit=display_unit(measure_of(head.plan, quantity), "mm"), **one.strokes)
         raise DefinitionError(f"{condition} is no target; write at(tilt, S=100 mm) == 0 deg.")
 
     return study_file.texts_said(given, target)
@@ -316,7 +316,8 @@ def zone_task(
 ) -> TaskResult:
     """Look for the extremes of a quantity at every stroke over a box."""
     found = zone(machine, quantity, vary, **strokes or whole_stroke(machine, poses))
-    plan, unit, title = machine.plan, unit_of_quantity(machine.plan, quantity), measured_title(machine.plan, quantity)
+    plan, title = machine.plan, measured_title(machine.plan, quantity)
+    unit = display_unit(measure_of(plan, quantity), "mm")
     ends = [Column(f"{title} {word}", value.ravel(), unit) for word, value in (("least", found.low), ("greatest", found.high))]
     settings = [
         Column(f"{part} at {word}", np.ravel(value), unit_of(plan, part))
@@ -338,11 +339,6 @@ def whole_stroke(machine: Mechanism, poses: int) -> dict[str, FloatArray]:
 def stroke_columns(plan: Plan, strokes: Mapping[str, FloatArray]) -> list[Column]:
     """Return the strokes as columns."""
     return [Column(name, np.ravel(value), stroke_display_unit(plan, name, "mm"), 4) for name, value in strokes.items()]
-
-
-def unit_of_quantity(plan: Plan, quantity: object) -> str:
-    """Return the unit that a quantity is shown in."""
-    return display_unit(measure_of(plan, quantity), "mm")
 
 
 def tolerance_task(
@@ -384,7 +380,7 @@ def tornado_task(
     strokes: Annotated[Keywords, pose_said],
 ) -> TaskResult:
     """Look for the tolerance that matters most for a quantity at one pose."""
-    unit = unit_of_quantity(machine.plan, quantity)
+    unit = display_unit(measure_of(machine.plan, quantity), "mm")
     found = tornado(machine, quantity, tolerances, unit=unit, **strokes)
     rows = [(bar.low, bar.high, bar.share) for bar in found]
     names = ("at its lower limit", "at its upper limit", "share of the variance")

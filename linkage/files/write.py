@@ -16,7 +16,7 @@ from ..disk import replacing_text
 from ..errors import DefinitionError, FileError
 from ..mechanism import Mechanism, declared, require_mechanism
 from ..plan import Part
-from .design import Design, measured_labels, members_to_write
+from .design import Design, changed, measured_labels, without_sketch
 from .names import FileTable, Keywords, Names, shortened
 from .parts_file import dotted_kinds, machines_of
 from .registry import registry
@@ -45,7 +45,9 @@ def to_dict(machine: Machine) -> Keywords:
     """
     if not isinstance(machine, Mechanism) and not is_class_of(machine, Mechanism):
         raise DefinitionError(f"{shortened(machine)} is no mechanism; give a class of Mechanism, or a design of one.")
-    members = members_to_write(machine)
+    members = declared(type(machine) if isinstance(machine, Mechanism) else machine)
+    if isinstance(machine, Mechanism) and changed(machine):  # it has moved away from its sketch: sides are said, pins stand where they are
+        members = {name: without_sketch(name, member, machine) for name, member in members.items()}
     entries = {name: registry().writing(member) for name, member in members.items()}
     sections = {name: entry.section for name, entry in entries.items()}
     kinds = {name: registry().kind(section) for name, section in sections.items()}

@@ -56,12 +56,16 @@ class DrawingReader:
         circles = [*self.entities_on(("CIRCLE",), "pins")] or [*self.entities_on(("CIRCLE",), "", "links")]
         ground = [*self.entities_on(("CIRCLE",), "ground")]
         hatches = [corners_of(each) for each in self.entities_on(("HATCH",), *ROLES, "")]
-        words = [(text_of(each), each) for each in self.entities_on(("TEXT", "MTEXT"), *ROLES, "")]
+        words = []
+        for each in self.entities_on(("TEXT", "MTEXT"), *ROLES, ""):
+            text = str(each.dxf.text if each.dxftype() == "TEXT" else each.plain_text()).strip()
+            if text and len(text) <= 20:  # else it is no name
+                words.append((text, each))
         for circle in (*circles, *ground):
             place, radius = (float(circle.dxf.center.x), float(circle.dxf.center.y)), float(circle.dxf.radius)
             if any(dist(place, centre) <= radius for centre, _ in self.pins.values()):
                 continue  # a pin and its washer
-            far, word = min(((way_to(each, word, place), word) for word, each in words if word), default=(0.0, ""))
+            far, word = min(((way_to(each, word, place), word) for word, each in words), default=(0.0, ""))
             key = f"P{len(self.pins) + 1}"
             is_hatched = any(hatch and surrounds(place, hatch) for hatch in hatches)
             self.found.add_point(key, word if far <= 4.0 * radius and word else key, *place, circle in ground or is_hatched)
@@ -141,12 +145,6 @@ def way_to(entity: Any, word: str, place: tuple[float, float]) -> float:
     high = float(entity.dxf.height if is_plain else entity.dxf.char_height)
     x, y = float(entity.dxf.insert.x), float(entity.dxf.insert.y) - (0.0 if is_plain else high)
     return dist(place, (min(max(place[0], x), x + 0.7 * high * len(word)), min(max(place[1], y), y + high)))
-
-
-def text_of(entity: Any) -> str:
-    """Return the words of a text, where they are few enough for a name."""
-    text = str(entity.dxf.text if entity.dxftype() == "TEXT" else entity.plain_text()).strip()
-    return text if len(text) <= 20 else ""
 
 
 def distance_to(place: Place, P: Place, Q: Place) -> float:

@@ -6,7 +6,7 @@ import re
 from base64 import urlsafe_b64decode
 from binascii import Error
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from itertools import combinations, permutations
 from math import cos, dist, hypot, inf, isfinite, pi, remainder, sin
 from typing import Any, TypeAlias
@@ -221,15 +221,6 @@ class FoundMachine:
         fixed = tuple(names[key] for key, point in self.points.items() if point.fixed)
         title, notes = legal_name(title, {"Mechanism"}), tuple(map(printable, self.notes))
         return MachineSketch(title, places, fixed, links, slides, drives, notes=notes)
-
-    def driven_anew(self, whole: MachineSketch) -> MachineSketch:
-        """Return a sketch with the drives and links that stand here in place of its own; cylinders are as long as they are drawn."""
-        links = {name: tuple(points) for name, points in self.links}
-        taken = {*WORDS, *whole.points, *links, *whole.slides, *whole.weights}
-        drives = dict(self.named_drives({name: name for name in whole.points}, whole.points, taken))
-        closed = {joined_names(*ends) for each in drives.values() if each.kind == "cylinder" for ends in (each.ends, each.ends[::-1])}
-        lengths = {label: length for label, length in whole.lengths.items() if label not in closed}
-        return replace(whole, links=links, drives=drives, lengths=lengths, notes=(*whole.notes, *map(printable, self.notes)))
 
     def named_drives(self, names: Mapping[str, str], places: Mapping[str, Place], taken: set[str]) -> Iterator[tuple[str, SketchDrive]]:
         """Yield the drives [SI] by their names; a note on a cylinder of which the file says no stroke."""

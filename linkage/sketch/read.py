@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from math import isfinite
 from pathlib import Path
 from types import MappingProxyType
@@ -12,9 +13,10 @@ from ..disk import Place, read
 from ..errors import DefinitionError, FileError, ensure, unknown
 from ..files.names import shortened
 from ..files.source import FILE_BYTES, decoded
+from ..quantities import joined_names
 from .board_json import ADDRESS, read_board
 from .dxf_layers import read_dxf
-from .found import FoundDrive, FoundMachine, JsonTable
+from .found import WORDS, FoundDrive, FoundMachine, JsonTable, printable
 from .linkage_xml import read_linkage_xml
 from .machine_sketch import MachineSketch
 from .plus_bodies import ENVELOPE, json_in_address, read_plus_bodies
@@ -75,9 +77,15 @@ def read_sketch(
         found.drives = []
         for kind, *ends in asked:
             add_drive(found, kind, ends)
-    if found.board_sketch is not None:
-        return found.driven_anew(found.board_sketch) if asked else found.board_sketch
-    return found.sketch(title)
+    drawn = found.board_sketch
+    if drawn is None or not asked:
+        return drawn or found.sketch(title)
+    links = {name: tuple(points) for name, points in found.links}
+    taken = {*WORDS, *drawn.points, *links, *drawn.slides, *drawn.weights}
+    named = dict(found.named_drives({name: name for name in drawn.points}, drawn.points, taken))
+    closed = {joined_names(*ends) for each in named.values() if each.kind == "cylinder" for ends in (each.ends, each.ends[::-1])}
+    lengths = {label: length for label, length in drawn.lengths.items() if label not in closed}  # cylinders are as long as drawn
+    return replace(drawn, links=links, drives=named, lengths=lengths, notes=(*drawn.notes, *map(printable, found.notes)))
 
 
 def is_foreign(text: str) -> bool:

@@ -37,6 +37,7 @@ from .instants import Instants
 from .limits import LoopMargin, stroke_unit
 from .measures import (
     At,
+    CombinedMeasure,
     Condition,
     Constraint,
     Integral,
@@ -51,6 +52,7 @@ from .measures import (
     conditions_of,
     in_situation,
     is_quantity,
+    kind_of_measure,
     reachable,
     strokes_behind,
     traced,
@@ -1023,9 +1025,13 @@ def valued(question: Any, number: Callable[[Leaf], FloatArray]) -> tuple[FloatAr
 def measures_of(plan: Plan, question: object) -> str:
     """Return the kind of a question's value, "" where it is not plain."""
     measure = question.left if isinstance(question, Constraint) else question
-    if not isinstance(measure, Leaf) or isinstance(measure, Integral):
-        return ""
-    return measured_in(plan, stands_for(plan.members, measure.quantity))
+    match measure:
+        case Integral() | CombinedMeasure():
+            kind = kind_of_measure(plan, measure)
+            return kind.name if kind is not None else ""
+        case Leaf():
+            return measured_in(plan, stands_for(plan.members, measure.quantity))
+    return ""
 
 
 def integrated(row: SearchRow, place: Domain) -> WorstPiece:
@@ -1033,8 +1039,10 @@ def integrated(row: SearchRow, place: Domain) -> WorstPiece:
     plan, leaf = place.plan, row.leaf
     assert isinstance(leaf, Integral)
     if place.over.shape != "box" or len(place.running) != 1 or (leaf.by or place.running[0]) != place.running[0]:
-        what = f"{plan.title}: {leaf}: an integral is over one stroke that runs, here run {', '.join(place.running) or 'none'}"
-        raise DefinitionError(f"{what}; hold the others, over=Over({leaf.by or next(iter(plan.strokes))}=(...), ...=0.0).")
+        by, here = leaf.by or next(iter(plan.strokes)), f"here run {', '.join(place.running) or 'none'}"
+        here = here if place.over.shape == "box" else f"not along {place.over.name or 'a path'}"
+        others = ", ".join([f"{by}=(...)", *(f"{each}=0.0" for each in plan.strokes if each != by)])
+        raise DefinitionError(f"{plan.title}: {leaf}: an integral is over one stroke that runs, {here}; say over=Over({others}).")
     (name,) = place.running
     held = {each: float(np.min(value)) for each, value in place.motion.strokes.items()}
     low, span = held[name], float(np.ptp(place.motion.strokes[name]))

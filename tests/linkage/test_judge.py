@@ -323,8 +323,12 @@ def test_measures_of_one_number():
     assert_allclose(here.value, machine.at(S=0.1, T=0.05).y("D"))
     assert_allclose(travel.value, 0.3, atol=1e-12)
     assert spread.ok
-    with pytest.raises(DefinitionError, match="an integral is over one stroke that runs, here run S, T"):
+    assert str(travel).startswith("300 mm at ") and travel.measures == "length"
+    assert " Nm in the case " in str(machine.answers([integral(drive_force("S"), by="S")], over=over)[0])  # a work
+    with pytest.raises(DefinitionError, match=r"one stroke that runs, here run S, T; say over=Over\(S=\(\.\.\.\), T=0\.0\)"):
         machine.answers([integral(y("D"))])
+    with pytest.raises(DefinitionError, match=r"one stroke that runs, not along a path; say over=Over\(S="):
+        machine.answers([integral(y("D"))], over=Over.path(S=[0.0, 0.2], T=0.1))
     with pytest.raises(DefinitionError, match=r"say the pose, T=\.\.\."):
         machine.answers([at(y("D"), S=0.1)])
     highest = machine.answers([least(worst(y("D"), over="T"))])[0]

@@ -188,7 +188,7 @@ STRAY, LED_STRAY, LED_BESIDE = 300.0, 6.0, 60.0
 with one right beside it."""
 ARROW = 8
 """What a point along an arrow costs, in covered points."""
-ALONG_LEADER = np.linspace(0.0, 1.0, 24)[1:, None]
+ALONG_LEADER = np.linspace(0.0, 1.0, 24)[:, None]
 """The shares of a leading line at which it is looked at."""
 AGAIN = 4
 """How often values that cover others choose again."""
@@ -200,6 +200,7 @@ FIRST_LED = LED * len(AROUND)
 CLEAR = 1.5  # pixels kept free around a value
 NEARER = 1.0  # pixels by which a text has to be nearer to count as that
 BESIDE = 20.0  # pixels within which a text is taken for that of an arrow
+SHORT = 2.0  # pixels by which a leading line ends before its place, so that those of one place do not meet
 EDGE = 3.0  # pixels kept free along the sheet's edges
 
 
@@ -286,7 +287,8 @@ class PlacedWording:
         """Points along the leading lines of its far spots, shape (k, n, 2) [pixels]."""
         far = self.spots[FIRST_LED:]
         nearest = np.clip(self.anchor, far - self.half, far + self.half)
-        return np.asarray(nearest[:, None] + ALONG_LEADER * (self.anchor - nearest)[:, None])
+        ways = self.anchor - nearest
+        return np.asarray(nearest[:, None] + ALONG_LEADER * (ways * (1.0 - SHORT / np.hypot(*ways.T))[:, None])[:, None])
 
     def costs(self, boxes: Sequence[FloatArray], leaders: FloatArray, lines: FloatArray, inside: Bbox) -> FloatArray:
         """Return the cost of each spot, shape (n,).
@@ -312,8 +314,7 @@ class PlacedWording:
         x, y = back.transform(self.spots[self.place]).tolist()
         self.text.set_position((x, y))
         if self.place >= FIRST_LED:
-            nearest = np.clip(self.anchor, self.box[:2], self.box[2:])
-            ends = back.transform(np.array([nearest, self.anchor]))
+            ends = back.transform(self.leader[[0, -1]])
             name = f"leader of {self.text.get_gid()}"
             ax.add_line(Line2D(*ends.T, color=self.text.get_color(), linewidth=0.6, zorder=19.5, gid=name))
 
@@ -367,17 +368,14 @@ def text_boxes(ax: Axes) -> list[Bbox]:
     for text in written:
         if isinstance(text, Annotation):
             text.update_positions(renderer)
+            text.update_bbox_position_size(renderer)  # at which its line begins
     return [Text.get_window_extent(text, renderer) for text in written]
 
 
 def written_leaders(ax: Axes) -> list[FloatArray]:
-    """Return the lines that lead from names to their points, shape (2, 2) each [pixels]."""
-    found = []
-    for text, box in zip((each for each in ax.texts if each.get_visible() and each.get_text()), text_boxes(ax), strict=True):
-        if isinstance(text, Annotation) and text.arrow_patch is not None:
-            end = np.asarray(ax.transData.transform(text.xy))
-            found.append(np.array([np.clip(end, box.min, box.max), end]))
-    return found
+    """Return the lines that lead from names to their points, shape (2, 2) each [pixels], once `text_boxes` has brought them there."""
+    led = [each for each in ax.texts if isinstance(each, Annotation) and each.get_visible() and each.get_text()]
+    return [np.asarray(each.arrow_patch.get_path().vertices, float)[[0, -1]] for each in led if each.arrow_patch]
 
 
 # The bar that says the scale, and what colours mean.

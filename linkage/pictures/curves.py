@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from math import ceil, sqrt
 from textwrap import wrap
@@ -93,9 +94,10 @@ def plot_curves(first: Motion, curves: Sequence[Curve], limits: Mapping[str, Seq
         panel(ax, motion, column, bound)
         if where:  # each of several runs has strokes of its own that are held
             axis = StrokeAxis.of(motion)
-            heading = "\n".join(wrap(typeset(f"{column.heading}, {where}"), int(LETTERS_AN_INCH * PANEL[0])))
+            heading = in_lines(typeset(f"{column.heading}, {where}"), PANEL[0])
             ax.set_title(heading, loc="left", fontsize=style.TITLE, fontweight="bold", color=style.INK, pad=9)
-            ax.set_xlabel("; ".join(each for each in (axis.heading, axis.held) if each), fontsize=style.TEXT, color=style.MUTED)
+            below = in_lines("; ".join(each for each in (axis.heading, axis.held) if each), 1.2 * PANEL[0])  # of smaller letters
+            ax.set_xlabel(below, fontsize=style.TEXT, color=style.MUTED)
     return figure
 
 
@@ -113,14 +115,18 @@ def columns_named(motion: Motion, columns: Sequence[Column | RequestLike]) -> li
     return found
 
 
+def in_lines(text: str, width: float) -> str:
+    """Return a text in lines that go into a width [inches] and break between strokes, not in a stroke's value."""
+    tied = re.sub(r" (?==)|(?<==) |(?<=\d) ", TIED, text)
+    return "\n".join(wrap(tied, int(LETTERS_AN_INCH * width))).replace(TIED, " ")
+
+
 def panel_grid(count: int, title: str, held: str = "") -> tuple[Figure, list[Axes]]:
     """Return a figure and the axes of so many panels, as near to a square as they go, under a title with the held strokes."""
     across = min(ceil(sqrt(count)), 4)
     down = ceil(count / across)
     figure, cells = panels((max(PANEL[0] * across, 6.0), PANEL[1] * down + 0.6), across, down, count, w_pad=0.12, h_pad=0.12)
-    held = held.replace(" ", TIED).replace("," + TIED, ", ")  # a line breaks between strokes, not in them
-    title += " " + said("at {place}", place=held) if held else ""
-    title = "\n".join(wrap(title, int(LETTERS_AN_INCH * float(figure.get_figwidth())))).replace(TIED, " ")
+    title = in_lines(f"{title} {said('at {place}', place=held)}" if held else title, float(figure.get_figwidth()))
     figure.suptitle(title, fontsize=style.TITLE + 2, fontweight="bold", color=style.INK, x=0.012, ha="left")
     return figure, cells
 
@@ -183,16 +189,19 @@ def mark_limit(ax: Axes, along: StrokeAxis, column: Column, limit: Limit) -> Non
     bottom, top = (value, high) if limit.fails == "above" else (low, value)
     ax.axhspan(bottom, top, color=style.ACCENT, alpha=0.10, linewidth=0, zorder=1.0)
     ax.axhline(value, color=style.ACCENT, linewidth=1.3, linestyle=(0, (5, 2.5)), zorder=4.0)
-    short = np.where(limit.failing(column.values), column.drawn, np.nan)
-    ax.plot(along.values, short, color=style.ACCENT, linewidth=style.BOLD + 0.6, zorder=5.1)
-    for place in limit_crossings(along.values, column.drawn, value):
+    crossings = sorted(limit_crossings(along.values, column.drawn, value))
+    order, fails = np.argsort(np.append(along.values, crossings)), np.append(limit.failing(column.values), np.ones(len(crossings), bool))
+    line = np.append(along.values, crossings), np.where(fails, np.append(column.drawn, np.full(len(crossings), value)), np.nan)
+    ax.plot(*(each[order] for each in line), color=style.ACCENT, linewidth=style.BOLD + 0.6, zorder=5.1)
+    between = [along.values.min(), *crossings, along.values.max()]
+    for before, place, after in zip(between[:-2], crossings, between[2:], strict=True):
         ax.plot([place], [value], marker="o", markersize=6, color=style.ACCENT, markeredgecolor=style.PAPER, zorder=6.0)
-        right = place < 0.5 * (along.values.min() + along.values.max())  # on the failing side of the line
-        spot = 7 if right else -7, -4 if limit.fails == "below" else 4
+        spot = 7 if after - place > place - before else -7, -4 if limit.fails == "below" else 4  # on the failing side, where there is room
         small_text(ax, f"{place:.4g} {translated(along.unit)}", (place, value), spot)
     gaps = np.abs(np.nan_to_num(column.drawn, nan=value) - value)
-    right = gaps[np.argmax(along.values)] >= gaps[np.argmin(along.values)]  # its words stand at the end that is further from the curve
-    spot = (-5 if right else 5, 3 if limit.fails == "above" else -3)
+    ends = between[-1] - between[-2], between[1] - between[0]  # its words stand at the end that is further from crossings or from the curve
+    right = ends[0] >= ends[1] if crossings else gaps[np.argmax(along.values)] >= gaps[np.argmin(along.values)]
+    spot = (-5 if right else 5, 3 if (limit.fails == "above") != bool(crossings) else -3)  # on the other side than crossings
     small_text(ax, typeset(limit.text), (1.0 if right else 0.0, value), spot, coords=("axes fraction", "data"))
 
 

@@ -2,8 +2,10 @@
 
 import contextlib
 from functools import cache
+from itertools import product
 from math import pi
 
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from hypothesis import given
@@ -52,6 +54,7 @@ from mechanisms.header_balancer import HeaderBalancer
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.for_all import for_all
+from tests.linkage.pictures.test_texts import check_texts
 
 
 class FourBar(Mechanism):
@@ -445,12 +448,21 @@ def test_a_limit_shades_the_side_that_fails_and_marks_the_crossing():
     for ax, value, low in ((pressure, 155.0, False), (reserve, 1.0, True)):
         _, line, short, mark = ax.lines
         assert_allclose(line.get_ydata(), value)
-        assert np.isfinite(short.get_ydata()).sum() == 7  # S = 550 ... 565 mm, short up to 566.0 mm as printed
+        assert np.isfinite(short.get_ydata()).sum() == 8  # S = 550 ... 565 mm, short up to 566.0 mm as printed
+        assert_allclose((short.get_xdata()[7], short.get_ydata()[7]), (*mark.get_xdata(), value))
         assert_allclose(mark.get_xdata(), 566.0, atol=0.05)
         shaded = ax.patches[0].get_extents().transformed(ax.transData.inverted())
         assert_allclose((shaded.y1 if low else shaded.y0), value)
         assert ax.get_ylim()[0 if low else 1] == pytest.approx(shaded.y0 if low else shaded.y1)
         assert "566 mm" in [text.get_text() for text in ax.texts]
+
+
+def test_no_words_of_a_limit_and_its_crossings_meet():
+    motion, along = FourBar().sweep(201), np.linspace(-1.0, 1.0, 201)
+    for sign, middle, wide in product((1.0, -1.0), (-0.6, -0.3, 0.0, 0.3, 0.6), (0.02, 0.1, 2.0)):
+        curve = Column("hump", sign * np.exp(-(((along - middle) / wide) ** 2)))
+        check_texts(plot(motion, [curve], limits={"hump": (0.8 * sign, "all that the pump can carry", "above" if sign > 0.0 else "below")}))
+        plt.close()
 
 
 def test_crossings_lie_between_poses_in_reach():

@@ -79,13 +79,13 @@ def crossed(figure, kind):
 
 def leaders_of(ax):
     """Return the thin lines that lead from values and from names to what they stand for, shape (2, 2) [pixels] each."""
-    renderer, place = FigureCanvasAgg(ax.figure).get_renderer(), ax.transData.transform
-    found = [place(line.get_xydata()) for line in ax.lines if (line.get_gid() or "").startswith("leader of ")]
+    renderer = FigureCanvasAgg(ax.figure).get_renderer()
+    found = [ax.transData.transform(line.get_xydata()) for line in ax.lines if (line.get_gid() or "").startswith("leader of ")]
     for text in ax.texts:
         if isinstance(text, Annotation) and text.arrow_patch is not None and text.get_visible():
             text.update_positions(renderer)
-            box, end = Text.get_window_extent(text, renderer), place(text.xy)
-            found.append(np.array([np.clip(end, box.min, box.max), end]))
+            text.update_bbox_position_size(renderer)
+            found.append(text.arrow_patch.get_path().vertices[[0, -1]])
     return found
 
 

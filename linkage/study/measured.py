@@ -166,7 +166,13 @@ class StudyPoses:
         if by not in self.stroke_values or len(self.base.shape) != 1:
             names = ", ".join(self.stroke_values)
             raise DefinitionError(f"{plan.title}: {leaf}: give one row of strokes, and say by which, by= one of {names}.")
-        turns = turns_of(self.stroke_values)
+        moving = [value for value in self.stroke_values.values() if np.ptp(value) > 0.0]
+        turns = [*range(self.pose_count)] if moving else [0, self.pose_count - 1]
+        if len(moving) == 1:  # the first pose, those at which the way turns, and the last
+            changes = np.diff(moving[0])
+            steps = np.flatnonzero(changes)
+            signs = np.sign(changes[steps])
+            turns = [0, *steps[1:][signs[1:] != signs[:-1]].tolist(), self.pose_count - 1]
         legs = [self._leg(leaf, by, ends, max(PANELS // (len(turns) - 1), 1)) for ends in pairwise(turns)]
         strokes = {name: np.concatenate([poses[name] for poses, _ in legs]) for name in self.stroke_values}
         self._rows[leaf] = StudyPoses(Motion(plan, designs, strokes, "nan")), np.concatenate([weights for _, weights in legs])
@@ -299,16 +305,3 @@ def fold(leaf: Leaf, total: Any, values: FloatArray) -> FloatArray:
     """Return an extreme after one more pose; NaN where one of them has no value."""
     best = np.minimum if leaf.sense < 0.0 else np.maximum
     return np.asarray(best(total, values, out=total if isinstance(total, np.ndarray) else None))
-
-
-def turns_of(strokes: Mapping[str, FloatArray]) -> list[int]:
-    """Return the numbers of the poses of a row (n,) at which its way turns, the first and the last among them."""
-    last = len(next(iter(strokes.values()))) - 1
-    moving = [value for value in strokes.values() if np.ptp(value) > 0.0]
-    if not moving:
-        return [0, last]
-    if len(moving) > 1:
-        return [*range(last + 1)]
-    steps = np.flatnonzero(np.diff(moving[0]))
-    ways = np.sign(np.diff(moving[0]))[steps]
-    return [0, *(int(each) for each in steps[1:][ways[1:] != ways[:-1]]), last]

@@ -15,7 +15,7 @@ from ..mechanism import Mechanism
 from ..motion.measures import At, Condition, Constraint, Integral, Leaf, Measure, Worst, conditions_of, measure_of
 from ..motion.requests import may_be_unlimited
 from ..numeric.line import Index
-from ..plan import Mask, Plan
+from ..plan import Mask
 from ..program import FloatArray, RunOptions
 from ..quantities import is_number
 from ..units import display_unit
@@ -211,7 +211,17 @@ def monte_carlo(
     """
     poses, plan = StudyPoses.of(machine, strokes, POSES), machine.plan
     named = tolerances_of(plan, tolerances)
-    asked, conditions = quantities_listed(plan, of), limits_listed(machine, subject_to)
+    if isinstance(of, Mapping) and of and all(isinstance(name, str) for name in of):
+        titles, asked = [measured_title(plan, each) for each in of.values()], dict(of)
+    elif is_listed(of) and of:
+        titles = [measured_title(plan, each) for each in of]
+        asked = dict(zip(titles, of, strict=True))
+    else:
+        raise DefinitionError(f'{plan.title}: {cited(of)}: a list of quantities is expected, such as ["tilt"], or a dictionary by name.')
+    if len(asked) < len(titles):
+        both = f"{plan.title}: {', '.join(titles)}: two of them go by one name"
+        raise DefinitionError(f'{both}; give names of your own, {{"full": ..., "empty": ...}}.')
+    conditions = limits_listed(machine, subject_to)
     fits = is_listed(percentiles) and all(is_number(each) and 0.0 <= each <= 100.0 for each in percentiles)
     require(fits, "percentiles", percentiles, "percentages from 0 to 100 are expected, such as (5, 50, 95)")
     order = tuple(sorted({float(each) for each in percentiles}))
@@ -234,20 +244,6 @@ def monte_carlo(
         machine, FrozenDict(named), FrozenDict(poses.base.strokes), FrozenDict(asked), FrozenDict(bands), conditions, FrozenDict(designs),
         good, assembled, FrozenDict(kept), poses.words(),
     )  # fmt: skip
-
-
-def quantities_listed(plan: Plan, of: object) -> dict[str, Measured]:
-    """Return quantities by their words, or the names they are given; DefinitionError for a wrong list, or one name for two."""
-    if isinstance(of, Mapping) and of and all(isinstance(name, str) for name in of):
-        _ = [measured_title(plan, quantity) for quantity in of.values()]  # raises for what is none
-        return dict(of)
-    if not is_listed(of) or not of:
-        raise DefinitionError(f'{plan.title}: {cited(of)}: a list of quantities is expected, such as ["tilt"], or a dictionary by name.')
-    found = {measured_title(plan, quantity): quantity for quantity in of}
-    if len(found) < len(of):
-        said = ", ".join(measured_title(plan, each) for each in of)
-        raise DefinitionError(f'{plan.title}: {said}: two of them go by one name; give names of your own, {{"full": ..., "empty": ...}}.')
-    return found
 
 
 def limits_listed(machine: Mechanism, given: object) -> tuple[Constraint, ...]:
@@ -297,7 +293,12 @@ class MonteCarloRun:
         self._leaves |= {leaf: self._of_leaf(leaf) for leaf in leaves if isinstance(leaf, (At, Integral))}
         for leaf, places in self._unlimited.items():
             self._leaves[leaf] = np.where(places == (self.poses.pose_count if leaf.sense else 1), np.nan, self._leaves[leaf])
-        self.kept = [self._keeps(each) for each in conditions]
+        for condition in conditions:  # one says nothing of designs at which a quantity of it is limited nowhere
+            kept = np.asarray(condition.margin.from_leaves(self._leaves.__getitem__) >= 0.0) & np.ones(self.count, bool)
+            for leaf in condition.margin.leaves:
+                if leaf in self._unlimited:
+                    kept |= np.isnan(self._leaves[leaf]) & (self._unlimited[leaf] > 0)
+            self.kept.append(kept)
         for title, each in asked.items():
             if isinstance(each, Measure):
                 column = np.array(np.broadcast_to(each.from_leaves(self._leaves.__getitem__), (self.count,)), float)
@@ -331,14 +332,6 @@ class MonteCarloRun:
         self._unlimited[leaf] = free.astype(int)
         self.lost |= np.isnan(found) & ~free
         return found
-
-    def _keeps(self, condition: Constraint) -> Mask:
-        """Return which designs keep a condition; one says nothing of those at which a quantity of it is limited nowhere."""
-        kept = np.asarray(condition.margin.from_leaves(self._leaves.__getitem__) >= 0.0) & np.ones(self.count, bool)
-        for leaf in condition.margin.leaves:
-            if leaf in self._unlimited:
-                kept |= np.isnan(self._leaves[leaf]) & (self._unlimited[leaf] > 0)
-        return kept
 
     def _free(self, poses: StudyPoses, quantity: Measured | Worst, values: FloatArray, part: slice = slice(None)) -> Mask:
         """Return at which of some poses nothing limits a quantity, so that it has no value there, shape (poses, designs)."""

@@ -534,8 +534,17 @@ class DesignSearch:
 
     def run(self) -> Optimum:
         """Return the best design."""
-        space = self.problem.space
-        left = [each for each in space.combinations() if not self.is_cut(each)]
+        space, plan, left = self.problem.space, self.problem.plan, []
+        for combination in space.combinations():
+            for each in self.problem.constraints if space.count > 1 else ():
+                margin = self.problem.certainly(each.margin, combination)
+                if margin is not None and (margin.high < 0.0 or (each.symbol == "==" and margin.low > 0.0)):
+                    units = unit_of_constraint(plan, each)
+                    short = show(-margin.high if margin.high < 0.0 else margin.low, units, 4)
+                    self.cut.append(f"{space.words(combination, plan)}: {in_units(each, units)} is missed by {short} at least")
+                    break
+            else:
+                left.append(combination)
         if not left:
             raise StudyError(f"{self.problem.plan.title}: no combination of choices can keep the conditions: {self.cut[0]}.")
         if not space.variables:
@@ -613,20 +622,6 @@ class DesignSearch:
         """Return the error of a search that came to designs none of which keeps everything."""
         with self.problem.count.without_limit():
             return infeasible_error(self.problem, ended, {each.combination: each.unit for each in reversed(self.looked)})
-
-    def is_cut(self, combination: tuple[int, ...]) -> bool:
-        """Return whether a combination cannot keep some condition of the design alone, whatever the variables; noted in words."""
-        space, plan = self.problem.space, self.problem.plan
-        if space.count == 1:
-            return False
-        for each in self.problem.constraints:
-            margin = self.problem.certainly(each.margin, combination)
-            if margin is not None and (margin.high < 0.0 or (each.symbol == "==" and margin.low > 0.0)):
-                units = unit_of_constraint(plan, each)
-                short = show(-margin.high if margin.high < 0.0 else margin.low, units, 4)
-                self.cut.append(f"{space.words(combination, plan)}: {in_units(each, units)} is missed by {short} at least")
-                return True
-        return False
 
     # -- screening -----------------------------------------------------------------------------------------
 

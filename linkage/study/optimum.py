@@ -187,7 +187,12 @@ class Optimum(Shown):
     def __str__(self) -> str:
         problem, units = self.problem, unit_of_measure(self.machine.plan, self.problem.objectives[0])
         word = "least" if problem.sense > 0.0 else "greatest"
-        lines = [f"{problem.plan.title}: the {word} {problem.objectives[0]} found is {show(self.value, units)}{self._gained(units)}."]
+        start, gained = show(self.start_value, units), ""
+        if np.isfinite(self.start_value) and (self.start_missing > MET or not np.isfinite(self.gain)):
+            gained = f"; {start} to begin with{', which misses the conditions' if self.start_missing > MET else ''}"
+        elif np.isfinite(self.start_value):
+            gained = ", as to begin with" if abs(self.gain) < SAME else f", {100.0 * self.gain:.3g} % better than {start} to begin with"
+        lines = [f"{problem.plan.title}: the {word} {problem.objectives[0]} found is {show(self.value, units)}{gained}."]
         lines += [f"  {each.name} = {each.show(self.variables[each.name])}" for each in problem.space.variables]
         lines += [f"  {each}" for each in problem.space.words(self.combination, problem.plan).split(", ") if each]
         lines += [f"  {each}." for each in (*self.conditions, *self.bounds, *self.edges)]
@@ -204,15 +209,6 @@ class Optimum(Shown):
         return "\n".join(lines)
 
     __repr__ = __str__
-
-    def _gained(self, units: str) -> str:
-        if not np.isfinite(self.start_value):
-            return ""
-        if self.start_missing > MET or not np.isfinite(self.gain):
-            return f"; {show(self.start_value, units)} to begin with{', which misses the conditions' if self.start_missing > MET else ''}"
-        if abs(self.gain) < SAME:
-            return ", as to begin with"
-        return f", {100.0 * self.gain:.3g} % better than {show(self.start_value, units)} to begin with"
 
     def rounded(self, to: float = 1.0 * mm, angle: float = 0.1 * deg) -> Rounded:
         """Return the design with its dimensions on steps, as a drawing gives them.
@@ -384,12 +380,15 @@ def described(problem: Problem, found: SearchEnd, ended: Sequence[SearchEnd], se
     local.refine(found.unit)
     of_constraints, of_bounds, ways = multipliers(local, found.unit)
     part = local.size / (abs(value) or 1.0)
-    conditions = tuple(
-        condition_spare(problem, each, now, part * price / scale, scale)
-        for each, price, scale in zip(problem.constraints, of_constraints, local.scales, strict=True)
-    )
     values = problem.space.values(found.unit)
-    bounds = []
+    conditions, bounds = [], []
+    for each, price, scale in zip(problem.constraints, of_constraints, local.scales, strict=True):
+        left, right = (float(side.from_leaves(lambda leaf: now[leaf])) for side in each.compared)
+        size = max((abs(side) for side in (left, right) if np.isfinite(side)), default=0.0)
+        by = 0.01 * (size if size > 1e-6 * scale else scale)  # the scale is the size of what is compared
+        gain = part * price / scale * by
+        spare, units = -each.short(left, right), unit_of_constraint(problem.plan, each)
+        conditions.append(ConditionSpare(each, left, right, spare, by, gain if gain > SHOWN else 0.0, units))
     for variable, at, price in zip(problem.space.variables, values, of_bounds, strict=True):
         by = SAID_STEPS.get(variable.unit, 0.01 * variable.span)
         if part * price * by / variable.span > SHOWN:
@@ -400,23 +399,10 @@ def described(problem: Problem, found: SearchEnd, ended: Sequence[SearchEnd], se
     agreed = sum(abs(each.value - found.value) <= SAME * max(abs(found.value), 1e-300) for each in good)
     variables = {each.name: float(at) for each, at in zip(problem.space.variables, values, strict=True)}
     best = Optimum(
-        machine, problem.machine, value, start_value, start_missing, conditions, tuple(bounds), variables, max(agreed, 1), len(ended),
-        searched, tuple(cut), problem.count.designs, problem, found.unit, found.combination,
+        machine, problem.machine, value, start_value, start_missing, tuple(conditions), tuple(bounds), variables, max(agreed, 1),
+        len(ended), searched, tuple(cut), problem.count.designs, problem, found.unit, found.combination,
     )  # fmt: skip
     return replace(best, edges=tuple(edges(problem, found, ways, part)))
-
-
-def condition_spare(problem: Problem, constraint: Constraint, now: Mapping[Leaf, float], price: float, scale: float) -> ConditionSpare:
-    """Return how a design keeps a constraint, from its leaves' numbers and the objective's gain for one [SI] less of it.
-
-    `scale` is the size of what is compared [SI].
-    """
-    left, right = (float(side.from_leaves(lambda leaf: now[leaf])) for side in constraint.compared)
-    spare = -constraint.short(left, right)
-    size = max((abs(side) for side in (left, right) if np.isfinite(side)), default=0.0)
-    by = 0.01 * (size if size > 1e-6 * scale else scale)
-    gain = price * by if price * by > SHOWN else 0.0
-    return ConditionSpare(constraint, left, right, spare, by, gain, unit_of_constraint(problem.plan, constraint))
 
 
 def numbers_judged(problem: Problem, machine: Mechanism) -> tuple[LeafNumbers | None, float]:
@@ -489,25 +475,20 @@ def edges(problem: Problem, found: SearchEnd, ways: Sequence[FloatArray], part: 
     sizes = [(way, float(np.abs(way).max(initial=0.0))) for way in ways]
     for way, step in product([way / size for way, size in sizes if part * size * EDGE > SHOWN], STEPS_BEYOND):
         beyond = np.clip(unit + step * way, 0.0, 1.0)
-        reason = stopped_by(problem, found.combination, beyond)
+        try:
+            machine = problem.machine_of(beyond, found.combination)
+            problem.assembled(machine)
+            look = problem.evaluated(machine.dimensions)
+        except LinkageError as error:
+            reason = what_of(str(error))
+        else:
+            lost = next((no_value(problem.plan, leaf) for leaf in problem.leaves if look.lost_of(leaf)[0]), "")
+            reason = lost if look.is_assembled[0] else what_of(problem.refusal or "it cannot be assembled over the whole stroke")
         if reason:
             moved = [(each, at) for each, at, by in zip(variables, values, beyond - unit, strict=True) if abs(by) >= 0.3 * step]
             where = ", ".join(f"{each.name} = {each.show(float(at))}" for each, at in moved) or "The design"
             return [f"{where} {'stands' if len(moved) < 2 else 'stand'} at an edge of what the machine allows; beyond it: {reason}"]
     return []
-
-
-def stopped_by(problem: Problem, combination: Sequence[int], unit: FloatArray) -> str:
-    """Return why a design is impossible: refused, not assembled, or a measure without a value; "" for a possible one."""
-    try:
-        machine = problem.machine_of(unit, combination)
-        problem.assembled(machine)
-        look = problem.evaluated(machine.dimensions)
-    except LinkageError as error:
-        return what_of(str(error))
-    if not bool(look.is_assembled[0]):
-        return what_of(problem.refusal or "it cannot be assembled over the whole stroke")
-    return next((no_value(problem.plan, leaf) for leaf in problem.leaves if look.lost_of(leaf)[0]), "")
 
 
 def what_of(message: str) -> str:
@@ -528,13 +509,23 @@ def on_steps(problem: Problem, found: SearchEnd) -> tuple[Problem, SearchEnd]:
     search, count = StepSearch(problem, found), problem.count
     if not search.stepped:
         return problem, found
+    is_small = not search.rest and prod(search.counts) <= MOST_STEPS  # everything goes in steps, and all of them can be looked at
     if count.is_spent:
         search.look(search.about())
+    elif is_small:
+        every = np.array([*product(*map(range, search.counts))])
+        units = every * np.array([each.step / each.span for each in search.stepped if each.step is not None])
+        _, order = best_first(problem, found.combination, units, NEAR_KEPT)
+        search.look([tuple(map(int, every[place])) for place in order[:JUDGED]])
     else:
-        search.look(search.all_steps() if search.is_small else [*search.about(), *search.promising()])
-    while not search.is_small and search.best is not None and not count.is_spent:
-        before = search.best
-        search.look(search.neighbours())
+        search.look([*search.about(), *search.promising()])
+    while not is_small and search.best is not None and not count.is_spent:
+        before, beside = search.best, []
+        for place, steps in enumerate(search.counts):
+            for by in (-1, 1):
+                if 0 <= before[place] + by < steps:
+                    beside.append((*before[:place], before[place] + by, *before[place + 1 :]))
+        search.look(beside)
         if search.best == before:
             break
     if search.best is None:
@@ -555,18 +546,6 @@ class StepSearch:
         self.seen: dict[tuple[int, ...], tuple[Problem, SearchEnd] | None] = {}
         self.best: tuple[int, ...] | None = None
         self._starts: dict[tuple[int, ...], FloatArray] = {}
-
-    @property
-    def is_small(self) -> bool:
-        """Whether everything goes in steps, and all of them can be looked at."""
-        return not self.rest and prod(self.counts) <= MOST_STEPS
-
-    def all_steps(self) -> list[tuple[int, ...]]:
-        """Return the most promising of all steps, by few poses."""
-        every = np.array([*product(*map(range, self.counts))])
-        units = every * np.array([each.step / each.span for each in self.stepped if each.step is not None])
-        _, order = best_first(self.problem, self.found.combination, units, NEAR_KEPT)
-        return [tuple(map(int, every[place])) for place in order[:JUDGED]]
 
     def about(self) -> list[tuple[int, ...]]:
         """Return the steps about the design that was found without them."""
@@ -597,16 +576,6 @@ class StepSearch:
                 break
         self._starts = {each: unit for each, unit in found.items() if each not in self.seen}
         return [*found]
-
-    def neighbours(self) -> list[tuple[int, ...]]:
-        """Return the steps beside the best, one variable a step up or down."""
-        assert self.best is not None
-        found = []
-        for place, count in enumerate(self.counts):
-            for by in (-1, 1):
-                if 0 <= self.best[place] + by < count:
-                    found.append((*self.best[:place], self.best[place] + by, *self.best[place + 1 :]))
-        return found
 
     def look(self, steps: Sequence[tuple[int, ...]]) -> None:
         """Search the variables that are left at some steps, and keep the best of all that were seen."""
@@ -673,23 +642,19 @@ def rounded_values(machine: Mechanism, space: Space, unit: FloatArray, to: float
     near = []
     for variable, value in zip(space.variables, space.values(unit).tolist(), strict=True):
         step = None if variable.step is not None else {"mm": to, "deg": angle}.get(variable.unit)
-        near.append(steps_about(value, step, variable) if step else [value])
+        if not step:
+            near.append([value])
+            continue
+        low, high = np.ceil(variable.low / step - 1e-6), np.floor(variable.high / step + 1e-6)
+        ends = f"{variable.show(variable.low)} to {variable.show(variable.high)}"
+        ensure(low <= high, f"rounded: no step of {variable.show(step)} lies in {variable.name}'s range, {ends}; take finer steps.")
+        place = value / step
+        if abs(place - round(place)) < 1e-6:  # it stands on one to rounding
+            near.append([round(place) * step])
+        else:
+            found = {float(np.clip(each, low, high)) * step for each in (np.floor(place), np.ceil(place))}
+            near.append(sorted(found, key=lambda each: abs(each - value)))
     return np.array([*islice(product(*near), most)])
-
-
-def steps_about(value: float, step: float, variable: Varied) -> list[float]:
-    """Return the steps about a value that lie in its variable's range, the nearer first; the one on which it stands to rounding alone.
-
-    DefinitionError where no step lies in the range.
-    """
-    low, high = np.ceil(variable.low / step - 1e-6), np.floor(variable.high / step + 1e-6)
-    ends = f"{variable.show(variable.low)} to {variable.show(variable.high)}"
-    ensure(low <= high, f"rounded: no step of {variable.show(step)} lies in {variable.name}'s range, {ends}; take finer steps.")
-    place = value / step
-    if abs(place - round(place)) < 1e-6:
-        return [round(place) * step]
-    found = {float(np.clip(each, low, high)) * step for each in (np.floor(place), np.ceil(place))}
-    return sorted(found, key=lambda each: abs(each - value))
 
 
 # Units of measures, for sentences.

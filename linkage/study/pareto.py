@@ -92,7 +92,15 @@ def front(problem: Problem, seed: int, tell: Progress) -> Front:
     for done, combination in enumerate(combinations):
         if done and problem.count.is_spent:
             break
-        found += exact_points(problem, combination, evolved_front(coarse, combination, seed, len(combinations) - done))
+        evolved = evolved_front(coarse, combination, seed, len(combinations) - done)
+        if len(evolved):  # each objective's best, and others spread between
+            with problem.count.without_limit():
+                values, _, _ = problem.merits_of_each(combination, evolved)
+            ends = [on_front(problem, combination, evolved[int(np.argmin(values[place]))], place, None) for place in range(len(values))]
+            order = np.argsort(values[0])
+            for place in order[np.unique(np.linspace(0, len(order) - 1, POINTS).astype(int))]:
+                ends.append(on_front(problem, combination, evolved[place], 0, values[:, place]))
+            found += [each for each in ends if each is not None]
         tell(done + 1, len(combinations))
     limit = problem.count.limit if problem.count.is_spent else None
     if not found:
@@ -140,19 +148,6 @@ def evolved_front(problem: Problem, combination: Sequence[int], seed: int, left:
             Generation(n_var=n, n_obj=many, n_ieq_constr=2, xl=0.0, xu=1.0), NSGA2(pop_size=POPULATION), ("n_gen", generations), seed=seed
         )
     return np.empty((0, n)) if found.X is None else np.atleast_2d(np.asarray(found.X, float))
-
-
-def exact_points(problem: Problem, combination: Sequence[int], units: FloatArray) -> list[tuple[tuple[float, ...], Mechanism]]:
-    """Return points on the front of one combination: each objective's best, and others spread between; with their machines."""
-    if not len(units):
-        return []
-    with problem.count.without_limit():
-        values, _, _ = problem.merits_of_each(combination, units)
-    found = [on_front(problem, combination, units[int(np.argmin(values[place]))], place, None) for place in range(len(values))]
-    order = np.argsort(values[0])
-    for place in order[np.unique(np.linspace(0, len(order) - 1, POINTS).astype(int))]:
-        found.append(on_front(problem, combination, units[place], 0, values[:, place]))
-    return [each for each in found if each is not None]
 
 
 def on_front(

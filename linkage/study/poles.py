@@ -47,8 +47,20 @@ def check_bounded(problem: Problem, now: LeafNumbers, best: SearchEnd) -> None:
     for name, each in zip([key for key in seen if key != "objective"], divided_by(problem), strict=True):
         signs = np.sign(seen[name])
         other = np.flatnonzero(signs == -signs[0])
-        if other.size and grows_towards(problem, combination, unit, units[other[0]], name):
-            raise boundless_error(named, each, "subject_to=[{} >= ...]")
+        if not other.size:
+            continue
+        ends = np.stack([unit, units[other[0]]])  # two designs between which it passes zero
+        usual = abs(values_at(problem, unit[None], combination)["objective"][0])
+        for _ in range(HALVINGS):
+            middle = 0.5 * (ends[0] + ends[1])
+            near = values_at(problem, np.stack([*ends, middle]), combination)[name]
+            if not np.isfinite(near[2]):
+                break
+            ends[int(np.sign(near[2]) != np.sign(near[0]))] = middle
+        else:
+            found = problem.sense * values_at(problem, ends, combination)["objective"]
+            if np.any(found < -FAR * max(float(usual), TINY)):
+                raise boundless_error(named, each, "subject_to=[{} >= ...]")
 
 
 def boundless_error(named: str, divisor: object, remedy: str) -> StudyError:
@@ -85,17 +97,3 @@ def values_at(problem: Problem, units: FloatArray, combination: Sequence[int]) -
     kept = np.all([margin >= -MET for margin in spare], axis=0) if spare else np.ones(len(units), bool)
     whole = np.broadcast_to(np.asarray(look.is_assembled, bool), (len(units),))
     return {name: np.where(whole & kept, value, np.nan) for name, value in found.items()}
-
-
-def grows_towards(problem: Problem, combination: Sequence[int], best: FloatArray, other: FloatArray, name: str) -> bool:
-    """Return whether the objective gets better without bounds towards the zero of a divisor between two designs of other signs."""
-    ends = np.stack([best, other])
-    usual = abs(values_at(problem, best[None], combination)["objective"][0])
-    for _ in range(HALVINGS):
-        middle = 0.5 * (ends[0] + ends[1])
-        seen = values_at(problem, np.stack([*ends, middle]), combination)[name]
-        if not np.isfinite(seen[2]):
-            return False
-        ends[int(np.sign(seen[2]) != np.sign(seen[0]))] = middle
-    found = problem.sense * values_at(problem, ends, combination)["objective"]
-    return bool(np.any(found < -FAR * max(float(usual), TINY)))

@@ -455,8 +455,13 @@ class Problem:
             if not self._can_be_asked:
                 raise
             self.refusal = str(error)
-            if m == 1:
-                return self._refused(slopes=slopes)
+        if m == 1:  # a design that is refused has no values
+            n, rows = len(self.space.variables) if slopes else 0, {}
+            for leaf in self.leaves:
+                poses, *_ = self._of_leaf[leaf]
+                count = 1 if isinstance(leaf, Integral) else prod(len(poses.axes[name]) for name in poses.outer)
+                rows[leaf] = Rows(np.full((1, count), np.nan), np.zeros((n, count)), np.zeros(1, bool))
+            return Evaluated(rows, np.zeros((1, 0)), np.zeros((n, 0)), np.zeros(1, bool), np.zeros(1))
         self.count.designs -= m
         with self.count.without_limit():
             each_of = [{name: float(np.ravel(value)[k]) if np.ndim(value) else value for name, value in designs.items()} for k in range(m)]
@@ -477,16 +482,6 @@ class Problem:
         except DefinitionError:
             return False
         return True
-
-    def _refused(self, *, slopes: bool) -> Evaluated:
-        """Return the empty values of a design that is refused."""
-        n = len(self.space.variables) if slopes else 0
-        rows = {}
-        for leaf in self.leaves:
-            poses, *_ = self._of_leaf[leaf]
-            count = 1 if isinstance(leaf, Integral) else prod(len(poses.axes[name]) for name in poses.outer)
-            rows[leaf] = Rows(np.full((1, count), np.nan), np.zeros((n, count)), np.zeros(1, bool))
-        return Evaluated(rows, np.zeros((1, 0)), np.zeros((n, 0)), np.zeros(1, bool), np.zeros(1))
 
     def _look(self, designs: Mapping[str, Numbers], m: int, *, slopes: bool) -> Evaluated:
         """Return the values of m designs; DefinitionError where one of them is refused."""

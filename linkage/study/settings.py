@@ -163,48 +163,35 @@ def settings_for(
 
 def roots_of(curve: Curve, low: float, high: float) -> tuple[FloatArray, FloatArray, list[float]]:
     """Return the samples of a curve between two values, its values there, and its zeros."""
-    at = ends_of_reach(curve, np.linspace(low, high, SAMPLES))
+    at = np.linspace(low, high, SAMPLES)
+    known = np.isfinite(curve(at))
+    edges = np.flatnonzero(known[1:] != known[:-1])
+    if edges.size:  # the ends of every reachable range are samples too
+
+        def reached(places: FloatArray) -> Mask:
+            return np.asarray(np.isfinite(curve(places.ravel())).reshape(places.shape))
+
+        inside, outside = (at[np.where(known[edges] == is_inside, edges, edges + 1)] for is_inside in (True, False))
+        at = np.sort(np.concatenate([at, last_holding(reached, inside, outside)[0]]))
     off = curve(at)
-    found = np.sort(np.concatenate([at[off == 0.0], zeros_passed(curve, at, off), zeros_touched(curve, at, off)]))
+    size = np.abs(off)
+    with np.errstate(invalid="ignore"):
+        signs = np.sign(off)
+        passed = np.flatnonzero(signs[1:] * signs[:-1] < 0.0)
+        dips = (size[1:-1] <= size[:-2]) & (size[1:-1] <= size[2:]) & (signs[2:] == signs[:-2])
+        dips &= (size[1:-1] < size[:-2]) | (size[1:-1] < size[2:])  # along a level stretch it comes no nearer
+    near = np.array(sign_changes(curve, at[passed], at[passed + 1]))
+    beside = np.abs(curve(near.ravel())).reshape(near.shape)
+    zeros = np.where(beside[1] < beside[0], near[1], near[0])[np.isfinite(beside).all(axis=0)]  # without those that have a gap before them
+    touched = np.flatnonzero(dips)
+    lowest = highest_between(lambda places: -np.abs(curve(places)), at[touched], at[touched + 2])
+    found = np.sort(np.concatenate([at[off == 0.0], zeros, lowest]))
     found = found[np.isfinite(found)]
     known = off[np.isfinite(off)]
     span, most = (float(np.ptp(each)) for each in (known, np.percentile(known, USUAL))) if known.size else (0.0, 0.0)
     span = min(span, POLES * most) or span
     found = found[np.abs(curve(found)) <= max(TOUCH * span, 1e-13)]  # where it does not jump over zero
     return at, off, found[np.diff(found, prepend=-np.inf) > 1e-9 * (high - low)].tolist()
-
-
-def ends_of_reach(curve: Curve, at: FloatArray) -> FloatArray:
-    """Return the samples with the ends of every reachable range added."""
-    known = np.isfinite(curve(at))
-    edges = np.flatnonzero(known[1:] != known[:-1])
-    if not edges.size:
-        return at
-
-    def reached(places: FloatArray) -> Mask:
-        return np.asarray(np.isfinite(curve(places.ravel())).reshape(places.shape))
-
-    inside, outside = (at[np.where(known[edges] == is_inside, edges, edges + 1)] for is_inside in (True, False))
-    return np.sort(np.concatenate([at, last_holding(reached, inside, outside)[0]]))
-
-
-def zeros_passed(curve: Curve, at: FloatArray, off: FloatArray) -> FloatArray:
-    """Return where the curve goes through zero between samples; NaN where it has a gap before it."""
-    with np.errstate(invalid="ignore"):
-        places = np.flatnonzero((np.sign(off[1:]) * np.sign(off[:-1])) < 0.0)
-    near = np.array(sign_changes(curve, at[places], at[places + 1]))
-    beside = np.abs(curve(near.ravel())).reshape(near.shape)
-    return np.where(np.isfinite(beside).all(axis=0), np.where(beside[1] < beside[0], near[1], near[0]), np.nan)
-
-
-def zeros_touched(curve: Curve, at: FloatArray, off: FloatArray) -> FloatArray:
-    """Return where the curve comes nearest to zero without going through it, at least between its neighbours."""
-    size = np.abs(off)
-    with np.errstate(invalid="ignore"):
-        dips = (size[1:-1] <= size[:-2]) & (size[1:-1] <= size[2:]) & (np.sign(off[2:]) == np.sign(off[:-2]))
-        dips &= (size[1:-1] < size[:-2]) | (size[1:-1] < size[2:])  # along a level stretch it comes no nearer
-    places = np.flatnonzero(dips)
-    return highest_between(lambda places: -np.abs(curve(places)), at[places], at[places + 2])
 
 
 def no_setting_words(words: Mapping[str, str], own: str, unit: str, at: FloatArray, value: FloatArray) -> str:
@@ -371,7 +358,18 @@ class Search:
         every, choice = np.tile(grid, (choices, 1)), np.repeat(np.arange(choices), len(grid))
         off = np.linalg.norm(self.misses(every, choice), axis=1).reshape(choices, -1)
         off[~np.isfinite(off)] = np.inf
-        rows = [np.flatnonzero(best_points(grid, each)) for each in off]
+        if len(grid) > STARTS:
+            from scipy.spatial import cKDTree
+
+            _, near = cKDTree(grid).query(grid, 1 + 4 * grid.shape[1])
+        rows = []
+        for each in off:  # the best, and those that none of their neighbours improves on
+            chosen = np.zeros(len(grid), bool)
+            chosen[np.argsort(each, kind="stable")[: STARTS // 2]] = True
+            if len(grid) > STARTS:
+                lowest = np.flatnonzero(each <= each[near].min(axis=1))
+                chosen[lowest[np.argsort(each[lowest], kind="stable")][:STARTS]] = True
+            rows.append(np.flatnonzero(chosen & np.isfinite(each)))
         return np.concatenate([grid[row] for row in rows]), np.repeat(np.arange(choices), [len(row) for row in rows])
 
     def descend(self, unit: FloatArray, choice: Index) -> tuple[FloatArray, FloatArray]:
@@ -409,41 +407,30 @@ class Search:
         settings = tuple(one_setting(values, each) for each in kept)
         misses = tuple(tuple((off[each] * self.scale).tolist()) for each in kept)
         words = [setting_words(self.machine.plan, values, each) for each in kept]
-        if lost and not is_met:
-            sentence = self._met_words(words, bool(family)) + f" It cannot be assembled over the whole stroke: {lost[kept[0]]}"
+        if is_met or lost:
+            wanted = "; ".join(self.words(place) for place in range(len(self.targets)))
+            more = " This is one of a family: settings can change together there without any effect." if family else ""
+            sentence = f"{wanted}: with {' or with '.join(words)}.{more}"
+            sentence += "" if is_met else f" It cannot be assembled over the whole stroke: {lost[kept[0]]}"
         else:
-            sentence = self._met_words(words, bool(family)) if is_met else self._near_words(words[0], off[kept[0]])
+            sentence = self._near_words(words[0], off[kept[0]])
         return Solutions(self.machine, settings, is_met, misses, bool(family), sentence)
 
     def _of_families(self, unit: FloatArray, choice: Index, kept: Sequence[int]) -> dict[int, int]:
         """Return the solutions from which settings can change together without effect, each with the first one of its choice."""
         found: dict[int, int] = {}
-        for each in kept:
-            way = self._way_aside(unit[each], choice[each])
+        for each in kept if unit.shape[1] else ():
+            _, sizes, ways = np.linalg.svd(self.slopes(unit[[each]], choice[[each]])[0])
+            if sizes[-1] > FLAT * sizes[0]:  # every direction has an effect to the first order
+                continue
             first = next((other for other in found if choice[other] == choice[each]), None)
-            if way is not None and (first is not None or self._goes_on(unit[each], choice[each], way)):
-                found[each] = each if first is None else first
+            if first is None:  # another solution a step aside, as far as those of a double root may lie apart
+                aside = np.clip(unit[each] + NEAR * np.array([[1.0], [-1.0]]) * ways[-1], 0.0, 1.0)
+                near, off = self.descend(aside, choice[[each, each]])
+                if not np.any((np.abs(off).max(axis=1) <= MET) & (np.abs(near - unit[each]).max(axis=1) > 0.3 * NEAR)):
+                    continue
+            found[each] = each if first is None else first
         return found
-
-    def _way_aside(self, unit: FloatArray, choice: int) -> FloatArray | None:
-        """Return the direction in which settings have no effect to the first order, shape (k,); None where every one has."""
-        if not len(unit):
-            return None
-        slopes = self.slopes(unit[None], np.array([choice]))[0]
-        _, sizes, ways = np.linalg.svd(slopes)
-        return None if sizes[-1] > FLAT * sizes[0] else ways[-1]
-
-    def _goes_on(self, unit: FloatArray, choice: int, way: FloatArray) -> bool:
-        """Return whether another solution stands a step aside, as far as those of a double root may lie apart."""
-        aside = np.clip(unit + NEAR * np.array([[1.0], [-1.0]]) * way, 0.0, 1.0)
-        found, off = self.descend(aside, np.array([choice, choice]))
-        return bool(np.any((np.abs(off).max(axis=1) <= MET) & (np.abs(found - unit).max(axis=1) > 0.3 * NEAR)))
-
-    def _met_words(self, words: Sequence[str], is_family: bool) -> str:
-        """Return the settings that give the targets."""
-        wanted = "; ".join(self.words(place) for place in range(len(self.targets)))
-        more = " This is one of a family: settings can change together there without any effect." if is_family else ""
-        return f"{wanted}: with {' or with '.join(words)}.{more}"
 
     def _near_words(self, words: str, off: FloatArray) -> str:
         """Return the nearest setting, and the miss of each target."""
@@ -462,17 +449,3 @@ def one_setting(values: Mapping[str, Any], place: int) -> Mapping[str, Any]:
     for name, value in values.items():
         found[name] = tuple(float(part[place]) for part in value) if isinstance(value, tuple) else float(value[place])
     return FrozenDict(found)
-
-
-def best_points(grid: FloatArray, off: FloatArray) -> Mask:
-    """Return the mask of the points (m, k) of a grid to start from: the best, and those that none of their neighbours improves on."""
-    chosen = np.zeros(len(grid), bool)
-    order = np.argsort(off, kind="stable")
-    chosen[order[: STARTS // 2]] = True
-    if len(grid) > STARTS:
-        from scipy.spatial import cKDTree
-
-        _, near = cKDTree(grid).query(grid, 1 + 4 * grid.shape[1])
-        lowest = np.flatnonzero(off <= off[near].min(axis=1))
-        chosen[lowest[np.argsort(off[lowest], kind="stable")][:STARTS]] = True
-    return chosen & np.isfinite(off)

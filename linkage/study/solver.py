@@ -285,11 +285,23 @@ class Local:
             return self._rows[key]
         look, way, loss = self._safe(z)
         here = self.evaluated_at(z[: self.n])
-        found = [self._margins(look, way, loss, here)]
+        slopes = np.zeros((look.margins.shape[1], self.width))  # of the assembled links
+        slopes[:, : self.n] = look.margin_slopes.T
+        values, slopes = without_gaps(look.margins[0] - self.clear, slopes)
+        values = values + slopes[:, : self.n] @ way - loss
+        if here is not look and here.margins.shape == look.margins.shape:  # of a design that is refused nothing is known
+            known = np.isfinite(told_margins(here))
+            values = np.where(known, here.margins[0] - self.clear, values)
+            slopes[known, : self.n] = here.margin_slopes.T[known]
+        found = [Row(None, values, slopes, is_reach=True)]
         for each, scale in zip(self.problem.constraints, self.scales, strict=True):
             found.append(self._constraint(each, scale, look, way, loss, z))
         for place, (owner, leaf) in enumerate(self.aux):
-            found.append(self._bound(place, owner, leaf, look, way, loss, z))
+            rows, scale, sign = look.rows[leaf], self.leaf_scales[leaf], -leaf.sense  # its variable is below or above each of its rows
+            values, slopes = sign * (rows.values[0] / scale - z[self.n + place]), self._slopes_of(rows, sign, scale)
+            slopes[:, self.n + place] = -sign
+            values, slopes = without_gaps(values, slopes)
+            found.append(Row(owner if isinstance(owner, Constraint) else None, values + slopes[:, : self.n] @ way - loss, slopes))
         for objective in self.problem.objectives if self.several else ():  # each below the worst of them
             (value, by), factor = self.graded(objective, look, z), self.problem.sense / self.size
             column = self.n + len(self.aux)
@@ -302,18 +314,6 @@ class Local:
                 self._rows.pop(next(iter(self._rows)))
             self._rows[key] = found
         return found
-
-    def _margins(self, look: Evaluated, way: FloatArray, loss: float, here: Evaluated) -> Row:
-        """Return the lines of the assembled links: with the values known `here`, and the others from the look."""
-        slopes = np.zeros((look.margins.shape[1], self.width))
-        slopes[:, : self.n] = look.margin_slopes.T
-        values, slopes = without_gaps(look.margins[0] - self.clear, slopes)
-        values = values + slopes[:, : self.n] @ way - loss
-        if here is not look and here.margins.shape == look.margins.shape:  # of a design that is refused nothing is known
-            told = np.isfinite(told_margins(here))
-            values = np.where(told, here.margins[0] - self.clear, values)
-            slopes[told, : self.n] = here.margin_slopes.T[told]
-        return Row(None, values, slopes, is_reach=True)
 
     def _constraint(self, each: Constraint, scale: float, look: Evaluated, way: FloatArray, loss: float, z: FloatArray) -> Row:
         """Return the line or lines of a constraint: one a pose where a single extreme is held against a number."""
@@ -346,16 +346,6 @@ class Local:
         slopes = np.zeros((rows.values.shape[1], self.width))
         slopes[:, : self.n] = sign * rows.slopes.T / scale
         return slopes
-
-    def _bound(
-        self, place: int, owner: Constraint | Measure, leaf: Leaf, look: Evaluated, way: FloatArray, loss: float, z: FloatArray
-    ) -> Row:
-        """Return the lines that hold a leaf's variable below or above each of its rows."""
-        rows, scale, sign = look.rows[leaf], self.leaf_scales[leaf], -leaf.sense
-        values, slopes = sign * (rows.values[0] / scale - z[self.n + place]), self._slopes_of(rows, sign, scale)
-        slopes[:, self.n + place] = -sign
-        values, slopes = without_gaps(values, slopes)
-        return Row(owner if isinstance(owner, Constraint) else None, values + slopes[:, : self.n] @ way - loss, slopes)
 
     def _slack_column(self, constraint: Constraint) -> int | None:
         """Return the variable by which a constraint gives way; None for one that does not."""

@@ -73,7 +73,7 @@ class SurveyRun:
         """Do all batches left, as many at a time as the executor can use; finished ones are kept even after an error."""
         for batch in self.checkpoint.batches() if self.checkpoint else ():
             if self.left.remove(batch.start, batch.stop):
-                self._enter(batch)
+                self._keep(batch)
         self.tell(self.designs_done, self.designs.count)
         try:
             while self.left.ranges or self._under_way:
@@ -145,13 +145,7 @@ class SurveyRun:
         return StudyError(f"{self.task.machine.plan.title}: {self.state} {what} ({said}).", designs=designs)
 
     def _keep(self, batch: Batch) -> None:
-        """Keep the results of a batch, in the folder too."""
-        self._enter(batch)
-        if self.checkpoint is not None:
-            self.checkpoint.keep(batch)
-
-    def _enter(self, batch: Batch) -> None:
-        """Write a batch into the results."""
+        """Keep the results of a batch, in the folder too unless they come from there."""
         values = batch.values or {}
         if not self.batches:
             self.values = {name: np.empty((self.designs.count, *array.shape[1:]), array.dtype) for name, array in values.items()}
@@ -159,6 +153,8 @@ class SurveyRun:
         for name, array in values.items():
             self.values[name][batch.start : batch.stop] = array
         self.batches.append(replace(batch, values=None))
+        if self.checkpoint is not None and not batch.kept:
+            self.checkpoint.keep(batch)
 
     def _stop(self) -> None:
         """Cancel the batches that have not begun yet, and keep those finished meanwhile."""

@@ -112,7 +112,8 @@ def tolerances_of(plan: Plan, given: object) -> dict[str, Tolerance]:
         raise DefinitionError(f'{plan.title}: {cited(given)}: tolerances by the names of dimensions are expected, {{"OB": 0.1 * mm}}.')
     found: dict[str, Tolerance] = {}
     seen: dict[str, str] = {}
-    spellings, following = plan.table.spellings, plan.table.following
+    spellings, following, entries = plan.table.spellings, plan.table.following, plan.table.entries
+    sizes = {each: abs(float(plan.defaults[each])) for each in plan.defaults if plan_measure(plan, each) == "length"}
     for name, value in given.items():
         parts = [f"{name}.x", f"{name}.y"] if isinstance(name, str) and f"{name}.x" in spellings else [name]
         if parts[0] not in spellings and name in following:
@@ -128,23 +129,16 @@ def tolerances_of(plan: Plan, given: object) -> dict[str, Tolerance]:
                 found[part] = value if isinstance(value, Tolerance) else Tolerance(tuple(value) if isinstance(value, list) else value)
             except DefinitionError as error:
                 raise DefinitionError(f"{plan.title}: {part}: {error}") from None
-            check_size(plan, part, found[part])
+            kind, limits = plan_measure(plan, owner), found[part].limits
+            ends = limits if isinstance(limits, tuple) else (limits,)
+            for limit in ends:
+                require_measure(limit, entries[owner].unit or SI.get(kind, ""), f"{plan.title}: tolerance of {part}")
+            longest = sizes.get(owner, 0.0) if entries[owner].kind == "length" else max(sizes.values(), default=inf)
+            widest = max(map(abs, ends))
+            if widest >= {"length": longest, "angle": pi}.get(kind, inf) > 0.0:
+                said = f"a tolerance of {widest:.6g} {SI[kind]} is too large for it"
+                raise DefinitionError(f"{plan.title}: {part}: {said}; write 0.1 * mm for millimetres, 0.1 * deg for degrees.")
     return found
-
-
-def check_size(plan: Plan, name: str, tolerance: Tolerance) -> None:
-    """Raise DefinitionError for a tolerance of another kind than its dimension, or larger than that itself."""
-    owner = plan.table.spellings[name][0]
-    unit, kind = plan.table.entries[owner].unit, plan_measure(plan, owner)
-    limits = tolerance.limits if isinstance(tolerance.limits, tuple) else (tolerance.limits,)
-    for limit in limits:
-        require_measure(limit, unit or SI.get(kind, ""), f"{plan.title}: tolerance of {name}")
-    sizes = {each: abs(float(plan.defaults[each])) for each in plan.defaults if plan_measure(plan, each) == "length"}
-    longest = sizes.get(owner, 0.0) if plan.table.entries[owner].kind == "length" else max(sizes.values(), default=inf)
-    widest = max(map(abs, limits))
-    if widest >= {"length": longest, "angle": pi}.get(kind, inf) > 0.0:
-        said = f"a tolerance of {widest:.6g} {SI[kind]} is too large for it"
-        raise DefinitionError(f"{plan.title}: {name}: {said}; write 0.1 * mm for millimetres, 0.1 * deg for degrees.")
 
 
 def tolerance_words(plan: Plan, name: str, tolerance: Tolerance) -> str:
@@ -254,6 +248,8 @@ def sigma_of(what: Request, quantity: RequestLike, deviations: tuple[tuple[str, 
 # Which dimension matters: one at a time, from exact gradients and the real change, and by the shares of the variance.
 
 POSES = 21
+STEP = 1e-3
+"""Of a tolerance: the difference that the gradient of a function of a motion is taken over."""
 
 
 @dataclass(frozen=True)
@@ -383,7 +379,13 @@ def tornado(
     ensure(values.shape[1] == 1, f"{plan.title}: {title} at {poses.pose_count} poses; {remedy}.")
     ensure(np.isfinite(nominal), f"{plan.title}: {title} has no value at {poses.words()}; ask where it has one.")
     low, high = values[1 : 1 + k, 0] - nominal, values[1 + k :, 0] - nominal
-    slopes = gradient_at(machine, poses, quantity, named)
+    if number_bound(plan, quantity) is not None:
+        slopes = poses.base.gradient(quantity, wrt=list(named)).reshape(-1)  # type: ignore[arg-type]
+    else:  # of a function of a motion differences
+        steps = {name: Tolerance(STEP * max(each.high, -each.low)) for name, each in named.items()}
+        ends = values_shifted(machine, poses, quantity, steps, levels[1:])[:, 0]
+        apart = np.array([2.0 * each.high for each in steps.values()])
+        slopes = np.divide(ends[k:] - ends[:k], apart, out=np.zeros(k), where=apart > 0.0)
     with np.errstate(all="ignore"):
         parts = (slopes * np.array([each.sigma for each in named.values()])) ** 2
         total = float(parts.sum())
@@ -393,22 +395,6 @@ def tornado(
     ordered = tuple(sorted(bars, key=lambda bar: -bar.length))
     shown = unit or display_unit(measure_of(plan, quantity), "mm")
     return Tornado(plan, title, shown, poses.words(), nominal, float(np.sqrt(total)), ordered)
-
-
-STEP = 1e-3
-"""Of a tolerance: the difference that the gradient of a function of a motion is taken over."""
-
-
-def gradient_at(machine: Mechanism, poses: StudyPoses, quantity: Measured, tolerances: Mapping[str, Tolerance]) -> FloatArray:
-    """Return the derivatives of a quantity at one pose by dimensions, shape (k,): exact, or of a function differences."""
-    if number_bound(machine.plan, quantity) is not None:
-        return poses.base.gradient(quantity, wrt=list(tolerances)).reshape(-1)  # type: ignore[arg-type]
-    k = len(tolerances)
-    steps = {name: Tolerance(STEP * max(each.high, -each.low)) for name, each in tolerances.items()}
-    levels = np.concatenate([-np.eye(k), np.eye(k)])
-    values = values_shifted(machine, poses, quantity, steps, levels)[:, 0]
-    apart = np.array([2.0 * each.high for each in steps.values()])
-    return np.asarray(np.divide(values[k:] - values[:k], apart, out=np.zeros(k), where=apart > 0.0))
 
 
 # Shares of the variance.

@@ -115,17 +115,15 @@ def zone(machine: Mechanism, quantity: QuantityLike, vary: Any = None, *, over: 
     if known.size and bool(np.any(np.abs([low, high]) > FAR * max(float(np.median(known)), TINY))):  # as large as next to a pole
         divisors, named = () if callable(quantity) else divisors_of(machine.plan, quantity), f"{machine.plan.title}: {words_of(quantity)}"
         raise boundless_error(named, divisors[0] if len(divisors) == 1 else None, "look at other strokes")
-    ends = [{name: shaped(value, shape) for name, value in box.settings(unit[row], choice[row]).items()} for row in (0, 1)]
+    ends: list[dict[str, Any]] = [{}, {}]
+    for row, found in enumerate(ends):
+        for name, value in box.settings(unit[row], choice[row]).items():
+            found[name] = tuple(part.reshape(shape) for part in value) if isinstance(value, tuple) else value.reshape(shape)
     share = np.mean(np.isfinite(seen), axis=1)
     return Zone(
         words_of(quantity), poses, low.reshape(shape), high.reshape(shape), ends[0], ends[1],
         share.reshape(shape), seen.shape[1], tuple(remarks(machine, quantity, box, flat, seen)),
     )  # fmt: skip
-
-
-def shaped(value: Any, shape: tuple[int, ...]) -> Any:
-    """Return a setting at every stroke, shape (...); a point's is a pair."""
-    return tuple(part.reshape(shape) for part in value) if isinstance(value, tuple) else value.reshape(shape)
 
 
 def remarks(machine: Mechanism, quantity: QuantityLike, box: Box, strokes: Mapping[str, FloatArray], seen: FloatArray) -> list[str]:

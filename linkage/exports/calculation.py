@@ -20,7 +20,7 @@ from ..formulas.numbered import members_with_lines
 from ..formulas.printing import Text
 from ..loads import PLAIN_CASE
 from ..mechanism import Mechanism
-from ..motion import Column, Motion
+from ..motion import Column
 from ..program import FloatArray
 from ..quantities import Dimension, Quantity, Stroke
 from ..reports import Run, reached_motion, results
@@ -181,19 +181,6 @@ class Calculation:
             self.columns[place] = other
         self.columns.pop()
         self._add(replace(column, expr=None, values=engine, meaning=f"{column.meaning}; {BY_ENGINE}"))
-
-    # -- other designs ---------------------------------------------------------------------------------
-
-    def at_design(self, design: Mechanism, poses: Mapping[str, Any]) -> tuple[Motion, dict[sympy.Symbol, Any]]:
-        """Return another design's motion at some poses, and the formulas' values there, by symbol; plain numbers are the engine's."""
-        own = self.equations
-        other = Equations(design, own._lines, own._listing, 1, None, own._forces)
-        motion, known = design.at(**poses), other._inputs(poses, "nan")
-        for column in self.columns:
-            if column.expr is not None:
-                values = np.broadcast_to(np.asarray(worked_out(column.expr, known), float), motion.shape)
-                known[column.symbol] = values if column.turns is None else np.unwrap(values) + 2.0 * np.pi * column.turns
-        return motion, known
 
     @property
     def stroke_symbols(self) -> dict[str, sympy.Symbol]:
@@ -378,13 +365,19 @@ class FormulaSearch:
         trials = (self._trial(change, self.poses) for change in changes)
         return next((trial for trial in trials if trial is not None), None)
 
-    def _trial(self, change: Mapping[str, float], poses: Mapping[str, object]) -> Trial | None:
+    def _trial(self, change: Mapping[str, float], poses: Mapping[str, Any]) -> Trial | None:
         """Return the trial of a changed design at some poses; None where it does not go together."""
         try:
             design = self.calculation.design.replaced(**change)
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", SingularWarning)
-                motion, known = self.calculation.at_design(design, poses)
+                own = self.calculation.equations
+                known = Equations(design, own._lines, own._listing, 1, None, own._forces)._inputs(poses, "nan")
+                motion = design.at(**poses)
+                for column in self.calculation.columns:  # plain numbers are the engine's
+                    if column.expr is not None:
+                        values = np.broadcast_to(np.asarray(worked_out(column.expr, known), float), motion.shape)
+                        known[column.symbol] = values if column.turns is None else np.unwrap(values) + 2.0 * np.pi * column.turns
                 table = results(design, motion, self.calculation.run.case or PLAIN_CASE)
         except LinkageError:
             return None

@@ -218,22 +218,17 @@ def svg(poses: Sequence[DrawnPose], paths: Sequence[Part], title: str) -> bytes:
         f"<style>.centre_lines {{ stroke-dasharray: {dashes} }} .text {{ stroke: none }}</style>",
         f'<g fill="none" stroke-width="{line:.3f}" stroke-linejoin="round" font-family="sans-serif">',
     ]
-    groups = [pose_group(*each, faint=place > 0 and each[0] != "paths") for place, each in enumerate(drawn)]
+    groups = []
+    for place, (key, words, parts) in enumerate(drawn):
+        look = ' opacity="0.45"' if place and key != "paths" else ""
+        groups += [f"<g id={quoteattr(key)}{look}>", f"<title>{escape(words)}</title>"]
+        for layer, (_, colour) in LAYERS.items():
+            own = [svg_element(each, colour) for each in parts if each.layer == layer and layer != "dimensions"]
+            if own:
+                fill, share = FILLS.get(layer, "none"), 0.6 if layer in FILLS else 1.0
+                groups += [f'<g class={quoteattr(layer)} stroke="{colour}" fill="{fill}" style="fill-opacity: {share}">', *own, "</g>"]
+        groups.append("</g>")
     return "\n".join([*head, *groups, "</g>", "</svg>", ""]).encode()
-
-
-def pose_group(key: str, title: str, parts: Sequence[Part], faint: bool) -> str:
-    """Return the parts of one pose, a group a layer."""
-    inside = []
-    for layer, (_, colour) in LAYERS.items():
-        own = [each for each in parts if each.layer == layer and layer != "dimensions"]
-        if own:
-            fill, share = FILLS.get(layer, "none"), 0.6 if layer in FILLS else 1.0
-            inside.append(f'<g class={quoteattr(layer)} stroke="{colour}" fill="{fill}" style="fill-opacity: {share}">')
-            inside += [svg_element(each, colour) for each in own]
-            inside.append("</g>")
-    look = ' opacity="0.45"' if faint else ""
-    return "\n".join([f"<g id={quoteattr(key)}{look}>", f"<title>{escape(title)}</title>", *inside, "</g>"])
 
 
 def svg_element(part: Part, colour: str) -> str:
@@ -248,23 +243,19 @@ def svg_element(part: Part, colour: str) -> str:
             size = svg_number(part.height)
             return f'<text {name} x="{x}" y="{y}" font-size="{size}" fill="{colour}">{escape(part.text)}</text>'
         case Polyline():
+            text = "M" + xy(part.vertices[0])
+            following = np.roll(part.vertices, -1, axis=0) if part.closed else part.vertices[1:]
+            for start, end, bulge in zip(part.vertices, following, part.bulges, strict=False):
+                if bulge == 0.0:
+                    text += f" L{xy(end)}"
+                else:
+                    radius = svg_number(hypot(*(end - start)) * (1.0 + bulge * bulge) / (4.0 * abs(bulge)))
+                    text += f" A{radius} {radius} 0 {int(abs(bulge) > 1.0)} {int(copysign(1.0, bulge) < 0.0)} {xy(end)}"
+            text += " Z" if part.closed else ""
             open_line = "" if part.closed else ' fill="none"'
-            return f'<path {name} d="{path_text(part)}"{open_line}/>'
+            return f'<path {name} d="{text}"{open_line}/>'
         case Measured():
             return ""
-
-
-def path_text(part: Polyline) -> str:
-    """Return a line's commands, bulges as arcs."""
-    text = "M" + xy(part.vertices[0])
-    following = np.roll(part.vertices, -1, axis=0) if part.closed else part.vertices[1:]
-    for start, end, bulge in zip(part.vertices, following, part.bulges, strict=False):
-        if bulge == 0.0:
-            text += f" L{xy(end)}"
-        else:
-            radius = hypot(*(end - start)) * (1.0 + bulge * bulge) / (4.0 * abs(bulge))
-            text += f" A{svg_number(radius)} {svg_number(radius)} 0 {int(abs(bulge) > 1.0)} {int(copysign(1.0, bulge) < 0.0)} {xy(end)}"
-    return text + (" Z" if part.closed else "")
 
 
 def xy(point: FloatArray) -> str:

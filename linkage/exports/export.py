@@ -108,7 +108,7 @@ class Workbook(Exporter):
 
 
 class Csv(Exporter):
-    """A table of results: of a machine its own, over its strokes; of a motion `motion_columns`, or `columns`."""
+    """A table of results: of a machine its own, over its strokes; of a motion its strokes, points and outputs, or `columns`."""
 
     suffix = ".csv"
     help = "a table in full precision"
@@ -116,28 +116,23 @@ class Csv(Exporter):
     batches = True
 
     def content(self, job: ExportJob) -> bytes:
-        motion = self.poses(job)
-        table = list(job.columns) or (motion_columns(motion) if isinstance(job.what, Motion) else results(job.what, motion))
+        motion, table = self.poses(job), list(job.columns)
+        if not table and isinstance(job.what, Mechanism):
+            table = results(job.what, motion)
+        elif not table:  # in time with the strokes' rates and accelerations, of one design over an `Over` with its results
+            table = columns_of(motion)
+            along = len(motion.strokes) + (motion.time is not None)
+            table[along:along] = rate_columns(motion)
+            if motion.is_swept and not motion._design_shape:
+                with suppress(DefinitionError):  # a class that is not there any more has no table of its own
+                    table += results(played_along(motion, None)[0], motion)
+            table = [*{each.name: each for each in table}.values()]
         stream = io.StringIO(newline="")
         write_csv(table, stream)
         return stream.getvalue().encode("utf-8")
 
     def poses(self, job: ExportJob) -> Motion:
         return job.what if isinstance(job.what, Motion) else over_strokes(job.what, job.at, job.count)
-
-
-def motion_columns(motion: Motion) -> list[Column]:
-    """Return the columns of a motion's table: strokes, points, outputs; in time also the strokes' rates and accelerations.
-
-    Of one design over an `Over` its results too, in a load case that occurs there.
-    """
-    found = columns_of(motion)
-    along = len(motion.strokes) + (motion.time is not None)
-    found[along:along] = rate_columns(motion)
-    if motion.is_swept and not motion._design_shape:
-        with suppress(DefinitionError):  # a class that is not there any more has no table of its own
-            found += results(played_along(motion, None)[0], motion)
-    return [*{each.name: each for each in found}.values()]
 
 
 class TrueSize(Exporter):

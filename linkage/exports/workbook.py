@@ -27,7 +27,7 @@ from ..statics.applied import case_of
 from ..study import WorkingField
 from ..study.working_field import OUT_OF_REACH
 from ..units import deg, factor, g0, shown_in
-from .calculation import CalculatedColumn, Calculation, LiveResult, live_results
+from .calculation import Calculation, live_results
 from .extras import library
 from .formula_text import cell_names, formula
 
@@ -277,26 +277,22 @@ class Sheets:
             sheet.write_string(0, self._sheet_column(place), text, self.part)
         for place, each in enumerate(self.calculation.columns):
             self._heading(sheet, self._sheet_column(place), (each.number, each.name, each.unit, each.meaning), dead=each.expr is None)
-            self._write_column(sheet, self._sheet_column(place), each)
+            look = self._format(float(np.nanmax(np.abs(each.values), initial=0.0)), each.expr is None)
+            template = None if each.expr is None else self._cell_formula(each.expr)
+            for pose, value in enumerate(each.values.tolist()):
+                row = self.above + pose
+                formula_here = None if template is None else template.replace(ROW_MARK, str(row + 1))
+                if formula_here is not None and each.turns is not None and pose:  # a direction goes on from the cell above without a jump
+                    formula_here += f"-2*PI()*ROUND(({formula_here[1:]}-{self._letters[each.symbol]}{row})/(2*PI()),0)"
+                elif formula_here is not None and each.turns:
+                    formula_here += f"+2*PI()*({each.turns})"
+                self._number(sheet, row, self._sheet_column(place), formula_here, value, look)
         sheet.freeze_panes(self.above, 1 + len(strokes))
 
     def _heading(self, sheet: Worksheet, column: int, texts: Sequence[str], dead: bool = False) -> None:
         for row, text in enumerate(texts):
             upper, lower = (self.dead_head, self.dead_wrapped) if dead else (self.head, self.wrapped)
             sheet.write_string(self.top + row, column, text, lower if row == 3 else upper)
-
-    def _write_column(self, sheet: Worksheet, place: int, each: CalculatedColumn) -> None:
-        """Write one column's formulas with their values, or its values alone; a direction goes on from the cell above without a jump."""
-        look = self._format(float(np.nanmax(np.abs(each.values), initial=0.0)), each.expr is None)
-        template = None if each.expr is None else self._cell_formula(each.expr)
-        for pose, value in enumerate(each.values.tolist()):
-            row = self.above + pose
-            text = None if template is None else template.replace(ROW_MARK, str(row + 1))
-            if text is not None and each.turns is not None and pose:
-                text += f"-2*PI()*ROUND(({text[1:]}-{self._letters[each.symbol]}{row})/(2*PI()),0)"
-            elif text is not None and each.turns:
-                text += f"+2*PI()*({each.turns})"
-            self._number(sheet, row, place, text, value, look)
 
     def _number(self, sheet: Worksheet, row: int, column: int, text: str | None, value: float, look: Format) -> None:
         if text is not None:
@@ -331,23 +327,17 @@ class Sheets:
                 sheet.write_string(row, column, text, (self.dead_wrapped if dead else self.wrapped) if row == 2 else self.head)
             shown = np.broadcast_to(result.column.shown, self.calculation.motion.shape)
             look = self._look(f"0.{'0' * result.column.digits}" if result.column.digits else "0", dead)
-            template = self._result_text(result)
+            template = None if result.expr is None else self._cell_formula(result.expr, "Calculation!")
+            if template is not None:
+                body = template[1:] if result.expr.is_Symbol else f"({template[1:]})"
+                own = f"{body}{from_si(result.column.unit)}"
+                tests = ",".join(f"{self.defined_names[name]}={self.design.dimensions[name]:g}" for name in result.unchanged)
+                template = f"=IF(AND({tests}),{own},NA())" if tests else f"={own}"
             for pose, value in enumerate(shown.tolist()):
                 formula_here = None if template is None else template.replace(ROW_MARK, str(self.above + pose + 1))
                 self._number(sheet, RESULT_ROWS_ABOVE + pose, column, formula_here, value, look)
         sheet.set_row(2, 36)
         sheet.freeze_panes(RESULT_ROWS_ABOVE, 1)
-
-    def _result_text(self, result: LiveResult) -> str | None:
-        text = None if result.expr is None else self._cell_formula(result.expr, "Calculation!")
-        if text is None:
-            return None
-        body = text[1:] if result.expr.is_Symbol else f"({text[1:]})"
-        shown = f"{body}{from_si(result.column.unit)}"
-        if not result.unchanged:
-            return f"={shown}"
-        tests = ",".join(f"{self.defined_names[name]}={self.design.dimensions[name]:g}" for name in result.unchanged)
-        return f"=IF(AND({tests}),{shown},NA())"
 
     def _chart(self, sheet: Worksheet) -> None:
         """Draw the machine's featured column over its stroke."""

@@ -246,19 +246,17 @@ class ForceLines:
             if not (self.equals(x, 0.0) and self.equals(y, 0.0)):
                 key = name_of(load.point), self.equals(x, 0.0)
                 live[key] = (live[key][0] + x, live[key][1] + y) if key in live else (x, y)
-        for (point, _), (x, y) in live.items():
-            yield self._pulled(name if len(live) == 1 else f"{name}_{point}", point, x, y)
-
-    def _pulled(self, title: str, point: str, x: Term, y: Term) -> Pulled:
-        """Write the line of a load: a weight, an upward force, or a vector."""
-        if self.equals(x, 0.0):
-            down = bool(y.expr.could_extract_minus_sign())
-            found = self._write(f"P_{title}" if down else f"F_{title}", -y if down else y, "N")
-            self._weights[title] = found if down else -found
-            return Pulled(point, found.expr, -1 if down else 1)
-        symbol = self.listing.names.force_vector(f"F_{title}")
-        self.lines.append(ListingLine(symbol, sympy.ImmutableMatrix([whole_numbers(x.expr), whole_numbers(y.expr)]), unit_named("N")))
-        return Pulled(point, symbol, 0)
+        for (point, _), (x, y) in live.items():  # a weight, an upward force, or a vector
+            title = name if len(live) == 1 else f"{name}_{point}"
+            if self.equals(x, 0.0):
+                down = bool(y.expr.could_extract_minus_sign())
+                found = self._write(f"P_{title}" if down else f"F_{title}", -y if down else y, "N")
+                self._weights[title] = found if down else -found
+                yield Pulled(point, found.expr, -1 if down else 1)
+            else:
+                symbol, parts = self.listing.names.force_vector(f"F_{title}"), [whole_numbers(each.expr) for each in (x, y)]
+                self.lines.append(ListingLine(symbol, sympy.ImmutableMatrix(parts), unit_named("N")))
+                yield Pulled(point, symbol, 0)
 
     def _numbers(self, name: str) -> Iterator[Pulled]:
         """Keep the loads of an element without a formula as given numbers from the engine; yield them."""
@@ -283,7 +281,13 @@ class ForceLines:
     def _hold(self, lines: Sequence[PressureLine]) -> None:
         """Write the thrusts of all lines' cylinders: one line after the other where their strokes allow it, else together."""
         left, strokes = list(lines), [line.stroke for line in lines]
-        levers = {line: self._levers(line, strokes) for line in lines}
+        levers: dict[PressureLine, dict[str, sympy.Expr]] = {}
+        for line in lines:  # the work of a unit of pressure in each line on a unit of each stroke
+            names = " and ".join(each.name for each in line.cylinders)
+            shared = f"{self.plan.title}: {names} share their load by the sides that work; take thrust(motion) of each."
+            ensure(not line.changes_shares, shared)
+            areas = {each.ends: self._area(line, each) for each in line.cylinders}
+            levers[line] = {name: sympy.Add(*(area * self._chains[name].growths[ends] for ends, area in areas.items())) for name in strokes}
         needs = {stroke: self.listing.names.force(f"Q_{stroke}") for stroke in strokes}
         while left:
             holding = {stroke: [line for line in left if levers[line][stroke] != 0] for stroke in needs}
@@ -291,14 +295,21 @@ class ForceLines:
             for each, unit_thrust in zip(block, self._solved(block, rows, levers, needs), strict=True):
                 for cylinder in each.cylinders:
                     self.carry(cylinder, Term(unit_thrust * self._area(each, cylinder)))
-            left, known = [each for each in left if each not in block], {each: self._unit_thrust(each) for each in block}
+            left, known = [each for each in left if each not in block], dict[PressureLine, sympy.Expr]()
+            for each in block:  # on a unit of area
+                one = each.cylinders[0]
+                known[each] = self._thrusts[one.name or joined_names(*one.ends)].expr / self._area(each, one)
             needs = {
                 name: need - sympy.Add(*(thrust * levers[each][name] for each, thrust in known.items()))
                 for name, need in needs.items() if name not in rows
             }  # fmt: skip
 
     def _solved(
-        self, block: Sequence[PressureLine], rows: Sequence[str], levers: Levers, needs: Mapping[str, sympy.Expr],
+        self,
+        block: Sequence[PressureLine],
+        rows: Sequence[str],
+        levers: Levers,
+        needs: Mapping[str, sympy.Expr],
     ) -> list[sympy.Expr]:
         """Return the thrusts on a unit of area of lines that hold some strokes together, by Cramer's rule."""
         matrix = sympy.Matrix([[levers[line][stroke] for line in block] for stroke in rows])
@@ -311,20 +322,9 @@ class ForceLines:
             found.append(changed.det() / matrix.det())
         return found
 
-    def _levers(self, line: PressureLine, strokes: Sequence[str]) -> dict[str, sympy.Expr]:
-        """Return the work of a unit of pressure in a line on a unit of each stroke."""
-        names = " and ".join(each.name for each in line.cylinders)
-        ensure(not line.changes_shares, f"{self.plan.title}: {names} share their load by the sides that work; take thrust(motion) of each.")
-        parts = {name: [self._area(line, each) * self._chains[name].growths[each.ends] for each in line.cylinders] for name in strokes}
-        return {name: sympy.Add(*each) for name, each in parts.items()}
-
     def _area(self, line: PressureLine, cylinder: TwoPoint) -> sympy.Expr:
         """Return the thrust of a cylinder at a unit of its line's pressure; of one that is alone on its line at a unit of its own."""
         return sympy.S.One if len(line.cylinders) == 1 else scalar(cylinder.area_written(self)).expr
-
-    def _unit_thrust(self, line: PressureLine) -> sympy.Expr:
-        first = line.cylinders[0]
-        return self._thrusts[first.name or joined_names(*first.ends)].expr / self._area(line, first)
 
     # -- what a vehicle stands on ----------------------------------------------------------------------
 
@@ -512,10 +512,9 @@ class Chain:
         self.points |= {name: given_rate(forces, name, stroke, self.symbol) for name, symbol in points.items() if symbol not in free}
         is_only = len(forces.plan.strokes) == 1
         self._vertical = dict.fromkeys(each.point for each in pulled if is_only and each.sign and each.point in self.points)
-        self.lines += [ListingLine(names.ratio(name), self.points[name][1, 0], self._unit(name)) for name in self._vertical]
-
-    def _unit(self, point: str) -> Unit:
-        return next((each.unit for each in self.lines if each.lhs == self.points[point]), NUMBER)
+        for name in self._vertical:
+            unit = next((each.unit for each in self.lines if each.lhs == self.points[name]), NUMBER)
+            self.lines.append(ListingLine(names.ratio(name), self.points[name][1, 0], unit))
 
     def rates_of(self, point: str) -> tuple[sympy.Expr, sympy.Expr]:
         """Return both parts of a point's derivative; the second by its own name I_G where it has one."""

@@ -65,6 +65,7 @@ def x_axis_of(axes: Axes, reading: Listing) -> sympy.MatrixExpr:
 
 # A line of the listing: what stands for what.
 
+
 @immutable
 class ListingLine:
     """One line: a symbol, its formula, and its unit."""
@@ -131,20 +132,18 @@ class Listing:
     def at(self, point: Reference) -> Place:
         """Return a point."""
         name = name_of(point)
-        if name not in self._vectors:
-            self._point(name, self.plan.points[name])
-        return Place(lambda: self._vectors[name], self, (name,))
-
-    def _point(self, name: str, step: Point) -> None:
         group = next((each for each in self.plan.groups.values() if name in each.pins), None)
-        if group is not None:
-            return self._group(group)
-        assignments = step.expansion() or (Assignment(name, step),)
-        self._kept.extend(assignments)
-        for each in assignments:
-            self.assign(each)
-            if isinstance(each.value, Offset):
-                self._vectors.setdefault((name_of(each.value.P), name), self.arrow_line(each.value.by))
+        if name not in self._vectors and group is not None:
+            self._group(group)
+        elif name not in self._vectors:
+            step = self.plan.points[name]
+            assignments = step.expansion() or (Assignment(name, step),)
+            self._kept.extend(assignments)
+            for each in assignments:
+                self.assign(each)
+                if isinstance(each.value, Offset):
+                    self._vectors.setdefault((name_of(each.value.P), name), self.arrow_line(each.value.by))
+        return Place(lambda: self._vectors[name], self, (name,))
 
     def _group(self, group: Group) -> None:
         """Write the conditions of pins that are found together: the lengths of rods, the shapes of links, the slides."""
@@ -229,18 +228,16 @@ class Listing:
         member = cast(Quantity, self.plan.members[named] if named else quantity)
         if named in self.units:
             return self.input(named)
-        if named or id(member) in self._labels:
-            return self._known(named or id(member), member)
-        return self._lengths.get(source_text(member)) or symbolic_value(member, self)
-
-    def _known(self, key: str | int, member: Quantity) -> Term:
+        key = named or id(member)
+        if not named and key not in self._labels:
+            return self._lengths.get(source_text(member)) or symbolic_value(member, self)
         if key not in self._terms:
             found: Term = symbolic_value(member, self)
-            if isinstance(key, str) or not found.expr.is_Atom:
-                if isinstance(key, str):
-                    symbol = self.names.quantity(key)
+            if named or not found.expr.is_Atom:
+                if named:
+                    symbol = self.names.quantity(named)
                 else:
-                    symbol = (self.names.angle if found.unit == ANGLE else self.names.length)(self._labels[key].name)
+                    symbol = (self.names.angle if found.unit == ANGLE else self.names.length)(self._labels[id(member)].name)
                 self.lines.append(ListingLine(symbol, found.expr, found.unit))
                 found = Term(symbol, found.unit)
             self._terms[key] = found

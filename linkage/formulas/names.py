@@ -17,6 +17,7 @@ from ..steps import Arrow, Guide
 # Vectors are SymPy matrix symbols of shape (2, 1). `doit()` writes a word out in components and elementary functions.
 # Source: Dyuzhev, Kotov, Chuprynin, "Universality of the hitch of the power vehicle UES-2-250A" (Minsk, 2008).
 
+
 def vector_symbol(name: str) -> sympy.MatrixSymbol:
     """Return the symbol of a vector or a position."""
     return sympy.MatrixSymbol(name, 2, 1)
@@ -232,9 +233,18 @@ class SymbolNames:
 
     def _vector_text(self, key: object, name: str) -> str:
         """Return the text of a vector, whose LaTeX and that of its components are kept."""
-        text = self._text(key, name, self._vector_latex(name))
+        owner, own = self.owned(name)
+        head, _, tail = _letters_and_index(own)
+        raised, is_pair = self._raised(name), len(self.pair(own, owner)) == 2 and name not in self.points
+        if is_pair:
+            shown = rf"\overrightarrow{{{self.indexed(name)}}}{raised}"
+        else:
+            arrow = rf"\vec{{{head}}}" if len(head) == 1 else rf"\vec{{\mathit{{{head}}}}}"
+            shown = (f"{arrow}_{{{tail}}}" if tail else arrow) + raised
+        text = self._text(key, name, shown)
         for axis in "xy":
-            self.latex.setdefault(f"{text}.{axis}", self._component_latex(name, axis))
+            part = f"{shown}_{{{axis}}}" if is_pair else f"{head}_{{{f'{tail},' if tail else ''}{axis}}}{raised}"
+            self.latex.setdefault(f"{text}.{axis}", part)
         return text
 
     def _text(self, key: object, wanted: str, latex: str = "") -> str:
@@ -243,7 +253,8 @@ class SymbolNames:
             while wanted in self._texts.values():
                 wanted, latex = f"{wanted}'", f"{{{latex}}}'" if "^" in latex else f"{latex}'"
             self._texts[key] = wanted
-            self.owners[wanted] = self._owner_of(key)
+            name = key[1] if isinstance(key, tuple) else key  # a symbol's own part is known by its text
+            self.owners[wanted] = self.owned(name)[0] if isinstance(name, str) else self.owners.get(getattr(name, "name", ""), "")
         text = self._texts[key]
         if latex:
             self.latex.setdefault(text, latex)
@@ -260,11 +271,6 @@ class SymbolNames:
                 if owner in self._parts:
                     return owner, f"{sign}_{rest[len(owner) + 1 :]}" if sign else rest[len(owner) + 1 :]
         return "", name
-
-    def _owner_of(self, key: object) -> str:
-        """Return the part that the thing of a key is of."""
-        name = key[1] if isinstance(key, tuple) else key
-        return self.owned(name)[0] if isinstance(name, str) else self.owners.get(getattr(name, "name", ""), "")
 
     def _raised(self, name: str) -> str:
         """Return the part that a name is of as an exponent in LaTeX."""
@@ -297,21 +303,6 @@ class SymbolNames:
 
     def _length_latex(self, name: str) -> str:
         return f"L_{{{self.indexed(name)}}}{self._raised(name)}"
-
-    def _vector_latex(self, name: str) -> str:
-        owner, own = self.owned(name)
-        if len(self.pair(own, owner)) == 2 and name not in self.points:
-            return rf"\overrightarrow{{{self.indexed(name)}}}{self._raised(name)}"
-        head, _, tail = _letters_and_index(own)
-        arrow = rf"\vec{{{head}}}" if len(head) == 1 else rf"\vec{{\mathit{{{head}}}}}"
-        return (f"{arrow}_{{{tail}}}" if tail else arrow) + self._raised(name)
-
-    def _component_latex(self, name: str, axis: str) -> str:
-        owner, own = self.owned(name)
-        if len(self.pair(own, owner)) == 2 and name not in self.points:
-            return f"{self._vector_latex(name)}_{{{axis}}}"
-        head, _, tail = _letters_and_index(own)
-        return (f"{head}_{{{tail},{axis}}}" if tail else f"{head}_{{{axis}}}") + self._raised(name)
 
     def _scalar_latex(self, name: str) -> str:
         return self._own_latex(*self.owned(name)) + self._raised(name)

@@ -25,7 +25,7 @@ from ..plan import Part
 from ..shown import Shown
 from ..statics.applied import case_of
 from ..units import SI, UNITS, factor, shown_in
-from ..vectors import Numbers, Scalar
+from ..vectors import Numbers
 from .forces import WORDS, ForceLines, LineDerivatives, lines_needed, symbols_behind
 from .listing import X_AXIS, GivenNumber, Listing, ListingLine
 from .names import Cross, Direction, Dot, Tcos, TurnV, TurnVL, escaped_latex, explicit
@@ -228,7 +228,9 @@ class Equation:
         formula, numbers, result = latex.doprint(self.rhs), Latex(words, values).doprint(self.rhs), number_latex(values[self.name])
         own = shown.get(self.name, "") if unit.si_factor != unit.shown_factor else ""
         results = [f"{result}{'' if unit.text == 'deg' or not unit.si else f' {unit_latex(unit.si)}'}"]
-        results += [shown_latex(own)] if own else []
+        if own:
+            value, _, own_unit = own.rpartition(" ") if not own.endswith(")") else (own, "", "")
+            results.append(number_latex(own) if own_unit == "deg" else number_latex(value) + (unit_latex(own_unit) if own_unit else ""))
         numbers = "" if numbers in (formula, result) else numbers
         return SheetLine(self.number, self._left(latex), formula, numbers, tuple(results))
 
@@ -263,31 +265,6 @@ def unit_latex(unit: str) -> str:
     r"""Return a unit as LaTeX, in the language that is spoken: `\,\mathrm{N}`, `\,\mathrm{m}^{2}`."""
     text = re.sub(r"([^\W\d_])(\d)", r"\1}^{\2}\\mathrm{", translated(unit.replace("kgf_cm2", "kgf/cm2")))
     return rf"\,\mathrm{{{text}}}".replace(r"\mathrm{}", "")
-
-
-def shown_latex(text: str) -> str:
-    """Return a value with its unit, as `value_shown` gives it, as LaTeX."""
-    value, _, unit = text.rpartition(" ") if not text.endswith(")") else (text, "", "")
-    if unit == "deg":
-        return number_latex(text)
-    return number_latex(value) + (unit_latex(unit) if unit else "")
-
-
-def value_in_equation(value: Scalar, unit: Unit) -> str:
-    """Return a value as it is written in an equation: a pair, an angle in degrees, a plain number [SI]."""
-    if np.ndim(value):
-        return f"({', '.join(plain_number(float(part) / unit.si_factor) for part in value)})"
-    return plain_number(float(value) / unit.si_factor) + (" deg" if unit.text == "deg" else "")
-
-
-def value_shown(value: Scalar, unit: Unit) -> str:
-    """Return a value with its display unit; units other than SI follow the chosen system of units."""
-    if np.ndim(value):
-        return f"({', '.join(plain_number(float(part) / unit.shown_factor) for part in value)}) {unit.text}".rstrip()
-    name, size = unit.text, unit.shown_factor
-    if name in UNITS and SI.get(UNITS[name][1]) != name and shown_in(name) != name:
-        size, name = size * factor(shown_in(name)) / factor(name), shown_in(name)
-    return f"{plain_number(float(value) / size)} {name}".rstrip()
 
 
 class Equations(Sequence[Equation], Shown):
@@ -444,9 +421,20 @@ class Equations(Sequence[Equation], Shown):
             values = evaluated(self._lines, inputs)
             known = {line.name: values[line.lhs] for line in self._lines}
         found += [(line.name, known[line.name], line.unit) for line in self._lines]
-        texts = {"i": "(1, 0)"} if "i" not in self.machine.plan.members else {}
-        texts |= {name: value_in_equation(value, unit) for name, value, unit in found}
-        return texts, {name: value_shown(value, unit) for name, value, unit in found}
+        texts, shown = {"i": "(1, 0)"} if "i" not in self.machine.plan.members else {}, dict[str, str]()
+        for name, value, unit in found:
+            own, size = unit.text, unit.shown_factor
+            if np.ndim(value):
+                texts[name], displayed = (
+                    f"({', '.join(plain_number(float(part) / by) for part in value)})" for by in (unit.si_factor, size)
+                )
+                shown[name] = f"{displayed} {own}".rstrip()
+                continue
+            texts[name] = plain_number(float(value) / unit.si_factor) + (" deg" if own == "deg" else "")
+            if own in UNITS and SI.get(UNITS[own][1]) != own and shown_in(own) != own:  # units other than SI follow the chosen system
+                size, own = size * factor(shown_in(own)) / factor(own), shown_in(own)
+            shown[name] = f"{plain_number(float(value) / size)} {own}".rstrip()
+        return texts, shown
 
     def __str__(self) -> str:
         return self.text()
@@ -561,11 +549,6 @@ def legend(equations: Equations, listing: Listing, values: dict[str, str], force
         given = ", ".join(f"R_{name}" for name in forces.shared)
         lines += [f"{given}: they hang on how the supports give way, and are given numbers."] if given else []
     others = [each.symbol for each in (*listing.givens, *([] if forces is None else forces.givens))]
-    return [*lines, *given_lines(equations, listing, values, others)]
-
-
-def given_lines(equations: Equations, listing: Listing, values: dict[str, str], others: Sequence[sympy.Basic]) -> list[str]:
-    """Return the inputs of the equations: strokes, points, dimensions; `Given: S; A, O; L0, L_OB`."""
     plan, names = listing.plan, listing.names
     made = {each.lhs for each in equations}
     used = set().union(*(each.symbols for each in equations)) - made if len(equations) else set()
@@ -575,8 +558,8 @@ def given_lines(equations: Equations, listing: Listing, values: dict[str, str], 
     words = {name: f"{name} = {value}".replace(" ", TOGETHER) for name, value in values.items()}
     groups = [[words.get(each.name, each.name) for each in group if each in used] for group in (strokes, points, dimensions, others)]
     listed = "; ".join(", ".join(group) for group in groups if group)
-    lines = wrap(f"Given: {listed}.", width=WIDTH, subsequent_indent="  ", break_long_words=False) if listed else []
-    return [line.replace(TOGETHER, " ") for line in lines]
+    inputs = wrap(f"Given: {listed}.", width=WIDTH, subsequent_indent="  ", break_long_words=False) if listed else []
+    return [*lines, *(line.replace(TOGETHER, " ") for line in inputs)]
 
 
 # Numbers for the equations: each line evaluated from those before it, on arrays or to any number of digits.

@@ -101,18 +101,6 @@ def boxes(latex: str) -> Box:
     return _Reader(latex).boxes_until()
 
 
-def with_words(index: Box) -> Box:
-    """Return an index in which letters beside each other are one word."""
-    if not isinstance(index, BoxRow):
-        return index
-    parts: list[Box] = []
-    for is_word, group in groupby(index.parts, lambda each: isinstance(each, Sign) and each.kind == "variable"):
-        signs = [*group]
-        word = "".join(each.text for each in signs if is_word and isinstance(each, Sign))
-        parts += [Sign("word", word)] if len(word) > 1 else signs
-    return parts[0] if len(parts) == 1 else BoxRow(tuple(parts))
-
-
 def breakable(box: Box) -> list[Box]:
     """Return a row cut in front of its outermost sums, products and comparisons: where a line may break."""
     if not isinstance(box, BoxRow):
@@ -200,9 +188,16 @@ class _Reader:
         low = high = None
         while self.peek() in ("^", "_"):
             if self.token() == "_":
-                low = with_words(self.one())
+                low = self.one()
             else:
                 high = self.one()
+        if isinstance(low, BoxRow):  # letters beside each other are one word
+            parts: list[Box] = []
+            for is_word, group in groupby(low.parts, lambda each: isinstance(each, Sign) and each.kind == "variable"):
+                signs = [*group]
+                word = "".join(each.text for each in signs if is_word and isinstance(each, Sign))
+                parts += [Sign("word", word)] if len(word) > 1 else signs
+            low = parts[0] if len(parts) == 1 else BoxRow(tuple(parts))
         if high == Sign("variable", "°") and low is None:
             return BoxRow((base, Sign("name", "°")))
         return Script(base, low, high)

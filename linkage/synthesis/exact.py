@@ -142,6 +142,7 @@ class ExactMachine(HasSentence, Shown):
         least = said("least transmission angle {angle}, of {joint}", angle=show(self.transmission, "deg", 3), joint="B")
         return f"{self.kind}; {where}; {least}."
 
+
 def exact_variant(name: str, side: int, members: Mapping[str, Member], dimensions: Mapping[str, Any]) -> Mechanism:
     """Return a design of the shipped class of a name, its dyad on a side, with some members of its own; one that goes through pickle."""
     base = variant(shipped(name), {"B": Side(side)})
@@ -229,6 +230,7 @@ class ExactSynthesis(FoundMachines[ExactMachine]):
             )
         ]  # fmt: skip
         return "\n".join([*lines, *(f"  {place}. {each}" for place, each in enumerate(self.all[:TOLD], 1))])
+
 
 def exact_synthesis(title: str, found: Sequence[ExactMachine], complex_count: int) -> ExactSynthesis:
     """Return machines as a result, the greatest least transmission angle first."""
@@ -522,8 +524,13 @@ def links(p: ComplexArray, s: ComplexArray, freed: Sequence[str]) -> list[tuple[
         raise StudyError("freudenstein: phi and psi turn alike, as in every parallelogram; let one of the pairs differ from that.")
     basis = np.zeros((6, left))
     basis[kept] = every[-left:].T
-    found = []
-    for share in lines_in(basis, u, v):
+    shares, found = [np.ones(1)], []
+    if left > 1:  # the lines of the plane in which w / (u v*) is real
+        U, V, wanted = (basis[k] + 1j * basis[k + 1] for k in (0, 2, 4))
+        for each in (*([U.conj()] if u else []), *([V] if v else [])):
+            wanted = np.polynomial.polynomial.polymul(wanted, each)
+        shares = [np.array([1.0, t]) for t in real_roots(wanted.imag)]
+    for share in shares:
         U, V, W = (complex(*(basis[k : k + 2] @ share)) for k in (0, 2, 4))
         with np.errstate(all="ignore"):
             size = float(np.real(W / (U * np.conj(V)))) if U and V else 0.0
@@ -531,17 +538,6 @@ def links(p: ComplexArray, s: ComplexArray, freed: Sequence[str]) -> list[tuple[
         if exact is not None:
             found.append(exact)
     return found
-
-
-def lines_in(basis: FloatArray, free_u: bool, free_v: bool) -> list[FloatArray]:
-    """Return the combinations of the basis (6, 1) or (6, 2) in which w / (u v*) is real, each up to a factor."""
-    if basis.shape[1] == 1:
-        return [np.ones(1)]
-    u, v, w = (basis[k] + 1j * basis[k + 1] for k in (0, 2, 4))
-    wanted = w
-    for each in (*([u.conj()] if free_u else []), *([v] if free_v else [])):
-        wanted = np.polynomial.polynomial.polymul(wanted, each)
-    return [np.array([1.0, t]) for t in real_roots(wanted.imag)]
 
 
 def real_roots(coefficients: FloatArray) -> list[float]:

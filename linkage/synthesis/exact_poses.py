@@ -523,22 +523,17 @@ def links_picked(body: PosedBody, curves: Sequence[tuple[ComplexArray, ComplexAr
             with suppress(StudyError):  # a circle point at infinity
                 found.append(body.link_about(each))
         return found
-    border = about if region is None else region
-    return [*(GuidingLink.of(body.places_of(point), centre) for point, centre in places_along(curves, border, body.size)), *sliding]
-
-
-def places_along(curves: Sequence[tuple[ComplexArray, ComplexArray]], region: Region, size: float) -> list[tuple[complex, complex]]:
-    """Return circle and centre points at equal steps along the parts of the centre-point curve in a region."""
     points, centres = (np.concatenate([curve[k] for curve in curves]) if curves else np.zeros(0, complex) for k in (0, 1))
     steps = np.concatenate([np.append(abs(np.diff(curve[1])), 0.0) for curve in curves]) if curves else np.zeros(0)
     with np.errstate(invalid="ignore"):
-        inside = lies_within(centres, region) & (abs(points - centres) < 1e3 * size) & np.isfinite(points)
-    length = np.cumsum(np.where(inside, np.minimum(np.nan_to_num(steps), size), 0.0))
+        inside = lies_within(centres, about if region is None else region) & (abs(points - centres) < 1e3 * body.size) & np.isfinite(points)
+    length = np.cumsum(np.where(inside, np.minimum(np.nan_to_num(steps), body.size), 0.0))
     if not inside.any() or not length[-1] > 0.0:
-        return []
-    wanted = (np.arange(PICKED) + 0.5) / PICKED * length[-1]
+        return sliding
+    wanted = (np.arange(PICKED) + 0.5) / PICKED * length[-1]  # equal steps along the parts of the centre-point curve in the region
     places = np.flatnonzero(inside)[np.minimum(np.searchsorted(length[inside], wanted), inside.sum() - 1)]
-    return [(complex(points[k]), complex(centres[k])) for k in dict.fromkeys(places.tolist())]
+    picked = dict.fromkeys(places.tolist())
+    return [*(GuidingLink.of(body.places_of(complex(points[k])), complex(centres[k])) for k in picked), *sliding]
 
 
 def lies_within(places: ComplexArray, region: Region) -> npt.NDArray[np.bool_]:

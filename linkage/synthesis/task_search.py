@@ -22,7 +22,6 @@ from ..program import FloatArray, fixed_backend
 from ..study.box import unit_points
 from ..study.checkpoint import Checkpoint, digest, facts_as_json, facts_of_machine
 from ..study.checks import check_one_design
-from ..study.designs import Array
 from ..study.measured import traced_number
 from ..study.optimise import cases_searched, check_counts, constraint_in_case, each_in_cases, pieces_in_cases, where_searched
 from ..study.problem import Problem, end_words
@@ -383,7 +382,14 @@ class TaskSearch:
         for (_, own), each, fit, runs in zip(parts, laid, fits, whole, strict=True):
             places = standing_apart(own["unit"], each["error"], RACING * self.many)
             drawn = runs[len(runs) - self.population :]  # without the machine itself
-            found.append(Starts(fit, each["at"][places], each["base"][places], int(drawn.sum()), self.that_keep(fit, each)))
+            close = np.argsort(each["error"], kind="stable")[: CLOSE if self.problem.constraints else 0]  # the best that keep all
+            at, base, error = (each[name][close] for name in ("at", "base", "error"))
+            if len(at):
+                with self.problem.count.without_limit():
+                    error = np.where(fit.keeping(at), error, np.inf)
+            apart = standing_apart(at[:, : fit.n], error, min(KEEPING, self.many))
+            keeping = Starts(fit, at[apart], base[apart])
+            found.append(Starts(fit, each["at"][places], each["base"][places], int(drawn.sum()), keeping))
         return self.raced(stages, found)
 
     def raced(self, stages: Stages, first: Sequence[Starts]) -> list[Starts]:
@@ -395,16 +401,6 @@ class TaskSearch:
             places = standing_apart(own["at"][:, : each.fit.n], own["error"], self.many)
             found.append(replace(each, at=own["at"][places], base=each.base[places]))
         return found
-
-    def that_keep(self, fit: Fit, laid: Mapping[str, Array]) -> Starts:
-        """Return the best of laid designs that keep the conditions and stand apart; none where there are no conditions."""
-        close = np.argsort(laid["error"], kind="stable")[: CLOSE if self.problem.constraints else 0]
-        at, base, error = (laid[name][close] for name in ("at", "base", "error"))
-        if len(at):
-            with self.problem.count.without_limit():
-                error = np.where(fit.keeping(at), error, np.inf)
-        places = standing_apart(at[:, : fit.n], error, min(KEEPING, self.many))
-        return Starts(fit, at[places], base[places])
 
     # -- local searches ------------------------------------------------------------------------------------
 
@@ -422,11 +418,17 @@ class TaskSearch:
             kept = {ends.fit: ends for ends in self.descended(stages, "keeping", keeping)}
             for each in found:
                 each += [kept[each[0].fit]] if each[0].fit in kept else []
-        self.hop(stages, found)
+        exact, best, before = exact_error(self.rows), self.best_of(found), np.inf
+        for wave in range(HOPS):  # again about the best answers, where these are nearly exact
+            if not exact < best <= self.rows.count * (NEARLY * self.rows.size) ** 2 or best > 0.5 * before or self.problem.count.is_spent:
+                break
+            about = [self.about_best(own, wave) for own in found]
+            for own, ends in zip(found, self.descended(stages, "free", about, name=f"hop {wave}"), strict=True):
+                own.append(ends)
+            best, before = self.best_of(found), best
         stepped = [place for place, each in enumerate(self.problem.space.variables) if each.step is not None]
         if stepped:
             return [self.on_steps(each, stepped) for own in found for each in own]
-        exact = exact_error(self.rows)
         ways = [Polishing(self, starts, own, kept.get(starts.fit)) for starts, own in zip(first, found, strict=True)]
         wave = 0
         while not self.problem.count.is_spent and min(way.best for way in ways) > exact and any([way.next() for way in ways]):
@@ -436,19 +438,6 @@ class TaskSearch:
                 way.enter(end["at"][end["ended"]], way.rows["base"][end["ended"]])
             wave += 1
         return [each for own, way in zip(found, ways, strict=True) for each in [*own, *way.ends]]
-
-    def hop(self, stages: Stages, found: Sequence[list[Ends]]) -> None:
-        """Add the results of searches that begin again about the best answers, where these are nearly exact."""
-        best, before = self.best_of(found), np.inf
-        for wave in range(HOPS):
-            if not exact_error(self.rows) < best <= self.rows.count * (NEARLY * self.rows.size) ** 2 or best > 0.5 * before:
-                break
-            if self.problem.count.is_spent:
-                break
-            again = [self.about_best(own, wave) for own in found]
-            for own, ends in zip(found, self.descended(stages, "free", again, name=f"hop {wave}"), strict=True):
-                own.append(ends)
-            best, before = self.best_of(found), best
 
     def best_of(self, found: Sequence[Sequence[Ends]]) -> float:
         """Return the least error of answers that run, keep the conditions and come to the points in order [SI^2]."""
@@ -535,7 +524,11 @@ class TaskSearch:
         solutions: list[SynthesisedMachine] = []
         misses: list[Miss] = []
         seen: list[tuple[float, Ends, int]] = []
-        moving = self.moving_variables(ends)
+        asked = bool(self.problem.constraints or self.ranks)
+        moving = np.full(len(self.problem.space.variables), asked)  # which variables move anything of the task; all where more is asked
+        for each in ends if not asked else ():
+            if len(each.at):
+                moving |= np.any(each.fit.slopes(each.at, each.base)[:, :, : each.fit.n] != 0.0, axis=(0, 1))
         for one in every:
             error, each, k = one
             if len(solutions) == ANSWERS:
@@ -565,16 +558,6 @@ class TaskSearch:
             return False
         n = ends.fit.n
         return bool(is_one_design(ends.at[k, :n][moving], others.at[j, :n][moving], error, known, exact_error(self.rows)))
-
-    def moving_variables(self, ends: Sequence[Ends]) -> Mask:
-        """Return which variables (n,) move anything of the task; all where conditions or a rank are asked."""
-        found = np.zeros(len(self.problem.space.variables), bool)
-        if self.problem.constraints or self.ranks:
-            return np.ones(len(found), bool)
-        for each in ends:
-            steep = each.fit.slopes(each.at, each.base)[:, :, : each.fit.n] if len(each.at) else np.zeros((0, 0, len(found)))
-            found |= np.asarray(np.any(steep != 0.0, axis=(0, 1)))
-        return found
 
     def order(self, each: SynthesisedMachine) -> tuple[float, bool, float]:
         """Return the sort key of answers: the error to three digits, or exact, then the ranking measure, then the error.

@@ -98,18 +98,18 @@ class FitWork(ABC):
 
     def done(self, rows: DesignValues, start: int, stop: int) -> list[dict[str, Array]]:
         """Return the results of the designs from start to before stop, of each piece, with how many designs were `looked` at."""
-        return [self._of_piece(rows, first, min(first + self.piece, stop - start)) for first in range(0, stop - start, self.piece)]
-
-    def _of_piece(self, rows: DesignValues, first: int, stop: int) -> dict[str, Array]:
-        parts = []
-        for combination, group in groupby(map(tuple, rows["combination"][first:stop].astype(int).tolist())):  # those in a row
-            begin, first = first, first + len(list(group))
-            fit = self.fit(combination)
-            own = {name: column[begin:first] for name, column in rows.items() if name != "combination"}
-            looked = np.zeros(first - begin)
-            parts.append(self.results(fit, own) | {"looked": looked})
-            looked[0] = fit.problem.count.designs
-        return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+        found = []
+        for first in range(0, stop - start, self.piece):
+            last, parts = min(first + self.piece, stop - start), []
+            for combination, group in groupby(map(tuple, rows["combination"][first:last].astype(int).tolist())):  # those in a row
+                begin, first = first, first + len(list(group))
+                fit = self.fit(combination)
+                own = {name: column[begin:first] for name, column in rows.items() if name != "combination"}
+                looked = np.zeros(first - begin)
+                parts.append(self.results(fit, own) | {"looked": looked})
+                looked[0] = fit.problem.count.designs
+            found.append({name: np.concatenate([part[name] for part in parts]) for name in parts[0]})
+        return found
 
 
 @immutable

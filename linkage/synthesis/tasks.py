@@ -21,7 +21,7 @@ from ..motion.measures import Measure, at, least, measure_of
 from ..motion.strokes import TURN, is_in_degrees
 from ..plan import Mask, Plan
 from ..program import FloatArray
-from ..quantities import Quantity, angle, numbers_in, ref, x, y
+from ..quantities import angle, numbers_in, ref, x, y
 from ..study.checks import check_one_design
 from ..study.problem import is_still, ranges_of
 from ..study.variants import Range
@@ -165,7 +165,17 @@ class FunctionTask:
         several = is_listed(of)
         quantities = list(of) if is_listed(of) else [of]
         what = f"FunctionTask(of={cited(of)})"
-        rows = rows_of_values(what, values, len(quantities)) if several else [table_of(what, "values", values, 0)]
+        rows = list(values) if isinstance(values, (list, tuple, np.ndarray)) else []
+        if several:
+            text = f"{what}: {len(rows)} rows of values for {len(quantities)} quantities; give a row for each."
+            ensure(quantities and len(rows) == len(quantities), text)
+        rows = [table_of(what, "values", rows[0] if several else values, 0), *(rows[1:] if several else [])]
+        for place, each in enumerate(rows[1:], 1):  # those after the first may have NaN
+            row = np.array(each, float) if isinstance(each, (list, tuple, np.ndarray)) else np.empty(())
+            missing = np.isnan(row) if row.shape == rows[0].shape else np.ones(1, bool)
+            require(not missing.all(), f"{what}: values", each, f"{len(rows[0])} numbers are expected, NaN where nothing is wanted")
+            table_of(what, "values", row[~missing], 0)
+            rows[place] = read_only(row)
         if within is None:
             scale: FloatArray = np.ones(len(quantities))
         else:
@@ -324,21 +334,6 @@ def check_radians(what: str, name: str, angles: FloatArray) -> None:
         ensure(not is_in_degrees(value, abs(value)), f"{text}; write {value:.6g} * deg if these are degrees, or take whole turns off.")
 
 
-def rows_of_values(what: str, given: object, count: int) -> list[FloatArray]:
-    """Return a row of values (n,) for each of some quantities, the first without NaN; DefinitionError for anything else."""
-    rows = list(given) if isinstance(given, (list, tuple, np.ndarray)) else []
-    ensure(count and len(rows) == count, f"{what}: {len(rows)} rows of values for {count} quantities; give a row for each.")
-    first, *others = rows
-    found = [table_of(what, "values", first, 0)]
-    for each in others:
-        row = np.array(each, float) if isinstance(each, (list, tuple, np.ndarray)) else np.empty(())
-        missing = np.isnan(row) if row.shape == found[0].shape else np.ones(1, bool)
-        require(not missing.all(), f"{what}: values", each, f"{len(found[0])} numbers are expected, NaN where nothing is wanted")
-        table_of(what, "values", row[~missing], 0)
-        found.append(read_only(row))
-    return found
-
-
 def timed_strokes(what: str, given: object, count: int) -> FloatArray | None:
     """Return the strokes of timed points (n,); DefinitionError where they are not as many as the points."""
     if given is None and what != "FunctionTask":
@@ -486,6 +481,12 @@ def squared_sum(parts: Sequence[Any]) -> Any:
     return sum_of_parts([each * each for each in parts])
 
 
+ACROSS = 1e-4
+"""The cosine below which a miss counts as across the path, which the search for the nearest stroke has left."""
+EXACT = 1e-9
+"""A miss that is smaller [SI] has no direction."""
+
+
 def squares_near(
     machine: Mechanism, rows: TaskRows, stroke: str, held: Mapping[str, float], strokes: FloatArray, *, slides: bool
 ) -> Squares:
@@ -500,24 +501,15 @@ def squares_near(
     for place, value in enumerate(strokes.tolist()):
         where = {**held, stroke: value}
         off = misses_at(machine, rows, place)
-        if slides and is_across(machine, off, speeds, where):
+        is_across = False
+        if slides:  # and moves there, with the miss across its path
+            values = np.array([np.ravel(each)[0] for each in machine.evaluate([*off, *speeds], **where)])
+            missed, speed = values[: len(off)], values[len(off) :]
+            fast, far = float(np.linalg.norm(speed)), float(np.linalg.norm(missed))
+            is_across = fast > 0.0 and (far < EXACT or abs(float(missed @ speed)) <= ACROSS * far * fast)
+        if is_across:
             minors = [one * fast - other * slow for (one, slow), (other, fast) in combinations(zip(off, speeds, strict=True), 2)]
             found.append(at(squared_sum(minors) / squared_sum(speeds), **where))
         else:
             found.append(at(squared_sum(off), **where))
     return tuple(found)
-
-
-ACROSS = 1e-4
-"""The cosine below which a miss counts as across the path, which the search for the nearest stroke has left."""
-EXACT = 1e-9
-"""A miss that is smaller [SI] has no direction."""
-
-
-def is_across(machine: Mechanism, off: Sequence[Quantity], speeds: Sequence[Quantity], where: Mapping[str, Any]) -> bool:
-    """Return whether a miss stands across the path at a pose, and the point moves there."""
-    values = np.array([np.ravel(each)[0] for each in machine.evaluate([*off, *speeds], **where)])
-    missed, speed = values[: len(off)], values[len(off) :]
-    along = abs(float(missed @ speed))
-    fast, far = float(np.linalg.norm(speed)), float(np.linalg.norm(missed))
-    return fast > 0.0 and (far < EXACT or along <= ACROSS * far * fast)

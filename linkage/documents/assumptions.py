@@ -29,7 +29,14 @@ def assumed(subject: ReportSubject) -> Iterator[str]:
     elements = subject.machine.plan.of_kind(ForceElement)
     yield said("The bodies are rigid. Pins, guides and slots have no play.")
     yield said("The machine is planar: all parts move and all forces act in one plane. Both sides of the machine count together in it.")
-    yield from pace_words(subject)
+    timed = [place.motion for place in subject.judge.places if place.instants is not None]
+    if timed and not all(motion._rate_jump for motion in timed):
+        yield said(
+            "Over a path in time masses have their inertia, in tables, curves, verdicts and largest pin forces. The equations are those of "
+            "slow motion: each pose is in equilibrium."
+        )
+    else:
+        yield said("The motion is quasi-static: there are no inertia forces, each pose is in equilibrium.")
     if not elements:
         return
     counted = [f"{number} × {name}" for name, each in elements.items() if (number := getattr(each, "count", 1)) != 1]
@@ -43,18 +50,6 @@ def assumed(subject: ReportSubject) -> Iterator[str]:
         )  # fmt: skip
     if any(isinstance(each, TwoPoint) and "bore" in each.numbers for each in elements.values()):
         yield said("Pressures are gauge pressures. Oil does not yield, and pressure is the same everywhere on a line.")
-
-
-def pace_words(subject: ReportSubject) -> Iterator[str]:
-    """Yield whether masses have inertia: over a path in time, unless a rate jumps there."""
-    timed = [place.motion for place in subject.judge.places if place.instants is not None]
-    if timed and not all(motion._rate_jump for motion in timed):
-        yield said(
-            "Over a path in time masses have their inertia, in tables, curves, verdicts and largest pin forces. The equations are those of "
-            "slow motion: each pose is in equilibrium."
-        )
-    else:
-        yield said("The motion is quasi-static: there are no inertia forces, each pose is in equilibrium.")
 
 
 def with_weight(subject: ReportSubject) -> list[str]:

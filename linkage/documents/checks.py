@@ -56,48 +56,54 @@ def figure_text(value: float) -> str:
 def checks(subject: ReportSubject, values: Mapping[str, object]) -> list[Check]:
     """Return all checks of a design along its run; `values` are those of its equations, by name."""
     with unwarned():
-        found = [lengths_kept(subject.table), *loops_closed(subject.table), equations_against(subject, values), derivatives(subject)]
-        return [*found, *forces_balanced(subject)]
+        found = [*positions_kept(subject.table), equations_against(subject, values), derivatives(subject)]
+        try:
+            forces = subject.forces
+        except LinkageError:
+            return found
+    if any(one.joints for one in forces):
+        what = said("forces and moments on every body, over the largest force")
+        found.append(Check(said("equilibrium"), what, max(one.residual for one in forces), EXACT))
+        gaps = [one.gap for one in forces if not np.isnan(one.gap)]
+        what = said("driving forces by equilibrium of the bodies, against those by virtual work")
+        found.append(Check(said("virtual work"), what, max(gaps, default=np.nan), EXACT))
+    return found
 
 
 # -- positions ---------------------------------------------------------------------------------------------
 
 
-def lengths_kept(motion: Motion) -> Check:
-    """Return how well the distances of the placed pins are the lengths that were given."""
-    what = said("distances of the pins as placed, against the given lengths: {n} of them", n=len(motion.plan.table.lengths))
-    worst, longest = 0.0 if motion.plan.table.lengths else np.nan, 0.0
-    for pair, quantity in motion.plan.table.lengths.items():
-        P, Q = sorted(pair)
-        given = np.broadcast_to(motion.value(quantity), motion.shape)
-        worst = max(worst, largest_finite(np.abs(motion.distance(P, Q) - given)))
-        longest = max(longest, largest_finite(np.abs(given)))
-    return Check(said("lengths kept"), what, worst / (longest or 1.0), EXACT)
+def positions_kept(motion: Motion) -> Iterator[Check]:
+    """Yield how well the distances of the placed pins are the lengths that were given, and how well these close their loops."""
+    lengths = motion.plan.table.lengths
+    worst, longest = 0.0 if lengths else np.nan, 0.0
+    for pair, quantity in lengths.items():
+        length = np.broadcast_to(motion.value(quantity), motion.shape)
+        worst = max(worst, largest_finite(np.abs(motion.distance(*sorted(pair)) - length)))
+        longest = max(longest, largest_finite(np.abs(length)))
+    what = said("distances of the pins as placed, against the given lengths: {n} of them", n=len(lengths))
+    yield Check(said("lengths kept"), what, worst / (longest or 1.0), EXACT)
 
-
-def largest_finite(values: FloatArray) -> float:
-    """Return the largest of some values that are not negative, 0 where there is none."""
-    return float(np.max(np.where(np.isnan(values), 0.0, values), initial=0.0))
-
-
-def loops_closed(motion: Motion) -> Iterator[Check]:
-    """Yield how well the links close their loops, each as its given length in the direction that it has; nothing without a loop."""
-    given: dict[frozenset[str], Quantity] = dict(motion.plan.table.lengths)
+    # each link as its given length in the direction that it has
+    given: dict[frozenset[str], Quantity] = dict(lengths)
     given |= {frozenset(pair): distance(*pair) for pair in pairwise(motion.plan.ground) if frozenset(pair) not in given}
     loops = [*closed_walks((P, Q) for P, Q in (sorted(pair) for pair in given if len(pair) == 2))]
     worst, longest = 0.0, 0.0
     for loop in loops:
-        sides = [*pairwise([*loop, loop[0]])]
-        angles = [motion.angle(*side) for side in sides]
-        vectors = [
-            np.asarray(motion.value(given[frozenset(side)]) * np.array([np.cos(angle), np.sin(angle)]))
-            for side, angle in zip(sides, angles, strict=True)
-        ]
+        vectors = []
+        for side in pairwise([*loop, loop[0]]):
+            angle = motion.angle(*side)
+            vectors.append(np.asarray(motion.value(given[frozenset(side)]) * np.array([np.cos(angle), np.sin(angle)])))
         worst = max(worst, largest_finite(np.hypot(*np.sum(vectors, axis=0))))
         longest = max(longest, *(largest_finite(np.hypot(*each)) for each in vectors))
     if loops:
         what = said("given lengths in the directions of the links, summed round the closed loops: {n} of them", n=len(loops))
         yield Check(said("loops closed"), what, worst / (longest or 1.0), EXACT)
+
+
+def largest_finite(values: FloatArray) -> float:
+    """Return the largest of some values that are not negative, 0 where there is none."""
+    return float(np.max(np.where(np.isnan(values), 0.0, values), initial=0.0))
 
 
 def closed_walks(pairs: Iterable[tuple[str, str]]) -> Iterator[list[str]]:
@@ -135,9 +141,6 @@ def equations_against(subject: ReportSubject, values: Mapping[str, Any]) -> Chec
     return Check(said("equations evaluated again"), what, worst if points else np.nan, EXACT)
 
 
-# -- derivatives and forces --------------------------------------------------------------------------------
-
-
 def derivatives(subject: ReportSubject) -> Check:
     """Return how far exact transfer ratios are from central differences, over their largest value."""
     motion, stroke = subject.table, subject.stroke
@@ -155,18 +158,3 @@ def derivatives(subject: ReportSubject) -> Check:
         "exact transfer ratios of points and outputs by {stroke}, against central differences: {n} of them", stroke=stroke, n=targets
     )
     return Check(said("transfer ratios"), what, worst if targets else np.nan, NUMERIC)
-
-
-def forces_balanced(subject: ReportSubject) -> Iterator[Check]:
-    """Yield how well every body balances, and how far its drives are from virtual work; nothing where there are no forces."""
-    try:
-        found = subject.forces
-    except LinkageError:
-        return
-    if not any(one.joints for one in found):
-        return
-    residual = max((one.residual for one in found), default=np.nan)
-    yield Check(said("equilibrium"), said("forces and moments on every body, over the largest force"), residual, EXACT)
-    gaps = [one.gap for one in found if not np.isnan(one.gap)]
-    what = said("driving forces by equilibrium of the bodies, against those by virtual work")
-    yield Check(said("virtual work"), what, max(gaps, default=np.nan), EXACT)

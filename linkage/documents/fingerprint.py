@@ -24,26 +24,23 @@ def fingerprint(machine: Mechanism, strokes: Mapping[str, Any]) -> str:
     """
     with language(ENGLISH):
         members = written_out(machine.plan, machine.dimensions)
+    functions: dict[str, list[str]] = {}
+    for name, member in machine.plan.members.items():
+        for _, value in sorted(vars(member).items()):
+            if inspect.isfunction(value):
+                try:
+                    source = inspect.getsource(value)
+                except (OSError, TypeError):  # it has none
+                    source = value.__qualname__
+                functions.setdefault(name, []).append(source)
     inputs = {
         "machine": machine.plan.title,
         "members": {name: ADDRESS.sub("", text) for name, text in members.items()},
-        "functions": {name: sources for name, member in machine.plan.members.items() if (sources := functions_of(member))},
+        "functions": functions,
         "dimensions": {name: repr(float(value)) for name, value in machine.dimensions.items()},
         "strokes": {name: [repr(float(each)) for each in values] for name, values in strokes.items()},
     }
     return hashlib.sha256(json.dumps(inputs, sort_keys=True, ensure_ascii=True).encode()).hexdigest()
-
-
-def functions_of(member: object) -> list[str]:
-    """Return the source of the functions that a member is made of; the name of one without source."""
-    found: list[str] = []
-    for _, value in sorted(vars(member).items()):
-        if inspect.isfunction(value):
-            try:
-                found.append(inspect.getsource(value))
-            except (OSError, TypeError):
-                found.append(value.__qualname__)
-    return found
 
 
 def own_version() -> str:

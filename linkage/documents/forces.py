@@ -59,8 +59,16 @@ def forces_section(subject: ReportSubject) -> Section | None:
     ends = said("least"), said("situation and place"), said("greatest"), said("situation and place")
     drives = (said("drive or member"), said("unit"), *ends)
     forces = [TableBlock(said("Driving forces and thrusts, over all that the machine runs"), drives, ranges, "llrmrm")] if ranges else []
-    remarks = dict.fromkeys(remark for one in found for remark in one.remarks)
-    return Section(title, (*forces, looks, table, *case_tables(subject, cases), *blocked_blocks(subject), *remarks))
+    blocks: list[Block] = [*forces, looks, table]
+    for case, own in cases.items():
+        words = subject.case_words(case)
+        if isinstance(own, LinkageError):
+            blocks.append(said("Load case {case}: {why}", case=words, why=str(own)))
+            continue
+        in_case = tuple((*joint_cells(plan, row), force_cell(row.force), row.place, row.movement) for row in own)
+        heads = (*joint_heads(), parts[-1], said("strokes"), said("motion"))
+        blocks.append(TableBlock(said("Largest pin forces, load case {case}", case=words), heads, in_case, "llllrml"))
+    return Section(title, (*blocks, *blocked_blocks(subject), *dict.fromkeys(remark for one in found for remark in one.remarks)))
 
 
 def joint_heads() -> tuple[str, ...]:
@@ -152,17 +160,6 @@ def worst_rows(subject: ReportSubject, cases: Mapping[str, Sequence[PinLoad] | L
             if (mine.force > best.force and not is_tie) or (is_tie and titles.index(over) < titles.index(best.over or titles[0])):
                 worst[key] = mine
     return [*worst.values()]
-
-
-def case_tables(subject: ReportSubject, cases: Mapping[str, Sequence[PinLoad] | LinkageError]) -> Iterator[Block]:
-    """Yield a table of the largest pin forces of each load case; nothing where there is one only, which the table above has."""
-    for case, rows in cases.items():
-        if isinstance(rows, LinkageError):
-            yield said("Load case {case}: {why}", case=subject.case_words(case), why=str(rows))
-            continue
-        cells = tuple((*joint_cells(subject.machine.plan, row), force_cell(row.force), row.place, row.movement) for row in rows)
-        heads = (*joint_heads(), said("F, {unit}", unit=unit_sign("kN")), said("strokes"), said("motion"))
-        yield TableBlock(said("Largest pin forces, load case {case}", case=subject.case_words(case)), heads, cells, "llllrml")
 
 
 # Blocked: a point held fast against a stop, a cylinder pushes or pulls with what its relief valve lets through.

@@ -14,9 +14,8 @@ from ..formulas.mathml import mathml
 from ..formulas.typeset import boxes
 from ..language import said
 from .breaking import line_pieces
-from .content import Block, Cell, Document, Equality, Formula, Illustration, Mark, Section, TableBlock, captions_of
+from .content import Block, Cell, Document, Equality, Formula, Illustration, Mark, TableBlock, captions_of
 from .pictures import picture_svg
-from .title import TitleBlock
 
 
 def write_html(document: Document, path: Path) -> None:
@@ -32,6 +31,13 @@ def html_text(document: Document) -> str:
     policy = f"default-src 'none'; style-src 'sha256-{allowed}'; img-src data:; base-uri 'none'; form-action 'none'"
     captions = captions_of(document.sections)
     title = escape(f"{document.title}: {said('calculation report')}")
+    sections = list[str]()
+    for number, section in enumerate(document.sections, 1):
+        sections.append(f'<section><h2 id="s{number}">{number}. {escape(section.title)}</h2>')
+        for is_pair, row in section.rows:
+            blocks = "".join(block_html(block, captions) for block in row)
+            sections.append(f'<div class="pair">{blocks}</div>' if is_pair else blocks)
+        sections.append("</section>")
     return "\n".join([
         "<!DOCTYPE html>",
         f'<html lang="{document.language}" xmlns="http://www.w3.org/1999/xhtml">',
@@ -44,7 +50,7 @@ def html_text(document: Document) -> str:
         "</head>",
         "<body><main>",
         *head(document),
-        *(line for number, section in enumerate(document.sections, 1) for line in section_lines(number, section, captions)),
+        *sections,
         f"<footer>{escape(footer(document))}</footer>",
         "</main></body>",
         "</html>",
@@ -61,8 +67,12 @@ def head(document: Document) -> Iterator[str]:
     """Yield the title, the title block and the contents."""
     yield f"<h1>{escape(document.title)}</h1>"
     yield f'<p class="sub">{escape(said("Calculation report"))}. {escape(document.subtitle)}</p>'
-    yield from title_block(document.block)
-    mark = document.verdict
+    block, mark = document.block, document.verdict
+    fields = "".join(f"<dt>{escape(name)}</dt><dd>{escape(value)}</dd>" for name, value in block.entries)
+    yield f'<dl class="plate">{fields}</dl>'
+    heads = "".join(f"<th>{escape(text)}</th>" for text in block.columns)
+    signed = "".join(f"<tr><th>{escape(what)}</th><td>{escape(name)}</td><td></td><td></td></tr>" for what, name in block.signatures)
+    yield f'<table class="sign"><thead><tr>{heads}</tr></thead><tbody>{signed}</tbody></table>'
     rows = (
         f"<dt>{escape(name)}</dt><dd{coloured(mark) if value == mark.word else ''}>{escape(value)}</dd>" for name, value in document.facts
     )
@@ -71,27 +81,9 @@ def head(document: Document) -> Iterator[str]:
     yield f"<nav><ol>{''.join(entries)}</ol></nav>"
 
 
-def title_block(block: TitleBlock) -> Iterator[str]:
-    """Yield the title block: its fields, and a line for each who signs."""
-    fields = "".join(f"<dt>{escape(name)}</dt><dd>{escape(value)}</dd>" for name, value in block.entries)
-    yield f'<dl class="plate">{fields}</dl>'
-    heads = "".join(f"<th>{escape(text)}</th>" for text in block.columns)
-    rows = "".join(f"<tr><th>{escape(what)}</th><td>{escape(name)}</td><td></td><td></td></tr>" for what, name in block.signatures)
-    yield f'<table class="sign"><thead><tr>{heads}</tr></thead><tbody>{rows}</tbody></table>'
-
-
 def coloured(mark: Mark) -> str:
     """Return the class of a mark as an attribute."""
     return "" if mark.ok is None else f' class="{"ok" if mark.ok else "no"}"'
-
-
-def section_lines(number: int, section: Section, captions: dict[int, str]) -> Iterator[str]:
-    """Yield a section; small pictures that follow each other stand in pairs."""
-    yield f'<section><h2 id="s{number}">{number}. {escape(section.title)}</h2>'
-    for is_pair, row in section.rows:
-        blocks = "".join(block_html(block, captions) for block in row)
-        yield f'<div class="pair">{blocks}</div>' if is_pair else blocks
-    yield "</section>"
 
 
 def block_html(block: Block, captions: dict[int, str]) -> str:
@@ -99,23 +91,25 @@ def block_html(block: Block, captions: dict[int, str]) -> str:
     match block:
         case str():
             return f"<p>{escape(block)}</p>"
-        case TableBlock():
-            return table_html(block, captions.get(id(block), ""))
-        case Equality():
-            return equality(block)
+        case TableBlock(_, headings, lines, columns):
+            caption = escape(captions.get(id(block), ""))
+            heads = "".join(f'<th scope="col" class="{kind}">{escape(text)}</th>' for text, kind in zip(headings, columns, strict=True))
+            rows = "\n".join(f"<tr>{''.join(map(cell, row, columns))}</tr>" for row in lines)
+            title = f"<caption>{caption}</caption>" if caption else ""
+            return f'<div class="wide"><table>{title}<thead><tr>{heads}</tr></thead>\n<tbody>\n{rows}\n</tbody></table></div>'
+        case Equality(place, steps):  # in pieces between which a line may break
+            parts: list[str] = []
+            for behind, step in enumerate(steps):
+                for first, piece in enumerate(line_pieces(step)):
+                    sign, set_in = '<mo form="infix">=</mo>' if behind and not first else "", mathml(piece)
+                    set_in = set_in.replace("<mo>", '<mo form="infix" lspace="0.22em" rspace="0.22em">', 1) if first else set_in
+                    parts.append(f'<math xmlns="http://www.w3.org/1998/Math/MathML" displaystyle="true">{sign}{set_in}</math>')
+            return f'<div class="eq"><span>{f"({place})" if place else ""}</span><div>{" ".join(parts)}</div></div>'
         case Illustration():
             caption = escape(captions.get(id(block), block.caption))
             data = b64encode(picture_svg(block).encode()).decode()
             return f'<figure><img alt="{caption}" src="data:image/svg+xml;base64,{data}"/><figcaption>{caption}</figcaption></figure>'
     return f"<ul>{''.join(f'<li>{escape(text)}</li>' for text in block)}</ul>"
-
-
-def table_html(grid: TableBlock, caption: str) -> str:
-    """Return a table; it scrolls by itself where it is wider than a screen."""
-    heads = "".join(f'<th scope="col" class="{kind}">{escape(text)}</th>' for text, kind in zip(grid.headings, grid.columns, strict=True))
-    rows = "\n".join(f"<tr>{''.join(map(cell, row, grid.columns))}</tr>" for row in grid.rows)
-    title = f"<caption>{escape(caption)}</caption>" if caption else ""
-    return f'<div class="wide"><table>{title}<thead><tr>{heads}</tr></thead>\n<tbody>\n{rows}\n</tbody></table></div>'
 
 
 def cell(value: Cell, kind: str) -> str:
@@ -131,15 +125,3 @@ def cell(value: Cell, kind: str) -> str:
 def math(latex: str) -> str:
     """Return a formula as MathML."""
     return f'<math xmlns="http://www.w3.org/1998/Math/MathML">{mathml(boxes(latex))}</math>'
-
-
-def equality(block: Equality) -> str:
-    """Return an equation with its number: pieces between which a line may break."""
-    parts: list[str] = []
-    for place, step in enumerate(block.steps):
-        for first, piece in enumerate(line_pieces(step)):
-            sign = '<mo form="infix">=</mo>' if place and not first else ""
-            set_in = mathml(piece).replace("<mo>", '<mo form="infix" lspace="0.22em" rspace="0.22em">', 1) if first else mathml(piece)
-            parts.append(f'<math xmlns="http://www.w3.org/1998/Math/MathML" displaystyle="true">{sign}{set_in}</math>')
-    number = f"({block.number})" if block.number else ""
-    return f'<div class="eq"><span>{number}</span><div>{" ".join(parts)}</div></div>'

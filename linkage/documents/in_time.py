@@ -31,23 +31,22 @@ SEEN = 0.005
 
 def in_time_section(subject: ReportSubject) -> Section | None:
     """Return the section of how the machine runs; None where no run is a path in time."""
-    blocks = [block for run, motion in subject.tables if motion.time is not None for block in timed_blocks(subject, run, motion)]
+    blocks: list[Block] = []
+    for run, motion in subject.tables:
+        if motion.time is None:
+            continue
+        words, along = run_words(subject.machine, run), subject.along(run, CURVE)
+        beside = f", {words}" if words else ""
+        strokes = [column for column in columns_of(motion) if column.name in ("time", *motion.strokes)]
+        outside = [False] * motion.reached.size
+        shown = [*strokes, *(column for column in rate_columns(motion) if np.any(column.values))]
+        blocks += column_grids(subject, said("Strokes, their rates and accelerations") + beside, shown, outside)
+        blocks += inertia_blocks(subject, run, along, beside)
+        paces = pace_columns(subject, motion, run)
+        if paces:
+            blocks += column_grids(subject, said("Rates, power and flow") + beside, [strokes[0], *paces], outside)
+            blocks += (curve_picture(run, along, column, beside) for column in pace_columns(subject, along, run))
     return Section(said("As it runs"), tuple(blocks)) if blocks else None
-
-
-def timed_blocks(subject: ReportSubject, run: Run, motion: Motion) -> Iterator[Block]:
-    """Yield the tables and curves of one path in time."""
-    words, along = run_words(subject.machine, run), subject.along(run, CURVE)
-    beside = f", {words}" if words else ""
-    strokes = [column for column in columns_of(motion) if column.name in ("time", *motion.strokes)]
-    outside = [False] * motion.reached.size
-    shown = [*strokes, *(column for column in rate_columns(motion) if np.any(column.values))]
-    yield from column_grids(subject, said("Strokes, their rates and accelerations") + beside, shown, outside)
-    yield from inertia_blocks(subject, run, along, beside)
-    paces = pace_columns(subject, motion, run)
-    if paces:
-        yield from column_grids(subject, said("Rates, power and flow") + beside, [strokes[0], *paces], outside)
-        yield from (curve_picture(run, along, column, beside) for column in pace_columns(subject, along, run))
 
 
 def pace_columns(subject: ReportSubject, motion: Motion, run: Run) -> list[Column]:

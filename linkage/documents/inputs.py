@@ -46,17 +46,13 @@ def inputs_section(subject: ReportSubject, listing: Equations) -> Section:
     if cases:
         rows = tuple((name, in_digits(text), note) for name, text, note in member_rows(machine, tuple(cases), notes))
         blocks.append(TableBlock(said("Load cases"), heads, rows, "lmm"))
-    return Section(said("Inputs"), (*blocks, dimension_drawing(subject)))
-
-
-def dimension_drawing(subject: ReportSubject) -> Illustration:
-    """Return the drawing with dimensions."""
     pose = subject.machine.at(unreachable="nan", **{name: [value] for name, value in subject.pose.items()})
     caption = said(
         "Dimensions in {unit} at {pose}; the table of dimensions has those without room.",
         unit=unit_sign("mm"), pose=subject.words(subject.pose),
     )  # fmt: skip
-    return Illustration("dimensions", caption, (WIDE, height_of(Scene(pose), 0.16)), ROOM, partial(dimensions, motion=pose))
+    blocks.append(Illustration("dimensions", caption, (WIDE, height_of(Scene(pose), 0.16)), ROOM, partial(dimensions, motion=pose)))
+    return Section(said("Inputs"), tuple(blocks))
 
 
 def dimensions(ax: Axes, motion: Motion) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import shutil
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from pathlib import Path
 from secrets import token_hex
@@ -15,7 +15,6 @@ from ..language import said, with_decimals
 from .content import Cell, Document, Equality, Formula, Illustration, Mark, Section, TableBlock, captions_of
 from .html import footer
 from .pictures import picture_svg
-from .title import TitleBlock
 
 SPECIAL = re.compile(r"([\\`*_{}\[\]<>#|$~])")
 MARKER = "hydrolinkage"
@@ -56,31 +55,24 @@ def replace_folder(folder: Path, contents: dict[str, str]) -> None:
 
 def markdown(document: Document, names: dict[int, str]) -> str:
     """Return a document as Markdown; `names` are the pictures' places by their identity."""
-    captions = captions_of(document.sections)
-    lines = [
-        f"# {escaped_markdown(document.title)}",
-        "",
-        f"{escaped_markdown(said('Calculation report'))}. {escaped_markdown(document.subtitle)}",
-        "",
-        *title_lines(document.block),
-        "",
-        "| | |",
-        "| --- | --- |",
-    ]
+    captions, block = captions_of(document.sections), document.block
+    lines = [f"# {escaped_markdown(document.title)}", ""]
+    lines += [f"{escaped_markdown(said('Calculation report'))}. {escaped_markdown(document.subtitle)}", ""]
+    names_of_fields, values = zip(*block.entries, strict=True)
+    signed = [(what, name, "", "") for what, name in block.signatures]
+    lines += [*pipe_table(names_of_fields, [values]), "", *pipe_table(block.columns, signed), "", "", "| | |", "| --- | --- |"]
     lines += [f"| {escaped_markdown(name)} | {escaped_markdown(value)} |" for name, value in document.facts]
     for number, section in enumerate(document.sections, 1):
         lines += section_text(number, section, captions, names)
     return "\n".join([*lines, "", "---", "", escaped_markdown(footer(document)), ""])
 
 
-def title_lines(block: TitleBlock) -> Iterator[str]:
-    """Yield the lines of the title block: its fields, and a row for each who signs."""
-    names, values = zip(*block.entries, strict=True)
-    for heads, rows in ((names, [values]), (block.columns, [(what, name, "", "") for what, name in block.signatures])):
-        yield f"| {' | '.join(map(escaped_markdown, heads))} |"
-        yield f"|{' --- |' * len(heads)}"
-        yield from (f"| {' | '.join(map(escaped_markdown, row))} |" for row in rows)
-        yield ""
+def pipe_table(headings: Sequence[str], rows: Iterable[Sequence[Cell]], columns: str = "") -> Iterator[str]:
+    """Yield the lines of a table; a column of kind "r" stands to the right."""
+    yield f"| {' | '.join(map(escaped_markdown, headings))} |"
+    yield f"| {' | '.join('---:' if kind == 'r' else '---' for kind in columns or ' ' * len(headings))} |"
+    for row in rows:
+        yield f"| {' | '.join(map(cell_text, row))} |"
 
 
 def section_text(number: int, section: Section, captions: dict[int, str], names: dict[int, str]) -> Iterator[str]:
@@ -91,8 +83,10 @@ def section_text(number: int, section: Section, captions: dict[int, str], names:
         match block:
             case str():
                 yield escaped_markdown(block)
-            case TableBlock():
-                yield from table_markdown(block, captions.get(id(block), ""))
+            case TableBlock(_, headings, rows, columns):
+                caption = captions.get(id(block), "")
+                yield from (f"*{escaped_markdown(caption)}*", "") if caption else ()
+                yield from pipe_table(headings, rows, columns)
             case Equality(place, steps):  # aligned at its signs of equality
                 first, *others = map(latex_decimals, steps)
                 lines = " \\\\\n".join(f"&= {each}" for each in others)
@@ -103,16 +97,6 @@ def section_text(number: int, section: Section, captions: dict[int, str], names:
                 yield from (f"![{caption}]({names[id(block)]})", "", f"*{caption}*")
             case _:
                 yield from (f"- {escaped_markdown(text)}" for text in block)
-
-
-def table_markdown(grid: TableBlock, caption: str) -> Iterator[str]:
-    """Yield the lines of a table."""
-    if caption:
-        yield from (f"*{escaped_markdown(caption)}*", "")
-    yield f"| {' | '.join(map(escaped_markdown, grid.headings))} |"
-    yield f"| {' | '.join('---:' if kind == 'r' else '---' for kind in grid.columns)} |"
-    for row in grid.rows:
-        yield f"| {' | '.join(map(cell_text, row))} |"
 
 
 def cell_text(value: Cell) -> str:

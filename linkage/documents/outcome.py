@@ -71,22 +71,6 @@ def positions(ax: Axes, motion: Motion, path: Sequence[str]) -> None:
 # -- tables and curves -------------------------------------------------------------------------------------
 
 
-def reported_columns(subject: ReportSubject, run: Run, found: Sequence[Column], names: Sequence[str] | None) -> list[Column]:
-    """Return the columns of results at the poses of a table: those named, else all; DefinitionError for an unknown name.
-
-    Coordinates stand last, and no drive force beside a thrust that it is.
-    """
-    if names is None:
-        places = coordinates_of(subject.machine)
-        shown = [column for column in found if column.name not in run.held and column.name not in subject.doubles]
-        return sorted(shown, key=lambda column: column.name in places)
-    known = {column.name: column for column in found}
-    for name in names:
-        known_name("Column", name, known, where=f"the table of {subject.machine.plan.title}")
-    asked = dict.fromkeys([*(each for each in subject.machine.strokes if each in known), *names])
-    return [known[name] for name in asked if name not in run.held]
-
-
 def coordinates_of(machine: Mechanism) -> set[str]:
     """Return the names of the columns of points' coordinates."""
     return {f"{point}_{axis}" for point in machine.plan.points for axis in "xy"}
@@ -95,20 +79,39 @@ def coordinates_of(machine: Mechanism) -> set[str]:
 def results_blocks(
     subject: ReportSubject, names: Sequence[str] | None, first: str, limits: Mapping[str, Sequence[object]]
 ) -> Iterator[Block]:
-    """Yield the tables over the runs and the curves, the one the machine is about first; of several runs the curves that it is about."""
+    """Yield the tables over the runs and the curves, the one the machine is about first; of several runs the curves that it is about.
+
+    A table has the columns named, else all: coordinates last, no drive force beside a thrust that it is, those that are the same at all
+    poses as a sentence. DefinitionError for an unknown name.
+    """
+    places = coordinates_of(subject.machine)
     for (run, motion), found in zip(subject.tables, subject.table_columns, strict=True):
-        yield from run_blocks(subject, run)
+        held, words = subject.words(dict(run.held)), run_words(subject.machine, run)
+        text = said("Along {stroke}, with {held} held.", stroke=", ".join(run.ways), held=held) if held and run.is_curve else ""
+        text = text if run.is_curve else said("Poses, with nothing between them.")
+        if text:
+            yield f"{words[:1].upper()}{words[1:]}: {text[:1].lower()}{text[1:]}" if words else text
+        if run.worst:
+            yield said("Held where {column} is at its worst: {strokes}.", strokes=", ".join(run.held), column=heading_of(run.worst))
         missing = int(np.count_nonzero(~motion.reached))
         if missing:
             yield said("{n} of {count} poses of the table cannot be assembled; they have no values.", n=missing, count=motion.reached.size)
-        words = run_words(subject.machine, run)
+        known = {column.name: column for column in found}
+        for name in names or ():
+            known_name("Column", name, known, where=f"the table of {subject.machine.plan.title}")
+        listed = sorted((column for column in found if column.name not in subject.doubles), key=lambda column: column.name in places)
+        if names is not None:
+            strokes = [name for name in subject.machine.strokes if name in known]
+            listed = [known[name] for name in dict.fromkeys([*strokes, *names])]
+        shown = [column for column in listed if column.name not in run.held]
         caption = said("Results {run}", run=words) if words else said("Results over the stroke")
         outside = np.ravel(motion.reached & ~judged_poses(subject.judge, motion)).tolist()
-        shown = reported_columns(subject, run, found, names)
-        still = {} if names or subject.has_own_table else still_columns(subject, run, shown)
-        yield from column_grids(subject, caption, [column for column in shown if column.name not in still], outside)
-        if still:
-            yield said("The same at all these poses: {values}.", values=", ".join(still.values()))
+        moving = [column for column in shown if np.size(column.values) > 1 and column.name not in run.ways]
+        texts = {} if names or subject.has_own_table else {column: still_text(subject, column) for column in moving}
+        yield from column_grids(subject, caption, [column for column in shown if not texts.get(column)], outside)
+        if any(texts.values()):
+            still = [f"{heading_of(each.name)} {text} {unit_sign(each.unit)}".strip() for each, text in texts.items() if text]
+            yield said("The same at all these poses: {values}.", values=", ".join(still))
         if any(outside):
             yield dagger_words()
     if names is None and subject.doubles:
@@ -117,18 +120,6 @@ def results_blocks(
         yield f"{text[:1].upper()}{text[1:]}."
     for run, motion in subject.curves:
         yield from curve_blocks(subject, run, motion, names if len(subject.curves) == 1 else [first, *limits], first, limits)
-
-
-def run_blocks(subject: ReportSubject, run: Run) -> Iterator[Block]:
-    """Yield the strokes that move along a run and those held, where there are any."""
-    held, words = subject.words(dict(run.held)), run_words(subject.machine, run)
-    text = said("Along {stroke}, with {held} held.", stroke=", ".join(run.ways), held=held) if held and run.is_curve else ""
-    if not run.is_curve:
-        text = said("Poses, with nothing between them.")
-    if text:
-        yield f"{words[:1].upper()}{words[1:]}: {text[:1].lower()}{text[1:]}" if words else text
-    if run.worst:
-        yield said("Held where {column} is at its worst: {strokes}.", strokes=", ".join(run.held), column=heading_of(run.worst))
 
 
 def curve_blocks(
@@ -159,8 +150,13 @@ def curve_blocks(
         caption = f"{caption.removesuffix('.')}, {words}." if words else caption
         caption += said(" The same curve: {names}.", names=", ".join(map(heading_of, others))) if others else ""
         caption += said(" Shaded: what its limit excludes.") if bound is not None else ""
-        caption += beyond_words(subject, further, column) if further else ""
         marks = [(each, amount_text(subject, each, column)) for each in further]
+        parts = [
+            said("{side} {value}, {place}", side=said("least") if isinstance(each.question, Least) else said("greatest"),
+                 value=f"{amount} {unit_sign(column.unit)}".strip(), place=each.place)
+            for each, amount in marks
+        ]  # fmt: skip
+        caption += said(" Over all that the machine runs: {answers}.", answers="; ".join(parts)) if parts else ""
         paint = partial(draw_column, motion=motion, column=column, bound=bound, beyond=marks)
         room = (*CURVE_ROOM[:3], CURVE_ROOM[3] if bound is None else 0.48)
         called = "_".join(NO_LETTER.sub("_", each) for each in (name, run.title if len(subject.curves) > 1 else "") if each)
@@ -185,12 +181,6 @@ def still_text(subject: ReportSubject, column: Column) -> str:
     values = np.asarray(column.shown, float).ravel()
     texts = {*cell_texts(subject, column, values[np.isfinite(values)])}
     return texts.pop() if len(texts) == 1 else ""
-
-
-def still_columns(subject: ReportSubject, run: Run, columns: Sequence[Column]) -> dict[str, str]:
-    """Return the columns that are the same at all poses, but for the strokes: by name, each with its value and its unit."""
-    still = {column: still_text(subject, column) for column in columns if np.size(column.values) > 1 and column.name not in run.ways}
-    return {column.name: f"{heading_of(column.name)} {text} {unit_sign(column.unit)}".strip() for column, text in still.items() if text}
 
 
 # Beside each curve, what the judge finds over all that the machine runs: a line where that lies beyond the curve.
@@ -219,29 +209,14 @@ def wider_answers(subject: ReportSubject, columns: Mapping[str, Column], limits:
         return {}
     found: dict[str, list[Answer]] = {}
     for (name, question), answer in zip(asked, answers, strict=True):
-        if lies_beyond(np.asarray(columns[name].values, float), answer, isinstance(question, Least)):
-            found.setdefault(name, []).append(answer)
+        values, value = np.asarray(columns[name].values, float), float(answer.value)
+        finite = values[np.isfinite(values)]
+        if finite.size and not np.isnan(value):
+            low, high = float(finite.min()), float(finite.max())
+            near = BEYOND * max(high - low, abs(high), abs(low))
+            if value < low - near if isinstance(question, Least) else value > high + near:
+                found.setdefault(name, []).append(answer)
     return found
-
-
-def lies_beyond(values: FloatArray, answer: Answer, is_least: bool) -> bool:
-    """Return whether an answer lies beyond all values of a curve."""
-    finite, value = values[np.isfinite(values)], float(answer.value)
-    if not finite.size or np.isnan(value):
-        return False
-    low, high = float(finite.min()), float(finite.max())
-    near = BEYOND * max(high - low, abs(high), abs(low))
-    return value < low - near if is_least else value > high + near
-
-
-def beyond_words(subject: ReportSubject, answers: Sequence[Answer], column: Column) -> str:
-    """Return the labels of the lines beside a curve."""
-    parts = [
-        said("{side} {value}, {place}", side=said("least") if isinstance(each.question, Least) else said("greatest"),
-             value=f"{amount_text(subject, each, column)} {unit_sign(column.unit)}".strip(), place=each.place)
-        for each in answers
-    ]  # fmt: skip
-    return said(" Over all that the machine runs: {answers}.", answers="; ".join(parts))
 
 
 def draw_column(ax: Axes, motion: Motion, column: Column, bound: Sequence[object] | None, beyond: Sequence[tuple[Answer, str]]) -> None:
@@ -324,7 +299,14 @@ def members_section(subject: ReportSubject, members: Mapping[str, Tabled]) -> Se
         for (name, column), each in zip(columns, found, strict=True)
     )
     shown = dict.fromkeys(name for name, _ in columns)
-    refused = [why for name in members if name not in shown and (why := refusal_words(subject, name))]
+    refused = []
+    for name in members:
+        if name not in shown:
+            try:
+                with unwarned():
+                    members[name].columns(subject.curve)
+            except LinkageError as error:
+                refused.append(str(error))
     heads = (said("member"), said("quantity"), said("least"), said("situation and place"), said("greatest"), said("situation and place"))
     table = [TableBlock(caption, heads, rows, "llrmrm")] if rows else []
     return Section(title, (*table, *refused))
@@ -344,29 +326,14 @@ def sides_asked(quantity: object) -> tuple[Callable[[Any], Measure], ...]:
 
 
 def column_questions(subject: ReportSubject, member: str, column: Column) -> list[Measure]:
-    """Return the questions of a column of a member."""
-    quantity = column.request if column.request is not None else values_in_rows(subject, member, column)
-    return [side(quantity) for side in sides_asked(quantity)]
-
-
-def values_in_rows(subject: ReportSubject, member: str, column: Column) -> Callable[[Motion], FloatArray]:
-    """Return a member's column as a function of a motion, for one that nothing else asks for."""
+    """Return the questions of a column of a member; one that nothing asks for is a function of a motion."""
 
     def values(motion: Motion) -> FloatArray:
         found = speakers(subject.machine.plan, Tabled)[member].columns(motion)
         return np.asarray(next(each.values for each in found if each.name == column.name), float)
 
-    return values
-
-
-def refusal_words(subject: ReportSubject, member: str) -> str:
-    """Return why a member shows nothing of itself; "" where it has nothing to show."""
-    try:
-        with unwarned():
-            speakers(subject.machine.plan, Tabled)[member].columns(subject.curve)
-    except LinkageError as error:
-        return str(error)
-    return ""
+    quantity = column.request if column.request is not None else values
+    return [side(quantity) for side in sides_asked(quantity)]
 
 
 def amount_text(subject: ReportSubject, answer: Answer, column: Column) -> str:

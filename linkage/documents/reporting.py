@@ -23,7 +23,7 @@ from ..motion.motion_verdicts import domain_words, verdict_questions
 from ..pictures.scene import RAISED
 from ..pictures.shown_values import limit_of, named_points
 from ..quantities import Dimension
-from ..reports import NOTHING, At, Run, column_among
+from ..reports import NOTHING, At, column_among
 from ..units import current_system, unit_system
 from .assumptions import assumptions_section, standards_section
 from .calculation import calculated, calculation_blocks, has_loads
@@ -330,34 +330,27 @@ def title_rows(subject: ReportSubject, title_block: Mapping[str, str], mark: Mar
     """Return the rows of the title block: the machine, its inputs, the date, the version, and the rules that are not kept."""
     machine, cls = subject.machine, type(subject.machine)
     seen: dict[str, tuple[float, ...]] = {}
+    texts = []  # `stacking: lift = 0 to 700 mm, 11 poses in tables; held: extend = 0 mm`
     for run in subject.runs:
         for name, way in [*run.ways.items(), *((name, (value,)) for name, value in run.held.items())]:
             seen[name] = (*seen.get(name, ()), *way)
+        ways = (f"{name} = {way_text(way, stroke_display_unit(machine.plan, name, 'mm'))}" for name, way in run.ways.items())
+        moves, held = ", ".join(ways), subject.words(dict(run.held))
+        if run.is_curve:
+            moves = said("{stroke}, {poses} poses in tables", stroke=moves, poses=subject.count)
+        parts = "; ".join(filter(None, (moves, held and said("held: {held}", held=held))))
+        texts.append(f"{run.title}: {parts}" if run.title else parts)
+    epoch = os.environ.get("SOURCE_DATE_EPOCH", "")  # as for builds that can be repeated
+    day = (datetime.fromtimestamp(int(epoch), UTC) if epoch.isdecimal() else datetime.now()).date()
     return (
         (said("Machine"), f"{machine.plan.heading} ({cls.__module__}:{cls.__qualname__})"),
-        (said("Run"), ". ".join(run_text(subject, run) for run in subject.runs)),
+        (said("Run"), ". ".join(texts)),
         (said("Judged over"), domain_words(subject.judge)),
         (said("Load cases"), ", ".join(map(subject.case_words, subject.judge.cases)) if has_loads(machine) else said("no loads")),
         (said("Verdicts"), mark.word),
         *([(said("Not kept"), broken)] if broken else []),
         *title_block.items(),
-        (said("Calculated on"), today()),
+        (said("Calculated on"), day.isoformat()),
         (said("Inputs, SHA-256"), fingerprint(machine, seen)),
         (said("Calculated with"), f"hydrolinkage {own_version()}".strip()),
     )
-
-
-def today() -> str:
-    """Return the date: that of SOURCE_DATE_EPOCH where it is set, as for builds that can be repeated."""
-    given = os.environ.get("SOURCE_DATE_EPOCH", "")
-    return (datetime.fromtimestamp(int(given), UTC) if given.isdecimal() else datetime.now()).date().isoformat()
-
-
-def run_text(subject: ReportSubject, run: Run) -> str:
-    """Return where a run goes, in words: `stacking: lift = 0 to 700 mm, 11 poses in tables; held: extend = 0 mm`."""
-    units = {name: stroke_display_unit(subject.machine.plan, name, "mm") for name in run.ways}
-    moves, held = ", ".join(f"{name} = {way_text(way, units[name])}" for name, way in run.ways.items()), subject.words(dict(run.held))
-    if run.is_curve:
-        moves = said("{stroke}, {poses} poses in tables", stroke=moves, poses=subject.count)
-    parts = [each for each in (moves, held and said("held: {held}", held=held)) if each]
-    return f"{run.title}: {'; '.join(parts)}" if run.title else "; ".join(parts)

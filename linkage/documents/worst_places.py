@@ -50,18 +50,12 @@ def verdict_section(subject: ReportSubject, limits: Mapping[str, Sequence[object
     places = [rule_row(subject, each, each.answer) for each in judged if isinstance(each.answer, Answer)]
     broken = [*(each.heading for each in judged if each.ok is False), *(name for name, ok, *_ in limited if ok is False)]
     shown = Section(title, (domain, table, *worst_places(subject, [*places, *limited])))
-    return shown, rules_mark(judged), found, "; ".join(dict.fromkeys(broken))
-
-
-def rules_mark(judged: Sequence[Verdict]) -> Mark:
-    """Return how many rules are kept, and how many say nothing."""
-    if not judged:
-        return Mark(None, said("no rules declared"))
     kept, silent = (sum(each.ok is ok for each in judged) for ok in (True, None))
-    word = said("{kept} of {all} rules kept", kept=kept, all=len(judged))
+    word = said("{kept} of {all} rules kept", kept=kept, all=len(judged)) if judged else said("no rules declared")
     if silent:
         word = said_of(silent, "{rules}, {n} says nothing", "{rules}, {n} say nothing", rules=word)
-    return Mark(False if kept + silent < len(judged) else None if silent else True, word)
+    mark = Mark(False if kept + silent < len(judged) else None if silent or not judged else True, word)
+    return shown, mark, found, "; ".join(dict.fromkeys(broken))
 
 
 def verdict_mark(ok: bool | None) -> Mark:
@@ -107,24 +101,19 @@ def worst_places(subject: ReportSubject, answers: Sequence[JudgedRow]) -> Iterat
     rows = []
     for rule, ok, each, column, of_limit in ranked[:MOST_PLACES]:
         share = f"{100.0 * of_limit:.0f} %" if 0.0 < of_limit < np.inf else "–"
-        places = each.situation or "–", places_text(each.strokes, each.units)
-        rows.append((rule, verdict_mark(ok), value_cell(subject, each, column), share, *places))
+        measure = each.question.left if isinstance(each.question, Constraint) else each.question
+        kind, quantity = each.measures or measure_of(subject.machine.plan, measure), getattr(measure, "quantity", None)
+        value = "–"  # of what kind it is, is unknown
+        if column is not None:
+            value = f"{amount_text(subject, each, column)} {unit_sign(column.unit)}".strip()
+        elif each.unbounded:
+            value = each.amount
+        elif kind or (isinstance(quantity, Request) and not isinstance(quantity, MotionFunction)):
+            value = show(float(each.value), display_unit(kind, "mm"), 4)
+        rows.append((rule, verdict_mark(ok), value, share, each.situation or "–", places_text(each.strokes, each.units)))
     heads = (said("rule"), said("result"), said("value"), said("limit used"), said("situation"), said("strokes"))
     if rows:
         yield TableBlock(said("The worst places"), heads, tuple(rows), "llrrmm")
-
-
-def value_cell(subject: ReportSubject, answer: Answer, column: Column | None) -> str:
-    """Return an answer's value with its unit, of a limit as its column has it; a dash where its kind is unknown."""
-    if column is not None:
-        return f"{amount_text(subject, answer, column)} {unit_sign(column.unit)}".strip()
-    measure = answer.question.left if isinstance(answer.question, Constraint) else answer.question
-    kind, quantity = answer.measures or measure_of(subject.machine.plan, measure), getattr(measure, "quantity", None)
-    if answer.unbounded:
-        return answer.amount
-    if not kind and not (isinstance(quantity, Request) and not isinstance(quantity, MotionFunction)):
-        return "–"
-    return show(float(answer.value), display_unit(kind, "mm"), 4)
 
 
 def rule_row(subject: ReportSubject, verdict: Verdict, answer: Answer) -> JudgedRow:
@@ -148,13 +137,8 @@ def used(answer: Answer) -> float:
     question = answer.question
     if not isinstance(question, Constraint) or question.right.leaves:
         return 0.0
-    value, limit = float(answer.value), float(question.right.from_leaves(nothing_asked))
+    value, limit = float(answer.value), float(question.right.from_leaves(dict[Leaf, float]().__getitem__))  # it has none
     if limit == 0.0:
         return np.inf if answer.ok is False else 0.0
     of, by = map(abs, (value, limit) if question.symbol == "<=" else (limit, value))
     return np.inf if of > 0.0 and by == 0.0 else of / by if np.isfinite(by) else 0.0
-
-
-def nothing_asked(leaf: Leaf) -> float:
-    """Return nothing: a limit is a number, which has no leaves."""
-    raise AssertionError(leaf)

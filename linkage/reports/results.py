@@ -55,7 +55,10 @@ def results(machine: Mechanism, motion: Motion, case: Case = None) -> list[Colum
         return columns
     whole = motion._with_gaps()
     if case is not None:
-        columns = [column_in_case(whole, column, case) for column in columns]
+        for place, column in enumerate(columns):
+            own = request_in_case(column.request, case)
+            if own is not None and own is not column.request:
+                columns[place] = replace(column, values=whole[own])
     taken = {column.name for column in columns}
     owner = type(machine)._owner("columns")
     is_own = owner is not Mechanism
@@ -108,12 +111,6 @@ def worst_answer(machine: Mechanism, motion: Motion, place: Domain, acting: Acti
             return column.name, max(answers, key=lambda answer: np.nan_to_num(abs(answer.value), nan=-1.0))
         except LinkageError:
             return "", None
-
-
-def column_in_case(motion: Motion, column: Column, case: Case) -> Column:
-    """Return a column in a load case; as it is where nothing asks for it, or no load counts in it."""
-    own = request_in_case(column.request, case)
-    return column if own is None or own is column.request else replace(column, values=motion[own])
 
 
 def request_in_case(request: AnyRequest, case: Case) -> AnyRequest:

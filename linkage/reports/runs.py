@@ -134,7 +134,14 @@ def one_run(machine: Mechanism, at: At) -> Run:
     Several run together, in straight lines from value to value. Strokes that are not given are at mid-stroke.
     """
     one, title = first_stroke(machine), machine.plan.title
-    given = {name: stroke_way(machine, name, value) for name, value in at.items()}
+    given: dict[str, tuple[float, ...]] = {}
+    for name, value in at.items():
+        known_name("Stroke", name, machine.strokes, where=title)
+        require_kind(machine.plan, name, value, f"{title}: at: {name}")
+        given[name] = values = tuple(np.ravel(numbers_in(value)).tolist())
+        if not values or (len(values) > 1 and len(set(values)) == 1) or not np.all(np.isfinite(values)):
+            said = "one number holds a stroke, two different ones are the ends of its run, more are passed one after the other"
+            raise DefinitionError(f"{title}: {name}={value!r}: {said}.")
     ways = {name: given[name] for name in machine.strokes if len(given.get(name, ())) > 1}
     free = [name for name in machine.strokes if name not in given]
     if len({len(way) for way in ways.values()}) > 1:
@@ -145,18 +152,6 @@ def one_run(machine: Mechanism, at: At) -> Run:
     held = stroke_middles(machine) | {name: values[0] for name, values in given.items()}
     case = case_along(machine.at(unreachable="nan", **held))
     return Run(moving, {name: value for name, value in held.items() if name not in moving}, case=case)
-
-
-def stroke_way(machine: Mechanism, name: str, value: object) -> tuple[float, ...]:
-    """Return a stroke's values: one, or those that it passes; DefinitionError for anything else."""
-    title = machine.plan.title
-    known_name("Stroke", name, machine.strokes, where=title)
-    require_kind(machine.plan, name, value, f"{title}: at: {name}")
-    values = tuple(np.ravel(numbers_in(value)).tolist())
-    if not values or (len(values) > 1 and len(set(values)) == 1) or not np.all(np.isfinite(values)):
-        said = "one number holds a stroke, two different ones are the ends of its run, more are passed one after the other"
-        raise DefinitionError(f"{title}: {name}={value!r}: {said}.")
-    return values
 
 
 def motion_over(machine: Mechanism, run: Run, shares: FloatArray) -> Motion:

@@ -36,12 +36,6 @@ def column_texts(column: Column, values: FloatArray) -> list[str]:
     return [NO_VALUE if np.isnan(value) else f"{value:z.{digits}f}" for value in values.tolist()]
 
 
-def checked_width(width: int | None) -> int | None:
-    """Return a width; DefinitionError unless it is a number of characters, or none."""
-    require(width is None or (is_whole(width) and width > 0), "width", width, "a number of characters is expected, such as 80")
-    return width
-
-
 def column_blocks(columns: Sequence[Column], texts: Sequence[Sequence[str]], width: int | None) -> Iterator[list[int]]:
     """Yield the indices of the columns that stand beside each other in `width` characters; the first leads every block.
 
@@ -76,8 +70,8 @@ def text_table(columns: Sequence[Column], width: int | None = None, outside: Seq
     """
     ends = ["", *dagger_ends(outside)]
     texts = [column_texts(column, values) for column, values in zip(columns, flat(columns), strict=True)]
-    room = checked_width(width)
-    for number, block in enumerate(column_blocks(columns, texts, None if room is None else room - len(DAGGER) * any(outside))):
+    require(width is None or (is_whole(width) and width > 0), "width", width, "a number of characters is expected, such as 80")
+    for number, block in enumerate(column_blocks(columns, texts, None if width is None else width - len(DAGGER) * any(outside))):
         if number:
             yield ""
         listed = [(columns[index].heading, *texts[index]) for index in block]

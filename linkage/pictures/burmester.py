@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from ..language import said
-from ..motion.regions import Disc, Shape
+from ..motion.regions import Disc
 from ..program import FloatArray
 from ..synthesis.exact_poses import Burmester, GuidingLink
 from . import style
@@ -27,7 +27,11 @@ ARM = 0.09
 
 def draw_burmester(found: Burmester) -> Figure:
     """Return a figure of the two curves and the links in the first pose, those of the best machine bold with its coupler."""
-    chosen = best_pins(found)
+    chosen = np.zeros((0, 2))  # the circle points of the best machine in the first pose [m]
+    if found.solutions:
+        best = found.solutions[0]
+        motion = best.machine.at(phi=best.strokes[:1])
+        chosen = np.stack([motion["A"][:, 0], motion["B"][:, 0]])
     box = shown_box(found, chosen)
     figure, ax = empty_page(box)
     side = max(box[1] - box[0], box[3] - box[2])
@@ -36,14 +40,20 @@ def draw_burmester(found: Burmester) -> Figure:
     if found.region is not None:
         for level, shapes, colour in ((0.5, found.region.within, style.GRID), (0.6, found.region.without, style.PAPER)):
             for shape in shapes:
-                ax.fill(*border_of(shape).T, facecolor=colour, edgecolor=style.RULE, zorder=level)
+                if isinstance(shape, Disc):
+                    border = np.array([shape.x, shape.y]) + shape.radius * polar(np.linspace(0.0, 2.0 * np.pi, 181))
+                else:
+                    border = np.array(shape.corners)
+                ax.fill(*border.T, facecolor=colour, edgecolor=style.RULE, zorder=level)
         keys.append(Line2D([], [], color=style.GRID, linewidth=8.0))
         texts.append(said("region of the fixed pivots"))
     points, centres = said("circle points"), said("centre points")
     curves = ((found.circle_curve, style.CURVE, points, "o"), (found.centre_curve, style.ACCENT, centres, "^"))
     for branches, colour, text, marker in curves:
         for branch in branches:
-            ax.plot(*broken_line(branch, 4.0 * side), color=colour, linewidth=1.6, zorder=3.0)
+            closed = np.concatenate([branch, branch[:, :1]], axis=1)
+            is_near = np.append(np.hypot(*np.diff(closed, axis=1)) < 4.0 * side, True)  # else it goes through infinity
+            ax.plot(*np.where(is_near, closed, np.nan), color=colour, linewidth=1.6, zorder=3.0)
         keys.append(Line2D([], [], color=colour, linewidth=1.6 if branches else 0.0, marker=marker, markeredgecolor=style.INK))
         texts.append(text)
     if len(chosen):
@@ -71,33 +81,6 @@ def shown_box(found: Burmester, pins: FloatArray) -> Bounds:
     low, high = cloud[near].min(axis=0), cloud[near].max(axis=0)
     middle, half = 0.5 * (low + high), 0.5 * ROOM * np.maximum(high - low, 0.4 * float((high - low).max()) or 1.0)
     return float(middle[0] - half[0]), float(middle[0] + half[0]), float(middle[1] - half[1]), float(middle[1] + half[1])
-
-
-def border_of(shape: Shape) -> FloatArray:
-    """Return places along the border of a shape of a region (m, 2) [m]."""
-    if isinstance(shape, Disc):
-        turn = np.linspace(0.0, 2.0 * np.pi, 181)
-        return np.array([shape.x, shape.y]) + shape.radius * polar(turn)
-    return np.array(shape.corners)
-
-
-def best_pins(found: Burmester) -> FloatArray:
-    """Return the circle points of the first solution in the first pose (2, 2) [m], none where there is none."""
-    if not found.solutions:
-        return np.zeros((0, 2))
-    best = found.solutions[0]
-    motion = best.machine.at(phi=best.strokes[:1])
-    return np.stack([motion["A"][:, 0], motion["B"][:, 0]])
-
-
-def broken_line(branch: FloatArray, far: float) -> tuple[FloatArray, FloatArray]:
-    """Return a closed branch (2, m) for drawing [m], broken where it goes through infinity."""
-    closed = np.concatenate([branch, branch[:, :1]], axis=1)
-    steps = np.hypot(*np.diff(closed, axis=1))
-    x, y = np.array(closed[0]), np.array(closed[1])
-    broken = np.append(~(steps < far), False)
-    x[broken] = np.nan
-    return x, y
 
 
 def draw_link(ax: Axes, link: GuidingLink, side: float, *, bold: bool) -> None:

@@ -51,9 +51,15 @@ def draw_chain(graph: nx.MultiGraph) -> Figure:
     plain = [str(name) for name, data in graph.nodes(data=True) if data["kind"] not in COLOURS]
     places = style.body_colours([style.part_of_points(name.split(" ")) for name in plain])
     colours = {name: style.PALETTE[place] for name, place in zip(plain, places, strict=True)}
-    for name, data in graph.nodes(data=True):
-        face = COLOURS.get(data["kind"]) or colours[str(name)]
-        body(ax, str(name), data, face, at[name])
+    for name, data in graph.nodes(data=True):  # a plate with its name, and that of its link below, which stands alone for a long one
+        (x, y), link, face = at[name], data.get("link"), COLOURS.get(data["kind"]) or colours[str(name)]
+        words = link if link and len(str(name)) > NAME else f"{name}\n{link}" if link else str(name)
+        box = {"boxstyle": "round,pad=0.45", "facecolor": face, "edgecolor": style.mixed(face, style.INK, 0.65), "linewidth": style.OUTLINE}
+        ax.plot(x, y, alpha=0.0)
+        ax.text(
+            x, y, words, ha="center", va="center", fontsize=style.TEXT, color=style.INK, bbox=box, zorder=3, gid=f"body {name}",
+            fontweight="bold" if data["kind"] == "frame" else "normal",
+        )  # fmt: skip
     bodies, joints = graph.number_of_nodes(), graph.number_of_edges()
     freedom = f"3 ({bodies} - 1) - 2 · {joints} = {3 * (bodies - 1) - 2 * joints}"
     write_title(figure, str(graph.name), freedom.replace("-", "\N{MINUS SIGN}"))
@@ -92,16 +98,3 @@ def joint(ax: Axes, name: str, data: dict[str, Any], a: FloatArray, b: FloatArra
     x, y = spot
     ax.text(x, y, words, ha="center", va="center", fontsize=style.SMALL, color=edge, bbox=box, zorder=2, gid=f"joint {name}")
     return spot
-
-
-def body(ax: Axes, name: str, data: dict[str, Any], face: str, place: FloatArray) -> None:
-    """Draw a body as a plate with its name, and that of its link below, which stands alone for a long one."""
-    link = data.get("link")
-    words = link if link and len(name) > NAME else f"{name}\n{link}" if link else name
-    box = {"boxstyle": "round,pad=0.45", "facecolor": face, "edgecolor": style.mixed(face, style.INK, 0.65), "linewidth": style.OUTLINE}
-    x, y = place
-    ax.plot(x, y, alpha=0.0)
-    ax.text(
-        x, y, words, ha="center", va="center", fontsize=style.TEXT, color=style.INK, bbox=box, zorder=3, gid=f"body {name}",
-        fontweight="bold" if data["kind"] == "frame" else "normal",
-    )  # fmt: skip

@@ -212,5 +212,3 @@ def small_text(
     across, up = ("left" if offset[0] > 0.0 else "right"), ("bottom" if offset[1] > 0.0 else "top" if offset[1] < 0.0 else "center")
     look: Keywords = {"fontsize": style.SMALL, "color": colour, "zorder": 6.0}
     ax.annotate(text, at, xytext=offset, xycoords=coords, textcoords="offset points", ha=across, va=up, **look)
-
-

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -138,9 +138,8 @@ def placed_dimensions(scene: Scene, at: Places, pose: int, scale: float, box: Bo
     """
     letter, low, high = LETTERS / scale, np.array(box[::2]), np.array(box[1::2])
     taken = [cloud(scene, at)]
-    for ends, corner, text in given_dimensions(scene.motion, at, pose):
-        places = line_choices(text, *ends, letter) if corner is None else arc_choices(text, corner, *ends, letter)
-        choices: list[LengthLine | AngleArc] = [each for each in places if np.all((each.covered > low) & (each.covered < high))]
+    for places in dimension_choices(scene.motion, at, pose, letter):
+        choices = [each for each in places if np.all((each.covered > low) & (each.covered < high))]
         points = np.concatenate(taken)
         costs = []
         for rank, each in enumerate(choices):  # how many of the points that it would cover lie within a letter of one that is taken
@@ -153,21 +152,32 @@ def placed_dimensions(scene: Scene, at: Places, pose: int, scale: float, box: Bo
             yield best
 
 
-def given_dimensions(motion: Motion, at: Places, pose: int) -> Iterator[tuple[tuple[FloatArray, FloatArray], FloatArray | None, str]]:
-    """Yield the given dimensions: a length's two points, or an angle's sides with its corner, and the text; short ones first."""
+def dimension_choices(motion: Motion, at: Places, pose: int, letter: float) -> Iterator[Sequence[LengthLine | AngleArc]]:
+    """Yield the places that each given dimension tries, short lengths first and angles last.
+
+    A length tries both sides of its link, the nearer places first; an angle arcs of several radii on its smaller side.
+    """
     plan = motion.plan
     lengths = []
     for pair, quantity in plan.table.lengths.items():
         P, Q = (at[name] for name in sorted(pair))
         apart = float(np.hypot(*(Q - P)))
         if len(pair) == 2 and apart > 0.0:
-            lengths.append((apart, (P, Q), dimension_text(motion, quantity, "mm", pose)))
-    for _, ends, text in sorted(lengths, key=lambda each: each[0]):
-        yield ends, None, text
-    for (corner, sides), quantity in plan.table.angles.items():
-        P, Q = (at[name] for name in sorted(sides))
-        if np.isfinite([P, Q, at[corner]]).all():
-            yield (P, Q), at[corner], dimension_text(motion, quantity, "deg", pose)
+            lengths.append((apart, P, Q, dimension_text(motion, quantity, "mm", pose)))
+    for apart, P, Q, text in sorted(lengths, key=lambda each: each[0]):
+        if apart >= SHORT * letter:
+            across = left_of((Q - P) / apart)
+            yield [LengthLine(text, P, Q, away * letter * side, letter) for away in AWAY for side in (across, -across)]
+    for (pin, names), quantity in plan.table.angles.items():
+        corner, sides = at[pin], [at[name] for name in sorted(names)]
+        if np.isfinite([corner, *sides]).all():
+            text = dimension_text(motion, quantity, "deg", pose)
+            start, end = (float(np.arctan2(*(each - corner)[::-1])) for each in sides)
+            start, end = (end, start) if (end - start) % (2.0 * np.pi) > np.pi else (start, end)
+            sweep = (end - start) % (2.0 * np.pi)
+            room = min(float(np.hypot(*(each - corner))) for each in sides)
+            radii = [radius * letter for radius in RADII if sweep > 1e-6 and room > 0.7 * radius * letter]
+            yield [AngleArc(text, corner, start, start + sweep, radius, letter) for radius in radii]
 
 
 ADDED = re.compile(r"^-?\d+(?:\.\d*)?(?= [-+] )|(?<= [-+] )\d+(?:\.\d*)?$")
@@ -181,26 +191,3 @@ def dimension_text(motion: Motion, quantity: Quantity, unit: str, pose: int) -> 
         return ADDED.sub(lambda found: shown_number(float(found[0]), unit, 5) + sign, source_text(quantity))
     value = float(np.broadcast_to(motion.value(quantity), motion.shape).ravel()[pose])
     return shown_number(abs(value) if sign else value, unit, 5) + sign
-
-
-def line_choices(text: str, P: FloatArray, Q: FloatArray, letter: float) -> Iterator[LengthLine]:
-    """Yield the places that a length tries: on both sides of its link, the nearer ones first."""
-    if np.hypot(*(Q - P)) < SHORT * letter:
-        return
-    along = (Q - P) / np.hypot(*(Q - P))
-    across = left_of(along)
-    for away in AWAY:
-        for side in (across, -across):
-            yield LengthLine(text, P, Q, away * letter * side, letter)
-
-
-def arc_choices(text: str, corner: FloatArray, P: FloatArray, Q: FloatArray, letter: float) -> Iterator[AngleArc]:
-    """Yield the places that an angle tries: arcs of several radii on its smaller side."""
-    start, end = (float(np.arctan2(*(each - corner)[::-1])) for each in (P, Q))
-    if (end - start) % (2.0 * np.pi) > np.pi:
-        start, end = end, start
-    sweep = (end - start) % (2.0 * np.pi)
-    least = min(np.hypot(*(P - corner)), np.hypot(*(Q - corner)))
-    for radius in RADII:
-        if sweep > 1e-6 and least > 0.7 * radius * letter:
-            yield AngleArc(text, corner, start, start + sweep, radius * letter, letter)

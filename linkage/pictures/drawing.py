@@ -69,10 +69,15 @@ class Drawing:
     def __init__(self, ax: Axes, scene: Scene, look: Look = STRONG) -> None:
         self.ax, self.scene, self.look = ax, scene, look
         plates = zip(scene.plates, (style.PALETTE[place] for place in scene.colours), strict=True)
+        slot: Keywords = {"edgecolor": look.colour(style.INK), "linewidth": style.OUTLINE}  # open from end to end
         self.parts: list[MovingPart] = [
             *(MarkPart(ax, mark, look) for mark in scene.marks if mark.on),
             *(body_part(ax, plate, scene.size, colour, look) for plate, colour in plates),
-            *(slot_part(ax, track.ends, scene.size, look) for track in scene.tracks if not track.fixed),
+            *(
+                BodyPart(Plate(track.ends, np.eye(2)), SLOT * scene.size, polygon(ax, look.level + 0.3, facecolor=style.PAPER, **slot))
+                for track in scene.tracks
+                if not track.fixed
+            ),
             *(StayPart(ax, ends, look) for ends in scene.stays),
             *(pin(ax, name, scene.size, look) for name in scene.pins),
             *(dot(ax, name, scene.size * (0.7 if name in scene.minor else 1.0), look) for name in scene.dots),
@@ -146,12 +151,6 @@ def body_part(ax: Axes, form: Plate, radius: float, colour: str, look: Look) -> 
     return BodyPart(form, radius, face, polygon(ax, level + 0.1, fill=False, edgecolor=edge, linewidth=style.OUTLINE))
 
 
-def slot_part(ax: Axes, ends: tuple[str, str], size: float, look: Look) -> BodyPart:
-    """Return a slot on a moving body, open from end to end."""
-    face = polygon(ax, look.level + 0.3, facecolor=style.PAPER, edgecolor=look.colour(style.INK), linewidth=style.OUTLINE)
-    return BodyPart(Plate(ends, np.eye(2)), SLOT * size, face)
-
-
 # What points carry, or nothing does: cylinders, springs, blocks, signs of loads, surroundings.
 
 FIXED = 1.6
@@ -175,7 +174,17 @@ class MarkPart(MovingPart):
         if len(mark.hatched):
             ax.add_collection(self.hatches, autolim=False)
         hatches = [self.hatches] if len(mark.hatched) else []
-        self.under = [] if mark.under is None else [underlay(ax, *mark.under, level - 0.1, look)]
+        self.under: list[tuple[AxesImage, FloatArray]] = []
+        if mark.under is not None:  # a picture from a file, as wide as given, of its own height
+            path, corners, opacity = mark.under
+            pixels = read_picture(path)
+            shown: Keywords = {"alpha": opacity * (1.0 - look.fade), "zorder": level - 0.1, "interpolation": "bilinear"}
+            image = AxesImage(ax, extent=(0.0, 1.0, 0.0, 1.0), **shown)
+            image.set_data(pixels)
+            image.set_clip_path(ax.patch)
+            ax.add_artist(image)
+            up = corners[0] + (corners[3] - corners[0]) * len(pixels) / pixels.shape[1]
+            self.under.append((image, np.array([corners[0], corners[1], up])))
         self.artists = (*self.lines, *hatches, *(image for image, _ in self.under))
 
     def move(self, at: Places) -> None:
@@ -190,16 +199,6 @@ class MarkPart(MovingPart):
 
 FINE = 4000
 """The pixels of the longer side of a picture under a machine that are drawn at the most; of a finer one several are one."""
-
-
-def underlay(ax: Axes, path: str, corners: FloatArray, opacity: float, level: float, look: Look) -> tuple[AxesImage, FloatArray]:
-    """Return a picture from a file that lies under a mechanism, and three corners (3, 2) [m]: as wide as given, of its own height."""
-    pixels = read_picture(path)
-    image = AxesImage(ax, extent=(0.0, 1.0, 0.0, 1.0), alpha=opacity * (1.0 - look.fade), zorder=level, interpolation="bilinear")
-    image.set_data(pixels)
-    image.set_clip_path(ax.patch)
-    ax.add_artist(image)
-    return image, np.array([corners[0], corners[1], corners[0] + (corners[3] - corners[0]) * len(pixels) / pixels.shape[1]])
 
 
 def read_picture(path: str) -> FloatArray:

@@ -162,8 +162,23 @@ class Stage:
         self.figure = Figure(figsize=(WIDTH, HEIGHT), dpi=dpi, facecolor=style.PAPER)
         self.canvas = cast(Any, FigureCanvasAgg(self.figure))  # matplotlib declares no types for its methods
         self.moving = [name for name, values in playback.motion.strokes.items() if np.ptp(values) > 0.0] or list(playback.motion.strokes)
-        self.drawing = self._mechanism(paths)
-        self.live = self._curve(bound)
+        ax = self.figure.add_axes(SHEET)
+        sheet(ax, self.scene.box())
+        for name in paths:
+            trace(ax, self.scene.places[name])
+        self.drawing = Drawing(ax, self.scene)
+        self.drawing.ground()
+        self.drawing.label_points(self.scene.some(9))
+        self.title = self._title(SHEET[0], self.scene.motion.plan.heading)
+
+        ax = self.figure.add_axes(CURVE)
+        panel(ax, playback.motion, playback.column, bound, colour=style.RULE)
+        ax.set_title("", loc="left")
+        (self.run,) = ax.plot([], [], color=style.CURVE, linewidth=style.BOLD + 0.4, zorder=5.05, solid_capstyle="round")
+        (self.marker,) = ax.plot([], [], "o", color=style.CURVE, markersize=9, markeredgecolor=style.PAPER, zorder=7.0, clip_on=False)
+        self._title(CURVE[0], typeset(playback.column.heading))
+        self.value = self.figure.text(CURVE[0] + CURVE[2], TITLE, "", fontsize=style.TITLE, color=style.CURVE, ha="right", va="center")
+        self.live = sorted([*ax.lines, *ax.texts], key=lambda artist: artist.get_zorder())
         self.stroke = self.figure.text(SHEET[0] + SHEET[2], TITLE, "", fontsize=style.TITLE, color=style.INK, ha="right", va="center")
         held, lost = self.along.held, unreached_words(playback.motion, self.along.name)
         beside = ", ".join(filter(None, (said("at {place}", place=held) if held else "", playback.case)))
@@ -179,29 +194,6 @@ class Stage:
         self.still: Any = self.canvas.copy_from_bbox(self.figure.bbox)
         names = [artist for artist in self.drawing.artists if isinstance(artist, Annotation)]
         self.stamps: dict[Artist, Stamp] = {name: Stamp(name, self.canvas) for name in names}
-
-    def _mechanism(self, paths: Sequence[str]) -> Drawing:
-        """Return the mechanism on its sheet, with paths of points and names that keep their place beside their points."""
-        ax = self.figure.add_axes(SHEET)
-        sheet(ax, self.scene.box())
-        for name in paths:
-            trace(ax, self.scene.places[name])
-        drawing = Drawing(ax, self.scene)
-        drawing.ground()
-        drawing.label_points(self.scene.some(9))
-        self.title = self._title(SHEET[0], self.scene.motion.plan.heading)
-        return drawing
-
-    def _curve(self, bound: Sequence[object] | None) -> tuple[Artist, ...]:
-        """Return the moving artists of the curve, from the lowest layer up: the piece run through, the limit, a marker."""
-        ax = self.figure.add_axes(CURVE)
-        panel(ax, self.playback.motion, self.playback.column, bound, colour=style.RULE)
-        ax.set_title("", loc="left")
-        (self.run,) = ax.plot([], [], color=style.CURVE, linewidth=style.BOLD + 0.4, zorder=5.05, solid_capstyle="round")
-        (self.marker,) = ax.plot([], [], "o", color=style.CURVE, markersize=9, markeredgecolor=style.PAPER, zorder=7.0, clip_on=False)
-        self._title(CURVE[0], typeset(self.playback.column.heading))
-        self.value = self.figure.text(CURVE[0] + CURVE[2], TITLE, "", fontsize=style.TITLE, color=style.CURVE, ha="right", va="center")
-        return tuple(sorted([*ax.lines, *ax.texts], key=lambda artist: artist.get_zorder()))
 
     def _title(self, left: float, text: str) -> Text:
         return self.figure.text(left, TITLE, text, fontsize=style.TITLE, fontweight="bold", color=style.INK, va="center")

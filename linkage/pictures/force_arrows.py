@@ -202,19 +202,13 @@ def load_groups(forces: ForcesAt) -> Iterator[tuple[str, str, FloatArray, FloatA
             yield element, body, middle, np.zeros(2), moment, colour
         else:
             place = middle + moment * left_of(force) / -square
-            centre = mass_centre(forces, element)
-            place = place if centre is None else place + force * float((centre - place) @ force) / square
+            beside = centre_beside(plan, element)
+            if beside is not None:  # the centre of a body's own mass that is declared beside its points
+                (P, Q), away = (forces.place(name) for name in beside[:2]), beside[2]
+                along = (Q - P) / np.hypot(*(Q - P))
+                centre = P + away[0] * along + away[1] * left_of(along)
+                place = place + force * float((centre - place) @ force) / square
             yield element, body, place, force, 0.0, colour
-
-
-def mass_centre(forces: ForcesAt, element: str) -> FloatArray | None:
-    """Return the centre of a body's own mass that is declared beside its points, shape (2,) [m]; None for any other element."""
-    found = centre_beside(forces.found.motion.plan, element)
-    if found is None:
-        return None
-    (P, Q), away = (forces.place(name) for name in found[:2]), found[2]
-    along = (Q - P) / np.hypot(*(Q - P))
-    return np.asarray(P + away[0] * along + away[1] * left_of(along))
 
 
 def drawn_body(found: PinForces, name: str) -> str:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..program import FloatArray
-from .scene import Bounds, Places, Scene, SlideTrack
+from .scene import Bounds, Places, Scene
 from .shapes import BLOCK, left_of, polar, segment
 
 DOWN, LEFT, RIGHT, UP = -np.pi / 2, np.pi, 0.0, np.pi / 2
@@ -113,17 +113,13 @@ def hatched(scene: Scene) -> list[FloatArray]:
     for track in scene.tracks:
         if track.fixed:
             start, end = at[track.ends[0]], at[track.ends[1]]
-            found += rail(start, end, side_of_rail(scene, track, end - start), pins, scene.size)
+            along = end - start  # the rail is below, or to the right; on the other side where all that rides hangs down there
+            below = np.array([along[1], -along[0]]) / (np.hypot(*along) or 1.0)
+            below = -below if below[1] > 1e-6 or (abs(below[1]) <= 1e-6 and below[0] < 0.0) else below
+            carried = [(rider, name) for rider in track.riders for body in scene.bodies if rider in body for name in body if name != rider]
+            hangs = [float((there[name] - there[rider]) @ below) > BLOCK * scene.size for there in scene.some(5) for rider, name in carried]
+            found += rail(start, end, -below if hangs and all(hangs) else below, pins, scene.size)
     return found
-
-
-def side_of_rail(scene: Scene, track: SlideTrack, along: FloatArray) -> FloatArray:
-    """Return the direction from a track to its rail: below, or to the right; on the other side where all that rides hangs down there."""
-    below = np.array([along[1], -along[0]]) / (np.hypot(*along) or 1.0)
-    below = -below if below[1] > 1e-6 or (abs(below[1]) <= 1e-6 and below[0] < 0.0) else below
-    carried = [(rider, name) for rider in track.riders for points in scene.bodies if rider in points for name in points if name != rider]
-    hanging = [float((at[name] - at[rider]) @ below) > BLOCK * scene.size for at in scene.some(5) for rider, name in carried]
-    return -below if hanging and all(hanging) else below
 
 
 def rail(start: FloatArray, end: FloatArray, below: FloatArray, pins: list[FloatArray], size: float) -> list[FloatArray]:

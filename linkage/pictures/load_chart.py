@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from textwrap import TextWrapper
 
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
@@ -49,18 +47,13 @@ def plot_field(field: WorkingField) -> Figure:
         level = TOP + (row + 0.5) * CELL[1]
         ax.text(LEFT - 0.1, level, text.length_text(float(field.y[k])), ha="right", **bold)
         for column, n in enumerate(across):
-            draw_cell(ax, text, colours, (LEFT + column * CELL[0], TOP + row * CELL[1]), float(field.load[k, n]), str(field.limiter[k, n]))
+            load, limiter, left = float(field.load[k, n]), str(field.limiter[k, n]), LEFT + column * CELL[0]
+            look: Keywords = {"facecolor": style.GRID if np.isnan(load) else colours.get(limiter, style.PAPER), "edgecolor": style.PAPER}
+            ax.add_patch(Rectangle((left, TOP + row * CELL[1]), *CELL, linewidth=1.2, zorder=2.0, **look))
+            letter, y = text.letters.get(limiter, ""), TOP + row * CELL[1] + 0.5 * CELL[1]
+            ink: Keywords = {"color": style.INK, "va": "center", "zorder": 6.0}
+            ax.text(left + (0.40 if letter else 0.5) * CELL[0], y, text.load_text(load), fontsize=style.SMALL, ha="center", **ink)
+            ax.text(left + 0.93 * CELL[0], y - 0.02, letter, fontsize=style.SMALL - 1.5, ha="right", **ink)
     for row, line in enumerate(lines):
         ax.text(0.12, TOP + tall + 0.3 + LINE * row, line, fontsize=style.SMALL, color=style.INK, va="center")
     return figure
-
-
-def draw_cell(ax: Axes, text: ChartText, colours: Mapping[str, str], corner: tuple[float, float], load: float, limiter: str) -> None:
-    """Draw one cell: the load, and the letter of its limit."""
-    colour = style.GRID if np.isnan(load) else colours.get(limiter, style.PAPER)
-    ax.add_patch(Rectangle(corner, *CELL, facecolor=colour, edgecolor=style.PAPER, linewidth=1.2, zorder=2.0))
-    x, y = corner[0], corner[1] + 0.5 * CELL[1]
-    letter = text.letters.get(limiter, "")
-    ink: Keywords = {"color": style.INK, "va": "center", "zorder": 6.0}
-    ax.text(x + (0.40 if letter else 0.5) * CELL[0], y, text.load_text(load), fontsize=style.SMALL, ha="center", **ink)
-    ax.text(x + 0.93 * CELL[0], y - 0.02, letter, fontsize=style.SMALL - 1.5, ha="right", **ink)

@@ -32,7 +32,13 @@ CODE, NAMES = 6.6, 8.0
 def draw_modes(modes: Sequence[Assembly]) -> Figure:
     """Return a figure of the assembly modes that `machine.assemblies()` lists, the declared one marked, each with its code."""
     shown = list(modes)[:MOST_MODES]
-    motions = [mode_motion(mode) for mode in shown]
+    motions = []
+    for mode in shown:
+        if mode.plan is None:
+            raise DefinitionError("An assembly mode is drawn with its mechanism; take it from machine.assemblies().")
+        designs = {name: mode.inputs[name] for name in mode.plan.table.entries}
+        strokes = {name: np.asarray(np.ravel(mode.inputs[name])[0], float) for name in mode.plan.strokes}
+        motions.append(Motion(mode.plan, designs, strokes, "nan"))  # NaN at a change point
     scenes = [Scene(motion) for motion in motions]
     boxes = np.array([scene.box(7.0) for scene in scenes if scene.reached])
     ensure(boxes.size, "All modes stand at a change point here; list them at another stroke, assemblies(S=...).")
@@ -64,15 +70,6 @@ def draw_modes(modes: Sequence[Assembly]) -> Figure:
     notes += [said("Modes of pins found together are looked for from places at random, one may be missing.")] if plan.groups else []
     footnote(figure, " ".join(notes))
     return figure
-
-
-def mode_motion(mode: Assembly) -> Motion:
-    """Return a mode's motion at its pose; NaN at a change point."""
-    if mode.plan is None:
-        raise DefinitionError("An assembly mode is drawn with its mechanism; take it from machine.assemblies().")
-    designs = {name: mode.inputs[name] for name in mode.plan.table.entries}
-    strokes = {name: np.asarray(np.ravel(mode.inputs[name])[0], float) for name in mode.plan.strokes}
-    return Motion(mode.plan, designs, strokes, "nan")
 
 
 def draw_mode(ax: Axes, mode: Assembly, scene: Scene, extent: tuple[float, float]) -> None:

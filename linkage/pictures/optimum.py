@@ -75,7 +75,10 @@ def overlaid(ax: Axes, before: Motion, after: Motion, pose: int) -> None:
     moves = {name: float(np.hypot(*(there[name] - here[name]))) for name in new.places}
     moves = {name: far for name, far in moves.items() if far > LEAST_MOVE}
     ways = [np.linspace(here[name], there[name], 9) for name in moves if np.isfinite(here[name]).all()]
-    clouds = [*label_free(new, [there]), *ways, edge(ax)]
+    (left, right), heights = ax.get_xlim(), np.linspace(*ax.get_ylim(), 60)
+    margin = 0.01 * (right - left) * np.arange(1, 6)  # beside both ends of the sheet, where no name should stand
+    edges = np.stack(np.meshgrid(np.concatenate([left - margin, right + margin]), heights), axis=-1).reshape(-1, 2)
+    clouds = [*label_free(new, [there]), *ways, edges]
     name_points(ax, new, there, moves, np.concatenate([each[np.isfinite(each).all(axis=1)] for each in clouds]))
     for name in moves:
         arrow_between(ax, here[name], there[name], style.ACCENT, 9, STRONG.level + 0.9)
@@ -101,14 +104,6 @@ def name_points(ax: Axes, scene: Scene, at: Places, moves: Mapping[str, float], 
 
 CHARACTER = 0.6
 """The width of a character, in sizes of its font."""
-
-
-def edge(ax: Axes) -> FloatArray:
-    """Return points beside the left and the right end of a sheet, where no name should stand, shape (n, 2) [m]."""
-    (left, right), (bottom, top) = ax.get_xlim(), ax.get_ylim()
-    heights, wide = np.linspace(bottom, top, 60), 0.01 * (right - left)
-    x = np.concatenate([left - wide * np.arange(1, 6), right + wide * np.arange(1, 6)])
-    return np.stack(np.meshgrid(x, heights), axis=-1).reshape(-1, 2)
 
 
 # What counted, before and after.

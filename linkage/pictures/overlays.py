@@ -178,7 +178,19 @@ class Overlay:
     @property
     def sentences(self) -> list[str]:
         """The picture's remarks in words: unknown values, and the places of poles outside the sheet."""
-        return [*self.notes, *(words for mark in self.marks for words in ([mark.words] if mark.words else far_words(mark, self.sheet)))]
+        found, unit, minus = [*self.notes], shown_in("m"), "\N{MINUS SIGN}"
+        left, right, bottom, top = self.sheet
+        for mark in self.marks:
+            if mark.words:
+                found.append(mark.words)
+            elif not mark.is_near(self.sheet):
+                away = mark.at - np.array([0.5 * (left + right), 0.5 * (bottom + top)])
+                lengths = (arrows.significant(part / factor(unit), 4) for part in (float(np.hypot(*away)), *mark.at.tolist()))
+                far, x, y = (f"{length} {translated(unit)}".replace("-", minus) for length in lengths)
+                degrees = f"{float(np.degrees(np.arctan2(away[1], away[0]))):.0f}".replace("-", minus)
+                place = {"far": far, "degrees": degrees, "x": x, "y": y}
+                found.append(said("{name}: off the sheet, {far} away towards {degrees}°, at x = {x}, y = {y}.", name=mark.name, **place))
+        return found
 
     @property
     def sense(self) -> str:
@@ -286,8 +298,19 @@ def pole_marks(motion: Motion, pose: int, asked: object, rates: Rates) -> list[P
     if rates is not None and any(np.ndim(rate) for rate in rates.values()):
         rates = {name: float(np.broadcast_to(rate, motion.shape).ravel()[pose]) for name, rate in rates.items()}
     pairs = list(asked_poles(motion, asked))
+    places = np.array([at[name] for name in at.plan.points])
+    near = SAME_POLE * float(np.max(np.ptp(places, axis=0)))
+    against_frame = list[tuple[list[str], FloatArray]]()  # all bodies that turn about one place, and it
+    for body, other in pairs:
+        if other == "frame":
+            place = at.pole(body, rates=rates)
+            shared = [names for names, each in against_frame if np.allclose(each, place, rtol=0.0, atol=near, equal_nan=True)]
+            if shared:
+                shared[0].append(body)
+            else:
+                against_frame.append(([body], place))
     found = []
-    for bodies, place in poles_of_frame(at, [body for body, other in pairs if other == "frame"], rates):
+    for bodies, place in against_frame:
         points = dict.fromkeys(name for body in bodies for name in whole_body(at.plan, body))
         found.append(mark_of(bodies, "frame", place, tuple(at[name] for name in points)))
     for body, other in pairs:
@@ -295,21 +318,6 @@ def pole_marks(motion: Motion, pose: int, asked: object, rates: Rates) -> list[P
             own = [mark_of([each], "frame", at.pole(each, rates=rates)) for each in (body, other) if each != "frame"]
             ends = tuple(mark.at for mark in own if np.isfinite(mark.at).all())
             found += [mark_of([body], other, at.pole(body, other, rates=rates), ends), *own]
-    return found
-
-
-def poles_of_frame(at: Motion, bodies: Sequence[str], rates: Mapping[str, object] | None) -> list[tuple[list[str], FloatArray]]:
-    """Return the poles of bodies against the frame at one pose, (2,) each [m], with the names of all that turn about each."""
-    places = np.array([at[name] for name in at.plan.points])
-    near = SAME_POLE * float(np.max(np.ptp(places, axis=0)))
-    found = list[tuple[list[str], FloatArray]]()
-    for body in bodies:
-        place = at.pole(body, rates=rates)
-        shared = [names for names, other in found if np.allclose(other, place, rtol=0.0, atol=near, equal_nan=True)]
-        if shared:
-            shared[0].append(body)
-        else:
-            found.append(([body], place))
     return found
 
 
@@ -381,17 +389,3 @@ def draw_pole(ax: Axes, mark: PoleMark, sheet: Bounds, key: str = "") -> list[Wo
     ax.plot(*mark.at[:, None], color=POLE, linestyle="none", markeredgecolor=POLE, zorder=17.0, label=key or None, **ring)
     ax.plot(*mark.at[:, None], marker="+", markersize=12.0, markeredgecolor=POLE, markeredgewidth=1.2, zorder=17.1)
     return [Wording(textwrap.fill(mark.name, POLE_WIDTH), mark.at, np.array([0.7, 0.7]), POLE, mark.name)]
-
-
-def far_words(mark: PoleMark, sheet: Bounds) -> list[str]:
-    """Return where a pole is that the sheet does not show, in words."""
-    if mark.is_near(sheet):
-        return []
-    left, right, bottom, top = sheet
-    away = mark.at - np.array([0.5 * (left + right), 0.5 * (bottom + top)])
-    unit, minus = shown_in("m"), "\N{MINUS SIGN}"
-    lengths = (arrows.significant(part / factor(unit), 4) for part in (float(np.hypot(*away)), *mark.at.tolist()))
-    far, x, y = (f"{length} {translated(unit)}".replace("-", minus) for length in lengths)
-    degrees = f"{float(np.degrees(np.arctan2(away[1], away[0]))):.0f}".replace("-", minus)
-    place = {"far": far, "degrees": degrees, "x": x, "y": y}
-    return [said("{name}: off the sheet, {far} away towards {degrees}°, at x = {x}, y = {y}.", name=mark.name, **place)]

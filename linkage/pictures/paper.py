@@ -39,20 +39,15 @@ def empty_page(box: Bounds, rows: int = 1) -> tuple[Figure, Axes]:
     figure = empty_figure(WIDTH, height)
     ax = figure.add_axes((LEFT / WIDTH, BOTTOM / height, wide / WIDTH, high / height))
     sheet(ax, box)
-    make_room(figure, ax)
-    return figure, ax
-
-
-def make_room(figure: Figure, ax: Axes) -> None:
-    """Make a figure wider where the numbers at its axes are so long that they would hang over its edges; the sheet keeps its size."""
     renderer, whole = renderer_of(figure), figure.get_figwidth()
     covered = [each for axis in (ax.xaxis, ax.yaxis) if (each := axis.get_tightbbox(renderer)) is not None]
     left = max(0.0, EDGE - min((each.x0 for each in covered), default=0.0) / figure.dpi)
     right = max(0.0, EDGE + max((each.x1 for each in covered), default=0.0) / figure.dpi - whole)
-    if left + right > 0.0:
+    if left + right > 0.0:  # the numbers at its axes would hang over its edges; the sheet keeps its size
         x, y, wide, high = ax.get_position(original=True).bounds
         figure.set_figwidth(whole + left + right)
         ax.set_position(((x * whole + left) / (whole + left + right), y, wide * whole / (whole + left + right), high))
+    return figure, ax
 
 
 def write_title(figure: Figure, text: str, beside: str = "") -> None:

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from itertools import combinations
+from itertools import combinations, product
 
 import numpy as np
 
@@ -40,7 +39,15 @@ def telling_angles(machine: Mechanism, stroke: str, values: At) -> FloatArray:
         return np.array([0.5 * (start + end), start])
     tried = machine.at(unreachable="nan", **still | {stroke: np.linspace(start, end, steps + 1)[:-1]})
     scene = Scene(tried, finely)
-    bold = most_open(tried, scene, turning_back(finely))
+    dead: list[float] = []  # where pins turn back, as shares of the round: the dead points of links that rock or slide
+    for name in finely.plan.points:
+        path = finely[name].reshape(2, -1)
+        going = np.diff(path, axis=1)
+        going = np.concatenate([going, going[:, :1]], axis=1)
+        is_back = (going[:, 1:] * going[:, :-1]).sum(axis=0) < 0.0
+        if np.nanmax(np.ptp(path, axis=1), initial=0.0) > 0.0:
+            dead += ((np.flatnonzero(is_back) + 1.0) / (steps * FINE)).tolist()
+    bold = most_open(tried, scene, np.unique(dead))
     others = faint_poses(machine, tried, bold)
     shown = others if len(scene.bodies) <= FEW else others[-1:]
     return np.asarray(np.ravel(tried.strokes[stroke])[[*shown, bold]])
@@ -68,20 +75,6 @@ def way_round(one: FloatArray | float, other: FloatArray | float, steps: float) 
     return np.asarray(np.minimum(np.abs(one - other), steps - np.abs(one - other)))
 
 
-def turning_back(finely: Motion) -> FloatArray:
-    """Return where pins turn back, as shares of the round: the dead points of links that rock or slide."""
-    poses = finely.reached.size - 1
-    found: list[float] = []
-    for name in finely.plan.points:
-        path = finely[name].reshape(2, -1)
-        going = np.diff(path, axis=1)
-        going = np.concatenate([going, going[:, :1]], axis=1)
-        is_back = (going[:, 1:] * going[:, :-1]).sum(axis=0) < 0.0
-        if np.nanmax(np.ptp(path, axis=1), initial=0.0) > 0.0:
-            found += ((np.flatnonzero(is_back) + 1.0) / poses).tolist()
-    return np.unique(found)
-
-
 def most_open(tried: Motion, scene: Scene, dead: FloatArray) -> int:
     """Return the pose, among those that keep clear of dead points [shares of the round] and of crowded pins, that is most open."""
     poses = tried.reached.size
@@ -103,21 +96,17 @@ def most_open(tried: Motion, scene: Scene, dead: FloatArray) -> int:
 
 
 def openness(scene: Scene) -> FloatArray:
-    """Return how open the angles at the joints are at every pose, shape (n,): the sine of the least open one that changes, and of all."""
-    sines = []
-    for one, other in angle_arms(scene):
+    """Return how open the angles at the joints are at every pose, shape (n,): the sine of the least open one that changes, and of all.
+
+    An angle is between two bodies at a pin that they share, or one of them and the frame or a track.
+    """
+    at, sines = scene.places | scene.rims, []
+    bodies = [*map(set, scene.bodies), *({each.P, each.Q} for each in scene.two_force), set(scene.grounds)]
+    bodies += [{rider, track.ends[1]} for track in scene.tracks for rider in track.riders]
+    pins = ((pin, one - {pin}, other - {pin}) for one, other in combinations(bodies, 2) for pin in one & other)
+    for one, other in ((at[P] - at[pin], at[Q] - at[pin]) for pin, *ends in pins for P, Q in product(*ends)):
         long = np.hypot(*one) * np.hypot(*other)
         across = np.abs(one[0] * other[1] - one[1] * other[0]) / np.where(long > 0.0, long, np.inf)
         if np.ptp(across[np.isfinite(across)]) > 1e-6:
             sines.append(np.nan_to_num(across))
     return np.min(sines, axis=0) + 0.3 * np.mean(sines, axis=0) if sines else np.zeros(scene.motion.reached.size)
-
-
-def angle_arms(scene: Scene) -> Iterator[tuple[FloatArray, FloatArray]]:
-    """Yield the arms of every angle between two bodies at a pin that they share, or one of them and the frame or a track."""
-    at = scene.places | scene.rims
-    bodies = [*scene.bodies, *({each.P, each.Q} for each in scene.two_force), scene.grounds]
-    bodies += [(rider, track.ends[1]) for track in scene.tracks for rider in track.riders]
-    for one, other in combinations(bodies, 2):
-        for pin in set(one) & set(other):
-            yield from ((at[P] - at[pin], at[Q] - at[pin]) for P in set(one) - {pin} for Q in set(other) - {pin})

@@ -170,7 +170,14 @@ def motions(machine: Mechanism, at: object, count: int) -> tuple[tuple[str, ...]
     several = tuple(name for name, values in given.items() if np.size(values) > 1)
     is_joint = len(several) > 1
     moving = several if is_joint else (max(given, key=lambda name: np.size(given[name])) if given else first_stroke(machine),)
-    chosen = {name: chosen_values(machine, name, each).ravel() for name, each in given.items() if each is not None or is_joint}
+    chosen: dict[str, FloatArray] = {}
+    for name, each in given.items():
+        if each is not None or is_joint:
+            require_kinds(machine.plan, {name: each})
+            numbers = numbers_in(each)
+            is_given = numbers.size and np.isfinite(numbers).all()
+            require(is_given, f"{machine.plan.title}: at", each, f"values of {name} are expected, such as at=[0.0, 0.1]")
+            chosen[name] = numbers.ravel()
     values: dict[str, Any] = stroke_middles(machine) | chosen
     first = moving[0]
     ends = machine.strokes[first].start, machine.strokes[first].end
@@ -184,15 +191,6 @@ def motions(machine: Mechanism, at: object, count: int) -> tuple[tuple[str, ...]
     reach = np.array([*ends, *np.ravel(values[first])])
     still = {name: float(np.ravel(value)[-1]) for name, value in values.items()}
     return moving, shown, machine.at(unreachable="nan", **still | {first: np.linspace(reach.min(), reach.max(), count)})
-
-
-def chosen_values(machine: Mechanism, name: str, value: object) -> FloatArray:
-    """Return a stroke's values; DefinitionError for anything but finite numbers, one at least."""
-    require_kinds(machine.plan, {name: value})
-    values = numbers_in(value)
-    is_given = values.size and np.isfinite(values).all()
-    require(is_given, f"{machine.plan.title}: at", value, f"values of {name} are expected, such as at=[0.0, 0.1]")
-    return values
 
 
 def draw_poses(ax: Axes, shown: Motion, swept: Motion, keep_clear: Sequence[FloatArray]) -> None:

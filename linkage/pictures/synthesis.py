@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -87,12 +85,18 @@ def draw_synthesis(found: Synthesis, answers: int = 3, count: int = 101) -> Figu
         raise StudyError(str(found))
     shown = [ShownAnswer(found, each, place, count) for place, each in enumerate(found.solutions[:answers], 1)]
     figure, sheets, curves = sheets_beside([each.box() for each in shown], has_curve=isinstance(found.task, FunctionTask))
-    stretch = stretched(shown, [float(np.ptp(ax.get_xlim())) for ax in sheets])
+    sides = [float(np.ptp(ax.get_xlim())) for ax in sheets]  # the largest miss is so many times as long that it can be seen on its sheet
+    with_points = [(each, side) for each, side in zip(shown, sides, strict=True) if len(each.wanted)]
+    most = max((float(np.linalg.norm(each.met - each.wanted, axis=1).max()) / side for each, side in with_points), default=0.0)
+    stretch = float(max((step for step in STRETCHES if step * most <= SEEN), default=1.0)) if most >= NOTHING_MISSED else 0.0
     alone = len({one.answer.machine.plan.title for one in shown}) == 1
     for each, ax, top in zip(shown, sheets, curves or sheets, strict=True):
         match each.task:
             case PathTask():
-                draw_path_task(ax, each, stretch)
+                path = each.swept[each.point].reshape(2, -1)
+                trace(ax, path)
+                keep_clear = [draw_wanted(ax, each, stretch), path.T[np.isfinite(path.T).all(axis=1)]]
+                draw_scene(ax, each.scene, 0, keep_clear, all_points=False)
             case PoseTask() as task:
                 draw_pose_task(ax, each, task, stretch)
             case FunctionTask() as task:
@@ -111,15 +115,6 @@ def draw_synthesis(found: Synthesis, answers: int = 3, count: int = 101) -> Figu
 
 
 # The paper: what stands on it beside the sheets.
-
-
-def stretched(shown: Sequence[ShownAnswer], sides: Sequence[float]) -> float:
-    """Return how many times as long misses are drawn, so that the largest can be seen on its sheet; 0 where nothing is missed."""
-    drawn = [(each, side) for each, side in zip(shown, sides, strict=True) if len(each.wanted)]
-    most = max((float(np.linalg.norm(each.met - each.wanted, axis=1).max()) / side for each, side in drawn), default=0.0)
-    if most < NOTHING_MISSED:
-        return 0.0
-    return float(max((step for step in STRETCHES if step * most <= SEEN), default=1.0))
 
 
 def task_words(found: Synthesis) -> str:
@@ -174,18 +169,11 @@ def write_answer(ax: Axes, shown: ShownAnswer, *, alone: bool) -> None:
 # An answer beside its task.
 
 
-def draw_path_task(ax: Axes, shown: ShownAnswer, stretch: float) -> None:
-    """Draw the machine at the task's first point, the path of its point, the wanted points and the misses."""
-    trace(ax, shown.swept[shown.point].reshape(2, -1))
-    path = shown.swept[shown.point].reshape(2, -1).T
-    numbers = draw_wanted(ax, shown, stretch)
-    draw_scene(ax, shown.scene, 0, [numbers, path[np.isfinite(path).all(axis=1)]], all_points=False)
-
-
 def draw_wanted(ax: Axes, shown: ShownAnswer, stretch: float) -> FloatArray:
     """Mark the wanted places with their numbers, and each miss, so many times as long as it is.
 
-    Returns points (m, 2) [m] that these cover.
+    Of many points every fifth has a number. These cover neither the machine, its path nor the misses' ends. Returns points (m, 2) [m]
+    that marks, misses and numbers cover.
     """
     wanted, off = shown.wanted, shown.met - shown.wanted
     side = float(np.ptp(ax.get_xlim()))
@@ -195,16 +183,7 @@ def draw_wanted(ax: Axes, shown: ShownAnswer, stretch: float) -> FloatArray:
             ax.plot(*np.stack([place, end], axis=1), color=style.INK, linewidth=1.4, zorder=12.2, solid_capstyle="butt")
     wide = 5.0 if len(wanted) <= MOST_NUMBERED else 3.4
     ax.plot(*wanted.T, "o", color=style.CURVE, markerfacecolor=style.PAPER, markersize=wide, markeredgewidth=1.6, zorder=12.5)
-    ends = wanted + stretch * off
-    return np.concatenate([wanted, ends, number_points(ax, shown, ends)])
-
-
-def number_points(ax: Axes, shown: ShownAnswer, ends: FloatArray) -> FloatArray:
-    """Write the numbers of the wanted places, where they cover neither the machine, its path nor the misses' ends (n, 2) [m].
-
-    Of many points every fifth has one. Returns points (m, 2) [m] that the numbers cover.
-    """
-    wanted, scale = shown.wanted, points_a_metre(ax)
+    ends, scale = wanted + stretch * off, points_a_metre(ax)
     numbers = [n for n in range(1, len(wanted) + 1) if len(wanted) <= MOST_NUMBERED or n == 1 or n % 5 == 0]
     at = {str(n): wanted[n - 1] for n in numbers}
     path = shown.swept[shown.point].reshape(2, -1).T
@@ -213,7 +192,7 @@ def number_points(ax: Axes, shown: ShownAnswer, ends: FloatArray) -> FloatArray:
     for number, spot in offsets([*at], [at], [taken], scale, 5.0, style.SMALL).items():
         haloed_beside(ax, number, at[number], spot, style.SMALL, style.CURVE, 2.2, ha="center", fontweight="bold", zorder=12.6)
         covered += [at[number] + (spot + 0.3 * style.SMALL * np.array(corner)) / scale for corner in CORNERS]
-    return np.array(covered)
+    return np.concatenate([wanted, ends, np.array(covered)])
 
 
 CORNERS = ((-1, -1), (-1, 1), (0, 0), (1, -1), (1, 1))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -10,12 +9,10 @@ import numpy as np
 from ..errors import StudyError, ensure
 from ..motion import live_text
 from ..motion.measures import measure_of, words_of
-from ..plan import Plan
 from ..quantities import Quantity
 from ..reports import At, results
 from ..synthesis import FunctionTask, PathTask, PoseTask, Synthesis
 from ..synthesis.synthesis import miss_unit
-from ..synthesis.tasks import Task
 from .layout import grown
 from .page_data import PageRequests, machine_text, page_data, unit_data
 from .page_file import PageData
@@ -39,31 +36,28 @@ def task_page(found: Synthesis, *, count: int, language: str, at: At, **given: A
     named: dict[str, tuple[float, float] | None] = {each.name: (each.low, each.high) for each in space.variables if each.span > 0.0}
     searched = named | {name: None for names in space.names for name in names if name in owners}  # those of rows without a range
     given = {"vary": searched} | given
-    is_function = isinstance(task, FunctionTask)
-    given = (columns_with(found, run) if is_function else {"trace": [task.of.split()[0]]}) | given
+    if isinstance(task, FunctionTask):  # the columns on which its quantity stands, that one shown first
+        motion = found.machine.at(unreachable="nan", **{name: np.array(ends) for name, ends in run.items()})
+        names = [column.name for column in results(found.machine, motion)]
+        of = str(task.of.name) if isinstance(task.of, Quantity) and task.of.name else task.of
+        given = ({"column": of} if of in names else {"columns": [of, *names], "column": words_of(of)}) | given
+    else:
+        given = {"trace": [task.of.split()[0]]} | given
     requests = PageRequests(best.machine, frame_count(count), at=run, over=found.problem.over, **given)
     live = live_text(best.machine.plan, requests.by_name, name="engine")
     data = page_data(requests, live)
     data["task"] = task_data(found, data)
     data["strokes"][data["task"]["stroke"]]["at"] = float(best.strokes[0])
-    if not is_function:
+    if "points" in data["task"]:
         data["scene"]["box"] = [*grown(data["scene"]["box"], np.array(data["task"]["points"]), 0.0)]
     return machine_text(requests, live, data, ("task.js",), language)
 
 
-def columns_with(found: Synthesis, run: Mapping[str, object]) -> dict[str, object]:
-    """Return the columns of a page on which the task's quantity stands, that one shown first."""
-    task, machine = found.task, found.machine
-    motion = machine.at(unreachable="nan", **{name: np.array(ends) for name, ends in run.items()})
-    names = [column.name for column in results(machine, motion)]
-    asked = str(task.of.name) if isinstance(task.of, Quantity) and task.of.name else task.of
-    if asked in names:
-        return {"column": asked}
-    return {"columns": [asked, *names], "column": words_of(asked)}
-
-
 def task_data(found: Synthesis, data: PageData) -> PageData:
-    """Return the task and the answers as the page's script reads them [SI]: of each design the values of the page's dimensions."""
+    """Return the task and the answers as the page's script reads them [SI]: of each design the values of the page's dimensions.
+
+    The task is its wanted values: a point's places, angles with the length that weighs them, or a column's values.
+    """
     task, best = found.task, found.best
     fit, plan = found.fit_of(best), best.machine.plan
     names, strokes = [each[0] for each in data["dims"]], [each["name"] for each in data["strokes"]]
@@ -72,18 +66,13 @@ def task_data(found: Synthesis, data: PageData) -> PageData:
     designs = [[float(each.machine.dimensions[name]) for name in names] for each in shown]
     answers = [{"design": own, "at": each.strokes.tolist(), "rms": each.rms} for own, each in zip(designs, shown, strict=True)]
     kept = {"stroke": strokes.index(fit.timing.stroke), "timed": timed, "unit": unit_data(miss_unit(fit)), "answers": answers}
-    return kept | wanted_data(task, plan, fit.rows.weights[-1], data)
-
-
-def wanted_data(task: Task, plan: Plan, weight: float, data: PageData) -> PageData:
-    """Return the wanted values [SI]: a point's places, angles with the length that weighs them, or a column's values."""
     points = list(plan.points)
     match task:
         case PathTask():
-            return {"points": task.points.tolist(), "point": points.index(task.of)}
+            return kept | {"points": task.points.tolist(), "point": points.index(task.of)}
         case PoseTask():
             first, second = (points.index(name) for name in task.of.split())
-            places = np.stack([task.x, task.y], axis=1).tolist()
-            return {"points": places, "angles": task.angle.tolist(), "point": first, "second": second, "long": float(weight)}
+            places, long = np.stack([task.x, task.y], axis=1).tolist(), float(fit.rows.weights[-1])
+            return kept | {"points": places, "angles": task.angle.tolist(), "point": first, "second": second, "long": long}
         case FunctionTask():
-            return {"values": task.values.tolist(), "column": data["column"], "turns": measure_of(plan, task.of) == "angle"}
+            return kept | {"values": task.values.tolist(), "column": data["column"], "turns": measure_of(plan, task.of) == "angle"}

@@ -555,7 +555,11 @@ def scene_data(scene: Scene, lines: Mapping[str, Sequence[int]]) -> PageData:
     names = list(scene.motion.plan.points)
     index = {name: place for place, name in enumerate(names)}
     forms = list(zip(scene.plates, scene.bodies, scene.colours, strict=True))
-    letters = {**names_shown(scene), **dict.fromkeys(scene.inner, "")}
+    labels = names_shown(scene)
+    letters = {**labels, **dict.fromkeys(scene.inner, "")}
+    poses, (left, right, bottom, top) = scene.some(9), scene.box()
+    scale = min(ACROSS / (right - left), 0.7 * ACROSS / (top - bottom))
+    spots = offsets(names, poses, label_free(scene, poses), scale, 1.15 * scene.size * scale + 2.0, FONT, letters=labels)
     return {
         "size": scene.size,
         "names": names,
@@ -572,7 +576,7 @@ def scene_data(scene: Scene, lines: Mapping[str, Sequence[int]]) -> PageData:
         "pins": [index[name] for name in scene.pins],
         "dots": [index[name] for name in scene.dots],
         "grounds": [{"point": index[name], "way": round(way, 4)} for name, way in props(scene).items()],
-        "labels": label_offsets(scene),
+        "labels": [[round(float(spots[name][0]), 1), round(-float(spots[name][1]), 1)] for name in names],  # from their points [px]
     } | ({"letters": [letters.get(name, name) for name in names], "legend": scene.letter_legend} if letters else {})
 
 
@@ -624,16 +628,6 @@ def sparse(rows: FloatArray, near: float) -> FloatArray:
     return np.concatenate([sparse(rows[: farthest + 1], near)[:-1], sparse(rows[farthest:], near)])
 
 
-def label_offsets(scene: Scene) -> list[list[float]]:
-    """Return each name's offset from its point [px], in the order of the names."""
-    poses = scene.some(9)
-    left, right, bottom, top = scene.box()
-    scale = min(ACROSS / (right - left), 0.7 * ACROSS / (top - bottom))
-    gap = 1.15 * scene.size * scale + 2.0
-    spots = offsets(list(scene.places), poses, label_free(scene, poses), scale, gap, FONT, letters=names_shown(scene))
-    return [[round(float(spots[name][0]), 1), round(-float(spots[name][1]), 1)] for name in scene.places]
-
-
 MARKS = {True: 1, False: 0, None: 2}
 """How verdicts are told: those that are kept, those that are not, and what is only said."""
 
@@ -662,7 +656,10 @@ def verdict_data(machine: Mechanism, judge: Judge, along: Motion | None) -> tupl
 
 
 def verdicts_shown(requests: PageRequests) -> PageData:
-    """Return the verdicts of the page, and their words in each system of units, in English and Russian; 0 where they are as delivered."""
+    """Return the verdicts of the page, and their words in each system of units, in English and Russian; 0 where they are as delivered.
+
+    Of each verdict there is the member that says it and whether it is of poses, and how members are headed.
+    """
     machine, judge, along = requests.machine, requests.judge, requests.along
     (plain, verdicts), found = verdict_data(machine, judge, along), {}
     for name in SYSTEMS:
@@ -670,18 +667,14 @@ def verdicts_shown(requests: PageRequests) -> PageData:
             told, _ = verdict_data(machine, judge, along)
         pairs = zip(told, plain, strict=True) if len(told) == len(plain) else ((each, each) for each in plain)
         found[name] = [0 if each[2:] == other[2:] else [each[2], *each[4:]] for each, other in pairs]
-    return {"verdicts": plain, "verdictsIn": found} | verdict_facts(machine.plan, verdicts)
-
-
-def verdict_facts(plan: Plan, found: Sequence[Verdict] | None) -> PageData:
-    """Return of each verdict the member that says it and whether it is of poses, and how members are headed, in English and Russian."""
-    if found is None:
-        return {"facts": [["", "", 0]], "groups": {}}
-    members, groups = speakers(plan, HasVerdicts), dict[str, list[str]]()
-    for name in dict.fromkeys((*(each.member for each in found if each.member), *members)):
+    shown: PageData = {"verdicts": plain, "verdictsIn": found}
+    if verdicts is None:
+        return shown | {"facts": [["", "", 0]], "groups": {}}
+    members, groups = speakers(machine.plan, HasVerdicts), dict[str, list[str]]()
+    for name in dict.fromkeys((*(each.member for each in verdicts if each.member), *members)):
         with language("ru"):
             russian = translated(members[name].headed)
         groups[name] = [typeset(text.format(name=name)) for text in (members[name].headed, russian)]
-    of_poses = [isinstance(each.answer, Answer) and bool(each.answer.strokes) for each in found]
-    facts = [[each.member, rule_key(each.rule, each.member), int(is_one)] for each, is_one in zip(found, of_poses, strict=True)]
-    return {"facts": facts, "groups": groups}
+    of_poses = [isinstance(each.answer, Answer) and bool(each.answer.strokes) for each in verdicts]
+    facts = [[each.member, rule_key(each.rule, each.member), int(is_one)] for each, is_one in zip(verdicts, of_poses, strict=True)]
+    return shown | {"facts": facts, "groups": groups}

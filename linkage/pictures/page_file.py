@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import re
 from base64 import b64encode, b85encode
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from functools import lru_cache
 from hashlib import sha256
 from html import escape
@@ -53,10 +53,16 @@ def page_text(title: str, data: PageData, parts: Sequence[str], *, language: str
     known_name("Language", language, LANGUAGES, where="page(language=...)")
     body, css, own = ("\n".join(page_part(each) for each in parts if each.endswith(end)) for end in (".html", ".css", ".js"))
     sentences = said_in(body + own)
-    data = data | {"language": language, "words": {name: translations(name, sentences) for name in LANGUAGES}}
+    words = dict[str, list[str]]()
+    for name in LANGUAGES:
+        with spoken_language(name):
+            words[name] = [translated(each) for each in sentences]
+    data = data | {"language": language, "words": words}
     body, own = (SAID.sub(lambda found: found[0].replace(f'"{found[1]}"', f'"{sentences.index(found[1])}"'), each) for each in (body, own))
     program, loader = f'"use strict";{text}\n(async () => {{\n{tight(own)}}})();\n', page_part("loader.js")
-    styles = NO_SPACE.sub(r"\1", f":root {{ {colours(most)} }}\n{bare(css)}")
+    fills = style.PALETTE[: max(len(style.BODIES), most + 1)]  # those of bodies up to a place in the palette, ten at least
+    colours = {name.lower(): getattr(style, name) for name in COLOURS} | {f"body{k}": fill for k, fill in enumerate(fills)}
+    styles = NO_SPACE.sub(r"\1", f":root {{ {''.join(f'--{name}:{value};' for name, value in colours.items())} }}\n{bare(css)}")
     filled_in = {
         "LANGUAGE": language,
         "TITLE": escape(title),
@@ -82,19 +88,6 @@ def page_place(path: Place) -> Path:
 def said_in(text: str) -> list[str]:
     """Return the English sentences in the program or the text of a page, each once. `{gap}` and the like are filled in there."""
     return list(dict.fromkeys(SAID.findall(text)))
-
-
-def translations(name: str, sentences: Iterable[str]) -> list[str]:
-    """Return sentences in a language, in their order."""
-    with spoken_language(name):
-        return [translated(each) for each in sentences]
-
-
-def colours(most: int = 0) -> str:
-    """Return the style's colours as properties of a style sheet, those of bodies up to a place in the palette, ten at least."""
-    fills = style.PALETTE[: max(len(style.BODIES), most + 1)]
-    named = {name.lower(): getattr(style, name) for name in COLOURS} | {f"body{k}": fill for k, fill in enumerate(fills)}
-    return "".join(f"--{name}:{value};" for name, value in named.items())
 
 
 def page_part(name: str) -> str:

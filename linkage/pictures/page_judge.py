@@ -25,7 +25,7 @@ from ..quantities import is_number, quantity
 from ..reports import at_its_rates, is_column
 from ..units import display_unit, factor, shown_in
 from .page_file import PageData
-from .shown_values import Limit, limit_of, typeset
+from .shown_values import limit_of, typeset
 
 Piece: TypeAlias = tuple[int, SearchRow, str]
 """The place of an `Over` among those of the judge, what is sought over it, and the name of its row."""
@@ -80,8 +80,13 @@ class LiveQuestions:
         for name, given in limits.items():
             column, request, why = columns[name]
             limit, self.units[name] = limit_of(given), column.unit
-            if not why:
-                self.ask_limit(name, request, limit)
+            at_rest = request.under(Acting(direction=FRICTIONLESS), keep=True) if isinstance(request, Request) else request
+            for each in () if why else dict.fromkeys((request, at_rest)):  # where no program gives it while it moves, that is at rest
+                self.untraced, before = False, dict(self.by_name)
+                self.ask(name, "", least(each) >= limit.value if limit.fails == "below" else most(each) <= limit.value)
+                if not self.untraced or each is at_rest:
+                    break
+                self.asked, self.by_name = [one for one in self.asked if one[0] != name], before
 
     def ask(self, rule: str, member: str, condition: Condition, words: PageWords = PLAIN_WORDS) -> None:
         """Note a question and its pieces; nothing where it cannot be split, or plain words where these cannot."""
@@ -101,16 +106,6 @@ class LiveQuestions:
             return
         self.asked.append((rule, constraints, pieces))
         self.said[rule] = member, words
-
-    def ask_limit(self, name: str, request: Any, limit: Limit) -> None:
-        """Note whether a column keeps a limit. Where no program gives it while it moves, that is at rest."""
-        at_rest = request.under(Acting(direction=FRICTIONLESS), keep=True) if isinstance(request, Request) else request
-        for each in dict.fromkeys((request, at_rest)):
-            self.untraced, before = False, dict(self.by_name)
-            self.ask(name, "", least(each) >= limit.value if limit.fails == "below" else most(each) <= limit.value)
-            if not self.untraced or each is at_rest:
-                return
-            self.asked, self.by_name = [one for one in self.asked if one[0] != name], before
 
     def new_row(self, request: RequestLike, kind: str = "") -> str:
         """Return the name of a new row, of a kind, that a request asks for."""

@@ -55,28 +55,6 @@ class SlideTrack:
         return float(np.nanmin(away, initial=np.inf)), float(np.nanmax(away, initial=-np.inf))
 
 
-def slide_tracks(motion: Motion) -> Iterator[SlideTrack]:
-    """Yield the tracks that something slides on: the guides, then the slots of bodies, each of a step of its own with the pin in it."""
-    plan, guides = motion.plan, motion.plan.of_kind(Guide)
-    found: list[tuple[str, tuple[str, ...], bool, Callable[[Where], Line]]] = []
-    for name, guide in guides.items():
-        joints = (joint for member in plan.holding.values() for joint in member.joints())
-        riders = tuple(dict.fromkeys(joint.point for joint in joints if joint.track == (name,)))
-        fixed = set(guide.points) <= set(plan.ground) and (guide.angle is None or not plan.moves(guide.angle))
-        found += [(name, riders, fixed, methodcaller("line", guide))] if riders else []
-    for name, step in plan.points.items():
-        for joint in step.joints():
-            if joint.track and joint.line is not None and joint.track[0] not in guides:
-                found.append((f"{name}|slot", (joint.point,), False, joint.line))
-    for name, riders, fixed, line in found:
-        there = line(motion._reading)
-        origin, along = (
-            np.array([np.broadcast_to(np.asarray(each, float), motion.shape).ravel() for each in (vector.x, vector.y)])
-            for vector in (there.origin, there.direction)
-        )
-        yield SlideTrack(name, origin, along, riders, fixed, line)
-
-
 Places: TypeAlias = dict[str, FloatArray]
 Pose: TypeAlias = int | tuple[int, ...]
 Bounds: TypeAlias = tuple[float, float, float, float]
@@ -383,27 +361,29 @@ class Scene:
 
     @cached_property
     def cylinders(self) -> tuple[DrawnCylinder, ...]:
-        """The cylinders."""
-        return tuple(self._cylinder(each) for each in self.two_force if each.drawn_as == "cylinder" and not self._is_telescope(each))
+        """The cylinders, each with a piston that stays in its barrel over the stroke, as far as its lengths allow."""
+        found = []
+        glands = {frozenset(each.ends): halves.points[0] for each, halves in self._halves}  # where the first of two bodies ends
+        for member in self.two_force:
+            if member.drawn_as != "cylinder" or self._is_telescope(member):
+                continue
+            P, Q, aside, (short, long) = member.P, member.Q, member.aside * self.size, self._lengths(member.P, member.Q)
+            if not long:
+                found.append(DrawnCylinder(P, Q, aside))
+                continue
+            size = min(self.size, 0.12 * short)
+            bottom, least = 1.4 * size, 2.0 * size
+            outermost = max(0.68 * short, short - 1.2 * size)
+            gland = glands.get(frozenset((P, Q)), P)
+            ends_at = next((float(np.hypot(*(at[gland] - at[P]))) for at in self.some(1)), 0.0)
+            mouth = min(ends_at, outermost) if ends_at else float(np.clip(least + long - short + 1.5 * size, 0.68 * short, outermost))
+            found.append(DrawnCylinder(P, Q, aside, bottom, mouth, short - least, least, mouth - 0.9 * size))
+        return tuple(found)
 
     def _is_telescope(self, member: TwoForceMember) -> bool:
         """Return whether a cylinder comes out farther than one stage can."""
         short, long = self._lengths(member.P, member.Q)
         return member.drawn_as == "cylinder" and bool(long) and (bool(member.ends) or shapes.stages(short, long) > 1)
-
-    def _cylinder(self, member: TwoForceMember) -> DrawnCylinder:
-        """Return a cylinder whose piston stays in its barrel over the stroke, as far as its lengths allow."""
-        aside, (short, long) = member.aside * self.size, self._lengths(member.P, member.Q)
-        if not long:
-            return DrawnCylinder(member.P, member.Q, aside)
-        size = min(self.size, 0.12 * short)
-        bottom, least = 1.4 * size, 2.0 * size
-        outermost = max(0.68 * short, short - 1.2 * size)
-        glands = {frozenset(each.ends): halves.points[0] for each, halves in self._halves}  # where the first of two bodies ends
-        gland = glands.get(frozenset((member.P, member.Q)), member.P)
-        ends_at = next((float(np.hypot(*(at[gland] - at[member.P]))) for at in self.some(1)), 0.0)
-        mouth = min(ends_at, outermost) if ends_at else float(np.clip(least + long - short + 1.5 * size, 0.68 * short, outermost))
-        return DrawnCylinder(member.P, member.Q, aside, bottom, mouth, short - least, least, mouth - 0.9 * size)
 
     @cached_property
     def straights(self) -> tuple[DrawnMark, ...]:
@@ -468,22 +448,17 @@ class Scene:
             member = next((each for each in self.two_force if {each.P, each.Q} == set(glyph.points) and each.drawn_as == "cylinder"), None)
             if glyph.drawn_as == "accumulator" and member is not None:
                 start = min(2.6 * self.size, 0.3 * self._lengths(member.P, member.Q)[0])
-                side = self._free_side(member)
-                across = (member.aside + side * HALF["cylinder"] * 0.85) * self.size
+                left = right = 0  # the other points on either side of P -> Q
+                for at in self.some(5):
+                    along = at[member.Q] - at[member.P]
+                    others = [place for name, place in at.items() if name not in (member.P, member.Q) and np.isfinite(place).all()]
+                    sides = [float(along[0] * (place - at[member.P])[1] - along[1] * (place - at[member.P])[0]) for place in others]
+                    left += sum(each > 0.0 for each in sides)
+                    right += sum(each < 0.0 for each in sides)
+                across = (member.aside + (1.0 if left < right else -1.0) * HALF["cylinder"] * 0.85) * self.size
                 lines = shapes.accumulators(min(max(glyph.count, 1), MOST_SHOWN), start, across, self.size)
                 found.append(DrawnMark(joined_names(member.P, member.Q), (member.P, member.Q), lines))
         return tuple(found)
-
-    def _free_side(self, member: TwoForceMember) -> float:
-        """Return 1 where the left of P -> Q is freer than its right, else -1."""
-        left = right = 0
-        for at in self.some(5):
-            along = at[member.Q] - at[member.P]
-            others = [place for name, place in at.items() if name not in (member.P, member.Q) and np.isfinite(place).all()]
-            sides = [float(along[0] * (place - at[member.P])[1] - along[1] * (place - at[member.P])[0]) for place in others]
-            left += sum(each > 0.0 for each in sides)
-            right += sum(each < 0.0 for each in sides)
-        return 1.0 if left < right else -1.0
 
     @cached_property
     def load_marks(self) -> tuple[DrawnMark, ...]:
@@ -566,8 +541,27 @@ class Scene:
 
     @cached_property
     def tracks(self) -> tuple[SlideTrack, ...]:
-        """The guides and slots that something slides on."""
-        return tuple(slide_tracks(self.motion))
+        """The guides that something slides on, then the slots of bodies, each of a step of its own with the pin in it."""
+        motion, plan = self.motion, self.motion.plan
+        guides, found = plan.of_kind(Guide), list[tuple[str, tuple[str, ...], bool, Callable[[Where], Line]]]()
+        for name, guide in guides.items():
+            joints = (joint for member in plan.holding.values() for joint in member.joints())
+            riders = tuple(dict.fromkeys(joint.point for joint in joints if joint.track == (name,)))
+            fixed = set(guide.points) <= set(plan.ground) and (guide.angle is None or not plan.moves(guide.angle))
+            found += [(name, riders, fixed, methodcaller("line", guide))] if riders else []
+        for name, step in plan.points.items():
+            for joint in step.joints():
+                if joint.track and joint.line is not None and joint.track[0] not in guides:
+                    found.append((f"{name}|slot", (joint.point,), False, joint.line))
+        tracks = []
+        for name, riders, fixed, line in found:
+            there = line(motion._reading)
+            origin, along = (
+                np.array([np.broadcast_to(np.asarray(each, float), motion.shape).ravel() for each in (vector.x, vector.y)])
+                for vector in (there.origin, there.direction)
+            )
+            tracks.append(SlideTrack(name, origin, along, riders, fixed, line))
+        return tuple(tracks)
 
     @cached_property
     def blocks(self) -> tuple[DrawnMark, ...]:

@@ -97,16 +97,12 @@ def plate_form(points: FloatArray, size: float, joints: Sequence[bool]) -> Float
             end = eye[vertex] + web / lengths[0] * (eye[a] - eye[vertex])
             hollow = [(1 - t) ** 2 * start + 2 * t * (1 - t) * eye[vertex] + t**2 * end for t in np.linspace(0.0, 1.0, 6)]
             arms = np.array([eye[a], eye[vertex], eye[b], *hollow])
-            return arms if covers(arms @ points, points, size) else shares
+            corners = arms @ points  # all points have to lie near its line
+            ends = np.roll(corners, -1, axis=0) - corners
+            share = np.einsum("pkc,kc->pk", points[:, None] - corners, ends) / np.maximum(np.einsum("kc,kc->k", ends, ends), 1e-300)
+            nearest = corners + np.clip(share, 0.0, 1.0)[..., None] * ends
+            return arms if (np.linalg.norm(points[:, None] - nearest, axis=-1).min(axis=1) < 0.6 * size).all() else shares
     return shares
-
-
-def covers(corners: FloatArray, points: FloatArray, size: float) -> bool:
-    """Return whether all points lie within a distance [m] of a polygon's line, or of the triangles of its hollow."""
-    ends = np.roll(corners, -1, axis=0) - corners
-    share = np.einsum("pkc,kc->pk", points[:, None] - corners, ends) / np.maximum(np.einsum("kc,kc->k", ends, ends), 1e-300)
-    nearest = corners + np.clip(share, 0.0, 1.0)[..., None] * ends
-    return bool((np.linalg.norm(points[:, None] - nearest, axis=-1).min(axis=1) < 0.6 * size).all())
 
 
 def hatches(line: FloatArray, size: float) -> FloatArray:

@@ -167,7 +167,15 @@ def print_cycle(options: Namespace) -> int:
     """Print the flow and pressure of a pump over a cycle, and draw them."""
     machine = machine_of(options)
     path = None if options.output is None else picture(options, machine, ALONG)
-    found = cycle_of_programme(machine, options) if options.program else cycles_judged(machine, options)
+    if options.program:
+        found = cycle_of_programme(machine, options)
+    else:
+        pump = pump_of(machine, options.pump)
+        judged = judged_cycles(pump, machine.judge(overs_of(machine, options.over), Acting()))
+        if not judged:
+            remedy = "give --program FILE, or declare a path in time, Over.path(lift=ramp(0.1, 0.3, speed=0.15)), with flow= of the pump"
+            raise DefinitionError(f"{machine.plan.title}: no path in time that {pump.name} serves; {remedy}.")
+        found = [("; ".join(filter(None, (place.over.title, cycle.case))), cycle, place.motion) for place, cycle in judged]
     if options.csv != "-":
         for place, (words, cycle, _) in enumerate(found):
             head = [*([""] if place else []), *([f"{words}:", ""] if words else [])]
@@ -204,14 +212,3 @@ def cycle_of_programme(machine: Mechanism, options: Namespace) -> list[tuple[str
         _, strokes = timed_texts({name: each[0] for name, each in motion.strokes.items()}, units, 0.0)
         print(said("It begins at {strokes}, under {loads}.", strokes=strokes, loads=loads))
     return [("", motion.cycle, motion)]
-
-
-def cycles_judged(machine: Mechanism, options: Namespace) -> list[tuple[str, PumpCycle, Motion]]:
-    """Return the cycles of the paths in time that a machine runs, with their motions."""
-    pump, title = pump_of(machine, options.pump), machine.plan.title
-    found = judged_cycles(pump, machine.judge(overs_of(machine, options.over), Acting()))
-    if not found:
-        remedy = "give --program FILE, or declare a path in time, Over.path(lift=ramp(0.1, 0.3, speed=0.15)), with flow= of the pump"
-        raise DefinitionError(f"{title}: no path in time that {pump.name} serves; {remedy}.")
-    named = ["; ".join(filter(None, (place.over.title, cycle.case))) for place, cycle in found]
-    return [(words, cycle, place.motion) for words, (place, cycle) in zip(named, found, strict=True)]

@@ -812,12 +812,12 @@ class Cylinder(BarrelAndRod, Ram):
         super().__post_init__()
         if self.works is not None:
             known_name("Side", self.works, (*SIDES, "both"), where="works")
-        size = CylinderSize(2.0, 1.0, self.count, self.side) if self._follows else self.size
+        size = CylinderSize(2.0, 1.0, self.count, self.side) if follows(self.bore, self.rod) else self.size
         Buckling(1.0, self.mounting, self.safety)
         for name, what in LENGTHS.items():
             value = getattr(self, name)
             if value is not None and not follows(value):
-                stroke_in_metres(one_number(value, what), what, None if self._follows else size.bore)
+                stroke_in_metres(one_number(value, what), what, None if follows(self.bore, self.rod) else size.bore)
 
     def _check_number(self, name: str) -> None:
         if name not in LENGTHS:  # those are looked at beside the bore, in words of their own
@@ -870,14 +870,9 @@ class Cylinder(BarrelAndRod, Ram):
     @property
     def size(self) -> CylinderSize:
         """The size as it is written here; DefinitionError where a bore or rod follows something else."""
-        if self._follows:
+        if follows(self.bore, self.rod):
             raise DefinitionError(f"{self}: its size follows the design; ask for sized(motion).")
         return CylinderSize(cast("float | Array", self.bore), cast("float | Array", self.rod), self.count, self.side)
-
-    @property
-    def _follows(self) -> bool:
-        """Whether bore or rod follow a quantity of the class."""
-        return follows(self.bore, self.rod)
 
     def sized(self, motion: Poses, direction: str | None = None) -> CylinderSize:
         """Return the size that a motion's designs have; bore and rod [m] broadcast against the motion.

@@ -69,7 +69,8 @@ def programme_read(machine: Mechanism, file: str) -> Programme:
         require(until > 0.0, "until", data["until"], 'an instant behind 0 s is expected, until = "4 s"')
     for name, given in table_under("start", data, faults).items():
         with faults.at_key("start", *name.split(".")):
-            start[known_name("Stroke", name, machine.strokes)] = si_number(given, stroke_measure(machine.plan, name))
+            known_name("Stroke", name, machine.strokes)
+            start[name] = si_number(given, stroke_measure(machine.plan, name))
     for name, given in table_under("demands", data, faults).items():
         with faults.at_key("demands", *name.split(".")):
             demands[known_name("Cylinder", name, machine.plan.of_kind(Ram))] = demand_read(given, until)

@@ -76,12 +76,12 @@ def thrust(cylinder: Reference, *, case: Case = None, direction: str | None = No
     return thrust_request(name_of(cylinder), situation_of("thrust", acting, case=case, direction=direction))
 
 
-def circuit_with(plan: Plan, ram: Ram, circuit: Circuits, word: str) -> LiftLine:
+def circuit_with(plan: Plan, cylinder: str | Ram, circuit: Circuits, word: str) -> LiftLine:
     """Return the circuit that is meant; DefinitionError where none or several have the cylinder, or the one named has not.
 
     `word` is what is asked of it.
     """
-    circuits = plan.of_kind(LiftLine)
+    ram, circuits = cylinder_in(cylinder, plan), plan.of_kind(LiftLine)
     if not isinstance(circuit, str):
         return circuit
     if circuit:
@@ -121,11 +121,7 @@ def circuit_request(
     name = circuit if isinstance(circuit, str) else circuit.name
     shown = f"circuit={name}" if name else circuit or None
     found = cylinder_request(word, cylinder, acting, formula, (*before, shown), after, measures=measures)
-
-    def examine(plan: Plan) -> None:
-        circuit_with(plan, cylinder_in(cylinder, plan), circuit, word)
-
-    return replace(found, examine=examine)
+    return replace(found, examine=partial(circuit_with, cylinder=cylinder, circuit=circuit, word=word))
 
 
 # The pressure.
@@ -198,7 +194,7 @@ def pressure_request(
 
     def examine(plan: Plan) -> None:
         if line_in(cylinder, plan) is None and circuit:
-            circuit_with(plan, cylinder_in(cylinder, plan), circuit, "pressure")
+            circuit_with(plan, cylinder, circuit, "pressure")
         elif line_in(cylinder, plan) is None and not lines_by_side(cylinder_in(cylinder, plan), plan):
             circuit_having(cylinder_in(cylinder, plan), plan)
 
@@ -441,7 +437,7 @@ def capacity_request(
         return np.asarray(np.isfinite(thrust) & np.isnan(lifted(motion, ram, acting)))
 
     def examine(plan: Plan) -> None:
-        circuit_with(plan, cylinder_in(cylinder, plan), circuit, "capacity")
+        circuit_with(plan, cylinder, circuit, "capacity")
         known_name("Point", point, plan.points, where=plan.title)
 
     def pieces(request: LawRequest, plan: Plan) -> tuple[SmoothPiece, ...]:

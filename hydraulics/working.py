@@ -118,7 +118,10 @@ class PumpedMachine:
         self.spans = np.array([sorted((plan.strokes[name].start, plan.strokes[name].end)) for name in self.consumers.strokes], float)
         self.own, self.moved = self._independent(np.array([[start[name]] for name in self.consumers.strokes]))
         names = [name_of(each) for each in pump.given("first")]
-        served = [each.name in names or any(line.name in names for line in self._lines(each)) for each in self.rams]
+        served = [
+            each.name in names or any(inlet.line.name in names for inlet in self.consumers.inlets if inlet.ram is each)
+            for each in self.rams
+        ]
         self.tiers = [0 if each else 1 for each in served]
         self.lengths = np.array([length_ends(ram, there) for ram in self.rams])
 
@@ -126,9 +129,6 @@ class PumpedMachine:
     def rams(self) -> list[Ram]:
         """The cylinders that are asked for."""
         return [self.consumers.rams[place] for place in self.ram_places]
-
-    def _lines(self, ram: Ram) -> list[Any]:
-        return [inlet.line for inlet in self.consumers.inlets if inlet.ram is ram]
 
     def _independent(self, strokes: Array) -> tuple[list[int], list[int]]:
         """Return the cylinders that say how the strokes move, those asked for first, and the strokes that they move, one each.
@@ -189,20 +189,18 @@ class PumpedMachine:
         consumption = self.consumers.consumption_of(rows, ways, like)
         if endless.any():
             for number in np.flatnonzero(endless.any(axis=1)).tolist():
-                self._refuse_endless(number, consumption, time)
+                name, need = self.rams[number].name, consumption.needs[number]
+                what = f"{self.plan.title}: demands: {name} is asked to move without a bound"
+                remedy = f"give a speed, such as {name}=0.1"
+                ensure(
+                    not self.limits.least_first, f"{what}, as valves of open centre would let it, and not least pressure first; {remedy}."
+                )
+                if np.any(need < -SAME_NEED * self.limits.cut_off):
+                    at = show(float(time[np.argmin(need)]), "s", 4)
+                    raise DefinitionError(f"{what}, and at {at} its load drives it, which nothing would hold; {remedy}.")
                 ways[number] = ways[number] * self.limits.flow / consumption.flows[number]
             consumption = self.consumers.consumption_of(rows, ways)
         return consumption, ways
-
-    def _refuse_endless(self, number: int, consumption: Consumption, time: Array) -> None:
-        """Raise DefinitionError for a demand without a bound that the pump cannot bound."""
-        name, need = self.rams[number].name, consumption.needs[number]
-        what = f"{self.plan.title}: demands: {name} is asked to move without a bound"
-        remedy = f"give a speed, such as {name}=0.1"
-        ensure(not self.limits.least_first, f"{what}, as valves of open centre would let it, and not least pressure first; {remedy}.")
-        if np.any(need < -SAME_NEED * self.limits.cut_off):
-            at = show(float(time[np.argmin(need)]), "s", 4)
-            raise DefinitionError(f"{what}, and at {at} its load drives it, which nothing would hold; {remedy}.")
 
     def stopped(self, consumption: Consumption, ways: Sequence[Array], strokes: Array, at: int) -> tuple[bool, ...]:
         """Return which cylinders stand at an end of their own, or of the stroke that is theirs, and are asked beyond it."""

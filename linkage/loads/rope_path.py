@@ -106,15 +106,6 @@ class Station:
         return 0.0 if self.pulley is None else self.pulley.sense
 
 
-def stations_of(run: Sequence[Reference], members: Mapping[str, Member]) -> tuple[Station, ...]:
-    """Return the points that a rope runs over, with their pulleys as the class has them."""
-    found = []
-    for each in run:
-        member = members.get(each if isinstance(each, str) else each.name, each)
-        found.append(Station(name_of(member.point), member) if isinstance(member, Pulley) else Station(name_of(each)))
-    return tuple(found)
-
-
 @immutable
 class RopePath(Quantity):
     """The length of a rope's path over points [m], of pulleys of some radii and senses, each straight part so often as its weight says."""

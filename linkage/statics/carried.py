@@ -30,7 +30,7 @@ from .applied import case_of
 from .holding import holders_of, is_among
 from .law_requests import LawRequest, TracedMotion
 from .poses import AnyMotion
-from .vehicle import bare_loads, frame_supports, is_rough, standing_of, vehicle_of
+from .vehicle import bare_loads, frame_supports, standing_of, vehicle_of
 from .work import pump_thrust
 
 TIPPING, SLIPPING = noted("tipping"), noted("slipping")
@@ -134,7 +134,7 @@ class LoadAt:
     @cached_property
     def kinds(self) -> tuple[str, ...]:
         """The limit of each bounded force, in their order: the name of a cylinder, "tipping", "slipping", a member's condition."""
-        slips = (SLIPPING, SLIPPING) if any(map(is_rough, self.supports.values())) else ()
+        slips = (SLIPPING, SLIPPING) if any(each.friction is not None for each in self.supports.values()) else ()
         return (*self.bounded, *(TIPPING for _ in self.outermost), *slips, *(each.name for each in self.limits))
 
     def carried(self, motion: AnyMotion, acting: Acting) -> list[FloatArray]:

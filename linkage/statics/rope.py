@@ -16,7 +16,7 @@ from ..errors import DefinitionError, cited, ensure, known_name
 from ..language import noted, said
 from ..loads import Acting, ActingKeywords, Case, Loads, situation_of, takes_situation
 from ..loads.element import Declared, ForceElement, Formulas, Glyph, Load, Parameter, Poses, Reeving, Tie, value_text
-from ..loads.rope_path import Pulley, RopePath, Station, pulls, stations_of, wraps
+from ..loads.rope_path import Pulley, RopePath, Station, pulls, wraps
 from ..motion import Column, Condition, HasVerdicts, Judge, Motion, Tabled, least, require_motion
 from ..plan import Plan, strokes_alone
 from ..program import FloatArray
@@ -127,7 +127,11 @@ class Rope(ForceElement, Tabled, HasVerdicts):
         tuple of Station
             The points with their pulleys.
         """
-        return stations_of(self.run, members)
+        found = []
+        for each in self.run:
+            member = members.get(each if isinstance(each, str) else each.name, each)
+            found.append(Station(name_of(member.point), member) if isinstance(member, Pulley) else Station(name_of(each)))
+        return tuple(found)
 
     def examine(self, members: NamedMembers, title: str) -> None:
         known = [name for name, member in members.items() if isinstance(member, (Point, Pulley))]

@@ -118,7 +118,9 @@ def standing_of(motion: AnyMotion, acting: Acting, supports: Mapping[str, Suppor
     carried = dict(zip(supports, found, strict=True))
     slants = [part_along(way, right) * carried[name] for name, way in ways.items()]
     along = 0.0 - part_along(right, force) - sum(slants, poses.zeros())
-    rough = [poses.flattened(each.number(motion, "friction")) * carried[name] for name, each in supports.items() if is_rough(each)]
+    rough = [
+        poses.flattened(each.number(motion, "friction")) * carried[name] for name, each in supports.items() if each.friction is not None
+    ]
     return Standing(
         {name: poses.full(force) for name, force in carried.items()},
         {name: poses.full(force) for name, force in zip(supports, ends, strict=True) if force is not None},
@@ -209,11 +211,6 @@ def is_on_frame(plan: Plan, element: ForceElement) -> bool:
     if isinstance(element, LinkMass):
         return set(element.points(plan.members, plan.title)) <= frame_points(plan)
     return isinstance(element, Weight) and name_of(element.point) in frame_points(plan)
-
-
-def is_rough(support: Support) -> bool:
-    """Return whether a support says how rough the ground is."""
-    return support.friction is not None
 
 
 # The balance of the frame.
@@ -424,7 +421,7 @@ def support_in(name: str, plan: Plan) -> None:
 
 def rough_in(plan: Plan) -> None:
     """Raise DefinitionError where no support of a plan says how rough the ground is."""
-    if not any(is_rough(each) for each in vehicle_of(plan).values()):
+    if not any(each.friction is not None for each in vehicle_of(plan).values()):
         raise DefinitionError(f"{plan.title}: no support says friction=, so that nothing tells when it slips; say it, friction=0.6.")
 
 
@@ -485,7 +482,9 @@ class AxleLoad(Tabled, HasVerdicts):
         except DefinitionError:
             return {}
         found: dict[str, Condition] = {"axle load": least(axle_load(self.support.name)) >= 0.0}
-        return found | ({"slipping": most(slipping()) <= 1.0} if self.is_first and any(map(is_rough, supports.values())) else {})
+        return found | (
+            {"slipping": most(slipping()) <= 1.0} if self.is_first and any(each.friction is not None for each in supports.values()) else {}
+        )
 
     def page_words(self, judge: Judge) -> Mapping[str, PageWords]:
         name, weights = self.support.name, [each for each in judge.plan.of_kind(ForceElement).values() if is_on_frame(judge.plan, each)]

@@ -308,18 +308,14 @@ class Construction:
                 key = ("corner", frozenset((a, b)), c)
                 self.corners[key] = given
                 return self._atom(key, self.behind(a) | self.behind(b) | self.behind(c))
-            case Operation():
-                return self._product(given)
+            case Operation():  # a multiple where one factor is a number
+                a, b = self.form(given.a), self.form(given.b)
+                if given.symbol == "*" and not (a.terms and b.terms):
+                    return Form().plus(*((b, a.number) if not a.terms else (a, b.number)))
+                if given.symbol == "/" and not b.terms and b.number:
+                    return Form().plus(a, 1.0 / b.number)
+                return self._atom((given.symbol, a, b), self.behind(a) | self.behind(b))
         return self._other(given)
-
-    def _product(self, given: Operation) -> Form:
-        """Return a product, a quotient or a power: a multiple where one factor is a number."""
-        a, b = self.form(given.a), self.form(given.b)
-        if given.symbol == "*" and not (a.terms and b.terms):
-            return Form().plus(*((b, a.number) if not a.terms else (a, b.number)))
-        if given.symbol == "/" and not b.terms and b.number:
-            return Form().plus(a, 1.0 / b.number)
-        return self._atom((given.symbol, a, b), self.behind(a) | self.behind(b))
 
     def _other(self, given: Quantity) -> Form:
         """Return a quantity without a simpler form as a term: a stroke, a dimension, a coordinate, a function."""

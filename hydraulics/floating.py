@@ -26,6 +26,7 @@ from linkage.loads import AT_REST, Acting, ForceElement, Glyph, Load, Parameter,
 from linkage.loads.element import Formulas
 from linkage.loads.two_point import end_forces
 from linkage.motion import Answer, Judge, Motion, MotionFunction
+from linkage.plan import require_kinds
 from linkage.program import is_traced
 from linkage.quantities import NamedMembers, Reference, label, name_of, quantity
 from linkage.statics import AnyMotion, held_in_case, plan_of, same, stroke_followed
@@ -392,7 +393,9 @@ class FloatCircuit(GasLine):
         return found
 
     def charged_at(self, motion: Poses, ram: Ram) -> Mapping[str, Array]:
-        return {stroke_followed(plan_of(motion), ram): self.number(motion, "at")}
+        stroke = stroke_followed(plan_of(motion), ram)
+        require_kinds(plan_of(motion), {stroke: self.given("at")})
+        return {stroke: self.number(motion, "at")}
 
 
 ROUNDED = 6e-4

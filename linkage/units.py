@@ -189,11 +189,11 @@ def require_measure(value: object, unit: str, what: str) -> None:
     ------
     DefinitionError
         The amount measures something else. Moments, stiffnesses, what a unit of one's own measures and numbers of an open kind take
-        forces, since `5 * kN` may stand for 5 kN m. A volume may be a stroke, of oil, where a length is expected.
+        forces, since `5 * kN` may stand for 5 kN m; numbers of an open kind take volumes as well.
     """
     wanted = unit if unit in SI or unit == "number" else UNITS[unit][1] if unit in UNITS else ""
     for each in amounts_in(value):
-        may_stand = {"force": wanted in ("moment", "stiffness") or wanted not in (*MEASURED, "number"), "volume": wanted in ("", "length")}
+        may_stand = {"force": wanted in ("moment", "stiffness") or wanted not in (*MEASURED, "number"), "volume": not wanted}
         if each.measures != wanted and not may_stand.get(each.measures, False):
             expected = f"value of {wanted}, such as {EXAMPLES[wanted]}" if wanted in EXAMPLES else "number in SI, without a unit"
             given = f"{article(each.measures)} {each.measures}"

@@ -33,7 +33,7 @@ class Stroke(Quantity):
         object.__setattr__(self, "start", plain(self.start))
         object.__setattr__(self, "end", plain(self.end))
         for value in (self.start, self.end):
-            if getattr(value, "measures", "") != "angle":
+            if getattr(value, "measures", "") not in ("angle", "volume"):  # a volume of oil may be a stroke
                 require_measure(value, "length", "Stroke: end")
         ensure(self.start != self.end, f"Stroke({self.start}, {self.end}) has no length: give two different ends.")
 

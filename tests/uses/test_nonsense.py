@@ -78,6 +78,7 @@ from linkage.files.criterion import measure_said
 from linkage.mobility import grashof
 from linkage.study import Tolerance, monte_carlo, settings_for, sobol, tornado
 from linkage.synthesis import PathTask, PoseTask
+from linkage.units import litre
 
 
 class Arm(Mechanism):
@@ -112,6 +113,9 @@ KINDS = {
     "PinFriction, radius": (lambda: PinFriction("T", radius=3 * deg, coefficient=0.1), "radius=0.0523599 was given as an angle"),
     "PinFriction, coefficient": (lambda: PinFriction("T", radius=0.02, coefficient=3 * deg), "coefficient=0.0523599 was given as an angle"),
     "GuideFriction": (lambda: GuideFriction("T", 3 * mm), "coefficient=0.003 was given as a length"),
+    "Spring, volume": (lambda: Spring("A", "B", stiffness=2e4, free_length=3 * litre), "free_length=0.003 was given as a volume"),
+    "PinFriction, volume": (lambda: PinFriction("T", radius=3 * litre, coefficient=0.1), "radius=0.003 was given as a volume"),
+    "gap, volume": (lambda: gap("OB", "A", width=3 * litre), "was given as a volume; expected is a value of length"),
     "Pulley": (lambda: Pulley("T", 3 * kN, 1), "radius=3000 was given as a force"),
     "Rope": (lambda: Rope("A", "T", "B", length=3 * kN), "length=3000 was given as a force"),
     "Rope, weights": (lambda: Rope("A", "T", "B", length=3, weights=[2 * kN, 1]), "weights=2000 was given as a force"),
@@ -227,6 +231,7 @@ def amounts(folder):
         "follow, start": (lambda: Boom().follow([Target(y("P"), [0.7])], hold={"phi": 0.5, "turn": 0.0}, start={"z": 3 * deg}), length),
         "settings_for": (lambda: settings_for(ARM, "OB", y("T"), 20 * deg, between=(0.5, 0.7), S=0.1), length),
         "settings_for, between": (lambda: settings_for(ARM, "OB", y("T"), 0.2, between=(0.5, 40 * deg), S=0.1), length),
+        "FloatCircuit, at": (lambda: made(line=None, gas=FloatCircuit("ram", GAS, charge_pressure=8e6, at=3 * deg))().verdicts(), length),
         "LinkMass, at": (lambda: LinkMass("O B", mass=3, at=(0.1, 3 * deg)), length),
         "grashof": (lambda: grashof(0.1, 0.2, 0.3, 3 * deg), length),
         "PathTask": (lambda: PathTask([(0, 0), (1, 3 * deg)], of="T"), length),

@@ -7,7 +7,7 @@ import json
 import re
 import sys
 from argparse import Namespace
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
@@ -107,7 +107,7 @@ def write_tables(tables: Sequence[Table], file: str | None) -> None:
                 print()
             if heading:
                 print(f"{heading}\n")
-            print_table(columns, outside)
+            write_table(columns, None, outside=outside)
         if any(any(outside) for _, _, outside in tables):
             print(f"\n{dagger_words()}")
         return
@@ -122,10 +122,14 @@ def write_tables(tables: Sequence[Table], file: str | None) -> None:
         write_table(joined, file, labels)
 
 
-def write_table(columns: Sequence[Column], file: str | None, labels: Sequence[str] = ()) -> None:
-    """Print a table, or write it as CSV where a file is named, "-" being stdout; `labels` are the first field of each row there."""
+def write_table(columns: Sequence[Column], file: str | None, labels: Sequence[str] = (), outside: Sequence[bool] = ()) -> None:
+    """Print a table, or write it as CSV where a file is named, "-" being stdout; `labels` are the first field of each row there.
+
+    It is printed in blocks as wide as a terminal there, else whole; `outside` says which rows are outside what is judged.
+    """
     if file is None:
-        print_table(columns)
+        width = get_terminal_size().columns if sys.stdout.isatty() else None
+        print(*text_table(columns, width, outside), sep="\n")
         return
     if isinstance(sys.stdout, io.TextIOWrapper) and file == "-":
         sys.stdout.reconfigure(newline="")  # CR LF stays CR LF where the system would turn LF into that itself
@@ -133,12 +137,6 @@ def write_table(columns: Sequence[Column], file: str | None, labels: Sequence[st
         write_csv(columns, stream, progress, labels)
     if file != "-":
         print(f"{file}: {max(np.size(each.values) for each in columns)} rows")
-
-
-def print_table(columns: Sequence[Column], outside: Sequence[bool] = ()) -> None:
-    """Print a table: in blocks as wide as a terminal there, else whole."""
-    width = get_terminal_size().columns if sys.stdout.isatty() else None
-    print(*text_table(columns, width, outside), sep="\n")
 
 
 def write_columns(columns: Sequence[Column], path: Path, labels: Sequence[str] = ()) -> None:
@@ -185,13 +183,16 @@ def forces_command(options: Namespace) -> int:
         there = plain if run is None or options.case is not None else replace(plain, case=run.case)
         pins = pin_forces(motion, case=there.case, direction=there.direction, drive=there.drive)
         columns = [column for column in columns_of(motion) if column.name in ("time", *motion.strokes)]
-        if options.on is None:
-            columns += force_columns(motion, there.case, there.direction)
-            columns += joint_columns(pins) if options.poses else []
-        else:
-            on_body = pins.on_body(options.on).items()
-            parts = [(f"{point}_{axis}", part) for point, force in on_body for axis, part in zip("xy", force, strict=True)]
-            columns += [Column(name, part, "kN", 3) for name, part in parts]
+        columns += force_columns(motion, there.case, there.direction) if options.on is None else []
+        for point, force in pins.on_body(options.on).items() if options.on is not None else ():
+            columns += [Column(f"{point}_{axis}", part, "kN", 3) for axis, part in zip("xy", force, strict=True)]
+        points = [joint.point for joint in pins.joints]
+        for joint in pins.joints if options.poses and options.on is None else ():
+            name = joint.point if points.count(joint.point) == 1 else f"{joint.point} on {joint.on} from {joint.by}"
+            if joint.has_force:
+                columns.append(Column(name, joint.size, "kN", 3))
+            else:
+                columns.append(Column(f"{name} couple", np.asarray(joint.couple), "Nm", 3))
         words = f"{run_words(machine, run)}: " if run is not None and len(motions) > 1 else ""
         tables.append((f"{words}{machine.plan.title}, {pins.case}, {pins.direction}. {signs}", columns, ()))
         found.append(pins)
@@ -202,14 +203,6 @@ def forces_command(options: Namespace) -> int:
     remarks = dict.fromkeys(remark for pins in found for remark in pins.remarks)
     print(f"residual of equilibrium {max(pins.residual for pins in found):.0e}", *remarks, sep="\n")
     return settings.print_verdicts(machine.verdicts(over=over), options) if options.check else 0
-
-
-def joint_columns(pins: PinForces) -> Iterator[Column]:
-    """Yield the force, or the couple, of every joint."""
-    points = [joint.point for joint in pins.joints]
-    for joint in pins.joints:
-        name = joint.point if points.count(joint.point) == 1 else f"{joint.point} on {joint.on} from {joint.by}"
-        yield Column(name, joint.size, "kN", 3) if joint.has_force else Column(f"{name} couple", np.asarray(joint.couple), "Nm", 3)
 
 
 # How far it goes.

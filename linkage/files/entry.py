@@ -22,7 +22,7 @@ from ..steps import Point, Step
 from ..units import SI
 from .design import Design
 from .names import NAME_LENGTH, FileTable, Keywords, Names, entry_as, require_entry, shortened
-from .source import Mistakes, each_of
+from .source import Mistakes
 from .validators import KINDS, Kind, amount, fixed_number, quantity_of
 
 LABELS = 100
@@ -189,15 +189,16 @@ def list_of(part: type[Any]) -> Kind:
             raise DefinitionError("is not a list [...].")
         ensure(len(given) <= VALUES, f"{len(given)} are too many; at most {VALUES} items are read.")
 
-        def read_one(place: int, each: Any) -> Keywords:
-            ensure(isinstance(each, Mapping), "is not a table { key = value }.")
-            mistakes = Mistakes()
-            found = read_table(each, names, arguments, mistakes)
-            check_keys(each, [argument.key for argument in arguments], mistakes)
-            mistakes.check()
-            return found
-
-        return each_of(enumerate(given), read_one)
+        found, mistakes = list[Keywords](), Mistakes()
+        for place, each in enumerate(given):
+            with mistakes.at_key(str(place)):
+                ensure(isinstance(each, Mapping), "is not a table { key = value }.")
+                inside = Mistakes()
+                found.append(read_table(each, names, arguments, inside))
+                check_keys(each, [argument.key for argument in arguments], inside)
+                inside.check()
+        mistakes.check()
+        return found
 
     return Kind(
         read,

@@ -10,7 +10,7 @@ import numpy as np
 from linkage.checks import require
 from linkage.errors import DefinitionError, ensure, known_name
 from linkage.files.names import FileTable, by_whole_names, require_entry, shortened
-from linkage.files.source import Faults, measured_columns, source
+from linkage.files.source import Source, measured_columns, source
 from linkage.frozen import immutable
 from linkage.loads import LoadCase
 from linkage.mechanism import Mechanism
@@ -58,8 +58,8 @@ def programme_read(machine: Mechanism, file: str) -> Programme:
             )
         demands |= {name: Course(time, [*map(float, values)], "straight") for name, values in columns.items()}
         return Programme(pump_of(machine, None), demands, float(time[-1]), {})
-    found = source(path)
-    faults, data = found.faults, found.data
+    faults = source(path)
+    data = faults.data
     for key in data:
         with faults.at_key(key):
             known_name("Key", key, KEYS)
@@ -82,7 +82,7 @@ def programme_read(machine: Mechanism, file: str) -> Programme:
     return Programme(pump_of(machine, data.get("pump")), demands, until, start, case)
 
 
-def table_under(key: str, data: FileTable, faults: Faults) -> FileTable:
+def table_under(key: str, data: FileTable, faults: Source) -> FileTable:
     """Return a table of a file, an empty one where there is none; parts within it, `[demands.boom] ram`, by their whole names."""
     given = data.get(key, {})
     if isinstance(given, Mapping):

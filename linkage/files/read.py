@@ -21,7 +21,7 @@ from ..steps import Point
 from .names import FileTable, Names, by_whole_names, member_name, require_entry, shortened
 from .parts_file import dotted_kinds, machine_named
 from .registry import registry
-from .source import Faults, source
+from .source import Source, source
 
 HEAD = ("name", "doc", "order", "featured", "machines")
 MACHINES = 50
@@ -56,7 +56,7 @@ def load(path_or_text: str | os.PathLike[str], trust: Collection[str] = ()) -> t
         The mechanism cannot be assembled.
     """
     found = source(path_or_text)
-    return built(found.data, found.faults, trusted(trust), found.folder)
+    return built(found.data, found, trusted(trust), found.folder)
 
 
 def from_dict(data: Mapping[str, object], trust: Collection[str] = ()) -> type[Mechanism]:
@@ -79,7 +79,7 @@ def from_dict(data: Mapping[str, object], trust: Collection[str] = ()) -> type[M
     FileError
         The tables have mistakes; each is named with its key.
     """
-    return built(data, Faults(source="the tables"), trusted(trust))
+    return built(data, Source(name="the tables"), trusted(trust))
 
 
 def trusted(given: object) -> tuple[str, ...]:
@@ -94,7 +94,7 @@ DEEPEST = 8
 
 
 def built(
-    data: FileTable, faults: Faults, trust: Collection[str], folder: Path | None = None, depth: int = 0,
+    data: FileTable, faults: Source, trust: Collection[str], folder: Path | None = None, depth: int = 0,
     machines: Mapping[str, type[Mechanism]] = MappingProxyType({}),
 ) -> type[Mechanism]:  # fmt: skip
     """Return the class that the tables say.
@@ -104,7 +104,7 @@ def built(
     sections = sections_of(data, faults)
     title, doc, featured = head_read(data, faults)
     if depth > DEEPEST:
-        raise FileError(f"{faults.source}: files of parts name each other more than {DEEPEST} deep, or in a circle.")
+        raise FileError(f"{faults.name}: files of parts name each other more than {DEEPEST} deep, or in a circle.")
 
     found = names_of(sections, faults)
     kinds = {name: registry().kind(section) for name, section in found.items()}
@@ -140,16 +140,16 @@ def machine_beside(folder: Path | None, trust: Collection[str], depth: int, name
         raise DefinitionError(f"{shortened(name)}: a text has no folder; put the machine in it, [machines.Name...].")
     require_entry(Path(name).name == name, name, "the file of a part stands in the folder of the one that names it; give its name alone")
     found = source(folder / name)
-    return built(found.data, found.faults, trust, folder, depth)
+    return built(found.data, found, trust, folder, depth)
 
 
 # -- the tables --------------------------------------------------------------------------------------------
 
 
-def sections_of(data: object, faults: Faults) -> dict[str, FileTable]:
+def sections_of(data: object, faults: Source) -> dict[str, FileTable]:
     """Return the sections with their entries; anything else is noted."""
     if not isinstance(data, Mapping):
-        raise FileError(f"{faults.source}: a table of sections is expected, not {type(data).__name__}.")
+        raise FileError(f"{faults.name}: a table of sections is expected, not {type(data).__name__}.")
     known = registry().sections
     found: dict[str, FileTable] = {}
     for key, value in data.items():
@@ -161,7 +161,7 @@ def sections_of(data: object, faults: Faults) -> dict[str, FileTable]:
     return found
 
 
-def head_read(data: FileTable, faults: Faults) -> tuple[str, str | None, Featured]:
+def head_read(data: FileTable, faults: Source) -> tuple[str, str | None, Featured]:
     """Return the class's name, its docstring and its features; anything else is noted."""
     title, doc, featured, given = data.get("name"), data.get("doc"), Featured(), data.get("featured", {})
     with faults.at_key("name"):
@@ -177,7 +177,7 @@ def head_read(data: FileTable, faults: Faults) -> tuple[str, str | None, Feature
 
 
 def machines_read(
-    data: FileTable, faults: Faults, trust: Collection[str], folder: Path | None, depth: int, around: Mapping[str, type[Mechanism]]
+    data: FileTable, faults: Source, trust: Collection[str], folder: Path | None, depth: int, around: Mapping[str, type[Mechanism]]
 ) -> dict[str, type[Mechanism]]:
     """Return the machines that a file holds for its parts, by name, beside those `around`; one may have parts that are others of them."""
     given = data.get("machines", {})
@@ -197,13 +197,13 @@ def machines_read(
         return found
     for name in order:
         tables = {"name": name, **{key: value for key, value in given[name].items() if key != "machines"}}
-        own = Faults(source=f"{faults.source}, machines.{name}")
+        own = Source(name=f"{faults.name}, machines.{name}")
         with faults.at_key("machines", name):
             found[name] = built(tables, own, trust, folder, depth + 1, found)
     return found
 
 
-def names_of(sections: Mapping[str, Mapping[str, object]], faults: Faults) -> dict[str, str]:
+def names_of(sections: Mapping[str, Mapping[str, object]], faults: Source) -> dict[str, str]:
     """Return all names with their sections; bad and double ones are noted. FileError for more members than any machine has."""
     members = [entry for table in sections.values() for entry in table.values()]
     sketched = sum(isinstance(entry, Mapping) and not {"near", "at"}.isdisjoint(entry) for entry in members)
@@ -211,7 +211,7 @@ def names_of(sections: Mapping[str, Mapping[str, object]], faults: Faults) -> di
     counts["links"] = len(sections.get("links", {})), LINKS
     for what, (count, limit) in counts.items():
         if count > limit:
-            raise FileError(f"{faults.source}: {count} {what} are too many; up to {limit} are read.")
+            raise FileError(f"{faults.name}: {count} {what} are too many; up to {limit} are read.")
     found: dict[str, str] = {}
     for section, entries in sections.items():
         for name in entries:
@@ -223,7 +223,7 @@ def names_of(sections: Mapping[str, Mapping[str, object]], faults: Faults) -> di
     return found
 
 
-def ordered(data: FileTable, names: Names, faults: Faults) -> list[str]:
+def ordered(data: FileTable, names: Names, faults: Source) -> list[str]:
     """Return the names in the order that the file says; those it does not mention stand behind."""
     order = data.get("order", [])
     given: list[Any] = order if isinstance(order, list) and all(isinstance(each, str) for each in order) else [None]
@@ -237,7 +237,7 @@ def ordered(data: FileTable, names: Names, faults: Faults) -> list[str]:
 # -- the class ---------------------------------------------------------------------------------------------
 
 
-def class_made(title: str, doc: str | None, featured: Featured, names: Names, faults: Faults) -> type[Mechanism]:
+def class_made(title: str, doc: str | None, featured: Featured, names: Names, faults: Source) -> type[Mechanism]:
     """Return the class with the members that are built; faults of the whole class come with the file's name and key."""
     try:
         with np.errstate(all="ignore"):
@@ -256,6 +256,6 @@ def class_made(title: str, doc: str | None, featured: Featured, names: Names, fa
         located.args = (faults.text(),)
         raise located from error
     except RecursionError:
-        raise FileError(f"{faults.source}: expressions hang on each other in too long a chain; shorten it.") from None
+        raise FileError(f"{faults.name}: expressions hang on each other in too long a chain; shorten it.") from None
     except ArithmeticError as error:
-        raise FileError(f"{faults.source}: a value overflows or is divided by zero ({error}); look for extreme numbers.") from error
+        raise FileError(f"{faults.name}: a value overflows or is divided by zero ({error}); look for extreme numbers.") from error

@@ -30,30 +30,6 @@ TOML_LINE = 5_000  # characters: a dotted key as long as a file takes the parser
 FAULTS_SHOWN = 20
 
 
-@dataclass(frozen=True)
-class Source:
-    """A file's tables, the name it is spoken of by, and where its keys stand."""
-
-    name: str
-    data: Any
-    places: Mapping[Key, int]
-    folder: Path | None = None
-    """The folder of the file; None of a text."""
-
-    @property
-    def faults(self) -> Faults:
-        """The mistakes of the file, none as yet."""
-        return Faults(source=self.name, line_of=self.line_of)
-
-    def line_of(self, key: Key) -> int:
-        """Return the line of a key, else the first one inside it, else that of the nearest table around it; 0 where none is known."""
-        if key in self.places:
-            return self.places[key]
-        inside = [line for path, line in self.places.items() if key and path[: len(key)] == key]
-        around = (self.places[key[:end]] for end in range(len(key), 0, -1) if key[:end] in self.places)
-        return min(inside, default=next(around, 0))
-
-
 def source(path_or_text: str | os.PathLike[str]) -> Source:
     """Return the text of a file, or a text with several lines or a leading `{`. FileError for a file that cannot be read."""
     if not isinstance(path_or_text, (str, os.PathLike)):
@@ -78,11 +54,11 @@ def decoded(name: str, raw: bytes, is_json: bool) -> Source:
         raise FileError(f"{name}, line {line}: the file is not UTF-8 text; save it in that encoding.") from None
     try:
         if is_json:
-            return Source(name, json.loads(text, parse_constant=refused, object_pairs_hook=unique), {})
+            return Source(name=name, data=json.loads(text, parse_constant=refused, object_pairs_hook=unique))
         for number, each in enumerate(text.split("\n"), 1):
             if len(each) > TOML_LINE:
                 raise ValueError(f"the line has {len(each)} characters, up to {TOML_LINE} are read (at line {number}, column 1)")
-        return Source(name, tomllib.loads(text), key_lines(text))
+        return Source(name=name, data=tomllib.loads(text), places=key_lines(text))
     except RecursionError:
         raise FileError(f"{name}: lists or tables are nested too deeply; a mechanism's file needs three levels.") from None
     except ValueError as error:
@@ -291,11 +267,22 @@ def each_of(given: Iterable[tuple[object, object]], read: Callable[[Any, Any], A
 
 
 @dataclass
-class Faults(Mistakes):
-    """The mistakes of a whole file. `source` is its name, `line_of` tells the line of a key, 0 where it is not known."""
+class Source(Mistakes):
+    """A file as it is read: the name it is spoken of by, its tables, where its keys stand, and the mistakes in it."""
 
-    source: str = TEXT
-    line_of: Callable[[Key], int] = lambda key: 0
+    name: str = TEXT
+    data: Any = None
+    places: Mapping[Key, int] = field(default_factory=dict)
+    folder: Path | None = None
+    """The folder of the file; None of a text."""
+
+    def line_of(self, key: Key) -> int:
+        """Return the line of a key, else the first one inside it, else that of the nearest table around it; 0 where none is known."""
+        if key in self.places:
+            return self.places[key]
+        inside = [line for path, line in self.places.items() if key and path[: len(key)] == key]
+        around = (self.places[key[:end]] for end in range(len(key), 0, -1) if key[:end] in self.places)
+        return min(inside, default=next(around, 0))
 
     def check(self) -> None:
         """Raise FileError where there are mistakes."""
@@ -310,7 +297,7 @@ class Faults(Mistakes):
             places = [*([f"line {line}"] if line else []), *([".".join(parts)] if parts else [])]
             lines.append(f"{', '.join(places)}: {message}" if places else message)
         if len(lines) == 1:
-            return f"{self.source}: {lines[0]}"
+            return f"{self.name}: {lines[0]}"
         rest = len(lines) - FAULTS_SHOWN
         more = [f"and {rest} more"] if rest > 0 else []
-        return "\n  ".join([f"{self.source}: {len(lines)} mistakes:", *lines[:FAULTS_SHOWN], *more])
+        return "\n  ".join([f"{self.name}: {len(lines)} mistakes:", *lines[:FAULTS_SHOWN], *more])

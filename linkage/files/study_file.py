@@ -35,7 +35,7 @@ from ..study.variants import is_side
 from ..units import parse, parse_span
 from .criterion import criterion_of
 from .names import FileTable, Keywords, by_whole_names, entry_as, listed, require_entry, shortened
-from .source import TEXT, Faults, Mistakes, each_of, source
+from .source import TEXT, Mistakes, Source, each_of, source
 
 FindMachine: TypeAlias = Callable[[str, Path], type[Mechanism]]
 """What returns the class of a machine by its text and the folder of the file that names it."""
@@ -53,7 +53,7 @@ class StudyHead:
     """A study file as it is read: its tables, the mistakes found so far, the machine, and the folder that its paths start from."""
 
     data: FileTable
-    faults: Faults
+    faults: Source
     machine: Mechanism
     base: Path
     machines: Mapping[str, Mechanism] = field(default_factory=dict)
@@ -77,10 +77,10 @@ class StudyHead:
 
         With `several` the machine may be a list of them.
         """
-        found = source(path)
-        faults, base = found.faults, Path() if found.name == TEXT else Path(path).parent
+        faults = source(path)
+        base = Path() if faults.name == TEXT else Path(path).parent
         known = ("machine", "set", "doc", *keys)
-        data = found.data if isinstance(found.data, Mapping) else {}
+        data = faults.data if isinstance(faults.data, Mapping) else {}
         for key in data:
             if key not in known:
                 faults.add((str(key),), str(unknown("Key", key, known)))
@@ -154,7 +154,7 @@ def by_dimensions(given: object, what: str, read: Callable[[str, Any], Any], wor
     return dict(each_of(by_whole_names(given, words), lambda name, value: (name, read(name, value))))
 
 
-def settings_said(plan: Plan, given: object, faults: Faults) -> Keywords:
+def settings_said(plan: Plan, given: object, faults: Source) -> Keywords:
     """Return dimensions [SI] by name; each mistake is noted, and the other names are read."""
     found: Keywords = {}
 

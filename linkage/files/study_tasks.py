@@ -432,7 +432,7 @@ class StudyFile:
         return TASKS[section](self.machine, **self.tasks[section], **kept)
 
 
-def read_study(path: str | os.PathLike[str], find: FindMachine, settings: Settings = lambda machine: {}) -> StudyFile:
+def read_study(path: str | os.PathLike[str], find: FindMachine, settings: Settings) -> StudyFile:
     """Return the studies that a TOML or JSON file asks for; FileError with every mistake, its line and its key; as `read_search`."""
     head = StudyHead.of(path, (*TASKS, "folder", "outputs"), find, settings)
     asked = [section for section in TASKS if head.data.get(section) is not None]

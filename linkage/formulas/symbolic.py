@@ -19,7 +19,7 @@ from ..errors import DefinitionError
 from ..motion import stroke_measure
 from ..plan import Plan
 from ..program.traced import elementwise
-from ..quantities import Quantity, Tabulated, unnamed
+from ..quantities import Tabulated
 from ..units import SI, UNITS, deg, unit_or_none
 from ..vectors import Operators, Scalar, Vec
 from .names import Cross, Deg, Dot, Norm, TurnV
@@ -97,14 +97,9 @@ KINDS = {"length": LENGTH, "coordinate": LENGTH, "angle": ANGLE}
 
 def input_units(plan: Plan) -> dict[str, Unit]:
     """Return the unit of each stroke and design variable; a `Dimension` by the place where it is used."""
-    found = list(plan.table.lengths.values())
-    for member in plan.members.values():
-        for part in (member, *unnamed(member)):
-            found += [each for each in part.lengths() if isinstance(each, Quantity)]
-    lengths = set().union(*map(plan.terms, found))
     units = {name: KINDS.get(stroke_measure(plan, name), NUMBER) for name in plan.strokes}
     for name, entry in plan.table.entries.items():
-        used = ANGLE if name in plan.turning else LENGTH if name in lengths else NUMBER
+        used = ANGLE if name in plan.turning else LENGTH if name in plan.spanning else NUMBER
         factor, kind = UNITS[entry.unit] if entry.unit else (1.0, "")
         own = entry.unit and kind != "angle" and (factor != 1.0 or kind != "length")
         units[name] = Unit(named=entry.unit) if own else ANGLE if kind == "angle" else KINDS.get(entry.kind, used)

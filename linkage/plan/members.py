@@ -340,25 +340,33 @@ class Members:
         return ({name} if name else set()).union(*(self.terms(part) for part in parts if isinstance(part, Quantity)))
 
     @cached_property
+    def given_angles(self) -> tuple[Quantity, ...]:
+        """The quantities that stand for angles."""
+        return tuple(angle for name in self.members for part in self.with_parts(name) for angle in part.in_radians())
+
+    @cached_property
     def turning(self) -> frozenset[str]:
         """The names of the terms of angles: strokes and dimensions in rad."""
-        parts = [part for name in self.members for part in self.with_parts(name)]
-        return frozenset().union(*(self.terms(angle) for part in parts for angle in part.in_radians()))
+        return frozenset().union(*map(self.terms, self.given_angles))
+
+    @cached_property
+    def given_lengths(self) -> tuple[Quantity, ...]:
+        """The quantities that stand for lengths, and what drives a point along a guide or a crank."""
+        jointed = [each for each in self.members.values() if isinstance(each, Jointed) and each.kind != "load"]
+        driven = [drive.quantity for each in jointed for joint in each.joints() for drive in joint.drives]
+        parts = (part for name in self.members for part in self.with_parts(name))
+        own = [length for part in parts for length in part.lengths() if isinstance(length, Quantity)]
+        return (*self.table.lengths.values(), *driven, *own)
+
+    @cached_property
+    def spanning(self) -> frozenset[str]:
+        """The names of the terms of lengths: strokes and dimensions in m."""
+        return frozenset().union(*map(self.terms, self.given_lengths)) - self.turning
 
     def known_stroke_kind(self, name: str) -> str:
         """Return whether a stroke is an "angle" or a "length": by the sums it is in, else as it was given; "" where neither tells."""
-        if name in self.turning:
-            return "angle"
-        if any(name in self.terms(length) for length in self.driven_lengths):
-            return "length"
-        stroke = self.strokes[name]
-        return str(getattr(stroke.start, "measures", "") or getattr(stroke.end, "measures", ""))
-
-    @cached_property
-    def driven_lengths(self) -> tuple[Quantity, ...]:
-        """The lengths of bodies, and the ways along guides; what drives a crank is among them."""
-        jointed = [each for each in self.members.values() if isinstance(each, Jointed) and each.kind != "load"]
-        return (*self.table.lengths.values(), *(drive.quantity for each in jointed for joint in each.joints() for drive in joint.drives))
+        given = [getattr(end, "measures", "") for end in (self.strokes[name].start, self.strokes[name].end)]
+        return "angle" if name in self.turning else "length" if name in self.spanning else next(filter(None, given), "")
 
     @cached_property
     def stroke_kinds(self) -> Mapping[str, str]:
@@ -366,8 +374,7 @@ class Members:
 
         phi of `angle=phi / 2` is an "angle", k of `AB=L + k * S`, with a length S, a plain "number".
         """
-        angles = [angle for name in self.members for part in self.with_parts(name) for angle in part.in_radians()]
-        asked = [(given, kind) for kind, every in (("angle", angles), ("length", self.driven_lengths)) for given in every]
+        asked = [*((each, "angle") for each in self.given_angles), *((each, "length") for each in self.given_lengths)]
         scaled = ((name, (self.scaled_kind(name, *each) for each in asked)) for name in self.strokes)
         return FrozenDict({name: self.known_stroke_kind(name) or next(filter(None, kinds), "") for name, kinds in scaled})
 
@@ -614,11 +621,7 @@ def plan_measure(plan: Members, variable: str) -> str:
     A dimension without a unit of its own measures what it is added to: `L0` in `AB=L0 + S` is a length.
     """
     found = plan.table.entries[variable].measures if variable in plan.table.entries else ""
-    if found:
-        return found
-    if any(variable in plan.terms(length) for length in plan.table.lengths.values()):
-        return "length"
-    return "angle" if variable in plan.turning else ""
+    return found or ("length" if variable in plan.spanning else "angle" if variable in plan.turning else "")
 
 
 def strokes_text(plan: Members, values: Mapping[str, float]) -> str:

@@ -17,6 +17,7 @@ from ..loads import AS_IT_RUNS, FRICTIONLESS, OWN_LOADS, PLAIN_CASE, Acting, Cas
 from ..loads.acting import check_factor, shut_members
 from ..loads.element import AT_REST, SENSES, ForceElement, Friction, Load, Poses, Push, Rate, Rates, TwoPinned, check_together
 from ..motion import Motion, rates_of, require_motion
+from ..motion.limits import where_words
 from ..motion.requests import stroke_of
 from ..plan import Plan
 from ..program import FloatArray
@@ -124,8 +125,8 @@ def over_poses(motion: AnyMotion, values: ArrayLike, vector: int, name: str, wha
         raise DefinitionError(f"{opening}, shape {array.shape}, does not fit the poses {shape}.") from None
     missing = ~np.isfinite(full).all(axis=tuple(range(vector))) & motion.reached
     if missing.any() and motion.unreachable == "raise":
-        text = f"{motion.plan.title}: {name} gives no finite {what} at {int(missing.sum())} of {missing.size} poses."
-        raise SingularError(text, mask=missing, motion=motion)
+        text = f"{motion.plan.title}: {name} gives no finite {what} {where_words(motion.plan, missing, motion.strokes)}"
+        raise SingularError(f"{text}: mend its law, or keep away from there.", mask=missing, motion=motion)
     return np.asarray(full, float)
 
 

@@ -93,7 +93,7 @@ USES = [
     (
         'LiftCircuit("lift", pressure=1.6e7, @)',
         "mechanical_efficiency=0; mechanical_efficiency=1.1; mechanical_efficiency=90; hydraulic_efficiency=-0.5",
-        ("LiftCircuit:", "an efficiency lies between 0 and 1."),
+        ("LiftCircuit:", "an efficiency lies between 0 and 1"),
     ),
     (
         'LiftCircuit("lift", pressure=1.6e7, @)',

@@ -456,7 +456,7 @@ USES = [
         '3; (1,); "ab"; [[1.0], [2.0, 3.0]]; 1j',
         ("Lift: Own(): its force at G", "(2, ...) in N is expected."),
     ),
-    ("driving_force(motion, gives(force=@))", "(nan, 0.0)", ("Lift: Own() gives no finite force at G at 5 of 5 poses.",)),
+    ("driving_force(motion, gives(force=@))", "(nan, 0.0)", ("Lift: Own() gives no finite force at G at 5 of 5 strokes", "mend its law")),
     (
         "driving_force(motion, gives(force=@))",
         "np.ones((2, 7))",

@@ -282,7 +282,16 @@ class Vectors:
         kernel: Kernel = self.plan.made(("followed", self.name), lambda plan: Kernel(followed_nodes(plan, self.name)))
         found = kernel(inputs, size=(len(line), 1) if rows else (1, len(line))).values.reshape(-1, len(line))
         rate = sum((found[2 * k + 2 : 2 * k + 4] * slope[line] for k, slope in enumerate(self.ways.along.values())), np.zeros((2, 1)))
-        return self._placed(found[:2], inputs), rate
+        value, missing = found[:2], ~np.isfinite(found[:2]).all(axis=0)
+        if missing.any():  # places that stand at a dead point are filled in to rounding
+            many = {name for name, each in inputs.items() if np.size(each) == missing.size and np.ndim(each)}
+            there = {name: np.ravel(each)[missing] if name in many else each for name, each in inputs.items()}
+            there |= {name: np.full(int(missing.sum()), np.nan) for name in self.plan.followed if name not in there}
+            with np.errstate(all="ignore"):
+                vector = self.plan.read(there).directions[self.name]
+            value = np.array(value)
+            value[:, missing] = np.broadcast_to(np.array(np.broadcast_arrays(vector.x, vector.y)), (2, int(missing.sum())))
+        return value, rate
 
     def _inputs(self, line: Index, place: FloatArray) -> tuple[dict[str, Numbers], bool]:
         """Return the inputs at places, and whether designs differ: then these are (k,) and strokes (k, 1)."""
@@ -299,17 +308,3 @@ class Vectors:
             for name in pins:
                 pins[name][here] = np.broadcast_to(solved.inputs[name], (1, int(here.sum())))[0]
         return inputs | {name: value[:, None] if rows else value for name, value in (moved | pins).items()}, rows
-
-    def _placed(self, value: FloatArray, inputs: Mapping[str, Numbers]) -> FloatArray:
-        """Return the vector with the places filled in that stand at a dead point, to rounding."""
-        missing = ~np.isfinite(value).all(axis=0)
-        if not missing.any():
-            return value
-        size = missing.size
-        there = {name: np.ravel(each)[missing] if np.size(each) == size and np.ndim(each) else each for name, each in inputs.items()}
-        there |= {name: np.full(int(missing.sum()), np.nan) for name in self.plan.followed if name not in there}
-        with np.errstate(all="ignore"):
-            vector = self.plan.read(there).directions[self.name]
-        filled = np.array(value)
-        filled[:, missing] = np.broadcast_to(np.array(np.broadcast_arrays(vector.x, vector.y)), (2, int(missing.sum())))
-        return filled

@@ -20,6 +20,7 @@ from .sketch import ONE_PLACE, Sketch, all_behind, missing_labels, sided, with_b
 
 # The shape of a link: the distances and angles of its points, from its labels or a drawing.
 
+
 class Shape:
     """A link's shape as known from its own labels and those of links of the same body. Lengths in m, angles in rad."""
 
@@ -109,6 +110,7 @@ class Shape:
                 return OnLink(P, Q, near=near, **labelled((P + pin, p), (Q + pin, q)))
         return None
 
+
 def labelled(*labels: tuple[str, Quantity]) -> dict[str, Any]:
     """Return labels as a step's keywords."""
     return dict(labels)
@@ -154,6 +156,7 @@ def yoke_dyads(parts: Parts, pin: str, guide: str) -> Iterator[YokeDyad]:
 
 # What a parts list refers to, looked at before its pins are placed: names, kinds, labels.
 
+
 def check_names(members: Mapping[str, Member], title: str) -> None:
     """Raise DefinitionError for a name that nobody declares, one of another kind, and a label that does not fit its link's points."""
     for name, member in members.items():
@@ -171,6 +174,7 @@ def check_names(members: Mapping[str, Member], title: str) -> None:
 
 
 # What no dyad pattern places: the smallest sets of pins whose equations determine them together.
+
 
 @dataclass(frozen=True)
 class PinEquation:

@@ -177,6 +177,7 @@ class Program:
 
         return compiled_loop(self.compiled_text, "fill", arguments)
 
+
 DRIVERS = '''
 def follow(a, b, state, ends, out, count, start, begins):
     """Follow lanes from `start` on to their ends; return the first lane that finds no room in `out`, and how many places are there.
@@ -361,19 +362,14 @@ class GroupPath:
         """Return the inputs of this group's programs at places of lanes, the pins of the groups before it included."""
         inputs = self.route.inputs_at(lane, place)
         for track in self.before:  # each is told the pins of those before itself, which would else be found 2^k times
-            inputs |= dict(zip(track.newton.names, track._at_step(lane, place, inputs), strict=True))
+            known, key = track._at_steps, (lane.tobytes(), place.tobytes())
+            pins = known[key] if key in known else track.pins_at(lane, place, inputs)
+            if len(lane) <= FEW and key not in known:  # of few lanes they are kept, as other groups step there too
+                if len(known) >= STEPS_KEPT:
+                    known.clear()
+                known[key] = pins
+            inputs |= dict(zip(track.newton.names, pins, strict=True))
         return self.newton.fixed_inputs(inputs)
-
-    def _at_step(self, lane: Index, place: FloatArray, inputs: Mapping[str, Numbers]) -> FloatArray:
-        """Return the pins at places of a later group, with the inputs there; of few lanes they are kept, as other groups step there too."""
-        if len(lane) > FEW:
-            return self.pins_at(lane, place, inputs)
-        key = lane.tobytes(), place.tobytes()
-        if key not in self._at_steps:
-            if len(self._at_steps) >= STEPS_KEPT:
-                self._at_steps.clear()
-            self._at_steps[key] = self.pins_at(lane, place, inputs)
-        return self._at_steps[key]
 
     # -- from place to place ---------------------------------------------------------------------------------
 

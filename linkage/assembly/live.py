@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from itertools import accumulate
 from typing import Any
 
 from ..checks import is_listed
 from ..plan import Plan
 from ..program import Graph, Inputs, Level, Node, arrow_function, function_body, number, short_names
-from ..steps import Group
 from . import angle_continuation
 from .angle_continuation import followed_nodes, piece_length
 from .groups import LINE, largest_step
@@ -40,30 +38,26 @@ def place_between(*given: Any, choose: Any) -> tuple[Any, ...]:
     return found, bound
 
 
-def group_text(plan: Plan, group: Group, inputs: Inputs) -> str:
-    """Return the equations of a group: functions of its pins that give a step, the clearance, and the equations with their slopes."""
-    programs = Programs.for_group(plan, group)
-    graph, count = plan.trace.graph, len(group.inputs) - 1
-    given = {node: inputs.read(node) for node in graph.nodes if node.op == "input" and node.value in inputs}
-    known = {graph.input(f"@k{place}", Level.POSE): f"k[{place}]" for place in range(len(programs.known))}
-    pins = {graph.input(name, Level.POSE): f"u[{place}]" for place, name in enumerate(group.inputs[:-1])}
-    steps, clear = programs.nodes[: count + 2], [*programs.nodes[count + 2 :], programs.nodes[count + 1]]
-    functions = (f"u=>{function_body(known | pins, each, 'ku')}" for each in (steps, clear, programs.raw.plan.outputs))
-    return f"(d,p)=>{{const k=(()=>{function_body(given, programs.known, 'dp')})();return[{','.join(functions)}]}}"
-
-
 def groups_text(plan: Plan, inputs: Inputs, dimensions: Sequence[str]) -> str:
     """Return JavaScript that solves the groups of a plan; dimensions by their names in the order of a design."""
-    seeds = at_sketch(plan)
-    first = accumulate((len(group.inputs) for group in plan.groups.values()), initial=len(plan.strokes))
-    groups = ",".join(f"[{start},{group_text(plan, group, inputs)}]" for start, group in zip(first, plan.groups.values(), strict=False))
+    seeds, graph, groups, start = at_sketch(plan), plan.trace.graph, list[str](), len(plan.strokes)
+    for group in plan.groups.values():  # functions of its pins: a step, the clearance, and the equations with their slopes
+        programs, count = Programs.for_group(plan, group), len(group.inputs) - 1
+        given = {node: inputs.read(node) for node in graph.nodes if node.op == "input" and node.value in inputs}
+        known = {graph.input(f"@k{place}", Level.POSE): f"k[{place}]" for place in range(len(programs.known))}
+        pins = {graph.input(name, Level.POSE): f"u[{place}]" for place, name in enumerate(group.inputs[:-1])}
+        steps, clear = programs.nodes[: count + 2], [*programs.nodes[count + 2 :], programs.nodes[count + 1]]
+        functions = (f"u=>{function_body(known | pins, each, 'ku')}" for each in (steps, clear, programs.raw.plan.outputs))
+        body = f"const k=(()=>{function_body(given, programs.known, 'dp')})();return[{','.join(functions)}]"
+        groups.append(f"[{start},(d,p)=>{{{body}}}]")
+        start += count + 1
     numbers = {
         "seeds": [seeds[name][:, 0].tolist() for name in plan.groups],
         "d0": [plan.defaults[name] for name in dimensions],
         "LARGEST": largest_step(plan, next(iter(plan.strokes))),
         **{"ITERATIONS": ITERATIONS, "FIRST": FIRST, "TOUCH": TOUCH, "LINE": LINE},
     }
-    constants = {"groups": f"[{groups}]", **{name: json_of(value) for name, value in numbers.items()}}
+    constants = {"groups": f"[{','.join(groups)}]", **{name: json_of(value) for name, value in numbers.items()}}
     rules: dict[str, tuple[int, Rule]] = {"ended": (3, newton_ended), "predicted": (8, place_ahead), "judged": (7, step_judged)}
     rules |= {"goes": (4, goes_on), "between": (11, place_between)}
     return "".join(f"const {name}={traced_rule(count, rule)};" for name, (count, rule) in rules.items()) + constants_text(constants)

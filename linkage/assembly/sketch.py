@@ -208,11 +208,16 @@ def begin(name: str, part: Part, members: dict[str, Member], title: str) -> None
         held = {each for each in needs(bound) if each in members}
         pairs = [(each, part.aliases.get(dotted, dotted)) for each, dotted in outside if part.aliases.get(dotted, dotted) in held]
         sketch = Sketch(all_behind(members, [*of_kind(members, Drawn), *(dotted for _, dotted in pairs)]), title)
-        places = laid_on([own[each] for each, _ in pairs], [sketch.at(dotted) for _, dotted in pairs], part.mirrored, own, group.pins)
-        for pin, place in places.items():
-            member = members[f"{name}.{pin}"]
+        # as near as can be: the part's points are laid on those of the whole
+        sense, whole = -1.0 if part.mirrored else 1.0, [sketch.at(dotted) for _, dotted in pairs]
+        start = np.array([complex(sense * x, y) for x, y in (own[each] for each, _ in pairs)])
+        goal = np.array([complex(x, y) for x, y in whole])
+        turn = np.sum((goal - goal.mean()) * (start - start.mean()).conj())
+        turn = turn / abs(turn) if abs(turn) > 0.0 else 1.0
+        for pin in group.pins:
+            member, place = members[f"{name}.{pin}"], goal.mean() + turn * (complex(sense * own[pin][0], own[pin][1]) - start.mean())
             if isinstance(member, Pin):
-                members[f"{name}.{pin}"] = member.renewed(near=place, drawn_at=None)
+                members[f"{name}.{pin}"] = member.renewed(near=(float(place.real), float(place.imag)), drawn_at=None)
 
 
 def check_foreign(part: Part, axes: Axes | None) -> None:
@@ -270,18 +275,6 @@ class MovedReading:
         """Return a guide's line."""
         found = self.reading.line(guide)
         return Line(self.place(found.origin), self._turned(found.direction))
-
-
-def laid_on(
-    own: list[Place], whole: list[Place], mirrored: bool, places: Mapping[str, Place], pins: Iterable[str]
-) -> dict[str, Place]:
-    """Return where pins come to lie when their part's points are laid on those of the whole, as near as can be."""
-    sense = -1.0 if mirrored else 1.0
-    start, goal = (np.array([complex(sign * x, y) for x, y in given]) for sign, given in ((sense, own), (1.0, whole)))
-    turn = np.sum((goal - goal.mean()) * (start - start.mean()).conj())
-    turn = turn / abs(turn) if abs(turn) > 0.0 else 1.0
-    moved = {pin: goal.mean() + turn * (complex(sense * places[pin][0], places[pin][1]) - start.mean()) for pin in pins}
-    return {pin: (float(place.real), float(place.imag)) for pin, place in moved.items()}
 
 
 def all_behind(members: Mapping[str, Member], names: Iterable[str]) -> dict[str, Member]:

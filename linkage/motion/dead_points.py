@@ -152,7 +152,13 @@ def singular_error(found: Conditioning, mask: Mask, strokes: Mapping[str, object
     plan = found.plan
     name, near, in_line = found.culprit()
     if in_line:
-        crossing = ", where its two branches cross" if crosses(motion, name) else ""
+        crossing = ""
+        if len(motion.strokes) == 1 and not motion._design_shape and name in motion._loop_sines:
+            ((stroke, values),) = motion.strokes.items()
+            place = int(np.argmin(np.nan_to_num(np.abs(np.broadcast_to(motion._loop_sines[name], motion.shape)))))
+            step = 1e-4 * abs(motion.plan.strokes[stroke].end - motion.plan.strokes[stroke].start)
+            if motion.moved({stroke: np.ravel(values)[place] + np.array([-step, step])}).reached.all():  # assembled on both sides
+                crossing = ", where its two branches cross"
         where = f"{'change' if crossing else 'dead'} point{crossing}"
         why = f"{opening(plan, name)} stands at a {where}: its links are in line ({near}, refused above {REFUSE:.0e})"
     else:
@@ -180,16 +186,6 @@ def lost_places(found: Conditioning, mask: Mask, strokes: Mapping[str, object]) 
 def is_or_are(what: str) -> str:
     """Return "is" or "are" for the subject of a sentence: `The joint forces`, `The ratio of BS`."""
     return "are" if what.split(" of ")[0].endswith("s") else "is"
-
-
-def crosses(motion: MotionLike, name: str) -> bool:
-    """Return whether a loop in line can be assembled on both sides of the pose, so that two branches cross there."""
-    if len(motion.strokes) != 1 or motion._design_shape or name not in motion._loop_sines:
-        return False
-    ((stroke, values),) = motion.strokes.items()
-    place = int(np.argmin(np.nan_to_num(np.abs(np.broadcast_to(motion._loop_sines[name], motion.shape)))))
-    step = 1e-4 * abs(motion.plan.strokes[stroke].end - motion.plan.strokes[stroke].start)
-    return bool(motion.moved({stroke: np.ravel(values)[place] + np.array([-step, step])}).reached.all())
 
 
 def warn_near(found: Conditioning, what: str, be: str = "is") -> None:

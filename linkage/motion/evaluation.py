@@ -70,11 +70,6 @@ class BulkProgram:
         """Return whether no pose of a result has to be looked at closely."""
         return result.is_clear and not (self.may_fail and not np.isfinite(result.values).all())
 
-    @cached_property
-    def row_count(self) -> int:
-        """The rows of all requests."""
-        return sum(rows for _, rows in self.parts)
-
 
 def require_rates(plan: Plan, kernel: Kernel, known: Container[str]) -> None:
     """Raise DefinitionError where a kernel asks how fast strokes move, and nothing says it: inputs that are not `known`."""
@@ -202,6 +197,7 @@ class Evaluation:
                 values = to_rounding(values, at_end, self.program.kernel.plan.outputs[rows], at)
             look.missing[number, bad] = without = without | ~np.isfinite(values).all(axis=0)
             block[rows, bad] = np.where(without, np.nan, values)
+
 
 def watch_of(plan: Plan, requests: Sequence[Request]) -> tuple[int, list[int], Kernel]:
     """Return how many of its outputs are assumptions, and gaps of each request; and the kernel.

@@ -78,7 +78,7 @@ def evaluate_grid(
 
 def evaluate_bound(asked: Evaluation, out: FloatArray | None, unreachable: str) -> list[FloatArray]:
     """Return the values of requests that are bound; raise or warn as asked."""
-    grid, rows = asked.grid, asked.program.row_count
+    grid, rows = asked.grid, len(asked.program.kernel.plan.outputs)
     values, look = asked.evaluate(None if out is None else checked_out(grid, rows, out).reshape(rows, *grid.size))
     if look is None:
         return values

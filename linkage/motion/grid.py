@@ -291,6 +291,7 @@ def _joined(angle: FloatArray) -> FloatArray:
 
 # What follows from directions: nodes worked out again where an angle is continued past half a turn along the stroke.
 
+
 @dataclass(frozen=True, eq=False)
 class Angles:
     """Some nodes, the moving angles behind them, and the kernel of these."""

@@ -811,7 +811,7 @@ class Judge:
         for chosen in combined_pieces([self._found[number][leaf_key(self.plan, leaf)][1] for leaf in leaves]):
             values = {leaf: each.value for leaf, each in zip(leaves, chosen, strict=True)}
             with np.errstate(all="ignore"):
-                value, margin = (np.asarray(each) for each in valued(question, values.__getitem__))
+                value, margin = valued(question, values)
             unbounded = np.asarray(np.any([each.unbounded for each in chosen], axis=0) if chosen else False)
             where = next((each.strokes for each in chosen if each.strokes), {})
             side = next((each.row.piece.side for each in chosen if each.row.piece.side), "")
@@ -1008,14 +1008,15 @@ def situation_found(chosen: Sequence[WorstPiece]) -> Situation:
     return Situation(next((each.case for each in every if each.case), ""), ways[0].direction, ways[0].drive)
 
 
-def valued(question: Any, number: Callable[[Leaf], FloatArray]) -> tuple[FloatArray, FloatArray]:
+def valued(question: Any, values: Mapping[Leaf, FloatArray]) -> tuple[FloatArray, FloatArray]:
     """Return a question's value, and its margin: below zero where it is not kept; for a bare measure, least where its one leaf is worst."""
     if isinstance(question, Measure):
-        value, running = np.asarray(question.from_leaves(number), float), {each for each in question.leaves if not isinstance(each, At)}
+        running = {each for each in question.leaves if not isinstance(each, At)}
+        value = np.asarray(question.from_leaves(values.__getitem__), float)
         (leaf,) = running if len(running) == 1 else (question,)
-        of_leaf = np.where(np.isnan(value), np.nan, number(leaf)) if isinstance(leaf, (Least, Most)) else value
+        of_leaf = np.where(np.isnan(value), np.nan, values[leaf]) if isinstance(leaf, (Least, Most)) else value
         return value, of_leaf if isinstance(leaf, Least) else -of_leaf
-    left, right = (np.asarray(each.from_leaves(number), float) for each in (question.left, question.right))
+    left, right = (np.asarray(each.from_leaves(values.__getitem__), float) for each in (question.left, question.right))
     size = MET * np.maximum(np.abs(np.where(np.isfinite(left), left, 0.0)), np.abs(np.where(np.isfinite(right), right, 0.0)))
     apart = {">=": left - right, "<=": right - left}.get(question.symbol)
     margin = 1e3 * size - np.abs(left - right) if apart is None else apart

@@ -88,7 +88,14 @@ class ManyPlaces:
             return cls(Places.for_targets(plan, designs, targets, hold, where=where, ranges=ranges), 0)
         bound = tuple(traced_target(plan, each, title) for each in targets)
         every = Places(plan, {k: float(v) for k, v in designs.items()}, tuple(targets), bound, tuple(free), held, ranges)
-        loose = spared(every, spare)
+        # spare are those without which the others move the targets most, the last ones where equal
+        slopes = every.slopes(SCATTERED[:, : len(free)]) / every.sizes[:, None]
+        slopes, best, loose = slopes[all_known(slopes)], -1.0, tuple(free[-spare:])
+        for few in reversed([*combinations(range(len(free)), spare)]):
+            kept = [at for at in range(len(free)) if at not in few]
+            size = float(np.median(np.abs(np.linalg.det(slopes[:, :, kept])))) if len(slopes) else 0.0
+            if size > best * (1.0 + 1e-9):
+                best, loose = size, tuple(free[at] for at in few)
         Places.for_targets(plan, designs, targets, {**held, **{name: plan.sketch_strokes[name] for name in loose}}, where=where)
         return cls(every.reordered((*(name for name in free if name not in loose), *loose)), spare)
 
@@ -195,19 +202,6 @@ class ManyPlaces:
         box, off = descended(misses, slopes, begin, 12, enough=TOLERANCE, begin=1e-6)
         unit[rows, :k] = box * wide - outs[:k]
         met[rows] = (np.abs(off) <= MET).all(axis=1)
-
-
-def spared(every: Places, count: int) -> tuple[str, ...]:
-    """Return the strokes to spare: those without which the others move the targets most, the last ones where equal."""
-    slopes = every.slopes(SCATTERED[:, : len(every.free)]) / every.sizes[:, None]
-    slopes = slopes[all_known(slopes)]
-    best, found = -1.0, every.free[-count:]
-    for loose in reversed([*combinations(range(len(every.free)), count)]):
-        kept = [at for at in range(len(every.free)) if at not in loose]
-        size = float(np.median(np.abs(np.linalg.det(slopes[:, :, kept])))) if len(slopes) else 0.0
-        if size > best * (1.0 + 1e-9):
-            best, found = size, tuple(every.free[at] for at in loose)
-    return found
 
 
 @dataclass(frozen=True, eq=False)

@@ -389,18 +389,13 @@ def batch_verdicts(judge: Judge, fault: str = "") -> list[Verdict]:
             if verdict.ok is False:
                 failed[verdict.rule].append((number + 1, verdict.sentence))
     for rule, each_of in failed.items():
-        text = said("{n} of {total} designs fail", n=len(each_of), total=total) + (range_words(answers.get(rule, [])) if each_of else "")
+        text, known = said("{n} of {total} designs fail", n=len(each_of), total=total), answers.get(rule, []) if each_of else []
+        low, high = (pick(known, key=lambda each: each.value, default=None) for pick in (min, max))
+        if low is not None and high is not None and low.amount != high.amount:
+            text += said(", of their worst values {low} to {high}", low=low.amount, high=high.amount)
         text += said("; the first is design {number}: {sentence}", number=each_of[0][0], sentence=each_of[0][1]) if each_of else "."
         found.append(Verdict(rule, not each_of, text))
     return found
-
-
-def range_words(answers: Sequence[Answer]) -> str:
-    """Return the range of the worst values of several designs, in words; empty where all have the same."""
-    low, high = (pick(answers, key=lambda each: each.value, default=None) for pick in (min, max))
-    if low is None or high is None or low.amount == high.amount:
-        return ""
-    return said(", of their worst values {low} to {high}", low=low.amount, high=high.amount)
 
 
 # -- limits ------------------------------------------------------------------------------------------------

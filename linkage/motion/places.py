@@ -367,22 +367,14 @@ class FoundPlaces:
         return FoundPlaces(self.unit[rows], self.off[rows])
 
 
-def beyond(places: Places, wanted: FloatArray) -> FoundPlaces:
-    """Return the unit coordinates outside the ranges that meet the wanted values, the least far out first.
-
-    It is looked one range beyond either end, a crank over a whole turn.
-    """
-    out = np.where(places.turning, np.maximum(0.5 * TURN / places.span - 0.5, 0.0), 1.0)
-    if not out.any():
-        return FoundPlaces(np.empty((0, len(out))), np.empty((0, len(places.targets))))
-    found = BranchSearch(places, wanted, out).branches()
-    away = np.maximum(np.maximum(-found.unit, found.unit - 1.0), 0.0).max(axis=1)
-    return found.select(np.argsort(away, kind="stable"))
-
-
 def unmet_words(places: Places, wanted: FloatArray, near: FoundPlaces) -> str:
     """Return why no strokes in their ranges meet the targets: the pose beyond them, and how far off the nearest one is."""
-    past = beyond(places, wanted)
+    out = np.where(places.turning, np.maximum(0.5 * TURN / places.span - 0.5, 0.0), 1.0)  # a range beyond each end, a turn of a crank
+    past = FoundPlaces(np.empty((0, len(out))), np.empty((0, len(places.targets))))
+    if out.any():
+        past = BranchSearch(places, wanted, out).branches()
+        away = np.maximum(np.maximum(-past.unit, past.unit - 1.0), 0.0).max(axis=1)
+        past = past.select(np.argsort(away, kind="stable"))
     if not len(near.unit) and not len(past.unit):
         return said("no strokes that were looked at can be assembled.")
     text = said("no strokes within their ends give {wanted}.", wanted=places.shown(wanted))
@@ -591,7 +583,6 @@ class BranchSearch:
         found = found.select(self.places.is_assembled(found.unit)) if len(starts) else found
         size = np.sum((found.off / self.places.tolerances) ** 2, axis=1)
         return found.select(np.argsort(size, kind="stable")[:1])
-
 
 
 class Target:

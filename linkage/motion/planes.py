@@ -296,7 +296,14 @@ def nearest_gap(motion: Motion, pairs: Sequence[Pair]) -> FloatArray:
 
     A pair is looked at where the widths of its bodies say that it may be the nearest at some pose.
     """
-    ends = {name: widths_of(motion, name) for name in dict.fromkeys(name for pair in pairs for name in pair)}
+    ends = dict[str, tuple[FloatArray, FloatArray]]()
+    for name in dict.fromkeys(name for pair in pairs for name in pair):  # where each begins and ends along some directions, (8, n) each
+        with unwarned():
+            pieces = shape_named(motion.plan, name).pieces(motion.plan, motion._placed, pick)
+        places = [(P, np.max(np.asarray(piece.radius))) for piece in pieces for P in piece.places]
+        flat = [(np.array([np.broadcast_to(part, motion.shape).ravel() for part in (P.x, P.y)]), radius) for P, radius in places]
+        along = [(ACROSS @ each, radius) for each, radius in flat]
+        ends[name] = np.min([each - radius for each, radius in along], axis=0), np.max([each + radius for each, radius in along], axis=0)
     apart = {(a, b): np.maximum(ends[b][0] - ends[a][1], ends[a][0] - ends[b][1]).max(axis=0) for a, b in pairs}
     found = np.full(motion.shape, np.inf).ravel()
     for pair in sorted(pairs, key=lambda pair: float(np.fmin.reduce(apart[pair]))):
@@ -307,19 +314,6 @@ def nearest_gap(motion: Motion, pairs: Sequence[Pair]) -> FloatArray:
 
 ACROSS = np.array([(np.cos(angle), np.sin(angle)) for angle in np.linspace(0.0, np.pi, 8, endpoint=False)])
 """The directions along which the widths of bodies are compared, shape (8, 2)."""
-
-
-def widths_of(motion: Motion, name: str) -> tuple[FloatArray, FloatArray]:
-    """Return where a body begins and ends along some directions, shape (8, n) each [m], at all poses of a motion in a row."""
-    low, high = [], []
-    with unwarned():
-        for piece in shape_named(motion.plan, name).pieces(motion.plan, motion._placed, pick):
-            radius = np.max(np.asarray(piece.radius))
-            for P in piece.places:
-                along = ACROSS @ np.array([np.broadcast_to(part, motion.shape).ravel() for part in (P.x, P.y)])
-                low.append(along - radius)
-                high.append(along + radius)
-    return np.min(low, axis=0), np.max(high, axis=0)
 
 
 def gaps_at(motion: Motion, pair: Pair) -> FloatArray:

@@ -330,6 +330,7 @@ def dimensions_of(plan: Plan, names: object) -> list[tuple[str, int]]:
 
 # Values, and ratios of any order.
 
+
 @dataclass(frozen=True)
 class Value(Request):
     """A point, a vector or a quantity, and the strokes that it is differentiated by, one after the other: a value, or a transfer ratio.

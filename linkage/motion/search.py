@@ -68,9 +68,9 @@ def extremum_reached(motion: Motion, f: Function, sense: float, *, everywhere: b
         strokes, time = box.strokes(unit), None
     else:
         between = OnLegs(motion, f, sense, everywhere=everywhere)
-        found, front = highest(between.look, between.route.counts), between.front
-        value, unbounded, strokes = found.value, found.unbounded, between.route.strokes(found.leg, found.t)
-        time = between.route.time(found.leg, found.t)
+        found, front = highest(between.look, between.counts), between.front
+        value, unbounded, strokes = found.value, found.unbounded, between.strokes(found.leg, found.t)
+        time = between.time(found.leg, found.t)
     shape, units = (*front, *motion._design_shape), {name: stroke_unit(motion.plan, name) for name in motion.strokes}
 
     def shaped(values: npt.NDArray[Any]) -> PerDesign:
@@ -143,10 +143,10 @@ def below_zero(motion: Motion, f: Function | Request) -> tuple[Span, ...]:
     firsts, lasts = np.array(stretches(value < 0.0), int).reshape(-1, 2).T
     low, high = (part_ends(between, leg, t, inside, by) for inside, by in ((firsts, -1), (lasts, 1)))
     units = {name: stroke_unit(motion.plan, name) for name in motion.strokes}
-    strokes = [between.route.strokes(leg[inside], at) for inside, at in ((firsts, low), (lasts, high))]
+    strokes = [between.strokes(leg[inside], at) for inside, at in ((firsts, low), (lasts, high))]
     starts, stops = ([{name: float(value[row]) for name, value in at.items()} for row in range(len(firsts))] for at in strokes)
     spans = tuple(Span(start, end, units) for start, end in zip(starts, stops, strict=True))
-    instants = [between.route.instants_at(leg[inside], at) for inside, at in ((firsts, low), (lasts, high))]
+    instants = [between.instants_at(leg[inside], at) for inside, at in ((firsts, low), (lasts, high))]
     times = zip(*(each.time.tolist() for each in instants if each is not None), strict=True)
     return spans if None in instants else tuple(replace(span, times=each) for span, each in zip(spans, times, strict=True))
 
@@ -165,7 +165,7 @@ def dips(between: OnLegs, sense: float, among: Mask) -> list[tuple[Index, FloatA
         return -sense * seen, reached
 
     values = -sense * between.seen.reshape(1, 1, -1)
-    tops = peaks(missing_lowest(values), between.leg, between.t, between.route.counts, among)
+    tops = peaks(missing_lowest(values), between.leg, between.t, between.counts, among)
     found = []
     while tops.value.size:
         crossed = tops.value > 0.0
@@ -192,74 +192,6 @@ def part_ends(between: OnLegs, leg: Index, t: FloatArray, inside: Index, by: int
 
 STRAIGHT = 1e-9  # of the range of each stroke: poses as near as this to a straight line stand on it
 LONGEST = 16  # times the samples of one leg: of any way, however often it turns back
-
-
-@dataclass(frozen=True, eq=False)
-class Legs:
-    """Legs from corner to corner: the strokes [SI] at the corners (legs + 1,), and in how many intervals each leg is looked at.
-
-    Of a path in time they are the stretches between the breaks of its courses, along which the strokes go as these say: `instants`.
-    """
-
-    corners: Mapping[str, FloatArray]
-    counts: tuple[int, ...]
-    is_path: bool
-    instants: Instants | None = None
-
-    @classmethod
-    def from_motion(cls, motion: Motion) -> Legs:
-        """Return the way that the poses of a motion cover, whatever their number.
-
-        A single stroke, and a grid in which a single one moves, goes from its least to its greatest value. Several strokes in arrays
-        of one axis go from pose to pose, where poses on a straight line are no corners. From one sample to the next no stroke moves
-        more than 1/4096 of its range, and no more than 1/4096 of the time passes.
-        """
-        strokes, instants = motion.strokes, motion._instants
-        if instants is not None and instants.courses:
-            legs, inner = np.arange(len(instants.breaks) - 1), np.linspace(0.0, 1.0, 17)
-            looked = instants.at_share(legs[:, None], inner[None, :])
-            lasting = np.diff(instants.breaks)
-            lengths = lasting / lasting.sum()
-            for name, rates in looked.rates.items():
-                travel = float(np.ptp(looked.strokes[name]))
-                lengths = np.maximum(lengths, np.abs(rates).max(axis=1) * lasting / (travel or np.inf))
-            return cls(instants.at_times(instants.breaks).strokes, counts_of(lengths), True, instants)
-        values = np.array([np.ravel(value) for value in strokes.values()])
-        if len(values) == 1 or next(iter(strokes.values())).ndim > 1:
-            values = np.stack([values.min(axis=1), values.max(axis=1)], axis=1)
-        ranges = np.ptp(values, axis=1, keepdims=True)
-        scaled = values / np.where(ranges > 0.0, ranges, 1.0)
-        places = corners(scaled)
-        lengths = np.abs(np.diff(scaled[:, places], axis=1)).max(axis=0)
-        return cls({name: value[places] for name, value in zip(strokes, values, strict=True)}, counts_of(lengths), motion.is_path)
-
-    def instants_at(self, leg: Index, t: FloatArray) -> Instants | None:
-        """Return the instants of places, each on its own side of a break; None where the way is none in time."""
-        return None if self.instants is None else self.instants.at_share(leg, t)
-
-    def time(self, leg: Index, t: FloatArray) -> FloatArray | None:
-        """Return the instants of places [s], shape as these: a hair before a break where it is its end that counts; None without time."""
-        if self.instants is None:
-            return None
-        at, last = self.instants.at_share(leg, t).time, len(self.instants.breaks) - 2
-        return np.where((t == 1.0) & (leg < last), np.nextafter(at, -np.inf), at)
-
-    def strokes(self, leg: Index, t: FloatArray) -> dict[str, FloatArray]:
-        """Return the strokes [SI] at places, shape as these; exact at the corners."""
-        if self.instants is not None:
-            return self.instants.at_share(leg, t).strokes
-        return {name: np.where(t == 1.0, at[leg + 1], at[leg] + (at[leg + 1] - at[leg]) * t) for name, at in self.corners.items()}
-
-    def leg_tangent(self, leg: Index) -> dict[str, FloatArray] | None:
-        """Return how the strokes go on in legs, shape as these; None where it is no path, and of one in time, whose rates say it."""
-        has_tangent = self.is_path and self.instants is None
-        return {name: at[leg + 1] - at[leg] for name, at in self.corners.items()} if has_tangent else None
-
-
-def counts_of(lengths: FloatArray) -> tuple[int, ...]:
-    """Return in how many intervals legs of some lengths, as parts of the ranges of the strokes, are looked at."""
-    share = SAMPLES * min(1.0, LONGEST / max(float(lengths.sum()), 1e-300))
-    return tuple(int(count) for count in np.maximum(np.ceil(share * lengths - 1e-6), 2.0))
 
 
 def corners(values: FloatArray) -> Sequence[int]:
@@ -318,21 +250,70 @@ def values_of(f: Function, motion: Motion, *, everywhere: bool = False) -> Float
 class OnLegs:
     """A function of the poses along a motion's way, of K quantities and D designs; a search calls `look`.
 
+    The way is legs from corner to corner: the strokes [SI] at the `corners` (legs + 1,), and in how many intervals each leg is looked at,
+    `counts`. A single stroke, and a grid in which a single one moves, goes from its least to its greatest value. Several strokes in arrays
+    of one axis go from pose to pose, where poses on a straight line are no corners. Of a path in time legs are the stretches between the
+    breaks of its courses, along which the strokes go as its `instants` say. From one sample to the next no stroke moves more than 1/4096 of
+    its range, and no more than 1/4096 of the time passes.
+
     The samples are worked out once, at the same strokes for all designs; poses between them take their angles from these.
     """
 
     def __init__(self, motion: Motion, f: Function, sense: float = 1.0, *, everywhere: bool = False) -> None:
         self.motion, self.f, self.sense, self.everywhere = motion, f, sense, everywhere
-        self.route = Legs.from_motion(motion)
-        self.leg, self.t = leg, t = samples(self.route.counts)
+        strokes, instants = motion.strokes, motion._instants
+        self.instants = instants if instants is not None and instants.courses else None
+        if self.instants is not None:
+            breaks = self.instants.breaks
+            looked = self.instants.at_share(np.arange(len(breaks) - 1)[:, None], np.linspace(0.0, 1.0, 17)[None, :])
+            lasting = np.diff(breaks)
+            lengths = lasting / lasting.sum()
+            for name, rates in looked.rates.items():
+                travel = float(np.ptp(looked.strokes[name]))
+                lengths = np.maximum(lengths, np.abs(rates).max(axis=1) * lasting / (travel or np.inf))
+            self.corners: Mapping[str, FloatArray] = self.instants.at_times(breaks).strokes
+        else:
+            values = np.array([np.ravel(value) for value in strokes.values()])
+            if len(values) == 1 or next(iter(strokes.values())).ndim > 1:
+                values = np.stack([values.min(axis=1), values.max(axis=1)], axis=1)
+            ranges = np.ptp(values, axis=1, keepdims=True)
+            scaled = values / np.where(ranges > 0.0, ranges, 1.0)
+            places = corners(scaled)
+            lengths = np.abs(np.diff(scaled[:, places], axis=1)).max(axis=0)
+            self.corners = {name: value[places] for name, value in zip(strokes, values, strict=True)}
+        share = SAMPLES * min(1.0, LONGEST / max(float(lengths.sum()), 1e-300))
+        self.counts = tuple(int(count) for count in np.maximum(np.ceil(share * lengths - 1e-6), 2.0))
+        self.leg, self.t = leg, t = samples(self.counts)
         self.first = Motion(
-            motion.plan, motion.designs, self.route.strokes(leg, t), "nan", joining=joined_in_order, tangent=self.route.leg_tangent(leg),
-            instants=self.route.instants_at(leg, t),
+            motion.plan, motion.designs, self.strokes(leg, t), "nan", joining=joined_in_order, tangent=self.leg_tangent(leg),
+            instants=self.instants_at(leg, t),
         )  # fmt: skip
         self.seen = sense * values_of(f, self.first, everywhere=everywhere)
         self.front = self.seen.shape[: self.seen.ndim - len(self.first.shape)]
-        self._starts = np.cumsum([0, *(count + 1 for count in self.route.counts[:-1])])
+        self._starts = np.cumsum([0, *(count + 1 for count in self.counts[:-1])])
         self._reached = self.first.reached.reshape(-1, leg.size)
+
+    def instants_at(self, leg: Index, t: FloatArray) -> Instants | None:
+        """Return the instants of places, each on its own side of a break; None where the way is none in time."""
+        return None if self.instants is None else self.instants.at_share(leg, t)
+
+    def time(self, leg: Index, t: FloatArray) -> FloatArray | None:
+        """Return the instants of places [s], shape as these: a hair before a break where it is its end that counts; None without time."""
+        if self.instants is None:
+            return None
+        at, last = self.instants.at_share(leg, t).time, len(self.instants.breaks) - 2
+        return np.where((t == 1.0) & (leg < last), np.nextafter(at, -np.inf), at)
+
+    def strokes(self, leg: Index, t: FloatArray) -> dict[str, FloatArray]:
+        """Return the strokes [SI] at places, shape as these; exact at the corners."""
+        if self.instants is not None:
+            return self.instants.at_share(leg, t).strokes
+        return {name: np.where(t == 1.0, at[leg + 1], at[leg] + (at[leg + 1] - at[leg]) * t) for name, at in self.corners.items()}
+
+    def leg_tangent(self, leg: Index) -> dict[str, FloatArray] | None:
+        """Return how the strokes go on in legs, shape as these; None where it is no path, and of one in time, whose rates say it."""
+        has_tangent = self.motion.is_path and self.instants is None
+        return {name: at[leg + 1] - at[leg] for name, at in self.corners.items()} if has_tangent else None
 
     @cached_property
     def _nearest(self) -> Index:
@@ -356,14 +337,14 @@ class OnLegs:
 
     def _own(self, leg: Index, t: FloatArray) -> tuple[Motion, FloatArray]:
         """Return the poses at places (D, n), each design at its own, and the values there."""
-        first, tangent = self.first, self.route.leg_tangent(leg)
-        places = self._starts[leg] + np.rint(t * np.asarray(self.route.counts)[leg]).astype(int)
+        first, tangent = self.first, self.leg_tangent(leg)
+        places = self._starts[leg] + np.rint(t * np.asarray(self.counts)[leg]).astype(int)
         near = np.take_along_axis(self._nearest, places, axis=-1)
 
         def shaped(values: Any) -> Any:
             return values.reshape(*first._design_shape, t.shape[-1])
 
-        strokes, instants = {name: shaped(value) for name, value in self.route.strokes(leg, t).items()}, self.route.instants_at(leg, t)
+        strokes, instants = {name: shaped(value) for name, value in self.strokes(leg, t).items()}, self.instants_at(leg, t)
         motion = Motion(
             first.plan, first.designs, strokes, "nan", per_design=True, joining=JoinedTo(first._grid, shaped(near)),
             tangent=tangent and {name: shaped(value) for name, value in tangent.items()}, instants=instants and instants.shaped(shaped),

@@ -233,18 +233,14 @@ class StrokeLine:
                 follows = np.abs(looked.ratio(length, wrt=wrt)) > STILL * way  # that between two points of a body does not
             if np.any(follows):
                 at = np.array(sorted(root for low, high in ranges for root in roots_between(rate, low, high)))
-                found += [(float(each), name) for each in at[self.first_times(at)]]
+                if at.size > 1:  # those that give a pose which no one before gives
+                    poses = self.motion_at(at)
+                    places = np.array([poses[point] for point in plan.points]).reshape(-1, at.size)
+                    apart = np.abs(places[:, :, None] - places[:, None, :]).max(axis=0)
+                    size = float(np.ptp(places.reshape(-1, 2, at.size), axis=0).max(initial=0.0))
+                    at = at[~np.tril(apart <= AGAIN * size, -1).any(axis=1)]
+                found += [(float(each), name) for each in at]
         return sorted(found)
-
-    def first_times(self, at: FloatArray) -> Mask:
-        """Return which of some strokes (n,) give a pose that no one before gives."""
-        if at.size < 2:
-            return np.ones(at.shape, bool)
-        poses = self.motion_at(at)
-        places = np.array([poses[name] for name in self.plan.points]).reshape(-1, at.size)
-        apart = np.abs(places[:, :, None] - places[:, None, :]).max(axis=0)
-        size = float(np.ptp(places.reshape(-1, 2, at.size), axis=0).max(initial=0.0))
-        return np.asarray(~np.tril(apart <= AGAIN * size, -1).any(axis=1))
 
     # -- the way between poses: where a loop comes to its dead point, and where it cannot be assembled -------
 
@@ -323,6 +319,7 @@ class StrokeLine:
             elif loop.kind != "length" and min(deepest - low_end, high_end - deepest) > END * (high_end - low_end):
                 found.append(Interruption(self.name, self.unit, loop.step, deepest, deepest, deepest, loop.kind))
         return found
+
 
 def roots_between(rate: Curve, low: float, high: float) -> list[float]:
     """Return where a function passes zero between two strokes, or at one of them, to 1e-13 of the range between them."""

@@ -130,16 +130,6 @@ def widened(cube: FloatArray) -> FloatArray:
     return cube
 
 
-def firsts(values: FloatArray, point: Index, k: int, side: int) -> Index:
-    """Return those of some tops of a grid, values (side^k,), that are the first ones of a level part."""
-    steps, by = steps_to_neighbours(k, side)
-    steps, by = steps[by < 0], by[by < 0]
-    index = np.stack(np.unravel_index(point, [side] * k), axis=-1)[:, None] + steps
-    inside = ((index >= 0) & (index < side)).all(axis=-1)
-    near = np.where(inside, values[np.where(inside, point[:, None] + by, 0)], -np.inf)
-    return np.asarray(point[(near < values[point][:, None]).all(axis=-1)])
-
-
 def bends(cube: FloatArray, point: Index) -> FloatArray:
     """Return the sum of the absolute second differences along the strokes at points of a grid, by their numbers.
 
@@ -169,8 +159,13 @@ def hopeful(seen: FloatArray, k: int, side: int) -> tuple[Index, FloatArray]:
     if not point.size:
         return point, np.zeros(0)
     bound = np.minimum(values[point] + 0.5 * bends(seen.reshape([side] * k), point), -LOWEST)
-    may_win = bound >= values.max()
-    kept = np.isin(point, firsts(values, point[may_win], k, side))
+    able = point[bound >= values.max()]  # to win; of these the first ones of level parts
+    steps, by = steps_to_neighbours(k, side)
+    steps, by = steps[by < 0], by[by < 0]
+    index = np.stack(np.unravel_index(able, [side] * k), axis=-1)[:, None] + steps
+    inside = ((index >= 0) & (index < side)).all(axis=-1)
+    near = np.where(inside, values[np.where(inside, able[:, None] + by, 0)], -np.inf)
+    kept = np.isin(point, able[(near < values[able][:, None]).all(axis=-1)])
     point, bound = point[kept], bound[kept]
     order = np.lexsort((-bound, values[point] < values.max()))[:STARTS]
     return point[order], bound[order]
@@ -237,27 +232,22 @@ class Quadratic:
                 gain = [end * (slope + 0.5 * bend * end) for end in ends]
                 inner = np.clip(-slope / np.where(bend < 0.0, bend, -1.0), *ends)
                 u[:, axis] = np.where(bend < 0.0, inner, np.where(gain[1] > gain[0], ends[1], ends[0]))
-            u = self._newton(u, low, high)
+            free = (u > low) & (u < high)
+            slope = self.slope + np.einsum("rij,rj->ri", self.bend, u)
+            matrix = np.where(free[:, :, None] & free[:, None, :], self.bend, 0.0)
+            size = np.abs(self.bend).max(axis=(1, 2))[:, None]
+            matrix[:, range(k), range(k)] -= np.where(free, 1e-13 * size, 1.0) + 1e-300
+            with np.errstate(all="ignore"):
+                step = np.linalg.solve(matrix, np.where(free, -slope, 0.0)[..., None])[..., 0]
+            new = np.where(np.isfinite(step), u + step, u)  # taken where it stays in and is no loss
+            good = ((new >= low) & (new <= high)).all(axis=-1) & (self.value_at(new) >= self.value_at(u))
+            u = np.where(good[:, None], new, u)
         return u
 
     def falls(self, u: FloatArray, by: FloatArray) -> Mask:
         """Return along which coordinates (r, k) a quadratic is steeper at places (r, k) than it bends, by so much (r,)."""
         slope = np.abs(self.slope + np.einsum("rij,rj->ri", self.bend, u))
         return np.asarray(slope > by[:, None] + 0.5 * np.abs(self.bend).sum(axis=-1))
-
-    def _newton(self, u: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
-        """Return the places after a Newton step in the free coordinates, where it stays in and is no loss."""
-        k = u.shape[1]
-        free = (u > low) & (u < high)
-        slope = self.slope + np.einsum("rij,rj->ri", self.bend, u)
-        matrix = np.where(free[:, :, None] & free[:, None, :], self.bend, 0.0)
-        size = np.abs(self.bend).max(axis=(1, 2))[:, None]
-        matrix[:, range(k), range(k)] -= np.where(free, 1e-13 * size, 1.0) + 1e-300
-        with np.errstate(all="ignore"):
-            step = np.linalg.solve(matrix, np.where(free, -slope, 0.0)[..., None])[..., 0]
-        new = np.where(np.isfinite(step), u + step, u)
-        good = ((new >= low) & (new <= high)).all(axis=-1) & (self.value_at(new) >= self.value_at(u))
-        return np.where(good[:, None], new, u)
 
 
 def snapped(unit: FloatArray) -> FloatArray:
@@ -394,9 +384,12 @@ def ridden(box: SeenBox, climbs: Climbs, least: FloatArray) -> Climbs:
     k = box.k
     m = 2 * k + SLOPES
     half = np.full(len(climbs.value), 0.5 / (box.side - 1))
-    climbs, ended = replace(climbs, half=half), []
+    climbs, ended, root = replace(climbs, half=half), [], 2.0
+    for _ in range(64):  # a sequence that fills the cube from -1 to 1 evenly. Source: H. Weyl, Math. Ann. 77 (1916)
+        root = (1.0 + root) ** (1.0 / (k + 1))
     for number in range(FALLS):
-        cube = evenly(k, number * m, m)
+        places = number * m + np.arange(m)[:, None]
+        cube = 2.0 * ((0.5 + places * root ** -np.arange(1.0, k + 1)) % 1.0) - 1.0
         wanted = climbs.unit[:, None] + climbs.half[:, None, None] * cube
         places = np.clip(wanted, 0.0, 1.0)
         delta = (1e-4 * climbs.half[:, None, None] * np.where(places > 0.5, -1.0, 1.0))[..., None] * np.eye(k)  # (r, m, k, k)
@@ -413,15 +406,6 @@ def ridden(box: SeenBox, climbs: Climbs, least: FloatArray) -> Climbs:
         if not len(least):
             break
     return Climbs.concatenated([*ended, climbs])
-
-
-def evenly(k: int, first: int, count: int) -> FloatArray:
-    """Return so many points (count, k) of a sequence that fills the cube from -1 to 1 evenly. Source: H. Weyl, Math. Ann. 77 (1916)."""
-    root = 2.0
-    for _ in range(64):
-        root = (1.0 + root) ** (1.0 / (k + 1))
-    numbers = first + np.arange(count)[:, None]
-    return np.asarray(2.0 * ((0.5 + numbers * root ** -np.arange(1.0, k + 1)) % 1.0) - 1.0)
 
 
 def stepped(box: SeenBox, climbs: Climbs, way: FloatArray, near: FloatArray, seen: FloatArray, least: FloatArray) -> Climbs:
@@ -574,7 +558,7 @@ def along_borders(box: SeenBox, known: FloatArray, least: FloatArray) -> tuple[C
     alike = np.array([first.setdefault(np.isnan(row).tobytes(), number) for number, row in enumerate(box.seen)])
     going = hopeful_borders(box, alike, known)
     K, D, _ = box.seen.shape
-    poles = best_of(going, K, D, 1)
+    poles = best_of(going, D, 1)
     poles = poles.subset(grows_in_box(box, poles))
     endless = np.zeros((K, D), bool)
     endless[poles.function, poles.design] = True
@@ -615,17 +599,17 @@ def highest_in(box: SeenBox) -> tuple[FloatArray, FloatArray, Mask]:
     """Return the highest values (K, D) of K functions of D designs, NaN where there is none; where (K, D, k); which have no bound."""
     K, D, _ = box.seen.shape
     tops, rough, least = climbed(box)
-    best = best_of(Climbs.concatenated([tops, rough]), K, D, 1)
-    rough = best_of(rough, K, D, ROUGH)
+    best = best_of(Climbs.concatenated([tops, rough]), D, 1)
+    rough = best_of(rough, D, ROUGH)
     rough = rough.subset((rough.value > -np.inf) & (rough.bound >= value_of(best, K, D)[rough.function, rough.design]))
     if len(rough.value):
         rough = ridden(box, rough, least[rough.function, rough.design])
     found = [tops, rough, best]
     missing = np.isnan(box.seen)
     if missing.any() and not missing.all():
-        found += along_borders(box, value_of(best_of(Climbs.concatenated(found), K, D, 1), K, D), least)
-    doubtful = best_of(Climbs.concatenated([rough, *found[4:]]), K, D, 1)
-    best = best_of(Climbs.concatenated(found), K, D, 1)
+        found += along_borders(box, value_of(best_of(Climbs.concatenated(found), D, 1), K, D), least)
+    doubtful = best_of(Climbs.concatenated([rough, *found[4:]]), D, 1)
+    best = best_of(Climbs.concatenated(found), D, 1)
     value, unit = value_of(best, K, D), np.zeros((K, D, box.k))
     doubtful = doubtful.subset(doubtful.value >= value[doubtful.function, doubtful.design])
     grows = grows_in_box(box, doubtful)
@@ -648,7 +632,7 @@ def highest_in(box: SeenBox) -> tuple[FloatArray, FloatArray, Mask]:
     return value, unit, unbounded
 
 
-def best_of(climbs: Climbs, K: int, D: int, count: int) -> Climbs:
+def best_of(climbs: Climbs, D: int, count: int) -> Climbs:
     """Return the best of the searches of each function and design, so many."""
     row = climbs.function * D + climbs.design
     order = np.lexsort((-climbs.value, row))

@@ -273,7 +273,13 @@ class FileEntry:
         """Return the member of an entry; DefinitionError, with all mistakes by their keys, for a wrong entry."""
         given = entry_as(given, Mapping, f"is not a table {{ key = value }} with the keys {', '.join(self.keys)}")
         mistakes = Mistakes()
-        labels = self._labels(given)
+        unknown = [key for key in given if key not in self.keys] if self.has_labels else []  # labels: lengths and angles of points
+        ensure(len(unknown) <= LABELS, f"{len(unknown)} labels are too many; up to {LABELS} are read.")
+        taken = {"self", *(each.name for each in parameters_of(self.describes))}
+        for key in unknown:
+            if not (isinstance(key, str) and key.isidentifier() and len(key) <= 3 * NAME_LENGTH) or key in taken:
+                raise DefinitionError(f"{shortened(key)} is not a label; write the points' names joined, such as AB or BOC.")
+        labels: Keywords = dict.fromkeys(unknown)
         parents: Iterable[Any] = ()
         if self.word:
             with mistakes.at_key(self.word):
@@ -300,16 +306,6 @@ class FileEntry:
             return self.make(*parents, **options)
         with errors_of(f"{self.describes.__name__}(...)"):
             return self.make(*parents, **options)
-
-    def _labels(self, given: Iterable[Any]) -> Keywords:
-        """Return the keys that are lengths and angles of points; DefinitionError for one that cannot be."""
-        labels = [key for key in given if key not in self.keys] if self.has_labels else []
-        ensure(len(labels) <= LABELS, f"{len(labels)} labels are too many; up to {LABELS} are read.")
-        taken = {"self", *(each.name for each in parameters_of(self.describes))}
-        for key in labels:
-            if not (isinstance(key, str) and key.isidentifier() and len(key) <= 3 * NAME_LENGTH) or key in taken:
-                raise DefinitionError(f"{shortened(key)} is not a label; write the points' names joined, such as AB or BOC.")
-        return dict.fromkeys(labels)
 
     # -- writing ---------------------------------------------------------------------------------------
 

@@ -95,17 +95,6 @@ class Closure:
                     stack.extend(each.args)
         self.sources = tuple(found)
 
-    def enter(self, nodes: Sequence[Node]) -> None:
-        """Close the same loop in a fork of the graph, by its nodes in their order."""
-        entered = copy(self)
-        entered.roots, entered.residuals, entered.sources = (
-            tuple(nodes[each.number] for each in part) for part in (self.roots, self.residuals, self.sources)
-        )
-        entered.determinant = self.determinant and nodes[self.determinant.number]
-        entered.jacobian = self.jacobian and [[nodes[each.number] for each in row] for row in self.jacobian]
-        for root in entered.roots:
-            root.closure = entered
-
 
 class Graph:
     """All nodes of a program, each once.
@@ -130,7 +119,14 @@ class Graph:
             if old.closure is not None:
                 closures[old.closure] = None
         for closure in closures:
-            closure.enter(nodes)
+            entered = copy(closure)
+            entered.roots, entered.residuals, entered.sources = (
+                tuple(nodes[each.number] for each in part) for part in (closure.roots, closure.residuals, closure.sources)
+            )
+            entered.determinant = closure.determinant and nodes[closure.determinant.number]
+            entered.jacobian = closure.jacobian and [[nodes[each.number] for each in row] for row in closure.jacobian]
+            for root in entered.roots:
+                root.closure = entered
         found._known = self._known.copy()
         found.zero, found.one = nodes[self.zero.number], nodes[self.one.number]
         return found

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from itertools import permutations
 from math import atan2, dist, isfinite
@@ -125,29 +125,25 @@ class MachineSketch:
         ensure(self.points, f"{self.name}: no point is drawn; a sketch begins with points and links.")
         for name, place in self.points.items():
             ensure(all(map(is_number, place)), f"{self.name}: {name} stands at {place}; give finite coordinates.")
-        for what, numbers in self.numbers():
+        numbered: list[tuple[str, tuple[object, ...]]] = [
+            (f"the slide {name}", (slide.along,)) for name, slide in self.slides.items() if not is_listed(slide.along)
+        ]
+        for name, each in self.drives.items():
+            sizes = [size for size in (each.bore, each.rod) if size is not None]
+            numbered.append((f"the drive {name}", (each.start, each.end, each.drawn, *sizes)))
+        numbered += [(f"the length {label}", (value,)) for label, value in self.lengths.items()]
+        numbered += [(f"the weight {name}", (weight.mass,)) for name, weight in self.weights.items()]
+        for what, numbers in numbered:
             ensure(all(map(is_number, numbers)), f"{self.name}: {what} has {', '.join(map(cited, numbers))}; give finite numbers.")
-        for what, names in self.named():
+        named = [("what is fixed", self.fixed), *((f"the link {name}", points) for name, points in self.links.items())]
+        for name, slide in self.slides.items():
+            named.append((f"the slide {name}", (slide.point, *(slide.along if isinstance(slide.along, tuple) else ()))))
+        named += [(f"the drive {name}", drive.ends) for name, drive in self.drives.items()]
+        named += [(f"the weight {name}", (weight.point,)) for name, weight in self.weights.items()]
+        for what, names in named:
             missing = [each for each in names if each not in self.points]
             ensure(not missing, f"{self.name}: {what} names {', '.join(missing)}, which is not among the points.")
             ensure(len({*names}) == len(names), f"{self.name}: {what} names a point twice.")
-
-    def named(self) -> Iterator[tuple[str, tuple[str, ...]]]:
-        """Yield in words every item that names points, with the points."""
-        yield "what is fixed", self.fixed
-        yield from ((f"the link {name}", points) for name, points in self.links.items())
-        for name, slide in self.slides.items():
-            yield f"the slide {name}", (slide.point, *(slide.along if isinstance(slide.along, tuple) else ()))
-        yield from ((f"the drive {name}", drive.ends) for name, drive in self.drives.items())
-        yield from ((f"the weight {name}", (weight.point,)) for name, weight in self.weights.items())
-
-    def numbers(self) -> Iterator[tuple[str, tuple[object, ...]]]:
-        """Yield in words every item but the points that has numbers, with these [SI]."""
-        yield from ((f"the slide {name}", (slide.along,)) for name, slide in self.slides.items() if not is_listed(slide.along))
-        for name, each in self.drives.items():
-            yield f"the drive {name}", (each.start, each.end, each.drawn, *(size for size in (each.bore, each.rod) if size is not None))
-        yield from ((f"the length {label}", (value,)) for label, value in self.lengths.items())
-        yield from ((f"the weight {name}", (weight.mass,)) for name, weight in self.weights.items())
 
     @property
     def size(self) -> float:

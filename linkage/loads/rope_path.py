@@ -171,15 +171,6 @@ def straight_parts(stations: Sequence[Station], motion: Poses) -> list[tuple[Arr
     return found
 
 
-def wraps(stations: Sequence[Station], motion: Poses) -> dict[int, Array]:
-    """Return by which angle the rope turns around each pulley at the poses [rad], by its place; below zero it is off the pulley."""
-    parts = straight_parts(stations, motion)
-    return {
-        k: np.asarray(turn_angle(parts[k - 1][1], parts[k][1], each.sense))[()]
-        for k, each in enumerate(stations) if each.pulley is not None and 0 < k < len(parts)
-    }  # fmt: skip
-
-
 def pulls(stations: Sequence[Station], weights: Sequence[float], motion: Poses) -> list[Load]:
     """Return the pulls [N] of a rope's tension of one newton on every point that it runs over."""
     ways = [np.stack([along.x, along.y]) * weight for (_, along), weight in zip(straight_parts(stations, motion), weights, strict=True)]

@@ -16,7 +16,7 @@ from ..errors import DefinitionError, cited, ensure, known_name
 from ..language import noted, said
 from ..loads import Acting, ActingKeywords, Case, Loads, situation_of, takes_situation
 from ..loads.element import Declared, ForceElement, Formulas, Glyph, Load, Parameter, Poses, Reeving, Tie, value_text
-from ..loads.rope_path import Pulley, RopePath, Station, pulls, wraps
+from ..loads.rope_path import Pulley, RopePath, Station, pulls, straight_parts, turn_angle
 from ..motion import Column, Condition, HasVerdicts, Judge, Motion, Tabled, least, require_motion
 from ..plan import Plan, strokes_alone
 from ..program import FloatArray
@@ -446,7 +446,9 @@ class Rope(ForceElement, Tabled, HasVerdicts):
         return found
 
     def _wrap(self, place: int, motion: AnyMotion) -> FloatArray:
-        return np.asarray(wraps(self.stations(motion.plan.members), motion)[place] + np.zeros(motion.shape))[()]
+        stations = self.stations(motion.plan.members)
+        (_, before), (_, after) = straight_parts(stations, motion)[place - 1 : place + 1]
+        return np.asarray(turn_angle(before, after, stations[place].sense) + np.zeros(motion.shape))[()]
 
     def verdicts(self, judge: Judge) -> list[Verdict]:
         """Return whether it stays taut, and on its pulleys.

@@ -159,12 +159,6 @@ def stroke_size_per_newton(motion: Motion) -> FloatArray:
     return np.abs(stroke_per_newton(motion))
 
 
-def from_stroke_per_newton(value: FloatArray) -> FloatArray:
-    """Return the capacity [N] that `stroke_per_newton` stands for; NaN where the cylinder does not limit."""
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return np.asarray(np.where(value > 0.0, 1.0 / value, np.nan))
-
-
 # The weakest point of the capacity curve, and what limits it there.
 
 CHANGE = 10 * mm
@@ -344,7 +338,8 @@ def capacity_zone(hitch: Mechanism, over: Mapping[str, Any] | None = None, **str
         The zone. `low` is NaN where no setting is limited by the cylinder; `high` where some setting is not, which is then a remark.
     """
     found = zone(hitch, stroke_per_newton, admissible(hitch) if over is None else over, **strokes)
-    low, high = from_stroke_per_newton(found.high), from_stroke_per_newton(found.low)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        low, high = (np.asarray(np.where(value > 0.0, 1.0 / value, np.nan)) for value in (found.high, found.low))
     free = int(np.sum(found.low <= 0.0))
     more = (f"At {free} of {found.low.size} strokes some settings are not limited by this cylinder: the zone has no upper end there.",)
     return replace(

@@ -20,7 +20,7 @@ from linkage.verdict import Verdict
 from .cylinders import Circuit, least_and_most
 from .inputs import Array, one_design
 from .lifting_line import LiftLine, pressure_range
-from .standing import CommonStroke, members_in, standing_pressure
+from .standing import common_area, common_sum, members_in, standing_pressure
 
 EMPTY = 1e-9
 """A pressure that is lower by less than this part of the greatest is that to rounding."""
@@ -48,9 +48,9 @@ def intensified(line: Circuit, motion: AnyMotion, acting: Acting) -> Array:
     if pump is None:
         remedy = "ask for its pressure(motion), or put a Pump on the line of the other side"
         raise DefinitionError(f"{motion.plan.title}: no pump is on the other side of the cylinders of {line.name}; {remedy}.")
-    works = CommonStroke(motion, line.members(members))
-    asks = works.total([(ram, member_thrust(motion, ram, acting)) for ram in works.rams])
-    pushed, taken = works.areas(pump.filling(members)), works.areas(line.filling(members))
+    rams = line.members(members)
+    asks = common_sum(motion, rams, [(ram, member_thrust(motion, ram, acting)) for ram in rams])
+    pushed, taken = (common_area(motion, rams, each.filling(members)) for each in (pump, line))
     return np.asarray((asks - pump.supply(motion) * pushed) / taken)[()]
 
 

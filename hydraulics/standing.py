@@ -8,11 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import cached_property, reduce
+from functools import reduce
 
 import numpy as np
 
-from linkage.frozen import immutable
 from linkage.loads import Acting, LoadCase, Tie
 from linkage.plan import Plan
 from linkage.quantities import NamedMembers
@@ -62,27 +61,16 @@ def standing_pressure(line: Circuit, motion: AnyMotion, acting: Acting) -> Array
     return np.asarray(found[0] + np.zeros(motion.shape))[()] if motion.shape else found[0]
 
 
-@immutable
-class CommonStroke:
-    """Cylinders that one stroke moves over a motion's poses; of several each counts by how its length follows that stroke."""
+def common_sum(motion: AnyMotion, rams: Sequence[Ram], values: Sequence[tuple[Ram, Array]]) -> Array:
+    """Return the sum of forces or areas of cylinders that one stroke moves: of several each counts by how its length follows that."""
+    rates = {stroke_followed(motion.plan, rams[0]): 1.0} if len(rams) > 1 else {}
+    return np.asarray(reduce(np.add, [value * ram.growth(motion, rates) if rates else value for ram, value in values]))[()]
 
-    motion: AnyMotion
-    rams: tuple[Ram, ...]
 
-    @cached_property
-    def stroke(self) -> str:
-        """The stroke; "" for one cylinder alone, which counts as it is."""
-        return stroke_followed(self.motion.plan, self.rams[0]) if len(self.rams) > 1 else ""
-
-    def total(self, values: Sequence[tuple[Ram, Array]]) -> Array:
-        """Return the sum of forces or areas of cylinders."""
-        ways = [value * ram.growth(self.motion, {self.stroke: 1.0}) if self.stroke else value for ram, value in values]
-        return np.asarray(reduce(np.add, ways))[()]
-
-    def areas(self, filling: Sequence[tuple[Ram, Chamber]]) -> Array:
-        """Return the sum of the signed areas of those chambers that are of these cylinders [m2]."""
-        own = [(ram, each) for ram, each in filling if is_among(ram, self.rams)]
-        return self.total([(ram, chamber_area(each, ram, self.motion)) for ram, each in own])
+def common_area(motion: AnyMotion, rams: Sequence[Ram], filling: Sequence[tuple[Ram, Chamber]]) -> Array:
+    """Return the same sum of the signed areas of those chambers that are of these cylinders [m2]."""
+    own = [(ram, chamber_area(each, ram, motion)) for ram, each in filling if is_among(ram, rams)]
+    return common_sum(motion, rams, own)
 
 
 # What a load case shuts.

@@ -29,7 +29,7 @@ from linkage.verdict import Verdict
 from .cylinders import PISTON, Circuit, OnLines, Ram, carries_loads, circuits_among, in_class
 from .inputs import Array, follows, in_pascals, number_set, one_design, positive
 from .lifting_line import LiftLine
-from .standing import CommonStroke, moves_in
+from .standing import common_area, common_sum, moves_in
 
 USUAL_SETTING = 1.3
 """The setting over the greatest pressure that the load makes, at the least, as makers advise."""
@@ -295,10 +295,10 @@ class HoldingValve(OnLines, HasVerdicts):
         members = motion.plan.members
         line, pilot = self.lines(members)
         own = line.filling(members)
-        works = CommonStroke(motion, tuple(ram for ram, _ in own))
+        rams = tuple(ram for ram, _ in own)
         emptied = [(ram, replace(acting, direction=EMPTIES[each.side]) if is_lowered else acting) for ram, each in own]
-        thrust = works.total([(ram, member_thrust(motion, ram, given)) for ram, given in emptied])
-        return thrust, works.areas(own), works.areas(pilot.filling(members))
+        thrust = common_sum(motion, rams, [(ram, member_thrust(motion, ram, given)) for ram, given in emptied])
+        return thrust, common_area(motion, rams, own), common_area(motion, rams, pilot.filling(members))
 
     # -- asked for, and judged -----------------------------------------------------------------------------
 

@@ -15,7 +15,7 @@ from ..mechanism import Mechanism
 from ..motion import Motion, Request, Target, last_holding, stroke_display_unit
 from ..motion.evaluation import BulkProgram
 from ..motion.grid import recalled
-from ..motion.measures import words_of
+from ..motion.measures import least, measure_unit, words_of
 from ..motion.places import is_one, targets_given
 from ..motion.requests import dimensions_of, identity_of, slope
 from ..numeric.descent import NEAR, descended, is_one_solution, without_repeats
@@ -100,7 +100,7 @@ def settings_for(
     between : tuple of float, optional
         The range of one dimension [SI].
     unit : str, optional
-        The quantity's unit in the sentence.
+        The quantity's unit in the sentence; by default that of what it measures.
     points : int, optional
         From how many points of the box the search of several dimensions begins; it goes on from the best of at most 16,384, by exact
         derivatives.
@@ -147,6 +147,7 @@ def settings_for(
     at, off, unique = roots_of(curve, low, high) if identity is None else recalled(pose.base, known, lambda: roots_of(curve, low, high))
     lost = {root: why for root in unique if (why := why_not_assembled(machine.replaced(**{name: root})))}
     kept = [root for root in unique if root not in lost]
+    unit = unit or ("" if callable(quantity) else measure_unit(machine.plan, least(quantity)))
     words = {"name": name, "what": words_of(quantity), "target": show(target, unit)}
     own = unit_of(machine.plan, name)
     if not unique:

@@ -320,6 +320,7 @@ def test_setting_beside_the_end_of_reach():
     wanted = float(hitch.replaced(MK=end + 1e-6).at(S=0.1)["tilt"])
     found = settings_for(hitch, "MK", "tilt", wanted, between=(0.4, 2.0), S=0.1)
     assert found.values == pytest.approx([end + 1e-6], abs=1e-9)
+    assert str(found).startswith(f"tilt = {wanted / deg:.6g} deg with MK = ")  # its own unit, where none is said
 
 
 def test_settings_want_a_pose_and_a_range():

@@ -388,8 +388,8 @@ def ridden(box: SeenBox, climbs: Climbs, least: FloatArray) -> Climbs:
     for _ in range(64):  # a sequence that fills the cube from -1 to 1 evenly. Source: H. Weyl, Math. Ann. 77 (1916)
         root = (1.0 + root) ** (1.0 / (k + 1))
     for number in range(FALLS):
-        places = number * m + np.arange(m)[:, None]
-        cube = 2.0 * ((0.5 + places * root ** -np.arange(1.0, k + 1)) % 1.0) - 1.0
+        numbers = number * m + np.arange(m)[:, None]
+        cube = 2.0 * ((0.5 + numbers * root ** -np.arange(1.0, k + 1)) % 1.0) - 1.0
         wanted = climbs.unit[:, None] + climbs.half[:, None, None] * cube
         places = np.clip(wanted, 0.0, 1.0)
         delta = (1e-4 * climbs.half[:, None, None] * np.where(places > 0.5, -1.0, 1.0))[..., None] * np.eye(k)  # (r, m, k, k)

@@ -53,10 +53,22 @@ def figure_text(value: float) -> str:
     return "–" if np.isnan(value) else f"{value:.1e}" if value else "0"
 
 
-def checks(subject: ReportSubject, values: Mapping[str, object]) -> list[Check]:
+def checks(subject: ReportSubject, values: Mapping[str, Any]) -> list[Check]:
     """Return all checks of a design along its run; `values` are those of its equations, by name."""
     with unwarned():
-        found = [*positions_kept(subject.table), equations_against(subject, values), derivatives(subject)]
+        found = [*positions_kept(subject.table)]
+        pose = subject.machine.at(unreachable="nan", **subject.pose)
+        worst, size = 0.0, max((float(np.abs(pose[name]).max()) for name in pose.plan.points), default=1.0) or 1.0
+        points = [name for name in pose.plan.moving if name in values and name in pose.plan.points]
+        for name in points:
+            worst = max(worst, float(np.abs(np.array([float(each) for each in values[name]]) - pose[name]).max()) / size)
+        for name, member in pose.plan.of_kind(Quantity).items():
+            if name in values and not isinstance(member, (Stroke, Dimension)):
+                own = float(pose[name])
+                worst = max(worst, abs(float(values[name]) - own) / max(abs(own), 1.0))
+        what = said("the equations above with 30 digits, against the positions and outputs of the program")
+        found.append(Check(said("equations evaluated again"), what, worst if points else np.nan, EXACT))
+        found.append(derivatives(subject))
         try:
             forces = subject.forces
         except LinkageError:
@@ -124,21 +136,6 @@ def closed_walks(pairs: Iterable[tuple[str, str]]) -> Iterator[list[str]]:
         else:
             tree.setdefault(P, []).append(Q)
             tree.setdefault(Q, []).append(P)
-
-
-def equations_against(subject: ReportSubject, values: Mapping[str, Any]) -> Check:
-    """Return how far the equations, evaluated with 30 digits, are from the machine's own numbers at the pose of the calculation."""
-    pose = subject.machine.at(unreachable="nan", **subject.pose)
-    worst, size = 0.0, max((float(np.abs(pose[name]).max()) for name in pose.plan.points), default=1.0) or 1.0
-    points = [name for name in pose.plan.moving if name in values and name in pose.plan.points]
-    for name in points:
-        worst = max(worst, float(np.abs(np.array([float(each) for each in values[name]]) - pose[name]).max()) / size)
-    for name, member in pose.plan.of_kind(Quantity).items():
-        if name in values and not isinstance(member, (Stroke, Dimension)):
-            own = float(pose[name])
-            worst = max(worst, abs(float(values[name]) - own) / max(abs(own), 1.0))
-    what = said("the equations above with 30 digits, against the positions and outputs of the program")
-    return Check(said("equations evaluated again"), what, worst if points else np.nan, EXACT)
 
 
 def derivatives(subject: ReportSubject) -> Check:

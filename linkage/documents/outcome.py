@@ -27,7 +27,7 @@ from ..program import FloatArray
 from ..reports import Run, dagger_words, run_words
 from ..reports.table import NO_VALUE, column_blocks, dagger_ends, flat
 from ..reports.table import column_texts as text_cells
-from ..units import factor, unit_sign
+from ..units import UNITS, factor, unit_sign
 from .content import Block, Cell, Illustration, Section, TableBlock
 from .pictures import ROOM, WIDE, height_of, in_one_unit
 from .run import FIGURES, ReportSubject, same_curve
@@ -38,6 +38,7 @@ CURVE_ROOM = (0.72, 0.22, 0.46, 0.32)
 """The room beside a curve's axes [inch: left, right, bottom, top]."""
 NO_LETTER = re.compile("[^0-9A-Za-z]")
 """What the name of a picture's file does not have."""
+COUNTED = ("force", "moment", "pressure")
 LETTERS = 100
 """Letters of a table's row, so that it fits across a page."""
 
@@ -260,8 +261,12 @@ def column_grids(subject: ReportSubject, caption: str, columns: Sequence[Column]
 
 
 def cell_texts(subject: ReportSubject, column: Column, values: FloatArray) -> list[str]:
-    """Return a column's numbers as text: forces, pressures and reserves with FIGURES digits, others with the column's decimals."""
-    if not subject.is_counted(column):
+    """Return a column's numbers as text: forces, moments, pressures and reserves with FIGURES digits.
+
+    Others, and those of the machine's own table, have the column's decimals.
+    """
+    own = subject.has_own_table and any(each.name == column.name for each in subject.columns)
+    if own or not (column.name.startswith("reserve") if not column.unit else UNITS[column.unit][1] in COUNTED):
         return text_cells(column, values)
     return [NO_VALUE if np.isnan(value) else figures(value) for value in values.tolist()]
 

@@ -30,7 +30,6 @@ TRIED = 9
 MANY = 2001
 """Rows of a table that one would still print."""
 FIGURES = 4
-COUNTED = ("force", "moment", "pressure")
 CLOSE = 1e-9
 """Of the greatest value: columns that differ by no more are one curve."""
 
@@ -175,11 +174,6 @@ class ReportSubject:
     def has_own_table(self) -> bool:
         """Whether the machine makes its table itself, in its own order and digits."""
         return type(self.machine)._owner("columns") is not Mechanism
-
-    def is_counted(self, column: Column) -> bool:
-        """Return whether a column is shown with FIGURES digits: a force, moment, pressure or reserve, not of the machine's own table."""
-        own = self.has_own_table and any(each.name == column.name for each in self.columns)
-        return not own and (column.name.startswith("reserve") if not column.unit else UNITS[column.unit][1] in COUNTED)
 
     @cached_property
     def table_columns(self) -> list[list[Column]]:

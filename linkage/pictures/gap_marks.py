@@ -45,11 +45,6 @@ class GapMark:
     words: str
     faint: bool = False
 
-    @property
-    def middle(self) -> FloatArray:
-        """The place amid both [m]."""
-        return np.asarray(self.ends.mean(axis=0))
-
     def outer(self, size: float) -> FloatArray:
         """Return all places that its lines reach, shape (4, 2) [m]."""
         out = REACH * size * self.along
@@ -156,4 +151,4 @@ def draw_gap(ax: Axes, mark: GapMark, size: float) -> list[Wording]:
     for tip, out in ((start, -way), (end, way)):
         tail = tip + (REACH * size * out if is_short else -min(REACH * size, 0.5 * float(np.hypot(*(end - start)))) * out)
         arrow_between(ax, tail, tip, colour, 11, level, clip=False)
-    return [Wording(mark.words, mark.middle, left_of(way), colour, mark.name)]
+    return [Wording(mark.words, mark.ends.mean(axis=0), left_of(way), colour, mark.name)]

@@ -72,18 +72,14 @@ class Overlays:
         """Return the pairs of bodies that are compared where nothing says which, else None, and a note on them."""
         return assumed_pairs(motion) if self.has_gap and asked_pair(self.clearance, motion.plan) is None else (None, "")
 
-    def worst(self, motion: Motion, pairs: Pairs, pose: int) -> int | None:
-        """Return the pose of a motion, a flat index, where the gap is least; None where it is the one shown, or not asked for."""
-        found = worst_pose(motion, self.clearance, pairs, pose) if self.has_gap and motion.reached.size > 1 else pose
-        return None if found == pose else found
-
     def laid_over(self, motion: Motion, pose: int, box: Bounds) -> Overlay:
         """Return the overlay of a motion's pose, a flat index, on a sheet that shows a box [m]."""
         layers, notes, arms = list[ArrowLayer](), list[str](), list[LeverArm]()
         if self.rates is not None:
             rates_of("velocities", self.rates, motion)
         pairs, note = self.pairs(motion)
-        worst = self.worst(motion, pairs, pose)
+        nearest = worst_pose(motion, self.clearance, pairs, pose) if self.has_gap and motion.reached.size > 1 else pose
+        worst = None if nearest == pose else nearest
         if not motion.reached.ravel()[pose]:
             return Overlay((), (), (why_no_forces(motion, pose, ForceQuestion()),), box, worst=worst)
         if self.forces is not None:
@@ -214,7 +210,15 @@ class Overlay:
             covered.append(np.repeat(arrows.draw_arrows(ax, layer, scale, size), arrows.ARROW, axis=0))
             texts += arrows.wordings(layer, scale, size)
         for number, mark in enumerate(self.marks):
-            texts += draw_pole(ax, mark, self.sheet, "" if number else said("pole, about which a body turns here"))
+            ray: Keywords = {"color": POLE, "linewidth": style.THIN, "dashes": (7, 3, 1.5, 3), "zorder": 15.0, "gid": f"{mark.name} ray"}
+            for end in mark.ends:
+                ax.plot(*np.array([mark.at, end]).T, **ray)
+            if mark.is_near(self.sheet):
+                key = None if number else said("pole, about which a body turns here")
+                ring: Keywords = {"marker": "o", "markersize": 8.5, "markerfacecolor": style.PAPER, "markeredgewidth": 1.6, "label": key}
+                ax.plot(*mark.at[:, None], color=POLE, linestyle="none", markeredgecolor=POLE, zorder=17.0, gid=mark.name, **ring)
+                ax.plot(*mark.at[:, None], marker="+", markersize=12.0, markeredgecolor=POLE, markeredgewidth=1.2, zorder=17.1)
+                texts.append(Wording(textwrap.fill(mark.name, POLE_WIDTH), mark.at, np.array([0.7, 0.7]), POLE, mark.name))
             covered.append(np.repeat(mark.at[None], 12 * mark.is_near(self.sheet), axis=0))
             covered += [segment(mark.at, end, size) for end in mark.ends]
         for gap in self.gaps:
@@ -374,18 +378,3 @@ def mark_of(bodies: Sequence[str], other: str, place: FloatArray, ends: tuple[Fl
             name=name,
         )
     return PoleMark(name, place, () if words else ends, words)
-
-
-def draw_pole(ax: Axes, mark: PoleMark, sheet: Bounds, key: str = "") -> list[Wording]:
-    """Draw a pole, with thin lines to its body's points, and return the name to write beside it; `key` is its text in the legend."""
-    if mark.words:
-        return []
-    ray: Keywords = {"color": POLE, "linewidth": style.THIN, "dashes": (7, 3, 1.5, 3), "zorder": 15.0, "gid": f"{mark.name} ray"}
-    for end in mark.ends:
-        ax.plot(*np.array([mark.at, end]).T, **ray)
-    if not mark.is_near(sheet):
-        return []
-    ring: Keywords = {"marker": "o", "markersize": 8.5, "markerfacecolor": style.PAPER, "markeredgewidth": 1.6, "gid": mark.name}
-    ax.plot(*mark.at[:, None], color=POLE, linestyle="none", markeredgecolor=POLE, zorder=17.0, label=key or None, **ring)
-    ax.plot(*mark.at[:, None], marker="+", markersize=12.0, markeredgecolor=POLE, markeredgewidth=1.2, zorder=17.1)
-    return [Wording(textwrap.fill(mark.name, POLE_WIDTH), mark.at, np.array([0.7, 0.7]), POLE, mark.name)]

@@ -555,7 +555,8 @@ def scene_data(scene: Scene, lines: Mapping[str, Sequence[int]]) -> PageData:
     names = list(scene.motion.plan.points)
     index = {name: place for place, name in enumerate(names)}
     forms = list(zip(scene.plates, scene.bodies, scene.colours, strict=True))
-    labels = names_shown(scene)
+    ends = Counter(name.rpartition(".")[2] for name in scene.places)  # of a part's point its own name, where no other has that
+    labels = {name: end for name in scene.places if "." in name and ends[end := name.rpartition(".")[2]] == 1} | scene.letters
     letters = {**labels, **dict.fromkeys(scene.inner, "")}
     poses, (left, right, bottom, top) = scene.some(9), scene.box()
     scale = min(ACROSS / (right - left), 0.7 * ACROSS / (top - bottom))
@@ -578,13 +579,6 @@ def scene_data(scene: Scene, lines: Mapping[str, Sequence[int]]) -> PageData:
         "grounds": [{"point": index[name], "way": round(way, 4)} for name, way in props(scene).items()],
         "labels": [[round(float(spots[name][0]), 1), round(-float(spots[name][1]), 1)] for name in names],  # from their points [px]
     } | ({"letters": [letters.get(name, name) for name in names], "legend": scene.letter_legend} if letters else {})
-
-
-def names_shown(scene: Scene) -> dict[str, str]:
-    """Return the labels of parts' points on the sheet. Of many points they are as in pictures."""
-    ends = Counter(name.rpartition(".")[2] for name in scene.places)
-    short = {name: name.rpartition(".")[2] for name in scene.places if "." in name}
-    return {name: end for name, end in short.items() if ends[end] == 1} | scene.letters
 
 
 def body_data(plate: Plate, points: Sequence[str], index: Mapping[str, int]) -> PageData:

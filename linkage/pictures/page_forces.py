@@ -46,11 +46,6 @@ class PageSituation:
     case: Case
     motion: Motion | None = None
 
-    def in_situation(self, request: AnyRequest) -> AnyRequest:
-        """Return a request in this situation; over a path in time its program takes rates and accelerations."""
-        found = request_in_case(request, self.case)
-        return found if self.motion is None else cast(AnyRequest, at_its_rates(self.motion, cast(Any, found)))
-
 
 def page_situations(machine: Mechanism, judge: Judge, run: Run) -> tuple[list[PageSituation], list[int]]:
     """Return the situations of a page, that of its first run first, and which of them each `Over` of the judge has."""
@@ -62,8 +57,14 @@ def page_situations(machine: Mechanism, judge: Judge, run: Run) -> tuple[list[Pa
 
 
 def situated_requests(name: str, request: AnyRequest, situations: Sequence[PageSituation]) -> dict[str, AnyRequest]:
-    """Return a request in each situation, by its name and number; once where it is the same as in the first."""
-    asked = [each.in_situation(request) for each in situations]
+    """Return a request in each situation, by its name and number; once where it is the same as in the first.
+
+    Over a path in time its program takes rates and accelerations.
+    """
+    asked = []
+    for each in situations:
+        own = request_in_case(request, each.case)
+        asked.append(own if each.motion is None else cast(AnyRequest, at_its_rates(each.motion, cast(Any, own))))
     return {f"{name} {k}": each for k, each in enumerate(asked) if not k or each is not asked[0]}
 
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import warnings
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from itertools import combinations, pairwise, product
+from itertools import chain, combinations, pairwise, product
 from operator import methodcaller
 from typing import TypeAlias
 
@@ -717,22 +717,19 @@ def rigid_together(bodies: list[tuple[str, ...]]) -> tuple[tuple[str, ...], ...]
     """Return bodies with those united that hold each other: two that share two points, three that are pinned in a triangle."""
     found = list(bodies)
     while True:
-        one = next(united(found), None)
+        shared = {(one, other): set(one) & set(other) for one, other in combinations(found, 2)}
+        pairs = (pair for pair, pins in shared.items() if len(pins) > 1)
+        triangles = (
+            each
+            for each in combinations(found, 3)
+            if all(pins := [shared[pair] for pair in combinations(each, 2)]) and len(set().union(*pins)) == 3
+        )
+        one = next(chain(pairs, triangles), None)
         if one is None:
             return tuple(found)
         place = found.index(one[0])
         together = tuple(dict.fromkeys(point for body in one for point in body))
         found = [*found[:place], together, *(body for body in found[place:] if body not in one)]
-
-
-def united(bodies: list[tuple[str, ...]]) -> Iterator[tuple[tuple[str, ...], ...]]:
-    """Yield the groups of bodies that hold each other."""
-    yield from ((one, other) for one, other in combinations(bodies, 2) if len(set(one) & set(other)) > 1)
-    sharing = {(one, other): set(one) & set(other) for one, other in combinations(bodies, 2)}
-    for one, other, third in combinations(bodies, 3):
-        pins = sharing[one, other], sharing[one, third], sharing[other, third]
-        if all(pins) and len(set().union(*pins)) == 3:
-            yield one, other, third
 
 
 def centre_beside(plan: Plan, element: str) -> tuple[str, str, tuple[float, float]] | None:

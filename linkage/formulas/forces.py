@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
-from typing import Any, TypeAlias, cast
+from typing import Any, cast
 
 import numpy as np
 import sympy
@@ -159,8 +159,6 @@ def symbols_behind(lines: Sequence[ListingLine], expr: sympy.Basic) -> set[sympy
     return set(expr.free_symbols).union(*(line.rhs.free_symbols for line in lines_needed(lines, [expr])))
 
 
-Levers: TypeAlias = Mapping[PressureLine, Mapping[str, sympy.Expr]]
-"""What a unit of pressure in each line does on a unit of each stroke."""
 MOST = 3
 """More cylinders that hold their strokes together have no equations that one would read."""
 WORDS = (
@@ -286,13 +284,20 @@ class ForceLines:
             names = " and ".join(each.name for each in line.cylinders)
             shared = f"{self.plan.title}: {names} share their load by the sides that work; take thrust(motion) of each."
             ensure(not line.changes_shares, shared)
-            areas = {each.ends: self._area(line, each) for each in line.cylinders}
-            levers[line] = {name: sympy.Add(*(area * self._chains[name].growths[ends] for ends, area in areas.items())) for name in strokes}
+            areas = [(each.ends, self._area(line, each)) for each in line.cylinders]
+            levers[line] = {name: sympy.Add(*(area * self._chains[name].growths[ends] for ends, area in areas)) for name in strokes}
         needs = {stroke: self.listing.names.force(f"Q_{stroke}") for stroke in strokes}
         while left:
             holding = {stroke: [line for line in left if levers[line][stroke] != 0] for stroke in needs}
             block, rows = next(((held, [stroke]) for stroke, held in holding.items() if len(held) == 1), (list(left), list(needs)))
-            for each, unit_thrust in zip(block, self._solved(block, rows, levers, needs), strict=True):
+            matrix = sympy.Matrix([[levers[line][stroke] for line in block] for stroke in rows])
+            names = ", ".join(each.name for line in block for each in line.cylinders)
+            many = f"{self.plan.title}: {names} hold their strokes together, too many for equations; take thrust(motion)."
+            ensure(len(block) <= MOST, many)
+            for place, each in enumerate(block):  # by Cramer's rule, on a unit of area
+                changed = matrix.copy()
+                changed[:, place] = sympy.Matrix([needs[stroke] for stroke in rows])
+                unit_thrust = changed.det() / matrix.det()
                 for cylinder in each.cylinders:
                     self.carry(cylinder, Term(unit_thrust * self._area(each, cylinder)))
             left, known = [each for each in left if each not in block], dict[PressureLine, sympy.Expr]()
@@ -303,24 +308,6 @@ class ForceLines:
                 name: need - sympy.Add(*(thrust * levers[each][name] for each, thrust in known.items()))
                 for name, need in needs.items() if name not in rows
             }  # fmt: skip
-
-    def _solved(
-        self,
-        block: Sequence[PressureLine],
-        rows: Sequence[str],
-        levers: Levers,
-        needs: Mapping[str, sympy.Expr],
-    ) -> list[sympy.Expr]:
-        """Return the thrusts on a unit of area of lines that hold some strokes together, by Cramer's rule."""
-        matrix = sympy.Matrix([[levers[line][stroke] for line in block] for stroke in rows])
-        names = ", ".join(each.name for line in block for each in line.cylinders)
-        ensure(len(block) <= MOST, f"{self.plan.title}: {names} hold their strokes together, too many for equations; take thrust(motion).")
-        right, found = sympy.Matrix([needs[stroke] for stroke in rows]), []
-        for place in range(len(block)):
-            changed = matrix.copy()
-            changed[:, place] = right
-            found.append(changed.det() / matrix.det())
-        return found
 
     def _area(self, line: PressureLine, cylinder: TwoPoint) -> sympy.Expr:
         """Return the thrust of a cylinder at a unit of its line's pressure; of one that is alone on its line at a unit of its own."""

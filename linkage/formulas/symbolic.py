@@ -64,8 +64,10 @@ class Unit:
         if self == ANGLE:
             return "deg"
         powers = [("rad", self.angle), ("m", self.length)]
-        over = "*".join(power_text(name, power) for name, power in powers if power > 0)
-        under = "*".join(power_text(name, -power) for name, power in powers if power < 0)
+        over, under = (
+            "*".join(name if sign * power == 1 else f"{name}{sign * power}" for name, power in powers if sign * power > 0)
+            for sign in (1, -1)
+        )
         return f"{over or '1'}/{under}" if under else over
 
     @property
@@ -79,13 +81,10 @@ class Unit:
         return deg if self.text == "deg" else 1.0
 
 
-def power_text(name: str, power: Fraction) -> str:
-    return name + (str(power) if power != 1 else "")
-
-
 NUMBER = Unit()
 LENGTH = Unit(Fraction(1))
 ANGLE = Unit(angle=Fraction(1))
+
 
 def unit_named(name: str) -> Unit:
     """Return a unit by its name; a plain number for none. DefinitionError for one that there is not."""

@@ -60,7 +60,12 @@ class Checkpoint:
         there = facts if known is None else known
         differing = [name for name in dict.fromkeys([*facts, *there]) if facts.get(name) != there.get(name)]
         if differing:
-            said = ", ".join(f"{name} ({fact_words(there, name)} there, {fact_words(facts, name)} here)" for name in differing[:4])
+            words = []
+            for name in differing[:4]:
+                pair = [str(each.get(name, "none")) for each in (there, facts)]
+                old, new = (each[:8] if re.fullmatch(r"[0-9a-f]{32}", each) else each for each in pair)  # a digest by its first characters
+                words.append(f"{name} ({old} there, {new} here)")
+            said = ", ".join(words)
             more = f" and {len(differing) - 4} more" if len(differing) > 4 else ""
             raise DefinitionError(f"{place} holds another study; it differs in {said}{more}. Take another folder, or delete this one.")
         return cls(place, blake2b(json.dumps(facts, sort_keys=True).encode()).digest())
@@ -163,12 +168,6 @@ def facts_as_json(facts: Facts) -> dict[str, object]:
     """Return facts as a file gives them back."""
     found: dict[str, object] = json.loads(json.dumps(facts))
     return found
-
-
-def fact_words(facts: Facts, name: str) -> str:
-    """Return a fact in a sentence; a digest by its first characters."""
-    value = facts.get(name, "none")
-    return value[:8] if isinstance(value, str) and re.fullmatch(r"[0-9a-f]{32}", value) else str(value)
 
 
 # What is measured, as text. The source text of a function is the same under every version of Python, its bytecode is not.

@@ -290,7 +290,14 @@ class MonteCarloRun:
             if key not in bound:
                 parts = [self.poses.of_function(self._block(block), quantity).T for block in blocks(self.count, self.poses.pose_count)]
                 self._take([key], np.concatenate(parts, axis=1)[None], 0, found)
-        self._leaves |= {leaf: self._of_leaf(leaf) for leaf in leaves if isinstance(leaf, (At, Integral))}
+        for leaf in leaves:
+            if isinstance(leaf, (At, Integral)):  # at its own pose, or an integral over the row of strokes
+                poses = self.poses.integral_poses(leaf)[0] if isinstance(leaf, Integral) else self.poses.at(leaf)
+                parts = [self.poses.of_leaf(self._block(block), leaf, self.options) for block in blocks(self.count, poses.pose_count)]
+                column = np.concatenate(parts)
+                free = np.zeros(self.count, bool) if isinstance(leaf, Integral) else self._free(poses, leaf.quantity, column[None])[0]
+                self._leaves[leaf], self._unlimited[leaf] = column, free.astype(int)
+                self.lost |= np.isnan(column) & ~free
         for leaf, places in self._unlimited.items():
             self._leaves[leaf] = np.where(places == (self.poses.pose_count if leaf.sense else 1), np.nan, self._leaves[leaf])
         for condition in conditions:  # one says nothing of designs at which a quantity of it is limited nowhere
@@ -322,16 +329,6 @@ class MonteCarloRun:
 
         self._on_threads(fill, blocks(self.count, part.stop - part.start))
         return place
-
-    def _of_leaf(self, leaf: At | Integral) -> FloatArray:
-        """Return a quantity at its own pose, or an integral over the row of strokes, shape (designs,)."""
-        poses = self.poses.integral_poses(leaf)[0] if isinstance(leaf, Integral) else self.poses.at(leaf)
-        parts = blocks(self.count, poses.pose_count)
-        found = np.concatenate([self.poses.of_leaf(self._block(block), leaf, self.options) for block in parts])
-        free = np.zeros(self.count, bool) if isinstance(leaf, Integral) else self._free(poses, leaf.quantity, found[None])[0]
-        self._unlimited[leaf] = free.astype(int)
-        self.lost |= np.isnan(found) & ~free
-        return found
 
     def _free(self, poses: StudyPoses, quantity: Measured | Worst, values: FloatArray, part: slice = slice(None)) -> Mask:
         """Return at which of some poses nothing limits a quantity, so that it has no value there, shape (poses, designs)."""

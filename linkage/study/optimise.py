@@ -536,12 +536,12 @@ class DesignSearch:
         """Return the best design."""
         space, plan, left = self.problem.space, self.problem.plan, []
         for combination in space.combinations():
-            for each in self.problem.constraints if space.count > 1 else ():
-                margin = self.problem.certainly(each.margin, combination)
-                if margin is not None and (margin.high < 0.0 or (each.symbol == "==" and margin.low > 0.0)):
-                    units = unit_of_constraint(plan, each)
+            for condition in self.problem.constraints if space.count > 1 else ():
+                margin = self.problem.certainly(condition.margin, combination)
+                if margin is not None and (margin.high < 0.0 or (condition.symbol == "==" and margin.low > 0.0)):
+                    units = unit_of_constraint(plan, condition)
                     short = show(-margin.high if margin.high < 0.0 else margin.low, units, 4)
-                    self.cut.append(f"{space.words(combination, plan)}: {in_units(each, units)} is missed by {short} at least")
+                    self.cut.append(f"{space.words(combination, plan)}: {in_units(condition, units)} is missed by {short} at least")
                     break
             else:
                 left.append(combination)
@@ -562,7 +562,15 @@ class DesignSearch:
         if hopeless:
             raise self.infeasible(hopeless)
         tasks = [(each.combination, number, unit) for each in screened for number, unit in enumerate(self.starts_in(each, len(screened)))]
-        return self.chosen([*self.ends(tasks), *self.best_looked_at(screened)], searched=len(screened))
+        ended = self.ends(tasks)
+        if self.problem.count.is_spent:  # the most promising designs that no local search began with, too
+            problem = self.problem.sampled_apart(SAMPLES)
+            with problem.count.without_limit():
+                for each in screened[:KEPT]:
+                    for unit in each.unit[[place for place in each.order[:KEPT] if each.begins[place]]]:
+                        with suppress(LinkageError):
+                            ended.append(Local(problem, each.combination, unit).judged(unit))
+        return self.chosen(ended, searched=len(screened))
 
     def ends(self, tasks: Sequence[tuple[tuple[int, ...], int, FloatArray]]) -> list[SearchEnd]:
         """Return the results of local searches, of a combination, a number and a start each: all, or those within the limit."""
@@ -578,20 +586,6 @@ class DesignSearch:
                 raise
             self.tell(done + 1, len(tasks))
         return ended
-
-    def best_looked_at(self, screened: Sequence[EvaluatedDesigns]) -> list[SearchEnd]:
-        """Return the most promising designs that no local search began with, where the limit is reached; else none."""
-        if not self.problem.count.is_spent:
-            return []
-        problem, found = self.problem.sampled_apart(SAMPLES), []
-        with problem.count.without_limit():
-            for each in screened[:KEPT]:
-                for place in each.order[:KEPT]:
-                    if each.begins[place]:
-                        with suppress(LinkageError):
-                            unit = each.unit[place]
-                            found.append(Local(problem, each.combination, unit).judged(unit))
-        return found
 
     def hopeless(self, screened: Sequence[EvaluatedDesigns]) -> list[SearchEnd]:
         """Return designs that miss conditions least, by few poses, where nothing nearby keeps all; none where there is hope.

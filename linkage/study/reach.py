@@ -96,7 +96,17 @@ class LevelLines:
     def spans(self, heights: FloatArray) -> list[Spans]:
         """Return the parts of lines at some heights that are reached (left, right) [m]."""
         up, count = np.sort(heights), self.across.size
-        inside = self.found_at_once(up) if self.many.spare else np.zeros(count * up.size, bool)
+        inside = np.zeros(count * up.size, bool)
+        if self.many.spare:  # places that are reached from three of their starts
+            start = self.many.looked_at().starts(self.across, up, self.rest)
+            order, many = np.argsort(start.place, kind="stable"), np.bincount(start.place, minlength=inside.size)
+            first, known = np.cumsum(many) - many, many > 0
+            start = start.select(np.unique([order[(first + many * part // 4)[known]] for part in (1, 2, 3)]))
+            at = np.arange(inside.size)
+            goals = np.column_stack([self.across[at % count], up[at // count], np.tile(self.rest, (len(at), 1))])
+            near, met = self.many.settled(start, goals, np.zeros(start.unit.shape[1]), damped=False)
+            near = near.select(met)
+            inside = np.isin(at, near.place[self.many.places.is_assembled(near.unit)])
         out = np.pad(~inside.reshape(up.size, count), ((0, 0), (1, 1)))
         poses, turn = self.poses(self.across, up, (out[:, :-2] | out[:, 1:-1] | out[:, 2:]).ravel())  # of what may be at a border
         whole = self.many.places.is_assembled(poses.unit) if len(poses.place) else np.zeros(0, bool)
@@ -122,18 +132,6 @@ class LevelLines:
             found[k].append(end)
         spans = [list(zip(row[::2], row[1::2], strict=False)) for row in found]
         return [spans[k] for k in np.searchsorted(up, heights)]
-
-    def found_at_once(self, up: FloatArray) -> Mask:
-        """Return which places of lines at some heights, x running fastest, are reached from three of their starts."""
-        start, count = self.many.looked_at().starts(self.across, up, self.rest), self.across.size
-        order, many = np.argsort(start.place, kind="stable"), np.bincount(start.place, minlength=count * up.size)
-        first, known = np.cumsum(many) - many, many > 0
-        start = start.select(np.unique([order[(first + many * part // 4)[known]] for part in (1, 2, 3)]))
-        place = np.arange(count * up.size)
-        goals = np.column_stack([self.across[place % count], up[place // count], np.tile(self.rest, (len(place), 1))])
-        found, met = self.many.settled(start, goals, np.zeros(start.unit.shape[1]), damped=False)
-        found = found.select(met)
-        return np.isin(place, found.place[self.many.places.is_assembled(found.unit)])
 
     def ends(self, height: FloatArray, good: FloatArray, bad: FloatArray, start: PlacePoses, turn: Index) -> FloatArray:
         """Return how far lines are reached from `good` towards `bad` (m,) [m]; it begins at poses of the good places.

@@ -414,7 +414,13 @@ class Search:
             sentence = f"{wanted}: with {' or with '.join(words)}.{more}"
             sentence += "" if is_met else f" It cannot be assembled over the whole stroke: {lost[kept[0]]}"
         else:
-            sentence = self._near_words(words[0], off[kept[0]])
+            parts = []
+            for place, miss in enumerate(misses[0]):  # of the nearest setting
+                own, unit_shown = self.targets[place], self.targets[place].shown_in(self.machine.plan)
+                name, gap = self.words(place, float(own.value) + miss), show(abs(miss), unit_shown, 4)
+                is_told = abs(off[kept[0], place]) > TOLD
+                parts.append(f"{name}, {gap} {'more' if miss > 0.0 else 'less'} than wanted" if is_told else f"{name} as wanted")
+            sentence = f"No setting that was found gives all of it. The nearest is {words[0]}: {'; '.join(parts)}."
         return Solutions(self.machine, settings, is_met, misses, bool(family), sentence)
 
     def _of_families(self, unit: FloatArray, choice: Index, kept: Sequence[int]) -> dict[int, int]:
@@ -432,16 +438,6 @@ class Search:
                     continue
             found[each] = each if first is None else first
         return found
-
-    def _near_words(self, words: str, off: FloatArray) -> str:
-        """Return the nearest setting, and the miss of each target."""
-        parts = []
-        for place, miss in enumerate(off * self.scale):
-            name = self.words(place, float(self.targets[place].value) + float(miss))
-            gap = show(abs(float(miss)), self.targets[place].shown_in(self.machine.plan), 4)
-            side = "more" if miss > 0.0 else "less"
-            parts.append(f"{name}, {gap} {side} than wanted" if abs(off[place]) > TOLD else f"{name} as wanted")
-        return f"No setting that was found gives all of it. The nearest is {words}: {'; '.join(parts)}."
 
 
 def one_setting(values: Mapping[str, Any], place: int) -> Mapping[str, Any]:

@@ -218,11 +218,6 @@ class Local:
             self._good = np.array(unit, float), found[0]
         return found
 
-    def _forget(self) -> None:
-        """Look anew: at other poses, or with other scales."""
-        self._looks.clear()
-        self._rows.clear()
-
     def _divisor_signs(self, look: Evaluated) -> tuple[float, ...]:
         """Return the signs of the numbers of a design that another number of it is divided by."""
         with np.errstate(all="ignore"):
@@ -551,7 +546,8 @@ class Local:
         problem, before = self.problem, self.evaluated_at(unit).of_one
         if not problem.refine(problem.dimensions_at(unit, self.combination)):
             return False
-        self._forget()
+        self._looks.clear()
+        self._rows.clear()
         after = self.evaluated_at(unit).of_one
         return any(self._is_worse(leaf, after[leaf], before[leaf]) for leaf in problem.leaves)
 
@@ -573,7 +569,8 @@ class Local:
             if leaf.sense and self._is_worse(leaf, value, known[leaf]) and problem.refined(leaf, truths.parts[leaf]):
                 worse = True
         if worse:
-            self._forget()
+            self._looks.clear()
+            self._rows.clear()
         return self._end(unit, truths), worse
 
     def _end(self, unit: FloatArray, values: LeafNumbers) -> SearchEnd:

@@ -536,15 +536,15 @@ def compared(found: list[Synthesis], limit: int | None) -> Synthesis:
 
 def laid_machine(machine: Mechanism, task: Task) -> Mechanism:
     """Return a machine as large as the task, and where it is: lengths and fixed points scaled and shifted; as it is for a function."""
-    where = places_wanted(task)
-    if where is None:
+    extent = extent_of(task)
+    if extent is None:
         return machine
     own = run_of_task(machine, task)[:2]
     own = own[:, np.isfinite(own).all(axis=0)]
     large = float(np.ptp(own, axis=1).max()) if own.size else 0.0
     if not large:
         return machine
-    by, middle, aim = size_of_places(where) / large, own.mean(axis=1), where.mean(axis=1)
+    by, middle, aim = extent[0] / large, own.mean(axis=1), extent[1]
     values: dict[str, Any] = {}
     for name, entry in machine.plan.table.entries.items():
         now = float(machine.dimensions[name])
@@ -564,26 +564,28 @@ def run_of_task(machine: Mechanism, task: Task) -> FloatArray:
     return np.array(machine.evaluate(task.rows(machine).quantities, unreachable="nan", **strokes))
 
 
-def places_wanted(task: Task) -> FloatArray | None:
-    """Return the places of a task, shape (2, n) [m]; None for a function, which has none."""
+def extent_of(task: Task) -> tuple[float, FloatArray] | None:
+    """Return the size of a task's places [m] and their middle (2,); None for a function, which has none.
+
+    The size is the longer side of the rectangle about them; how far they lie from the origin where they are one.
+    """
     if isinstance(task, PathTask):
-        return np.asarray(task.points.T)
-    return np.array([task.x, task.y]) if isinstance(task, PoseTask) else None
-
-
-def size_of_places(where: FloatArray) -> float:
-    """Return the longer side of the rectangle about some places [m]; how far they lie from the origin where they are one."""
-    return float(np.ptp(where, axis=1).max()) or float(np.abs(where).max()) or 1.0
+        where = np.asarray(task.points.T)
+    elif isinstance(task, PoseTask):
+        where = np.array([task.x, task.y])
+    else:
+        return None
+    return float(np.ptp(where, axis=1).max()) or float(np.abs(where).max()) or 1.0, where.mean(axis=1)
 
 
 def default_box(machine: Mechanism, task: Task) -> dict[str, tuple[float, float]]:
     """Return the ranges of all dimensions that a task depends on, by its size; see `synthesise`."""
-    where, entries = places_wanted(task), machine.plan.table.entries
-    if where is None:
+    extent, entries = extent_of(task), machine.plan.table.entries
+    if extent is None:
         lengths = [float(machine.dimensions[name]) for name, entry in entries.items() if entry.kind == "length"]
         large, middle = max(lengths, default=1.0), np.zeros(2)
     else:
-        large, middle = size_of_places(where), where.mean(axis=1)
+        large, middle = extent
     before = run_of_task(machine, task)
     found: dict[str, tuple[float, float]] = {}
     for name, entry in entries.items():

@@ -310,11 +310,6 @@ class Joints:
         found[..., rows, b, :] -= ways
         return found[..., : len(self.free), :].reshape(*places.shape[:-2], len(a), 2 * len(self.free))
 
-    def distances_at(self, places: FloatArray) -> FloatArray:
-        """Return the distances at places (joints, 2)."""
-        a, b = np.array(self.distances).T
-        return np.asarray(np.linalg.norm(places[a] - places[b], axis=-1))
-
 
 def drawing(joints: Joints) -> Places:
     """Return places of all joints [m] from which the crank turns fully, far from any dead point: the best of many at random."""
@@ -340,7 +335,8 @@ def drawing(joints: Joints) -> Places:
 
 def turns_fully(joints: Joints, start: FloatArray, turning: list[int]) -> bool:
     """Return whether the crank turns fully from a drawing (joints, 2), by steps of Newton, and stays far from any dead point."""
-    lengths, places, free = joints.distances_at(start), np.array(start), len(joints.free)
+    a, b = np.array(joints.distances).T
+    lengths, places, free = np.linalg.norm(start[a] - start[b], axis=-1), np.array(start), len(joints.free)
     least = REGULAR * np.linalg.svd(joints.distance_slopes(start), compute_uv=False)[-1]
     for angle in np.linspace(0.0, 2.0 * pi, POSES + 1)[1:]:
         x, y = np.cos(angle), np.sin(angle)
@@ -349,7 +345,7 @@ def turns_fully(joints: Joints, start: FloatArray, turning: list[int]) -> bool:
             slopes = joints.distance_slopes(places)
             if not np.isfinite(slopes).all() or np.linalg.svd(slopes, compute_uv=False)[-1] < least:
                 return False
-            off = joints.distances_at(places) - lengths
+            off = np.linalg.norm(places[a] - places[b], axis=-1) - lengths
             if np.abs(off).max() < 1e-12:
                 break
             places[:free] -= np.linalg.solve(slopes, off).reshape(free, 2)

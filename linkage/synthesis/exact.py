@@ -386,25 +386,20 @@ def why_not(parts: Sequence[tuple[int, bool, int]], circuit: npt.NDArray[np.int_
 
 def least_angle_at_follower(crank: Pivoted, follower: Pivoted, coupler: float, ends: FloatArray, piece: DrivenPiece) -> float:
     """Return the least transmission angle at the follower's pin over a stroke [rad], exactly."""
-    if follower.slides:
-        normal = follower.direction + 0.5 * pi
-        turned = angles_between(ends, normal, piece)
-        away = ((crank.centre - follower.places[0]) * np.exp(-1j * normal)).real + crank.length * np.cos(turned - normal)
-        return float(np.arccos(np.clip(abs(away) / coupler, 0.0, 1.0)).min())
     frame = follower.centre - crank.centre
-    turned = angles_between(ends, float(np.angle(frame)), piece)
+    reference = follower.direction + 0.5 * pi if follower.slides else float(np.angle(frame))
+    if piece.fully and ends[1] - ends[0] >= TURN:
+        turned = np.array([reference, reference + pi])
+    else:  # the ends, and the places between at which a cosine about the reference is greatest or least
+        low, high = ends
+        tops = reference + pi * np.arange(np.ceil((low - reference) / pi), np.floor((high - reference) / pi) + 1)
+        turned = np.array([*ends, *tops])
+    if follower.slides:
+        away = ((crank.centre - follower.places[0]) * np.exp(-1j * reference)).real + crank.length * np.cos(turned - reference)
+        return float(np.arccos(np.clip(abs(away) / coupler, 0.0, 1.0)).min())
     far = abs(frame - crank.length * np.exp(1j * turned))
     cosine = (coupler**2 + follower.length**2 - far**2) / (2.0 * coupler * follower.length)
     return float(np.arccos(np.clip(abs(cosine), 0.0, 1.0)).min())
-
-
-def angles_between(ends: FloatArray, reference: float, piece: DrivenPiece) -> FloatArray:
-    """Return the ends of a stroke and the places between at which a cosine about a reference is greatest or least [rad]."""
-    if piece.fully and ends[1] - ends[0] >= TURN:
-        return np.array([reference, reference + pi])
-    low, high = ends
-    tops = reference + pi * np.arange(np.ceil((low - reference) / pi), np.floor((high - reference) / pi) + 1)
-    return np.array([*ends, *tops])
 
 
 def variant_of(

@@ -2,7 +2,7 @@
 const data = JSON.parse(await unpacked("data"));
 const byId = (id) => document.getElementById(id);
 const css = (name) => `var(--${name})`;
-const { scene } = data, { abs, acos, atan2, ceil, cos, floor, hypot, log10, max, min, round, PI } = Math;
+const { scene } = data, { abs, acos, atan2, ceil, cos, floor, hypot, log10, max, min, round, sin, PI } = Math;
 const isNumber = Number.isFinite, root = document.documentElement;
 const on = (element, event, act) => element.addEventListener(event, act);
 const make = (kind, given) => Object.assign(document.createElement(kind), given);

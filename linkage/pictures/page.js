@@ -13,7 +13,7 @@ if (!strokes.some((each) => each.path && each.over === undefined)) for (const [o
 const rowNow = (row) => { const found = row[caseNow()] ?? row; return found >= 0 ? found : undefined; };
 const columns = data.columns.map(([name, unit, row, ru, values, why]) => ({ name, unit, factor: units[unit], ru, why, get values() { return values?.[caseNow()]; }, get row() { return rowNow(row); } }));
 const caseNow = () => data.situationOf[strokes[runs].over] ?? 0;
-for (const each of [...data.cylinders, ...data.arrows]) for (const name of ["pressure", "most", "x", "y"]) if (each[name]?.length) {
+for (const each of [...data.cylinders, ...data.arrows]) for (const name of ["pressure", "most", "x", "y", "couple"]) if (each[name]?.length) {
   const row = each[name];
   Object.defineProperty(each, name, { get: () => rowNow(row) });
 }
@@ -163,12 +163,13 @@ function actsText({ on, by, load }) {
   if (load) return on;
   return by === undefined ? `${on} ${say("from the ground")}` : `${say("on {body}", { body: on })} ${by ? say("from {body}", { body: by }) : say("from the frame")}`;
 }
-/* An arrow: a force at a point, in the scale in which the greatest is a sixth of the sheet. What is touched says on what it acts. */
+/* An arrow: a force at a point, in the scale in which the greatest is a sixth of the sheet, or a couple about it, counter-clockwise above zero. What is touched says on what it acts. */
 function arrow(each) {
-  const { point, load } = each, colour = css(load ? "accent" : "other"), line = draw(sheet, "path", { w: 2.2, join: "round", fill: colour, stroke: colour }), title = draw(line, "title", {});
+  const { point, load } = each, isCouple = "couple" in each, colour = css(load ? "accent" : "other"), line = draw(sheet, "path", { w: 2.2, join: "round", fill: isCouple ? "none" : colour, stroke: colour }), title = draw(line, "title", {});
   const number = label(point, "halo force", FORCE_FONT, 12, `color-mix(in srgb, ${colour} 60%, var(--ink))`);
   on(line, "pointerover", () => { title.textContent = `${number.said.split(" ")[0]} ${actsText(each)}`; });
   return (at) => {
+    if (isCouple) { about(each, at[point], line, number); return; }
     const { x, y } = each, k = pull.scale, f = [pose.values[x]?.[0] * k, -pose.values[y]?.[0] * k], long = hypot(...f), head = min(9, 0.5 * long);
     if (!showsForces || !(long > 1)) { set(line, { d: "" }); number.said = ""; return; }
     const d = [f[0] / long, f[1] / long], from = centred(each, at), tip = [from[0] + f[0], from[1] + f[1]], neck = [tip[0] - head * d[0], tip[1] - head * d[1]], w = 0.38 * head;
@@ -177,6 +178,15 @@ function arrow(each) {
     Object.assign(number, { said: touched.includes(point) ? `${force} ${actsText(each)}` : force, anchor: tip, way: d });
     arrows.push([from, tip]);
   };
+}
+function about(each, [x, y], line, number) {
+  const rank = data.arrows.filter((other) => "couple" in other && other.point === each.point).indexOf(each), r = (2.6 + 1.4 * rank) * unit0;
+  const size = pose.values[each.couple]?.[0], side = size < 0 ? -1 : 1, on = (t, far) => [x - side * far * sin(t), y - far * cos(t)], head = (aside) => on(1.53 - (1.3 * unit0) / r, r + aside * unit0);
+  const seen = showsForces && abs(size) > 1e-9 * pull.most, turns = Array.from({ length: 23 }, (_, i) => on(0.17 * (i - 13), r));
+  set(line, { d: seen ? broken([...turns, null, head(0.9), turns[22], head(-0.9)]) : "" });
+  if (seen) turns.slice(1).forEach((tip, i) => arrows.push([turns[i], tip]));
+  const couple = shown(abs(size), data.moment, 3);
+  Object.assign(number, { said: !seen ? "" : touched.includes(each.point) ? `${couple} ${actsText(each)}` : couple, anchor: on(0, r), way: [0, -1] });
 }
 /* Where a load acts: at its point, or at the centre of a mass beside it. */
 function centred({ point, beside }, at) {

@@ -172,7 +172,7 @@ class PageRequests:
             for what, request in member.gauges(self.plan).items():
                 self.by_name |= situated_requests(f"gauge {name} {what}", request, self.situations) if what in GAUGES else {}
         for k, arrow in enumerate(self.arrows):
-            for axis, asked in ("x", arrow.x), ("y", arrow.y):
+            for axis, asked in arrow.parts.items():
                 self.by_name |= situated_requests(f"arrow {k} {axis}", asked, self.situations)
 
 
@@ -265,12 +265,12 @@ def page_data(requests: PageRequests, live: LiveText) -> PageData:
         **unit_tables({*(each[3] for each in dims), *(str(each[1]) for each in columns)}, {*asked, *(each["unit"] for each in strokes)}),
         "joints": [{"point": name, "row": rows[key]} for name in requests.motion._joints if (key := f"joint {name}") in rows],
         "arrows": [
-            {"point": index[arrow.point], "x": x, "y": y, "on": arrow.on}
+            {"point": index[arrow.point], **parts, "on": arrow.on}
             | ({"by": "" if arrow.by == FRAME else arrow.by} if arrow.by else {"load": 1} if arrow.is_load else {})
             | ({"beside": [index[centre[1]], *centre[2]]} if (centre := arrow.centre) else {})
             for k, arrow in enumerate(requests.arrows)
-            for x, y in [[situated_rows(f"arrow {k} {axis}", live, len(requests.situations)) for axis in "xy"]]
-            if x is not None and y is not None
+            for parts in [{axis: situated_rows(f"arrow {k} {axis}", live, len(requests.situations)) for axis in arrow.parts}]
+            if None not in parts.values()
         ],
         "paths": [index[name] for name in requests.trace],
         "grips": grip_data(requests, names, index),
@@ -327,14 +327,15 @@ def unit_tables(used: set[str], beside: set[str]) -> PageData:
 
     Units `beside` these are shown, and have no factor here.
     """
-    known = {*used, *beside, "bar", "mm", "kN"}
+    known = {*used, *beside, "bar", "mm", "kN", "kNm"}
     kinds = {measure for unit, (_, measure) in UNITS.items() if typeset(unit) in known}
     return {
         "units": {typeset(unit): factor(unit) for unit in ("", *UNITS) if typeset(unit) in used},
         "pressureUnit": unit_data("bar"),
         "length": unit_data("mm"),
         "force": unit_data("kN"),
-        "signs": signs({*used, *map(shown_in, ("bar", "mm", "kN"))}),
+        "moment": unit_data("kNm"),
+        "signs": signs({*used, *map(shown_in, ("bar", "mm", "kN", "kNm"))}),
         "measures": {typeset(unit): [factor(unit), measure] for unit, (_, measure) in UNITS.items() if measure in kinds},
         "systems": {name: {kind: typeset(unit) for kind, unit in units.items() if kind in kinds} for name, units in SYSTEMS.items()},
         "systemNames": SYSTEM_NAMES,

@@ -27,12 +27,12 @@ Centre: TypeAlias = tuple[str, str, tuple[float, float]] | None
 class PageArrow(NamedTuple):
     """A force that a page can draw: its point, its parts [N], whether it is a load, its centre where it acts beside its point.
 
-    `on` is the body on which it acts and `by` the one that it comes from; of a load and of the ground's push `on` is the name, `by` "".
+    The couple of a joint [N m] is its one part. `on` is the body on which it acts and `by` the one that it comes from; of a load and of
+    the ground's push `on` is the name, `by` "".
     """
 
     point: str
-    x: Request
-    y: Request
+    parts: dict[str, Request]
     is_load: bool
     centre: Centre
     on: str
@@ -105,18 +105,19 @@ def force_arrows(machine: Mechanism, motion: Motion, situations: Sequence[PageSi
     except LinkageError:  # no forces, or loads that have no program
         return []
     joints = solved.joints if loads else ()
-    forces = [each for each in joints if each.has_force and each.place is None]  # an arrow of the page begins at a point
-    told = [each for each in forces if alone_on(each, forces)]
-    try:
-        for joint in told[:1]:
-            bound(plan, joint_part(joint, joint.on, forces, "x")).nodes(plan.beside)
-    except UntracedError:  # which parts pull is found pose by pose: the loads alone are drawn
-        told = []
+    at_points = [each for each in joints if each.place is None or np.allclose(each.place, poses[each.point])]  # where an arrow begins
+    told: list[tuple[JointForce, Sequence[str]]] = [(each, "xy") for each in at_points if each.has_force]
+    told += [(each, ["couple"]) for each in at_points if np.any(each.couple)]
     found = list[PageArrow]()
-    for joint in told:
-        on, by = bodies_shown(solved, joint)
-        x, y = (joint_part(joint, on, forces, axis) for axis in "xy")
-        found.append(PageArrow(joint.point, x, y, False, None, short_name(solved, on), short_name(solved, by)))
+    try:
+        for joint, parts in told:
+            on, by = bodies_shown(solved, joint)
+            of_joint: dict[str, Request] = {part: pin_force(joint.point, on, part, by=by) for part in parts}
+            found.append(PageArrow(joint.point, of_joint, False, None, short_name(solved, on), short_name(solved, by)))
+            for each in of_joint.values() if len(found) == 1 else ():
+                bound(plan, each).nodes(plan.beside)
+    except UntracedError:  # which parts pull is found pose by pose: the loads alone are drawn
+        found.clear()
     asked: dict[tuple[str, Any], tuple[str, Centre]] = {}
     if loads:
         asked = {("ground", (k, each.element)): (each.point, None) for k, each in enumerate(ground_loads(poses, PLAIN))}
@@ -127,19 +128,5 @@ def force_arrows(machine: Mechanism, motion: Motion, situations: Sequence[PageSi
         keys = ((kind, name, axis) for axis in (0, 1))
         x, y = (LawRequest(formula=partial(load_part, *key), text=f"{kind} {name}", known=key, acting=PLAIN) for key in keys)
         called = name[kind == "ground"].partition("(")[0]
-        found.append(PageArrow(point, x, y, kind == "load", centre, called, ""))
-    return found
-
-
-def alone_on(joint: JointForce, joints: Sequence[JointForce]) -> str:
-    """Return the body, its own or else the other, on which a joint's force is the only one at its point; "" where there is none."""
-    bodies = [body for each in joints if each.point == joint.point for body in (each.on, each.by)]
-    return next((body for body in (joint.on, joint.by) if bodies.count(body) == 1), "")
-
-
-def joint_part(joint: JointForce, on: str, joints: Sequence[JointForce], axis: str) -> Request:
-    """Return the request for a part of a joint's force on one of its bodies; where several joints of it meet there, by the other's."""
-    body = alone_on(joint, joints)
-    asked = pin_force(joint.point, body, axis)
-    found: Request = asked if body == on else -1.0 * asked
+        found.append(PageArrow(point, {"x": x, "y": y}, kind == "load", centre, called, ""))
     return found

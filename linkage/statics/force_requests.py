@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from types import MappingProxyType
 from typing import cast
 
 import numpy as np
@@ -18,7 +17,6 @@ from ..motion.requests import stroke_of
 from ..plan import Plan
 from ..program import FloatArray, Node
 from ..units import show
-from ..vectors import Scalar
 from ..verdict import Remark, Verdict
 from .applied import applied_elements, applied_loads, plan_in_case, rates_in
 from .holding import closed_ties, holders_of
@@ -107,10 +105,8 @@ def drive_force(drive: str | None = None, loads: Loads = None, case: Case = None
 # The force at a joint.
 
 
-COMPONENTS: Mapping[str, Callable[[Scalar, Scalar], Scalar]] = MappingProxyType(
-    {"x": lambda x, y: x, "y": lambda x, y: y, "size": np.hypot}
-)
-"""What can be asked of a force, from its parts."""
+COMPONENTS = "x", "y", "couple", "size"
+"""What can be asked of a joint: the parts of its force, its couple, the size of its force."""
 
 
 @dataclass(frozen=True)
@@ -125,13 +121,23 @@ class JointPart:
     def force_over(self, motion: AnyMotion, acting: Acting) -> FloatArray:
         """Return it over a motion's poses [N], shape (...)."""
         known_name("Component", self.component, COMPONENTS, where=f"{motion.plan.title}: the force at {self.point}")
-        force = pin_forces_under(require_motion(motion), acting).force(self.point, self.on, self.by)
-        return np.asarray(COMPONENTS[self.component](force[0], force[1]))
+        found = pin_forces_under(require_motion(motion), acting)
+        structure = found._structure
+        full = replace(self, on=structure.full_name(self.on), by=structure.full_name(self.by))
+        contact, joint, sign = full.contact(structure)
+        joint = found.joints[structure.contacts.index(contact)]
+        return np.asarray(self.of(sign * joint.force, sign * joint.couple))
+
+    def of(self, force: FloatArray, couple: FloatArray) -> FloatArray:
+        """Return it of a joint's force (2, ...) and couple (...)."""
+        return cast(FloatArray, np.hypot(*force) if self.component == "size" else (*force, couple)[COMPONENTS.index(self.component)])
 
     def contact(self, structure: Structure) -> tuple[Contact, JointForce, float]:
         """Return the contact that is meant, its joint without a value, and the sign of its force on the body."""
         joints = joints_of(structure, [(np.zeros(2), np.zeros(()))] * len(structure.contacts))
-        joint, sign = joint_on(joints, self.point, self.on, structure.plan.title, self.by)
+        turns = self.component == "couple"
+        meant = [joint for each, joint in zip(structure.contacts, joints, strict=True) if ("c" in each.holds if turns else each.has_force)]
+        joint, sign = joint_on(meant, self.point, self.on, structure.plan.title, self.by)
         return structure.contacts[joints.index(joint)], joint, sign
 
     def in_plan(self, request: LawRequest, motion: TracedMotion) -> LawInPlan:
@@ -141,10 +147,10 @@ class JointPart:
         structure, acts = structure_in_plan(motion, request.situation)
         full = replace(self, on=structure.full_name(self.on), by=structure.full_name(self.by))
         _, joint, _ = full.contact(structure)
-        what = "the size" if self.component == "size" else f"the {self.component} component"
+        what = {"size": "the size of the force", "couple": "the couple"}.get(self.component, f"the {self.component} component of the force")
         every, shared = frozenset(motion.plan.members), ("pin forces", acts)
         trace = partial(full.traced_part, request.situation, shared)
-        return LawInPlan(("pin force", full, acts), every, every, trace, shared, f"{what} of the force at {joint}")
+        return LawInPlan(("pin force", full, acts), every, every, trace, shared, f"{what} at {joint}")
 
     def traced_part(self, acting: Acting, shared: Hashable, motion: TracedMotion) -> tuple[TracedMotion, Node]:
         """Return it on a program, on which all joint forces are traced once for all that are asked for: they are kept as `shared`."""
@@ -158,8 +164,8 @@ class JointPart:
             kept[shared] = motion, Solution(system, u, np.zeros((1, 0)), np.zeros(1, bool))
         motion, solution = cast(tuple[TracedMotion, Solution], kept[shared])
         contact, _, sign = self.contact(solution.system.structure)
-        force, _ = solution.transmitted(contact)
-        return motion, motion.node(COMPONENTS[self.component](*(sign * force[:, 0])))
+        force, couple = solution.transmitted(contact)
+        return motion, motion.node(self.of(sign * force[:, 0], sign * couple[0]))
 
 
 def structure_in_plan(motion: TracedMotion, acting: Acting) -> tuple[Structure, tuple[Hashable, ...]]:
@@ -186,7 +192,9 @@ def pin_force(
     point: str, on: str = "", component: str = "size", loads: Loads = None, case: Case = None, *, acting: Acting | None = None,
     by: str = "",
 ) -> LawRequest:  # fmt: skip
-    """Return the request for a joint force [N], in `evaluate`, `function` and `gradient`: its "size", or its part along "x" or "y".
+    """Return the request for a joint force [N], in `evaluate`, `function` and `gradient`: its "size", its part along "x" or "y".
+
+    Of a slide, or of a crank's drive, also its "couple" [N m].
 
     It is that of `pin_forces(motion, loads, case=case).force(point, on)`, frictionless: on the body `on` from the other one, `by`
     where several meet there.
@@ -200,7 +208,7 @@ def pin_force(
     on : str
         The body on which the force acts.
     component : str
-        "size", "x" or "y".
+        "size", "x", "y" or "couple".
     loads : sequence of ForceElement or str, optional
         The loads; by default the machine's own.
     case : LoadCase or str, optional
@@ -213,7 +221,7 @@ def pin_force(
     Returns
     -------
     Request
-        The force [N].
+        The force [N], or the couple [N m].
 
     Raises
     ------
@@ -226,7 +234,8 @@ def pin_force(
         raise DefinitionError(f'pin_force({cited(point)}, {cited(on)}): {said}, such as pin_force("G", "arm").')
     given, joint = situation_of("pin_force", acting, loads=loads, case=case), JointPart(point, on, by, component)
     shown = [each for each in (on, by and f"by={by}", "" if component == "size" else f"component={component}") if each]
-    return force_request("pin_force", [point, *shown], joint, given, joint.force_over, joint.in_plan)
+    found = force_request("pin_force", [point, *shown], joint, given, joint.force_over, joint.in_plan)
+    return replace(found, measures="moment") if component == "couple" else found
 
 
 def pin_forces_under(motion: Motion, acting: Acting) -> PinForces:

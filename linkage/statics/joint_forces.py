@@ -232,7 +232,8 @@ class PinForces(Shown):
         DefinitionError
             Several joints fit.
         """
-        joint, sign = joint_on(self.joints, point, self.body_named(on), self.motion.plan.title, self.body_named(by))
+        pressed = [each for each in self.joints if each.has_force]
+        joint, sign = joint_on(pressed, point, self.body_named(on), self.motion.plan.title, self.body_named(by))
         return sign * joint.force
 
     def gland(self, member: Reference) -> GlandForce:
@@ -421,11 +422,11 @@ def joints_at(joints: Sequence[JointForce], point: str, title: str) -> tuple[Joi
 
 
 def joint_on(joints: Sequence[JointForce], point: str, on: str, title: str, by: str) -> tuple[JointForce, float]:
-    """Return the joint at a point that transmits a force to a body, and -1 where it is seen from the other body, else 1.
+    """Return the one of joints at a point that acts on a body, and -1 where it is seen from the other body, else 1.
 
     `by` is the body that it comes from, where several press on the first one there.
     """
-    found = [each for each in joints_at(joints, point, title) if each.has_force]
+    found = joints_at(joints, point, title)
     names = dict.fromkeys(name for each in found for name in (each.on, each.by))
     for body in (on, by):
         if body:

@@ -712,7 +712,7 @@ USES = [
     (
         "lifting.evaluate([pin_force(@)], S=0.1)",
         '"A", "lift", "z"',
-        ("Component 'z' is unknown in Lift: the force at A. Known: x, y, size.",),
+        ("Component 'z' is unknown in Lift: the force at A. Known: x, y, couple, size.",),
     ),
     ('study.zone(@, "tilt", {"OB": (0.3, 0.31)}, S=0.1)', 'None; 3; "Lift"; Lift; []', ("A study is of a mechanism:",)),
     (

@@ -61,6 +61,7 @@ from tests.linkage.statics.test_vehicle import Digger, Truck
 from tests.machines.test_tipper import Tipper
 
 SHIPPED = list(shipped.MACHINES.values())
+FIRST = "ThreePointHitch", "ThreeHeaders"
 LOADED = [each for each in SHIPPED if each.plan.of_kind(Weight) or each.plan.of_kind(Moment) or each.plan.of_kind(Force)]
 
 
@@ -127,7 +128,7 @@ def with_forces(kind):
     return motion, draw(motion, forces=True)
 
 
-@first_daily(2, "machine", [Press, *sorted([*LOADED, Tipper], key=lambda each: each is not ThreePointHitch)], ids=attrgetter("__name__"))
+@first_daily(2, "machine", [Press, *sorted([*LOADED, Tipper], key=lambda each: each.__name__ not in FIRST)], ids=attrgetter("__name__"))
 def test_arrows_are_the_pin_forces_and_loads_in_one_scale(machine):
     motion, figure = with_forces(machine)
     found = forces_at_pose(motion, 0, ForceQuestion()).found
@@ -154,16 +155,20 @@ def test_arrows_are_the_pin_forces_and_loads_in_one_scale(machine):
     )
 
 
-@first_daily(3, "machine", [Press, *sorted([*LOADED, Tipper], key=lambda each: each is not ThreePointHitch)], ids=attrgetter("__name__"))
+@first_daily(3, "machine", [Press, *sorted([*LOADED, Tipper], key=lambda each: each.__name__ not in FIRST)], ids=attrgetter("__name__"))
 def test_a_force_on_a_page_acts_on_the_body_on_which_it_is_drawn(machine):
     motion = pose_of(machine())
-    drawn = force_layer(ForcesAt(pin_forces(motion), 0)).arrows
-    for each in force_arrows(machine(), motion, [PageSituation(None)]):
+    layer, couples = force_layer(ForcesAt(pin_forces(motion), 0)), []
+    drawn = [(one.name, one.text, one.vector) for one in layer.arrows] + [(one.name, one.text, [one.moment]) for one in layer.turning]
+    found = force_arrows(machine(), motion, [PageSituation(None)])
+    for each in found:
         if each.by:
-            words = "" if each.by == "frame" else f"on {each.on}"
-            there = [one.vector for one in drawn if one.name.startswith(f"force {each.point} ") and one.text.endswith(words)]
-            shown = np.array([float(np.ravel(motion[part])[0]) for part in (each.x, each.y)])
-            assert any(np.allclose(shown, one, atol=1e-9 * np.hypot(*one)) for one in there) or not np.hypot(*shown) > 1e-6, each.point
+            words, kind = "" if each.by == "frame" else f"on {each.on}", "couple" if "couple" in each.parts else "force"
+            there = [one for name, text, one in drawn if name.startswith(f"{kind} {each.point} ") and text.endswith(words)]
+            shown = np.array([float(np.ravel(motion[part])[0]) for part in each.parts.values()])
+            assert any(np.allclose(shown, one, rtol=1e-9) for one in there) or not np.linalg.norm(shown) > 1e-6, each.point
+            couples += [each.point] * (kind == "couple")
+    assert not found or sorted(couples) == sorted(name.split()[1] for name, *_ in drawn if name.startswith("couple "))
 
 
 def test_axle_loads_stand_at_the_supports_of_the_frame():
@@ -251,10 +256,10 @@ def test_own_mass_is_drawn_at_its_centre_of_gravity_and_a_moment_as_a_curve():
     tail, vector = arrows(figure, "load own ")["load own on ABP"]
     assert_allclose(tail, centre, atol=1e-9)
     assert abs(vector[0]) < 1e-9 and vector[1] < 0.0
-    on_page = [each for each in force_arrows(Press(), Press().sweep(3), [PageSituation(None)]) if "own" in str(each[1])]
+    on_page = [each for each in force_arrows(Press(), Press().sweep(3), [PageSituation(None)]) if each.on == "own"]
     (own,) = on_page
     assert own.point == "A" and own.is_load and own.centre == ("A", "B", (0.2, 0.05)) and own.on == "own"
-    assert_allclose([motion[own.x], motion[own.y]], [0.0, -30.0 * 9.80665], atol=1e-9)
+    assert_allclose([motion[each] for each in own.parts.values()], [0.0, -30.0 * 9.80665], atol=1e-9)
     assert named(figure, "moment drag")["moment drag on CB value"].get_text() == "0.250 kNm drag"
     curve = np.array(named(figure, "moment drag")["moment drag on CB"].get_xydata())
     turn = curve - 0.5 * (motion["C"] + motion["B"])

@@ -139,9 +139,11 @@ def test_gradient_of_pin_forces_is_the_difference_of_designs(machine):
         pytest.skip("which of two ropes pulls is told pose by pose")
     joints = [each for each in pin_forces(differences.motion).joints if each.has_force]
     alone = [each for each in joints if sum((each.point, each.on) in ((o.point, o.on), (o.point, o.by)) for o in joints) == 1]
-    for joint, component in ((alone[0], "x"), (alone[len(alone) // 2], "y"), (alone[-1], "size")):
-        found = motion.gradient(pin_force(joint.point, joint.on, component), differences.names)
-        differences.check(found, {"x": joint.force[0], "y": joint.force[1], "size": joint.size}[component], f"{joint}, {component}")
+    sliding = [(each, "couple") for each in joints if np.any(each.couple)][:1]
+    for joint, component in ((alone[0], "x"), (alone[len(alone) // 2], "y"), (alone[-1], "size"), *sliding):
+        found = motion.gradient(pin_force(joint.point, joint.on, component, by=joint.by), differences.names)
+        parts = {"x": joint.force[0], "y": joint.force[1], "size": joint.size, "couple": joint.couple}
+        differences.check(found, parts[component], f"{joint}, {component}")
 
 
 # -- laws ------------------------------------------------------------------------------------------------------

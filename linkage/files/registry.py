@@ -26,7 +26,7 @@ from ..quantities.quantity import plain
 from ..statics import Rope
 from ..units import UNITS, parse
 from .course_file import STEPS, course_read, course_written, is_course, numbers_read, rows_read
-from .design import Design, degrees_text
+from .design import Design, degrees_text, in_unit
 from .entry import PATH, FileEntry, worded
 from .expression import expression, one_unit
 from .names import Keywords, Names, by_whole_names, entry_as, listed, shortened
@@ -93,8 +93,7 @@ def over_written(member: Over, design: Design) -> Keywords:
             continue
         parts: list[float | str] = []
         for each in listed(value):
-            end = float(each) if is_number(each) else design.scalar(quantity(each))
-            parts.append(degrees_text(end) if is_number(each) and stroke_unit(design.plan, name) == "rad" else end)
+            parts.append(stroke_value(float(each), name, design) if is_number(each) else design.scalar(quantity(each)))
         found[name] = parts if isinstance(value, tuple) else parts[0]
     only = []
     for condition in member.only:
@@ -137,13 +136,14 @@ class Bare:
 
 
 def stroke_written(member: Stroke, design: Design) -> list[float | str]:
-    """Return a stroke's ends, those of an angle in degrees."""
+    """Return a stroke's ends."""
     return [stroke_value(end, member.name, design) for end in (member.start, member.end)]
 
 
 def stroke_value(value: float, stroke: str, design: Design) -> float | str:
-    """Return a value of a stroke, that of an angle in degrees."""
-    return degrees_text(value) if stroke_unit(design.plan, stroke) == "rad" else value
+    """Return a value of a stroke, that of an angle in degrees, of oil in litres."""
+    unit = stroke_unit(design.plan, stroke)
+    return degrees_text(value) if unit == "rad" else in_unit(value, "litre") if unit == "m3" else value
 
 
 def dimension_of(given: object, names: Names) -> Dimension:

@@ -10,7 +10,7 @@ from ..frozen import immutable
 from ..units import UNITS, require_measure, unit_or_none
 from ..vectors import Scalar
 from .member import Where
-from .quantity import Quantity, in_degrees, is_number, plain
+from .quantity import Quantity, in_degrees, is_number, plain, with_unit
 
 
 @immutable
@@ -41,8 +41,9 @@ class Stroke(Quantity):
         return where.input(self.name)
 
     def text(self, measures: str = "") -> str:
-        written = in_degrees if measures == "angle" else repr
-        return f"Stroke({written(self.start)}, {written(self.end)})"
+        kind = measures or getattr(self.end, "measures", "") or getattr(self.start, "measures", "")
+        ends = [with_unit(each, kind) if kind in ("angle", "volume") else repr(each) for each in (self.start, self.end)]
+        return f"Stroke({', '.join(ends)})"
 
     def __str__(self) -> str:
         return self.text()

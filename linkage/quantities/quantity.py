@@ -16,7 +16,7 @@ import numpy as np
 from ..checks import is_number, is_whole
 from ..errors import DefinitionError, cited, ensure
 from ..frozen import immutable, unmasked
-from ..units import amount_or_float, deg
+from ..units import UNITS, amount_or_float
 from ..vectors import FloatArray, Operators, Scalar, Vec
 from .member import Member, Reference, Turning, Where, is_reference
 
@@ -108,17 +108,38 @@ def source_text(part: Quantity, binding: int = 0, measures: str = "") -> str:
     return f"({text})" if not part.name and getattr(part, "binds", 9) < binding else text
 
 
-def in_degrees(value: float) -> str:
-    """Return an angle [rad] as `75 * deg` where that is the same to the last digit; else, or where it is much shorter, in radians."""
-    plain = repr(value)
+WRITTEN = {"angle": "deg", "length": "mm", "volume": "litre", "force": "N", "pressure": "Pa"}
+"""The unit in which source writes a number of a kind."""
+
+
+def with_unit(value: float, measures: str, longer: int = MORE) -> str:
+    """Return a number [SI] as source writes it in the unit of a kind, `75 * deg`; plain where that is not the same to the last digit.
+
+    It is plain too where the number in the unit would be `longer` by more characters.
+    """
+    plain, unit = repr(value), WRITTEN[measures]
     if not 0.0 < abs(value) < float("inf"):
         return plain
     for digits in range(1, DIGITS + 1):
-        degrees = float(f"{value / deg:.{digits}g}")
-        if degrees * deg == value:
-            text = repr(degrees).removesuffix(".0")
-            return f"{text} * deg" if len(text) <= len(plain) + MORE else plain
+        number = float(f"{value / UNITS[unit][0]:.{digits}g}")
+        if number * UNITS[unit][0] == value:
+            text = repr(number).removesuffix(".0")
+            return f"{text} * {unit}" if len(text) <= len(plain) + longer else plain
     return plain
+
+
+def in_degrees(value: float) -> str:
+    """Return an angle [rad] as `75 * deg` where that is the same to the last digit; else, or where it is much shorter, in radians."""
+    return with_unit(value, "angle")
+
+
+def factor_text(part: Quantity, binding: int) -> str:
+    """Return a factor of a product as text: a number that was given with its unit keeps it, since a product may measure anything."""
+    kind = "" if part.name else getattr(part.constant, "measures", "")
+    if kind not in WRITTEN:
+        return source_text(part, binding)
+    text = with_unit(cast(float, part.constant), kind, DIGITS)
+    return f"({text})" if " " in text and binding > BINDS["*"][0] else text
 
 
 Operand: TypeAlias = "Quantity | float | str"
@@ -482,7 +503,7 @@ class Operation(Expression):
         return made
 
     def text(self, measures: str = "") -> str:
-        return f"{source_text(self.a, self.left)} {self.symbol} {source_text(self.b, self.right)}"
+        return f"{factor_text(self.a, self.left)} {self.symbol} {factor_text(self.b, self.right)}"
 
 
 class Function(Expression):

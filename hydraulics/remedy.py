@@ -3,22 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from math import ceil, floor, inf, log10
 from typing import TypeAlias, TypeVar
 
 from linkage.errors import DefinitionError, LinkageError, ensure, unwarned
 from linkage.language import said
 from linkage.loads import ForceElement
 from linkage.motion import Answer, Judge, Question
-from linkage.units import decimals, factor, show, shown_in
+from linkage.units import rounded_up, show
 
 from .inputs import follows
 
 Sizes: TypeAlias = Mapping[str, float]
 """Sizes of a cylinder by their names [m], such as its bore."""
 Element = TypeVar("Element", bound=ForceElement)
-EXACT = 1e-7
-"""Of the last digit that is shown: what is above it by less is that to rounding."""
 
 
 def resized(judge: Judge, element: Element, sizes: Sizes) -> tuple[Judge, Element]:
@@ -82,8 +79,4 @@ def size_words(sizes: Sizes) -> str:
 
 def show_enough(value: float, unit: str, digits: int | str = 4) -> str:
     """Return a needed value as text, rounded up, so that the number read is enough; `digits` as in `show`."""
-    if not 0.0 < value < inf:
-        return show(value, unit, digits)
-    own = factor(shown_in(unit))
-    last = -decimals(int(digits[1:-1]), unit) if isinstance(digits, str) else floor(log10(value / own)) + 1 - digits
-    return show(ceil(value / (own * 10.0**last) - EXACT) * 10.0**last * own, unit, digits)
+    return show(rounded_up(value, unit, digits), unit, digits)

@@ -385,4 +385,17 @@ def show(value: float, unit: str, digits: int | str = 6) -> str:
     text = shown_number(value, unit, digits)
     return f"{text} {unit_sign(unit)}" if unit else text
 
+EXACT = 1e-7
+"""Of the last digit that is shown: what is above it by less is that to rounding."""
+
+
+def rounded_up(value: float, unit: str, digits: int | str = 4) -> float:
+    """Return a needed value [SI] that is shown with so many `digits` and is enough."""
+    if not 0.0 < value < math.inf:
+        return value
+    own = factor(shown_in(unit))
+    last = -decimals(int(digits[1:-1]), unit) if isinstance(digits, str) else math.floor(math.log10(value / own)) + 1 - digits
+    return math.ceil(value / (own * 10.0**last) - EXACT) * 10.0**last * own
+
+
 declare_public(globals())

@@ -16,7 +16,7 @@ from ..motion import Answer, Column, HasVerdicts, MotionFunction, PageWords, Req
 from ..motion.measures import Constraint, Leaf, least, measure_of, most
 from ..pictures.shown_values import limit_of
 from ..reports import is_column
-from ..units import display_unit, show, unit_sign
+from ..units import display_unit, rounded_up, show, unit_sign
 from ..verdict import Verdict
 from .content import Mark, Section, TableBlock
 from .outcome import amount_text
@@ -129,6 +129,8 @@ def rule_row(subject: ReportSubject, verdict: Verdict, answer: Answer) -> Judged
     share = used(answer) if words.share is None else float(subject.judge.answer(words.share).value)
     if kind == "number" and words.measure is not None:
         answer = replace(answer, value=subject.judge.answer(words.measure).value)
+    if words.is_need:
+        answer = replace(answer, value=rounded_up(float(answer.value), display_unit(kind, "mm")))
     return verdict.heading, verdict.ok, answer, None, 0.0 if verdict.ok and kind == "length" and words.share is None else share
 
 

@@ -48,12 +48,14 @@ class PageWords:
     `fails` says it where it is not, by the sign of the condition that is missed; {force}, {much} or {missing} is by how much.
 
     `measure` is the value where it is not the condition's own, `share` how much of the limit is used where that is not value over limit.
+    `is_need` where it is what something has to have, which is rounded up.
     """
 
     text: str
     measure: Measure | None = None
     share: Measure | None = None
     fails: Mapping[str, str] = field(default_factory=dict)
+    is_need: bool = False
 
 
 class HasVerdicts(Member):

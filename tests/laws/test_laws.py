@@ -160,7 +160,7 @@ def is_long(plan, name):
     if entry.kind == "number" and entry.unit:
         return UNITS[entry.unit][1] == "length"
     if entry.kind == "number":
-        return name not in NO_LENGTHS and any(name in plan.reaches(each) for each in plan.moving) and stroke_unit(plan, name) == "m"
+        return name not in NO_LENGTHS and any(name in plan.reaches(each) for each in plan.moving) and name not in plan.turning
     return entry.kind in ("length", "coordinate")
 
 
@@ -175,7 +175,7 @@ def test_scaling_all_lengths_scales_positions(machine):
     design = machine()
     larger = machine(**{name: factor * value for name, value in design.dimensions.items() if is_long(plan, name)})
     fractions = inner(machine, part=1.0)
-    lengths = [name for name in plan.strokes if name not in NO_LENGTHS and stroke_unit(plan, name) == "m"]
+    lengths = [name for name in plan.strokes if stroke_unit(plan, name) == "m"]
     scaled = {name: value * (factor if name in lengths else 1.0) for name, value in fractions.items()}
     small, large = design.at(**fractions), larger.at(**scaled)
     for name in plan.points:

@@ -27,7 +27,7 @@ from hydraulics import (
     standard_rods,
 )  # fmt: skip
 from hydraulics.standard_sizes import chosen_series
-from linkage import LEFT, Dimension, Dyad, Force, Ground, Guide, LoadCase, Mechanism, OnGuide, OnLink, PinFriction, Stroke
+from linkage import LEFT, Dimension, Dyad, Force, Ground, Guide, LoadCase, Mechanism, OnGuide, OnLink, PinFriction, Stroke, report
 from linkage.motion import least, most
 from linkage.units import bar, inch, kN, litre, mm, psi, unit_system
 from tests.for_all import for_all
@@ -273,7 +273,7 @@ class Hung(Base):
     line, back = OilLine("ram.piston_side", "supply"), OilLine("ram.rod_side", Tank(5 * bar))
 
 
-def test_the_push_that_lowers_is_what_the_other_side_has_to_have():
+def test_the_push_that_lowers_is_what_the_other_side_has_to_have(tmp_path):
     low, high = push_of_a_newton()
     pulls = 8 * kN if abs(high) > abs(low) else -8 * kN
     for tank in (0.0, 5 * bar):
@@ -284,6 +284,8 @@ def test_the_push_that_lowers_is_what_the_other_side_has_to_have():
         assert found.ok is False and push > tank
         assert by_rule(made(**{"drain.pressure": push}), "line")["lowering"].ok
         assert not by_rule(made(**{"drain.pressure": 0.995 * push}), "line")["lowering"].ok
+        told = f"| lowering | **not kept** | {push / bar:.4g} bar |"  # a report's table has the same number
+        assert told in report(made(), tmp_path / "pulled.md").read_text()
 
 
 def test_a_valve_set_as_advised_is_as_usual():

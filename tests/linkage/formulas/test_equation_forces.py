@@ -220,8 +220,12 @@ RAM = dict(bore=80 * mm, rod=45 * mm)
             ram=Cylinder("A", "B", **RAM), other=Cylinder("C", "G", bore=50 * mm, rod=28 * mm),
             pump=LiftCircuit(["ram", "other"], pressure=300 * bar),
         ),
+        dict(
+            ram=Cylinder("A", "B", **RAM), twin=Cylinder("A", "B", bore=50 * mm, rod=28 * mm),
+            pump=LiftCircuit(["ram", "twin"], pressure=300 * bar),
+        ),
     ],
-    ids=["alone", "relief", "losses", "elsewhere", "both pushes", "both pulls", "rod", "one line"],
+    ids=["alone", "relief", "losses", "elsewhere", "both pushes", "both pulls", "rod", "one line", "side by side"],
 )  # fmt: skip
 def test_circuits_are_the_engine(members):
     design = with_members(**members)()

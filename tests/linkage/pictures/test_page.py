@@ -1756,8 +1756,8 @@ def test_axle_loads_are_arrows_of_the_page(kind):
     arrows = PageRequests(kind(), 5, at={"s": 0.1}).arrows
     found = standing(design.at(**strokes))
     places = {name: name_of(getattr(kind, name).point) for name in found.reactions}
-    pushes = [each for each in arrows if each[0] in places.values() and not each[3]]
-    values = np.array(design.evaluate([part for each in pushes for part in each[1:3]], **strokes)).reshape(len(pushes), 2, 2)
+    pushes = [each for each in arrows if each.point in places.values() and not each.is_load]
+    values = np.array(design.evaluate([part for each in pushes for part in each.parts.values()], **strokes)).reshape(len(pushes), 2, 2)
     wanted = [*found.forces.values(), found.brakes]
-    assert [each[0] for each in pushes] == [*places.values(), next(iter(places.values()))]
+    assert [each.point for each in pushes] == [*places.values(), next(iter(places.values()))]
     assert_allclose(values, wanted, rtol=1e-12, atol=1e-9)

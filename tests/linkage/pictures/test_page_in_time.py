@@ -99,12 +99,12 @@ def check_forces(machine, least):
             continue
         own, count = motion[request_in_case(request, case)], count + 1
         assert_allclose(numbers(found, row), own, rtol=0, atol=1e-9 * max(np.nanmax(np.abs(own)), 1e-9), err_msg=name)
-    for arrow, (point, x, y, *_) in zip(data["arrows"], requests.arrows, strict=False):
-        for axis, asked in (("x", x), ("y", y)):
+    for arrow, own_arrow in zip(data["arrows"], requests.arrows, strict=False):
+        for axis, asked in own_arrow.parts.items():
             row = row_in(arrow[axis], k)
             if row is not None and len(data["arrows"]) == len(requests.arrows):
                 own = motion[request_in_case(asked, case)]
-                assert_allclose(numbers(found, row), own, rtol=0, atol=1e-9 * max(np.nanmax(np.abs(own)), 1.0), err_msg=point)
+                assert_allclose(numbers(found, row), own, rtol=0, atol=1e-9 * max(np.nanmax(np.abs(own)), 1.0), err_msg=own_arrow.point)
     assert count >= least, count
     return requests, data, found, motion, k
 

@@ -15,6 +15,7 @@ from linkage.loads import ForceElement
 from linkage.motion import LiveText, Request, Value, dead_points, live_text
 from linkage.motion.live import REGULAR
 from linkage.quantities import Quantity
+from linkage.statics.holding import closed_ties
 from tests import shipped
 
 NEEDED = pytest.mark.skipif(shutil.which("node") is None, reason="node, which runs the JavaScript, is not installed")
@@ -76,8 +77,8 @@ class Job:
     def count(self):
         return max((np.size(each) for each in self.designs.values()), default=1)
 
-    def made(self):
-        return self.machine(**self.designs)
+    def made(self, nudge=0.0):
+        return self.machine(**{name: value * (1.0 + nudge) for name, value in self.designs.items()})
 
     def as_json(self):
         dimensions = self.made().dimensions
@@ -112,13 +113,13 @@ def asked_of(machine, forces=True):
 def designs_near(machine, seed, count, spread=0.1):
     """Return random designs of a machine, each dimension within a part of its own; the first is the class's.
 
-    Shares and exponents of 1, which may not lie on either side of it, are held.
+    Shares and exponents of 1, which may not lie on either side of it, are held, and bores and rods where closed lines need equal areas.
     """
-    random = np.random.default_rng(seed)
+    random, held = np.random.default_rng(seed), (".bore", ".rod") if closed_ties(machine.plan) else ()
     found = {}
     for name, each in machine.plan.table.entries.items():
         value = each.default
-        if value and (value != 1.0 or each.unit or each.kind in ("length", "coordinate", "angle")):
+        if value and not name.endswith(held) and (value != 1.0 or each.unit or each.kind in ("length", "coordinate", "angle")):
             found[name] = value * (1.0 + spread * random.uniform(-1.0, 1.0, count))
             found[name][0] = value
     return found
@@ -143,31 +144,41 @@ def ways(machine, count):
     return {name: np.linspace(*sorted((each.start, each.end)), count) for name, each in plan.strokes.items()}
 
 
-def size_of(plan, request, extent):
-    """Return what a value is compared with where it is smaller: a length the machine's, an angle 1 rad, a force 1 N or 1 Nm."""
+def size_of(plan, request, extent, own):
+    """Return what a value is compared with where it is smaller: a length the machine's, an angle 1 rad, a force 1 N or 1 Nm.
+
+    A ratio is also compared with its `own` quantity's largest value, which may be of large terms that balance.
+    """
     name, along = (request.target, plan.strokes[request.along[0]]) if isinstance(request, Value) else (request, None)
     member = plan.members.get(name) if isinstance(name, str) else None
     measures = getattr(member, "measures", "" if member is None else "length")
     size = {"length": extent, "angle": 1.0}.get(measures, 1.0 if isinstance(request, Request) else 1e-9)
-    return size / (abs(along.end - along.start) or 1.0) if along is not None else size
+    return max(size, own) / (abs(along.end - along.start) or 1.0) if along is not None else size
 
 
 def compared(job, found, motion):
     """Yield (name, error over the size, mask where both have a value, where Python has one) of each thing asked for, (designs, poses).
 
-    A size is the largest value of a design, or what it is measured by in such a machine.
+    A size is the largest value of a design, or what it is measured by in such a machine. An error is what is left of it above ten times
+    what last digits of the strokes and dimensions make, as near the ends of an arc cosine.
     """
     count, n = found.reached.shape
     with unwarned():
-        values = job.made().evaluate([*job.asked.values()], unreachable="nan", **job.strokes)
+        ways = [(last, {name: each * (1.0 - last) for name, each in job.strokes.items()}) for last in (0.0, 2.0**-52, -(2.0**-51))]
+        values, *nudged = (job.made(last).evaluate([*job.asked.values()], unreachable="nan", **strokes) for last, strokes in ways)
+    by_name = dict(zip(job.asked, values, strict=True))
     extent = max(float(np.nanmax(np.abs(motion[name]), initial=0.0)) for name in motion.plan.points)
-    for (name, (first, rows)), each in zip(job.live.rows.items(), values, strict=True):
+    for (name, (first, rows)), each, *near in zip(job.live.rows.items(), values, *nudged, strict=True):
         want = np.broadcast_to(np.reshape(each, (rows, -1, n)), (rows, count, n))
         have = np.moveaxis(found.values[:, first : first + rows], 1, 0)
         both, there = np.isfinite(want) & np.isfinite(have), np.isfinite(want).all(axis=0)
         size = np.where(both, np.abs(want), 0.0).max(axis=(0, 2), keepdims=True)
-        size = np.maximum(size, size_of(motion.plan, job.asked[name], extent))
-        yield name, np.where(both, np.abs(np.where(both, have - want, 0.0)) / size, 0.0).max(axis=0), both.all(axis=0), there
+        asked = job.asked[name]
+        own = np.nanmax(np.abs(by_name.get(asked.target, 0.0)), initial=0.0) if isinstance(asked, Value) else 0.0
+        size = np.maximum(size, size_of(motion.plan, asked, extent, own))
+        last = np.nan_to_num(np.max([np.abs(np.reshape(one, (rows, -1, n)) - want) for one in near], axis=0), posinf=0.0)
+        error = np.maximum(np.abs(np.where(both, have - want, 0.0)) - 10.0 * last, 0.0)
+        yield name, np.where(both, error / size, 0.0).max(axis=0), both.all(axis=0), there
 
 
 def steepness(motion):

@@ -61,9 +61,11 @@ def _near_dead_points():
 def loaded(machine):
     """Return the machine's class with a weight at every moving point and one of each other load, all with variables of their own."""
     last = machine.plan.moving[-1]
-    body = next(each.points for each in machine.plan.links[1:] if len(each.points) > 1)[:2]
+    bodies = [each.points[:2] for each in machine.plan.links[1:] if len(each.points) > 1]
     members = {f"w{k}": Weight(point, mass=50.0 + 17.0 * k) for k, point in enumerate(machine.plan.moving)}
-    members |= {"tug": Force(last, (300.0, -120.0)), "twist_put_on": Moment(body, M=40.0), "own": LinkMass(body, mass=8.0, at=(0.1, 0.02))}
+    members["tug"] = Force(last, (300.0, -120.0))
+    for body in bodies[:1]:
+        members |= {"twist_put_on": Moment(body, M=40.0), "own": LinkMass(body, mass=8.0, at=(0.1, 0.02))}
     members["spring"] = Spring([*machine.plan.ground, *machine.plan.moving][0], last, stiffness=900.0, free_length=0.13)
     return type(f"Loaded{machine.__name__}", (machine,), members)
 

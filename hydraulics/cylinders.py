@@ -678,7 +678,8 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
             return [never_pushed(), *self.stopped(judge)]
         with unwarned():  # the verdict itself says what comes of it
             place, acting = judge.there(worst), judge.situation(worst)
-            push, length = float(self.rod_push(place, acting)), float(place.distance(self.A, self.B))
+            forces = self.rod_push(place, acting), member_thrust(place, self, acting)
+            push, total, length = map(float, (*forces, place.distance(self.A, self.B)))
             name, stage, sizes = self.slender_part(place, acting.direction)
             bar = Buckling(float(self.thickness(place, acting.direction)), self.mounting, self.safety)
         remedy, thicker = "", [{name: size} for size in sizes if size > bar.rod * (1.0 + 1e-9)]
@@ -690,8 +691,10 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
             found = smallest(judge, self, thicker, start, lambda ram: [most(buckling_request(ram, Acting())) <= 1.0])
             holds = None if found is None else found[0][name]
             remedy = bar.remedy_words(holds, is_bore_small=bool(enough), is_stage=name != "rod")
-        verdict = bar.judged(length, push, worst.place, bool(worst.unbounded), stage=stage, remedy=remedy)
-        return [verdict.answered(worst), *self.stopped(judge)]
+        given, where = {"thrust": show(total, "kN", 4), "n": self.count, "share": total / self.count / push}, worst.place
+        if not worst.unbounded and push != total:
+            where = said("{place} (thrust {thrust}, rods: {n}, efficiency {share:.3g})", place=where, **given)
+        return [bar.judged(length, push, where, bool(worst.unbounded), stage=stage, remedy=remedy).answered(worst), *self.stopped(judge)]
 
     def stopped(self, judge: Judge) -> list[Verdict]:
         """Return the force with which a pump pushes it against a stop where it is longest, and how far that is from buckling."""
@@ -700,13 +703,14 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         longest = judge.answer(most(distance(self.A, self.B)))
         if not given or np.isnan(longest.value):
             return []
-        place, (pressure, unit) = judge.there(longest), max(given)
+        place, (pressure, unit), times = judge.there(longest), max(given), f"{self.count} × " if self.count > 1 else ""
         bar = Buckling(float(self.thickness(place, "extending")), self.mounting, self.safety)
         force, limit = pressure * float(self.sized(place, "extending").outward_area) / self.count, float(bar.critical(longest.value))
         text = said(
-            "Against a stop {ram} pushes with {force} at {pressure}; {length} long it buckles at {limit}: safety {safety:.3g}.",
-            ram=self.name or self, force=show(force, "kN", 4), pressure=show(pressure, unit, 4), length=show(longest.value, "mm", ".0f"),
-            limit=show(limit, "kN", 4), safety=limit / force,
+            "Against a stop, which this rule leaves out, {ram} pushes with {force} at {pressure}, whatever its load. "
+            "At its longest, {length}, it buckles at {limit}: safety {safety:.3g}.",
+            ram=self.name or self, force=f"{times}{show(force, 'kN', 4)}", pressure=show(pressure, unit, 4),
+            length=show(longest.value, "mm", ".0f"), limit=f"{times}{show(limit, 'kN', 4)}", safety=limit / force,
         )  # fmt: skip
         return [Remark(text)]
 

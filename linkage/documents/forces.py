@@ -218,9 +218,8 @@ def blocked_blocks(subject: ReportSubject) -> Iterator[Block]:
     cells = []
     for row in rows:
         moves = said("{member} pushes", member=row.cylinder) if row.pushes else said("{member} pulls", member=row.cylinder)
-        place = places_text(row.strokes, plain_units)
-        place = f"{subject.case_words(row.case)}, {place}" if len(subject.judge.cases) > 1 else place
-        cells.append((*row.cells, force_cell(row.force), moves, row.opens, place))
+        case = f"{subject.case_words(row.case)}, " if len(subject.judge.cases) > 1 else ""
+        cells.append((*row.cells, force_cell(row.force), moves, row.opens, f"{case}{places_text(row.strokes, plain_units)}"))
     force = said("F, {unit}", unit=unit_sign("kN"))
     heads = (*joint_heads(), force, said("member"), said("at the limit"), said("situation and place"))
     yield TableBlock(said("Largest pin forces at the relief pressure, against a stop"), heads, tuple(cells), "llllrllm")

@@ -34,12 +34,8 @@ def verdict_section(subject: ReportSubject, limits: Mapping[str, Sequence[object
             found = verdicts_of(subject.machine, subject.verdict_judge)
             limited = limit_answers(subject, limits)
     except LinkageError as error:
-        return (
-            Section(title, (said("The machine cannot be judged over all that it runs: {why}", why=str(error)),)),
-            Mark(False, said("not judged")),
-            (),
-            "",
-        )
+        text = said("The machine cannot be judged over all that it runs: {why}", why=str(error))
+        return Section(title, (text,)), Mark(False, said("not judged")), (), ""
     if not found:
         return Section(title, (said("This machine declares no rules of its own."),)), Mark(None, said("no rules declared")), (), ""
     judged = [each for each in found if each.is_rule]
@@ -69,8 +65,8 @@ MOST_PLACES = 10
 """Rows of the table of the worst places."""
 
 
-JudgedRow: TypeAlias = tuple[str, "bool | None", Answer, "Column | None", float]
-"""A rule by its name, whether it is kept, its answer, the column that it bounds, and how far its limit is used."""
+JudgedRow: TypeAlias = tuple[str, "bool | None", Answer, "Column | None", str, float]
+"""A rule by its name, whether it is kept, its answer, the column that it bounds, the sign of a share, and how far its limit is used."""
 
 
 def limit_answers(subject: ReportSubject, limits: Mapping[str, Sequence[Any]]) -> list[JudgedRow]:
@@ -87,7 +83,7 @@ def limit_answers(subject: ReportSubject, limits: Mapping[str, Sequence[Any]]) -
     if own and plain and len(plain) < len(subject.judge.places):  # a table's own column is under the machine's own loads
         judge = subject.machine.judge(plain, subject.judge.acting).lost_allowed()
         answers |= zip(own, judge.answers([asked[name] for name in own]), strict=True)
-    return [(heading_of(name), each.ok, each, columns.get(name), used(each)) for name, each in answers.items()]
+    return [(heading_of(name), each.ok, each, columns.get(name), "", used(each)) for name, each in answers.items()]
 
 
 def worst_places(subject: ReportSubject, answers: Sequence[JudgedRow]) -> Iterator[TableBlock]:
@@ -95,11 +91,10 @@ def worst_places(subject: ReportSubject, answers: Sequence[JudgedRow]) -> Iterat
 
     A rule that is kept and says of no limit how far it is used has no worst place.
     """
-    known = [each for each in answers if each[2].strokes and not np.isnan(each[2].value)]
-    near = [each for each in known if each[1] is False or 0.0 < each[4] < np.inf]
-    ranked = sorted(near, key=lambda each: (each[1] is not False, -each[4]))
+    known = (each for each in answers if each[2].strokes and not np.isnan(each[2].value))
+    near = (each for each in known if each[1] is False or 0.0 < each[-1] < np.inf)
     rows = []
-    for rule, ok, each, column, of_limit in ranked[:MOST_PLACES]:
+    for rule, ok, each, column, sign, of_limit in sorted(near, key=lambda each: (each[1] is not False, -each[-1]))[:MOST_PLACES]:
         share = f"{100.0 * of_limit:.0f} %" if 0.0 < of_limit < np.inf else "–"
         measure = each.question.left if isinstance(each.question, Constraint) else each.question
         kind, quantity = each.measures or measure_of(subject.machine.plan, measure), getattr(measure, "quantity", None)
@@ -109,7 +104,7 @@ def worst_places(subject: ReportSubject, answers: Sequence[JudgedRow]) -> Iterat
         elif each.unbounded:
             value = each.amount
         elif kind or (isinstance(quantity, Request) and not isinstance(quantity, MotionFunction)):
-            value = show(float(each.value), display_unit(kind, "mm"), 4)
+            value = f"{show(float(each.value), display_unit(kind, 'mm'), 4)}{sign}"
         rows.append((rule, verdict_mark(ok), value, share, each.situation or "–", places_text(each.strokes, each.units)))
     heads = (said("rule"), said("result"), said("value"), said("limit used"), said("situation"), said("strokes"))
     if rows:
@@ -127,11 +122,12 @@ def rule_row(subject: ReportSubject, verdict: Verdict, answer: Answer) -> Judged
     question = answer.question.left if isinstance(answer.question, Constraint) else answer.question
     kind = answer.measures or measure_of(subject.machine.plan, question)
     share = used(answer) if words.share is None else float(subject.judge.answer(words.share).value)
+    sign = " %" if kind == "number" and "{value} %" in words.text else ""
     if kind == "number" and words.measure is not None:
         answer = replace(answer, value=subject.judge.answer(words.measure).value)
     if words.is_need:
         answer = replace(answer, value=rounded_up(float(answer.value), display_unit(kind, "mm")))
-    return verdict.heading, verdict.ok, answer, None, 0.0 if verdict.ok and kind == "length" and words.share is None else share
+    return verdict.heading, verdict.ok, answer, None, sign, 0.0 if verdict.ok and kind == "length" and words.share is None else share
 
 
 def used(answer: Answer) -> float:

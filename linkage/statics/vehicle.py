@@ -489,9 +489,10 @@ class AxleLoad(Tabled, HasVerdicts):
     def page_words(self, judge: Judge) -> Mapping[str, PageWords]:
         name, weights = self.support.name, [each for each in judge.plan.of_kind(ForceElement).values() if is_on_frame(judge.plan, each)]
         kept = least(axle_load(name)) / at(axle_load(name, acting=Acting(loads=weights)), **judge.plan.sketch_strokes)  # type: ignore[arg-type]
+        keeps = noted("least load {value} % of what the vehicle alone puts on it, {place}")
         uses = noted("along the ground it uses at most {value} % of its friction, {place}")
         return {
-            "axle load": PageWords(noted("it keeps {value} % of its load, least {place}"), 100.0 * kept, 1.0 - kept, {">=": TIPPING}),
+            "axle load": PageWords(keeps, 100.0 * kept, 1.0 - kept, {">=": TIPPING}),
             "slipping": PageWords(uses, 100.0 * most(slipping()), fails={"<=": SLIPPING}),
         }
 
@@ -526,7 +527,7 @@ def load_sentence(found: Answer, bare: float) -> str:
     if not bare > 0.0:
         return said("it carries at least {force} {place}, without a load nothing.", force=show(load, "kN", 4), place=place)
     return said(
-        "it keeps {share} % of its load, least {place}: {force} of the {bare} that the vehicle alone puts on it.",
+        "least load {force} {place}: {share} % of the {bare} that the vehicle alone puts on it.",
         share=f"{100.0 * load / bare:.3g}", place=place, force=show(load, "kN", 4), bare=show(bare, "kN", 4),
     )  # fmt: skip
 

@@ -147,15 +147,15 @@ def tipping_slope(motion: Motion) -> FloatArray:
 
 def balance_verdict(judge: Judge) -> Verdict:
     """Return whether the front axle keeps its least share of the tractor's weight, with the tipping limits."""
-    asked = [MotionFunction(front_axle, "force"), *map(MotionFunction, (tipping_mass, largest_mass, tipping_slope))]
-    worst, tips, largest, slope = judge.answers([*map(least, asked)])
-    load, given = float(worst.value), judge.motion.inputs
-    share, needed = load / (float(given["vehicle_mass"]) * g0), float(given["least_front"])
+    given = judge.motion.inputs
+    weight, needed = float(given["vehicle_mass"]) * g0, float(given["least_front"])
+    asked = map(least, map(MotionFunction, (tipping_mass, largest_mass, tipping_slope)))
+    worst, tips, largest, slope = judge.answers([least(MotionFunction(front_axle, "force")) >= needed * weight, *asked])
+    load, share = float(worst.value), float(worst.value) / weight
     height = show(float(judge.there(worst).y("F")), "mm", ".0f")
     where = said("at S = {stroke}, F {height} high", stroke=show(float(worst.strokes["S"]), "mm", ".1f"), height=height)
-    mass = said("No implement tips it")
-    if np.isfinite(tips.value):
-        mass = said("It tips with {mass}", mass=show(float(tips.value), "kg", ".0f"))
+    tipping = show(float(tips.value), "kg", ".0f")
+    mass = said("It tips with {mass}", mass=tipping) if np.isfinite(tips.value) else said("No implement tips it")
     if load <= 0.0:
         text = said(
             "the tractor tips over backwards {where}. {mass}: take a lighter implement or ballast in front.", where=where, mass=mass
@@ -165,8 +165,7 @@ def balance_verdict(judge: Judge) -> Verdict:
         "least load {load}, {share:.0f} % of the tractor's weight, {where}; steering needs {least:.0f} %",
         load=show(load, "kN", ".2f"), share=100 * share, where=where, least=100 * needed,
     )  # fmt: skip
-    steep = show(float(slope.value), "deg", ".1f")
-    uphill = said("{mass}, and with this one uphill at {slope}.", mass=mass, slope=steep)
+    uphill = said("{mass}, and with this one uphill at {slope}.", mass=mass, slope=show(float(slope.value), "deg", ".1f"))
     if share >= needed:
         return Verdict("front axle", True, f"{says}. {uphill}", answer=worst)
     ballast = (needed - share) * float(given["vehicle_mass"]) / np.cos(float(given["slope"]))

@@ -237,7 +237,9 @@ def test_a_rod_carries_its_load_over_the_efficiency_and_a_stop_is_told():
         assert f"safety {euler(rod, length) / push:.3g}," in verdict.sentence and verdict.ok == (euler(rod, length) >= 3.5 * push), made
         (remark,) = (each for each in verdicts if each.startswith("Against a stop"))
         assert remark and remark.ok is None
-        assert f"pushes with {stop / kN:.4g} kN" in remark and f"safety {euler(rod, length) / stop:.3g}" in remark, (made, remark)
+        count, all_of = made.ram.count, {1: "", 2: "2 × "}[made.ram.count]
+        assert f"(thrust 14.5 kN, rods: {count}, efficiency {14.5 * kN / count / push:.3g})" in verdict.sentence, (made, verdict)
+        assert f"pushes with {all_of}{stop / kN:.4g} kN" in remark and f"safety {euler(rod, length) / stop:.3g}" in remark, (made, remark)
 
 
 def test_a_rod_at_rest_or_going_back_carries_its_load_alone():

@@ -219,7 +219,7 @@ class OnWheels(OfPaths):
     """The same on a frame with two axles, which tips where its arm reaches far under the heavy load, and is not judged there."""
 
     M, front_axle, rear_axle = Ground(-0.6, 0.2), Ground(0.9, -0.5), Ground(-1.2, -0.5)
-    front, rear = Support("front_axle", (0, 1)), Support("rear_axle", (0, 1))
+    front, rear = Support("front_axle", (0, 1), friction=0.6), Support("rear_axle", (0, 1), friction=0.6)
     body = Weight("M", mass=500.0)
 
 
@@ -229,9 +229,12 @@ def test_a_report_looks_at_forces_and_limits_where_the_machine_is_judged():
     verdicts = {verdict.heading: verdict for verdict in OnWheels().verdicts()}
     nearest = PLACED.findall(next(verdict.sentence for verdict in verdicts.values() if verdict.rule == "dead points"))
     assert nearest and {*nearest} <= {row[2] for row in limits_section(subject).blocks[0].rows}
-    kept = float(re.search(r"keeps ([\d.]+) % of its load", verdicts["axle load rear"].sentence)[1])
+    kept = float(re.search(r": ([\d.]+) % of the", verdicts["axle load rear"].sentence)[1])
     shares = {name: rule_row(subject, each, each.answer)[-1] for name, each in verdicts.items() if each.answer is not None}
     assert_allclose(shares["axle load rear"], 1.0 - kept / 100.0, atol=0.006)
+    rows = {name: (rule_row(subject, each, each.answer), each.sentence) for name, each in verdicts.items() if each.answer is not None}
+    in_percent = {name for name, (row, sentence) in rows.items() if f"{row[2].value:.3g} %" in sentence}
+    assert in_percent == {name for name, (row, _) in rows.items() if row[4] == " %"} == {"slipping"}
     assert shares["length"] == 0.0
     (safety,) = re.findall(r"safety ([\d.]+), at least", verdicts["buckling boom"].sentence)
     assert_allclose(rule_row(subject, verdicts["buckling boom"], verdicts["buckling boom"].answer)[2].value, float(safety), rtol=5e-3)

@@ -146,7 +146,7 @@ function compared() {
   }
   const found = all.map(({ design }) => (design === present ? asked(down.size ? DRAGGING : STILL).found : foundOf(design)));
   asking.laid(vector(present));
-  questions.forEach((each, q) => { if (found.some((list) => list[q].ok === false)) rows.push(line(ruled(each), found.map((list) => `${list[q].ok === false ? "\u2715 " : ""}${ruleNumber(each, list[q])}`))); });
+  questions.forEach((each, q) => { if (found.some(({ [q]: { ok, unknown } }) => ok === false || unknown)) rows.push(line(ruled(each), found.map(({ [q]: one }) => (one.unknown ? "\u2013" : `${one.ok === false ? "\u2715 " : ""}${ruleNumber(each, one)}`)))); });
   rows.push(line(say("rules that fail, live"), found.map((list) => String(list.filter((each) => each.ok === false).length))));
   const top = make("thead"), body = make("tbody");
   top.append(head); body.append(...rows);

@@ -200,6 +200,15 @@ function pullScale() {
   for (const { x, y } of data.arrows) for (const i of now.reached) pull.most = max(pull.most, hypot(now.values[x]?.[i], now.values[y]?.[i]) || 0);
   pull.scale = pull.most ? min(sheetWide, sheetTall) / 4.5 / pull.most : 0;
 }
+/* Make room for the arrows: the drawing gives way at each side by what stands over there. */
+function roomForArrows() {
+  for (let turn = 0; showsForces && turn < 3; turn++) {
+    const tips = data.arrows.flatMap(({ point, x, y }) => now.reached.map((i) => px(...spot(now, point, i)).map((at, k) => at + ((k ? -now.values[y]?.[i] : now.values[x]?.[i]) * pull.scale || 0))));
+    const [[left, wide], [top, tall]] = [sheetWide, sheetTall - foot].map((end, k) => { const list = tips.map((tip) => tip[k]), low = max(8 - min(...list), 0); return [low, 1 - (low + max(max(...list) + 8 - end, 0)) / end]; });
+    const q = min(wide, tall);
+    zoom *= q; left0 = q * left0 + left + 0.5 * (wide - q) * sheetWide; top0 = q * top0 + top + 0.5 * (tall - q) * (sheetTall - foot);
+  }
+}
 function pressureScale() {
   scale.most = 0;
   for (const each of data.cylinders) if (each.pressure !== undefined) for (const found of [now, base]) for (const i of found.reached) {
@@ -208,11 +217,11 @@ function pressureScale() {
 }
 let keys, told0 = "";
 function legend() {
-  const bottom = sheetTall - 12, hint = phone.matches && !touched.length, told = [scale.most, showsForces && pull.most, sheetWide, bottom, language, hint].join(), group = keys;
+  const bottom = sheetTall - 12, hint = !touched.length && (phone.matches || (showsForces && pull.most > 0)), told = [scale.most, showsForces && pull.most, sheetWide, bottom, language, hint].join(), group = keys;
   if (told === told0 && group.firstChild) return;
   told0 = told;
   group.replaceChildren();
-  if (hint) draw(group, "text", { x: 12, y: 20, class: "halo" }).textContent = say("Touch a pin for its name and its forces");
+  if (hint) draw(group, "text", { class: "halo", ...(phone.matches ? { x: 12, y: 20 } : { x: sheetWide - 12, y: bottom - 15, anchor: "end" }) }).textContent = say("Touch a pin for its name and its forces");
   if (scale.most > 0) {
     const bar = min(110, 0.3 * sheetWide);
     for (let i = 0; i < 22; i++) draw(group, "rect", { x: 12 + (i * bar) / 22, y: bottom - 8, width: bar / 22 + 0.5, height: 9, fill: heat((i + 0.5) / 22, 1) });
@@ -220,10 +229,7 @@ function legend() {
     draw(group, "text", { x: 12, y: bottom - 13, class: "halo" }).textContent = "0";
     draw(group, "text", { x: 12 + bar, y: bottom - 13, class: "halo", anchor: "end" }).textContent = top + unitText(unit.unit);
   }
-  if (showsForces && pull.most) {
-    const lines = [say("longest arrow {force}", { force: shown(pull.most, data.force, 3) }), say("touch a pin: on which bodies its forces act")];
-    lines.forEach((text, i) => { draw(group, "text", { x: sheetWide - 12, y: bottom - 15 * i, class: "halo", anchor: "end" }).textContent = text; });
-  }
+  if (showsForces && pull.most) draw(group, "text", { x: sheetWide - 12, y: bottom, class: "halo", anchor: "end" }).textContent = say("longest arrow {force}", { force: shown(pull.most, data.force, 3) });
 }
 
 const beside = () => (showsForces || data.cylinders.some((each) => each.pressure !== undefined) ? 34 : 0);
@@ -375,8 +381,7 @@ function expected({ name, unit }, text) {
 const sizeRows = new Map();
 function strokeSliders() {
   const rows = strokes.map((each, k) => {
-    const row = make("label"), slider = make("input"), out = make("input"), label = make("span"), [low, high] = reachOf(each);
-    row.className = "stroke"; label.textContent = each.name;
+    const row = make("label", { className: "stroke" }), slider = make("input"), out = make("input"), label = make("span", { textContent: each.name }), [low, high] = reachOf(each);
     if (each.name === "along the path") label.dataset.say = "place";
     Object.assign(slider, { type: "range", min: 0, max: 1000, step: "any" });
     slider.setAttribute("aria-label", each.name);
@@ -410,16 +415,14 @@ function listSizes() {
   const parent = byId("dimensions");
   sizeRows.clear();
   parent.replaceChildren(...byPart(chosen).flatMap(([part, own]) => [...(part ? [make("h3", { textContent: part })] : []), ...own.map((i) => {
-    const each = dims[i], row = make("div"), label = make("span"), slide = make("div"), slider = make("input");
-    const mark = make("i"), box = make("input"), unit = make("span"), drop = make("button");
-    row.className = "size"; label.className = "name"; slide.className = "slide"; unit.className = "unit"; drop.className = "drop";
-    label.textContent = part ? each.name.slice(part.length + 1) : each.name; label.title = each.where ? `${each.name}: ${each.where}` : each.name;
+    const each = dims[i], row = make("div", { className: "size" }), slide = make("div", { className: "slide" }), slider = make("input");
+    const mark = make("i"), box = make("input"), unit = make("span", { className: "unit", textContent: signed(each.unit) }), drop = make("button", { className: "drop" });
+    const label = make("span", { className: "name", textContent: part ? each.name.slice(part.length + 1) : each.name, title: each.where ? `${each.name}: ${each.where}` : each.name });
     Object.assign(slider, { type: "range", min: 0, max: 1000, step: "any" });
     slider.setAttribute("aria-label", each.name); slider.dataset.size = each.name;
     mark.style.left = `calc(8px + (100% - 16px) * ${((each.value - each.low) / (each.high - each.low)).toFixed(4)})`;
     Object.assign(box, { type: "text", inputMode: "decimal", autocomplete: "off", spellcheck: false });
     box.setAttribute("aria-label", `${each.name}, ${each.unit}`);
-    unit.textContent = signed(each.unit);
     Object.assign(drop, { type: "button", textContent: "\u00d7", title: say("Hide {name}", { name: each.name }) });
     drop.setAttribute("aria-label", drop.title);
     on(slider, "input", () => {
@@ -453,7 +456,7 @@ function byPart(list) {
   }
   return [...found].sort(([a], [b]) => (a !== "") - (b !== ""));
 }
-function option(text, value) { const found = make("option"); found.textContent = text; found.value = value; return found; }
+const option = (textContent, value) => make("option", { textContent, value });
 function put(i, value, exact) {
   const design = [...present];
   design[i] = value;
@@ -485,7 +488,6 @@ function choosers() {
   byId("column").replaceChildren(...all); byId("column").value = String(column);
   byId("second").replaceChildren(option("\u2013", -1), ...all.map((each) => each.cloneNode(true))); byId("second").value = String(second);
   byId("run").replaceChildren(...strokes.map((each, k) => option(titled(each), k))); byId("run").value = String(runs);
-  byId("runs").hidden = strokes.length < 2;
   byId("runs").style.display = strokes.length < 2 ? "none" : "";
   byId("forces").style.display = data.arrows.length ? "" : "none";
   byId("forces").setAttribute("aria-pressed", String(showsForces));
@@ -600,7 +602,7 @@ function render(work) {
   const beside = isMoved() ? JSON.stringify([runs, followed(stands).map((value, k) => (isDriven(k) ? 0 : value))]) : "";
   if (beside !== baseAt || !base) { base = beside ? sweep(original, stands, runs) : first; baseAt = beside; }
   pose = single(present, stands);
-  if (anew || sized) { edition++; const was = [zoom, left0, top0].join(); if (!gripped) { fit(!sized, room()); closer(); } pullScale(); pressureScale(); if (sized || !parts.length || was !== [zoom, left0, top0].join()) build(); legend(); }
+  if (anew || sized) { edition++; const was = [zoom, left0, top0].join(); if (!gripped) { fit(!sized, room()); pullScale(); roomForArrows(); closer(); } pullScale(); pressureScale(); if (sized || !parts.length || was !== [zoom, left0, top0].join()) build(); legend(); }
   if (anew || sized || work.has("curve")) plotted();
   if (kept.length && (anew || work.has("curve"))) { clearTimeout(comparing); comparing = setTimeout(compared, 200); }
   const at = scene.names.map((_, p) => px(...spot(pose, p, 0)));

@@ -3,7 +3,8 @@
 const limitText = ([, text, , ru]) => (language === "ru" && ru) || text;
 const mm = (value) => fixed(value / data.length.factor, data.length.factor > 0.01 ? 2 : 1) + unitText(data.length.unit);
 const strokeText = (value) => { const stroke = strokes[runs]; return `${titled(stroke)} = ${shown(value, stroke, 4)}`; };
-const placeText = (at) => own.map((each, k) => `${each.name} = ${fixed(at[k] / each.factor, max(round(log10(1e4 * each.factor)), 0))}${unitText(each.unit)}`).join(", ");
+const standText = (each, value) => `${each.name} = ${fixed(value / each.factor, max(round(log10(1e4 * each.factor)), 0))}${unitText(each.unit)}`;
+const placeText = (at) => own.map((each, k) => standText(each, at[k])).join(", ");
 const ruled = ({ rule, ru }) => (language === "ru" && ru) || rule;
 const questions = data.judge.questions, byKey = new Map(questions.map((each, q) => [each.key, q]));
 /* Angles of links of which less is in line [rad], and below which textbooks advise against a loop that carries load. */
@@ -29,7 +30,8 @@ function situationText(each) {
   if (each.strokes) words.push(say("at {place}", { place: placeText(each.strokes) }));
   return words.join(", ");
 }
-const size = (value, unit) => (isNumber(value) ? shown(value, unit, 4) : say("without bounds"));
+/* Four figures; of a number without a unit no more than three decimals, as in Python. */
+const size = (value, unit) => (isNumber(value) ? shown(unit.unit ? value : round(1e3 * value) / 1e3, unit, 4) : say("without bounds"));
 /* The number that tells a rule: the condition's own, of a share without a unit the one that its sentence says. */
 const ruleNumber = ({ unit, saysUnit }, { value, says }) => (!unit.unit && isNumber(says?.value) ? size(says.value, saysUnit) : size(value, unit));
 function answerText({ rule, unit, words, fails, saysUnit }, each) {
@@ -105,25 +107,26 @@ function tight(answers, add) {
   const words = { poor: "40\u00b0", angle: `${fixed((least.value * 180) / PI, 1)}\u00b0`, joint: scene.names[data.joints[least.k].point] ?? data.joints[least.k].point, place: situationText({ ...least, name: answers.least.length > 1 ? least.name : "" }) };
   add(null, "", say("The least transmission angle is {angle}, of {joint} {place}: below {poor} pin forces and play grow.", words));
 }
-/* Return for each stroke that runs first the nearest places beyond its ends at which the motion ends, in words. */
+/* Return for each stroke the nearest places beyond the ends of all that runs at which the motion ends, in words. */
 function deadPoints() {
-  const [first] = asking.spans(vector(present)), start = first.places ? first.places.map(([a]) => a) : first.ends.map(([a]) => a), list = first.places || first.ends;
+  const lists = asking.spans(vector(present)).map(({ places, ends }) => places || ends);
   return own.flatMap(({ start: a, end: b }, k) => {
-    const low = min(...list[k]), high = max(...list[k]), size = abs(b - a);
-    if (!(high > low) && own.length > 1) return [];
-    const found = [[low, -1], [high, 1]].map(([from, sign]) => reachEnd(start, k, from, sign, size)).filter(Boolean);
-    return found.length ? [say("none within the stroke; the nearest: {places}", { places: found.join("; ") })] : [];
+    const found = [-1, 1].flatMap((sign) => lists.flatMap((list) => {
+      const low = min(...list[k]), high = max(...list[k]);
+      return high > low || own.length < 2 ? reachEnd(list.map(([each]) => each), k, sign < 0 ? low : high, sign, abs(b - a)) : [];
+    }).sort(([one], [other]) => one - other).slice(0, 1));
+    return found.length ? [say("none within the stroke; the nearest: {places}", { places: found.map(([, text]) => text).join("; ") })] : [];
   });
 }
-/* Return where the motion ends within a stroke's length beyond a value of it, in words; "" where it does not. */
+/* Return how far beyond a value of a stroke the motion ends within its length, and where in words; nothing where it does not. */
 function reachEnd(start, k, from, sign, size) {
   const at = (value) => engine.sweep(vector(present), start.map((each, j) => [j === k ? value : each]));
   let good = 0, bad = 0;
   for (let i = 1; i <= 16 && !bad; i++) { const away = (size * i) / 16; if (at(from + sign * away).reason[0] === 0) good = away; else bad = away; }
-  if (!bad) return "";
+  if (!bad) return [];
   for (let i = 0; i < 30; i++) { const away = 0.5 * (good + bad); if (at(from + sign * away).reason[0] === 0) good = away; else bad = away; }
   const reason = at(from + sign * bad).reason[0], step = reason > 0 ? engine.steps[reason - 1] : "", stroke = own[k];
-  return good && say("{step} at {where}, {away} beyond it", { step: data.called[step]?.[language === "ru" ? 1 : 0] ?? step, where: `${stroke.name} = ${shown(from + sign * good, stroke, 4)}`, away: shown(good, stroke, 3) });
+  return good ? [[good, say("{step} at {where}, {away} beyond it", { step: data.called[step]?.[language === "ru" ? 1 : 0] ?? step, where: standText(stroke, from + sign * good), away: shown(good, stroke, 3) })]] : [];
 }
 function stretches(list) {
   const found = [];
@@ -255,7 +258,8 @@ function withPlaces(text) {
     const said = place.replace(/\.$/, ""), at = strokesIn(said);
     if (!at) continue;
     const button = make("a", { href: "#mechanism", role: "button", className: "place", textContent: said, title: say("Take the machine there") });
-    on(button, "click", (event) => { event.preventDefault(); goTo(at); });
+    const path = strokes.findIndex((each) => each.path && text.slice(from, index).includes(say("over {over}", { over: each.name })));
+    on(button, "click", (event) => { event.preventDefault(); goTo(at, path); });
     found.push(text.slice(from, index), button);
     from = index + said.length;
   }
@@ -270,16 +274,27 @@ function strokesIn(text) {
   });
   return found.every(Boolean) ? found : null;
 }
-function goTo(places) {
+/* Go to a place: along the path over which it was found, in its load case, else with the strokes alone. */
+function goTo(places, path) {
   play(false);
-  if (strokes[runs].path) runsOn(places[0][0]);
+  if (path >= 0) runsOn(path);
+  else if (strokes[runs].path || places.every(([k]) => k !== runs)) runsOn(places[0][0]);
   const at = [...stands];
-  for (const [k, value] of places) at[k] = value;
-  if (places.every(([k]) => k !== runs)) runsOn(places[0][0]);
+  if (path >= 0) at[path] = placeOn(path, places); else for (const [k, value] of places) at[k] = value;
   moved(present, at, say("The place"));
   clock = phaseNow();
   choosers(); soon("sweep"); remember();
   sheet.scrollIntoView({ block: "nearest" });
+}
+/* Return where on a path its strokes come nearest to some values; 10080 parts meet its places, as long as they are few. */
+function placeOn(path, places) {
+  const { start, end } = strokes[path];
+  let best = start, least = Infinity;
+  for (let i = 0; i <= 10080; i++) {
+    const u = start + ((end - start) * i) / 10080, at = followed(strokes.map(() => u), path), off = places.reduce((sum, [k, value]) => sum + abs(at[k] - value), 0);
+    if (off < least) [best, least] = [u, off];
+  }
+  return best;
 }
 /* The badge: of the delivered design all delivered verdicts, of a changed one the live ones and how many are as delivered. */
 function count(found) {

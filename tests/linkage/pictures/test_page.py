@@ -4,7 +4,7 @@ import json
 import re
 from base64 import b85decode
 from functools import cache
-from itertools import product
+from itertools import combinations, product
 from pathlib import Path
 from zlib import decompress
 
@@ -70,7 +70,7 @@ from mechanisms.at_work.one_pump import RegenerativePress
 from mechanisms.at_work.telehandler import Telehandler
 from mechanisms.classics.stephenson_three import StephensonThree, StephensonThreeFar
 from mechanisms.grapple import Grapple
-from mechanisms.header_balancer import HeaderBalancer
+from mechanisms.header_balancer import HeaderBalancer, ThreeHeaders
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.for_all import first_daily, for_all
@@ -431,6 +431,11 @@ def test_a_rod_that_is_no_thinner_than_its_bore_is_told(chromium, written):
         shown.settle()
         assert any(each.startswith("lift: has no pressure with these sizes") for each in shown.told)
         assert "fail" in shown.text("#badge") or "does not hold" in shown.text("#badge")
+        shown.tab.set_viewport_size({"width": 390, "height": 700})
+        assert "do not follow" in shown.text("#groups") and shown("document.documentElement.scrollWidth") <= 390
+        shown.tab.locator("#keep").click()  # beside others it is not told as good: what is not followed has no number
+        rows = shown("[...document.querySelectorAll('#kept tr')].map((row) => [...row.children].map((each) => each.textContent))")
+        assert any(name.startswith("lifting") and now == "\N{EN DASH}" != was for name, now, was, _ in rows[1:])
 
 
 def test_a_slider_changes_its_dimension_and_the_verdicts_are_marked_as_of_the_delivered_design(chromium, written):
@@ -1214,6 +1219,18 @@ def test_curves_of_a_path_are_in_its_load_case_and_a_reserve_is_the_pumps_load(c
             shown.settle()
             said = shown("document.getElementById('curve').textContent")
             assert ("in the case half" in said) is (case == "half") and f"{over}, place" in said
+        for over, places in (("down", 2), ("up", 2)):  # a place in a verdict is gone to on its path, with its case
+            shown.slide('[data-stroke="S"]', 500)
+            where = shown.tab.locator("#groups li", has_text=f"over {over}").locator("a.place").first
+            where.evaluate("(each) => { each.closest('details').open = true; }")
+            at, told = float(re.search(r"S = ([\d.]+)", where.inner_text())[1]), where.evaluate("(each) => each.closest('li').textContent")
+            assert f"over {over}, at {where.inner_text()}" in told
+            where.click()
+            shown.settle()
+            assert shown("document.getElementById('run').selectedOptions[0].textContent") == over and f"of {places}" in shown.text(
+                "#strokes"
+            ) + str(shown("[...document.querySelectorAll('#strokes input[type=text]')].map((each) => each.value)"))
+            assert float(shown.tab.get_by_label("S, mm").input_value().split("\u2009")[0]) == pytest.approx(at, abs=0.05)
     curve, bound = as_curve(Column("reserve lift", np.array([4.0, 0.5, np.nan]), ""))
     assert curve.name == "pump load in % lift" and bound[0] == 100.0
     assert_array_equal(curve.values, [25.0, 200.0, np.nan])
@@ -1542,6 +1559,31 @@ def test_names_and_values_cover_neither_each_other_nor_pins_nor_the_edge(chromiu
                         apart = max(box[0] - there[2], there[0] - box[2], box[1] - there[3] + 0.4 * 14, there[1] - box[3] + 0.4 * 14)
                         assert apart >= 0, (text, other, share)
             assert shown.said == []
+
+
+def boxes(shown, selector):
+    """Return left, top, right, bottom [px] of what is drawn on the sheet, from its upper left corner; arrows have a title."""
+    found = f"[...document.querySelectorAll('#mechanism {selector}')].filter((each) => each.getAttribute('d') !== '')"
+    sheet = "document.getElementById('mechanism').getBoundingClientRect()"
+    return np.array(
+        shown(
+            f"(({{ x, y }}) => {found}.map((each) => each.getBoundingClientRect())"
+            f".map(({{ left, top, right, bottom }}) => [left - x, top - y, right - x, bottom - y]))({sheet})"
+        )
+    )
+
+
+def test_no_arrow_leaves_the_sheet_and_no_two_lines_of_the_legend_touch(chromium, written):
+    for machine, size in product((Hanging(), ThreeHeaders(), Digger()), (LAPTOP, PHONE)):
+        with Shown(chromium, written(machine), size) as shown:
+            shown.tab.locator("#forces").click()
+            wide, tall = shown("(({ width, height }) => [width, height])(document.getElementById('mechanism').getBoundingClientRect())")
+            for share in (0, 500, 1000):
+                shown.slide("#strokes input", share)
+                arrows = boxes(shown, "path:has(title)")
+                assert len(arrows) > 3 and np.all(arrows >= 0) and np.all(arrows[:, 2:] <= [wide, tall]), (machine, size, share)
+            for (a, b, c, d), (left, top, right, bottom) in combinations(boxes(shown, "text.halo:not(.force)"), 2):
+                assert a >= right or left >= c or b + 3 >= bottom - 3 or top + 3 >= d - 3
 
 
 def test_on_a_phone_the_name_and_the_forces_of_what_is_touched_are_told(chromium, written):

@@ -88,6 +88,20 @@ def test_a_table_goes_on_with_its_heading_on_the_next_page(tmp_path):
     assert all(f"row {k} " in "".join(pages) for k in range(150))
 
 
+@needs_poppler
+def test_a_table_is_divided_where_four_rows_stand_on_either_page_and_a_short_one_never(tmp_path):
+    def rows_by_page(above, count):
+        """Return how many of some rows stand on each page, below a number of others."""
+        given = {"line": above, "row": count}
+        tables = [TableBlock(name, (name,), tuple((f"{name} {k}",) for k in range(rows)), "l") for name, rows in given.items()]
+        pages = text_of(pdf(paper(tables[0], "Below it.", tables[1])), tmp_path).split("\f")
+        return [found for page in pages if (found := len(re.findall(r"row \d+", page)))]
+
+    long, short = ([rows_by_page(above, count) for above in range(32, 46, 2)] for count in (11, 8))
+    assert all(sum(found) == 11 and min(found) >= 4 for found in long) and any(len(found) == 2 for found in long), long
+    assert all(found == [8] for found in short), short
+
+
 FORMULAS = [
     "x", r"x + y", r"a, b", r"\sqrt{x + y}", r"\frac{a + b}{c}", r"x_{OB}", r"x^{2}", r"x_{1}^{2}", r"\left(\frac{a}{b}\right)",
     r"\sqrt{\frac{a}{b}}", r"\vec{u}", r"\overrightarrow{AB}", r"\frac{\sqrt{x}}{\left(y\right)^{2}}", r"-3 \cdot 10^{-6}\,\mathrm{m}",

@@ -41,8 +41,8 @@ KEPT = re.compile(
 """What stays as it is in a program: texts, templates with templates in them, patterns."""
 NO_SPACE = re.compile(r" ?([{};,]) ?|(?<=:) ")
 """Signs of a style about which no spaces are needed."""
-TIGHT = re.compile(r" ?([=<>&|?:,;(){}[\]*%!/]+) ?|(?<=[\w)\]]) ([-+]) (?=[\w(\[])")
-"""Signs of a program about which no spaces are needed."""
+TIGHT = re.compile(r" ?([=<>&|?:,;(){}[\]*%!/]+) ?|(?<=[\w)\]]) ([-+]) (?=[\w(\[])|(?<=[;{,])\n")
+"""Signs of a program about which no spaces are needed, and ends of lines after which none is."""
 
 
 def page_text(title: str, data: PageData, parts: Sequence[str], *, language: str, most: int = 0, text: str = "") -> str:

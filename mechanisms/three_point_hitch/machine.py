@@ -32,7 +32,7 @@ class ThreePointHitch(Mechanism):
     together; pressures are gauge; the circuit's mechanical efficiency is eta of (28), the full one.
 
     The dimensions are illustrative, of the proportions of category 3; they are not the UES-2-250A's own. So are the
-    tractor, the implement and the cylinders. `admissible` are the settings of the zones of figure 2.
+    tractor, the implement and the cylinders. `admissible` are the settings of the zones of capacity and tilt.
     """
 
     S = Stroke(0.00, 0.25)  # cylinder stroke, m

@@ -27,7 +27,7 @@ from ..motion.requests import stroke_of
 from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import name_of, real
-from ..units import show
+from ..units import show, shown_number
 from ..verdict import Verdict
 from .applied import applied_loads, elements_of, rates_in
 from .holding import refused_where, where_negative
@@ -528,7 +528,7 @@ def load_sentence(found: Answer, bare: float) -> str:
         return said("it carries at least {force} {place}, without a load nothing.", force=show(load, "kN", 4), place=place)
     return said(
         "least load {force} {place}: {share} % of the {bare} that the vehicle alone puts on it.",
-        share=f"{100.0 * load / bare:.3g}", place=place, force=show(load, "kN", 4), bare=show(bare, "kN", 4),
+        share=shown_number(100.0 * load / bare, "", 3), place=place, force=show(load, "kN", 4), bare=show(bare, "kN", 4),
     )  # fmt: skip
 
 
@@ -536,7 +536,7 @@ def slipping_sentence(worst: Answer) -> str:
     """Return how much of its friction with the ground a vehicle uses, in words."""
     if np.isinf(worst.value):
         return said("slipping {place}: nothing presses it to the ground there.", place=worst.place)
-    share = f"{100.0 * float(worst.value):.3g}"
+    share = shown_number(100.0 * float(worst.value), "", 3)
     if worst.ok:
         return said("along the ground it uses at most {share} % of its friction, {place}.", share=share, place=worst.place)
     return translated(SLIPPING).format(share=share, place=worst.place)

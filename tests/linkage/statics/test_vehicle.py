@@ -31,6 +31,7 @@ from linkage.formulas import equations
 from linkage.loads import Force, LinkMass, LoadCase, Moment, PinFriction, Spring, Support, Weight
 from linkage.reports import results
 from linkage.statics import Standing
+from linkage.statics.vehicle import load_sentence
 from linkage.units import deg, g0, kN
 from tests.for_all import first_daily, for_all
 
@@ -335,6 +336,7 @@ def test_verdicts_say_what_is_left_and_when_it_tips_or_slips():
     load = said["axle load front"].answer.value
     assert said["axle load front"].sentence.startswith(f"least load {load / kN:.4g} kN in the case up")
     assert f": {kept:.3g} % of the {float(bare) / kN:.4g} kN that the vehicle alone puts on it" in said["axle load front"].sentence
+    assert f" {1e5 * load:.0f} % of" in load_sentence(said["axle load front"].answer, 1e-3)  # never as a power of ten
 
     class Tipping(Digger):
         load = Weight("T", mass=3000)

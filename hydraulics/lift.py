@@ -341,7 +341,7 @@ def idle(cylinders: Sequence[LiftingCylinder]) -> Verdict | None:
             ram=ram.name or ram, line=line,
         )  # fmt: skip
         return Verdict("lifting", False, text)
-    if any(answer.value != 0.0 for each in cylinders for answer in each.judge.answers(least_and_most(thrust_request(each.ram, Acting())))):
+    if any(answer.value != 0.0 for each in cylinders for answer in each.judge.answers(each.thrusts)):
         return None
     acting = [name for name, each in elements if not each.holds and not each.joined(members)]
     if not acting:
@@ -361,6 +361,11 @@ class LiftingCylinder:
     def __init__(self, judge: Judge, circuit: LiftLine, ram: Ram, unit: str = "bar") -> None:
         self.judge, self.circuit, self.ram, self.unit = judge, circuit, ram, unit
 
+    @property
+    def thrusts(self) -> list[Question]:
+        """Its least and its greatest thrust, as questions."""
+        return least_and_most(thrust_request(self.ram, Acting()))
+
     def back(self, way: str, resistance: float = 0.0, tells: str = "push") -> LawRequest:
         """Return the pressure from the other side while it goes back one way, or the pressure of the load alone."""
         return going_back_request(*self.request_arguments, way, resistance, tells)
@@ -375,12 +380,7 @@ class LiftingCylinder:
         ways = ("retracting", "extending") if self.ram.side == "both" else self.ram.ways_back(0.0, 0.0)
         going = [question for way in ways for question in (most(self.back(way)), least(self.back(way, tells="load")))]
         going += [most(self.back(way, tells="whole push")) for way in ways] if len(ways) > 1 else []
-        return [
-            *least_and_most(thrust_request(self.ram, Acting())),
-            least(reserve_request(*self.request_arguments)),
-            *self.standing,
-            *going,
-        ]
+        return [*self.thrusts, least(reserve_request(*self.request_arguments)), *self.standing, *going]
 
     @property
     def standing(self) -> list[Question]:

@@ -229,8 +229,9 @@ IN_TIME = {"speed": "mm/s", "acceleration": "m/s2", "power": "kW", "flow": "l/mi
 
 
 def display_unit(measure: str, length: str = "m") -> str:
-    """Return the unit that an "angle", a "length", a "force" or a "pressure" is shown in, a length in that which is said; else ""."""
-    return {"angle": "deg", "length": length, "force": "kN", "moment": "Nm", "pressure": "bar", "time": "s", **IN_TIME}.get(measure, "")
+    """Return the unit that an "angle", a "length", a "force", a "volume" is shown in, a length in that which is said; else ""."""
+    kinds = {"angle": "deg", "length": length, "force": "kN", "moment": "Nm", "pressure": "bar", "time": "s", "volume": "l", **IN_TIME}
+    return kinds.get(measure, "")
 
 
 DIGITS = r"(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
@@ -384,6 +385,7 @@ def show(value: float, unit: str, digits: int | str = 6) -> str:
     """
     text = shown_number(value, unit, digits)
     return f"{text} {unit_sign(unit)}" if unit else text
+
 
 EXACT = 1e-7
 """Of the last digit that is shown: what is above it by less is that to rounding."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from typing import Any, TypeAlias
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -44,7 +44,7 @@ def verdict_section(subject: ReportSubject, limits: Mapping[str, Sequence[object
     rows = tuple((each.heading, verdict_mark(each.ok) if each.is_rule else Mark(None, "–"), each.sentence) for each in found)
     table = TableBlock(said("Rules, over all that the machine runs"), heads, rows, "llm")
     places = [rule_row(subject, each, each.answer) for each in judged if isinstance(each.answer, Answer)]
-    broken = [*(each.heading for each in judged if each.ok is False), *(name for name, ok, *_ in limited if ok is False)]
+    broken = [*(each.heading for each in judged if each.ok is False), *(each.rule for each in limited if each.ok is False)]
     shown = Section(title, (domain, table, *worst_places(subject, [*places, *limited])))
     kept, silent = (sum(each.ok is ok for each in judged) for ok in (True, None))
     word = said("{kept} of {all} rules kept", kept=kept, all=len(judged)) if judged else said("no rules declared")
@@ -65,8 +65,15 @@ MOST_PLACES = 10
 """Rows of the table of the worst places."""
 
 
-JudgedRow: TypeAlias = tuple[str, "bool | None", Answer, "Column | None", str, float]
-"""A rule by its name, whether it is kept, its answer, the column that it bounds, the sign of a share, and how far its limit is used."""
+class JudgedRow(NamedTuple):
+    """A rule by its name, whether it is kept, its answer, how far its limit is used, the column that it bounds, and the sign of a share."""
+
+    rule: str
+    ok: bool | None
+    answer: Answer
+    used: float
+    column: Column | None = None
+    sign: str = ""
 
 
 def limit_answers(subject: ReportSubject, limits: Mapping[str, Sequence[Any]]) -> list[JudgedRow]:
@@ -83,7 +90,7 @@ def limit_answers(subject: ReportSubject, limits: Mapping[str, Sequence[Any]]) -
     if own and plain and len(plain) < len(subject.judge.places):  # a table's own column is under the machine's own loads
         judge = subject.machine.judge(plain, subject.judge.acting).lost_allowed()
         answers |= zip(own, judge.answers([asked[name] for name in own]), strict=True)
-    return [(heading_of(name), each.ok, each, columns.get(name), "", used(each)) for name, each in answers.items()]
+    return [JudgedRow(heading_of(name), each.ok, each, used(each), columns.get(name)) for name, each in answers.items()]
 
 
 def worst_places(subject: ReportSubject, answers: Sequence[JudgedRow]) -> Iterator[TableBlock]:
@@ -91,10 +98,10 @@ def worst_places(subject: ReportSubject, answers: Sequence[JudgedRow]) -> Iterat
 
     A rule that is kept and says of no limit how far it is used has no worst place.
     """
-    known = (each for each in answers if each[2].strokes and not np.isnan(each[2].value))
-    near = (each for each in known if each[1] is False or 0.0 < each[-1] < np.inf)
+    known = (each for each in answers if each.answer.strokes and not np.isnan(each.answer.value))
+    near = (each for each in known if each.ok is False or 0.0 < each.used < np.inf)
     rows = []
-    for rule, ok, each, column, sign, of_limit in sorted(near, key=lambda each: (each[1] is not False, -each[-1]))[:MOST_PLACES]:
+    for rule, ok, each, of_limit, column, sign in sorted(near, key=lambda each: (each.ok is not False, -each.used))[:MOST_PLACES]:
         share = f"{100.0 * of_limit:.0f} %" if 0.0 < of_limit < np.inf else "–"
         measure = each.question.left if isinstance(each.question, Constraint) else each.question
         kind, quantity = each.measures or measure_of(subject.machine.plan, measure), getattr(measure, "quantity", None)
@@ -127,7 +134,8 @@ def rule_row(subject: ReportSubject, verdict: Verdict, answer: Answer) -> Judged
         answer = replace(answer, value=subject.judge.answer(words.measure).value)
     if words.is_need:
         answer = replace(answer, value=rounded_up(float(answer.value), display_unit(kind, "mm")))
-    return verdict.heading, verdict.ok, answer, None, sign, 0.0 if verdict.ok and kind == "length" and words.share is None else share
+    of_limit = 0.0 if verdict.ok and kind == "length" and words.share is None else share
+    return JudgedRow(verdict.heading, verdict.ok, answer, of_limit, sign=sign)
 
 
 def used(answer: Answer) -> float:

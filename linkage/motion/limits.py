@@ -16,7 +16,7 @@ from ..language import ENGLISH, language, said, said_of, translated
 from ..plan import ArrayReading, Mask, Plan, failures, missing_words, opening
 from ..shown import Shown
 from ..steps import Step
-from ..units import SI, deg, show, shown_number, unit_sign
+from ..units import SI, UNITS, deg, display_unit, show, shown_number, unit_sign
 
 
 @refuses_changes
@@ -351,7 +351,7 @@ def stroke_number(value: float, unit: str, digits: int = 9) -> str:
 
 def shown_stroke_unit(unit: str, length: str = "mm") -> str:
     """Return the unit that a stroke [m, rad, m3 or a number] is shown in."""
-    return {"rad": "deg", "m": length, "m3": "l"}.get(unit, unit)
+    return display_unit(UNITS[unit][1], length) if unit else ""
 
 
 def stroke_measure(plan: Plan, name: str) -> str:

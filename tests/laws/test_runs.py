@@ -230,14 +230,14 @@ def test_a_report_looks_at_forces_and_limits_where_the_machine_is_judged():
     nearest = PLACED.findall(next(verdict.sentence for verdict in verdicts.values() if verdict.rule == "dead points"))
     assert nearest and {*nearest} <= {row[2] for row in limits_section(subject).blocks[0].rows}
     kept = float(re.search(r": ([\d.]+) % of the", verdicts["axle load rear"].sentence)[1])
-    shares = {name: rule_row(subject, each, each.answer)[-1] for name, each in verdicts.items() if each.answer is not None}
+    shares = {name: rule_row(subject, each, each.answer).used for name, each in verdicts.items() if each.answer is not None}
     assert_allclose(shares["axle load rear"], 1.0 - kept / 100.0, atol=0.006)
     rows = {name: (rule_row(subject, each, each.answer), each.sentence) for name, each in verdicts.items() if each.answer is not None}
-    in_percent = {name for name, (row, sentence) in rows.items() if f"{row[2].value:.3g} %" in sentence}
-    assert in_percent == {name for name, (row, _) in rows.items() if row[4] == " %"} == {"slipping"}
+    in_percent = {name for name, (row, sentence) in rows.items() if f"{row.answer.value:.3g} %" in sentence}
+    assert in_percent == {name for name, (row, _) in rows.items() if row.sign == " %"} == {"slipping"}
     assert shares["length"] == 0.0
     (safety,) = re.findall(r"safety ([\d.]+), at least", verdicts["buckling boom"].sentence)
-    assert_allclose(rule_row(subject, verdicts["buckling boom"], verdicts["buckling boom"].answer)[2].value, float(safety), rtol=5e-3)
+    assert_allclose(rule_row(subject, verdicts["buckling boom"], verdicts["buckling boom"].answer).answer.value, float(safety), rtol=5e-3)
 
 
 def test_what_is_worked_out_from_one_worst_value_is_of_the_same_place():

@@ -21,6 +21,7 @@ from linkage import (
 )
 from linkage.files import load, to_toml
 from linkage.motion import stroke_unit
+from linkage.plan.members import strokes_text
 from linkage.reports import results
 from linkage.units import deg, litre, mm
 from tests.linkage.pictures.test_page import data_of
@@ -81,6 +82,7 @@ def test_all_that_shows_a_stroke_knows_what_it_measures(kind, unit):
     assert stroke_unit(kind.plan, "S") == unit
     assert stroke_unit(load(to_toml(kind)).plan, "S") == unit
     assert stroke_unit(load(to_toml(load(to_toml(kind)))).plan, "S") == unit
+    assert strokes_text(kind.plan, {"S": 0.5}).endswith(f" {shown}".rstrip())  # a remark's words
     (limits,) = motion.limits().values()
     assert str(limits).splitlines()[0].endswith(f"{end} {shown}".rstrip() if end else f" {shown}")
     drive = next(column for column in results(machine, motion) if column.name in ("drive force", "torque"))

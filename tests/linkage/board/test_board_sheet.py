@@ -46,8 +46,7 @@ class Board(Shown):
         """Load the page anew, as a tab that was closed does."""
         self.tab.reload()
         self.tab.wait_for_selector("#live", state="attached")
-        while not self("window.hydrolinkage !== undefined"):
-            self.tab.wait_for_timeout(10)
+        self.until("window.hydrolinkage !== undefined")
 
     @property
     def drawing(self):
@@ -342,7 +341,7 @@ def test_a_reload_keeps_the_work(chromium, empty):  # noqa: F811
         assert board.tab.locator("#units").input_value() == "in"
         linked = {"board": 1, "name": "Linked", "points": {"A": [0, 0]}}
         board("(given) => { location.hash = hydrolinkage.writers.address(given); }", linked)
-        board.tab.wait_for_function("hydrolinkage.current().name === 'Linked'")
+        board.until("hydrolinkage.current().name === 'Linked'")
         board.use("pin", (10, 5))
         board.again()
         assert board.drawing["name"] == "Linked" and len(board.drawing["points"]) == 2
@@ -515,7 +514,7 @@ def test_how_far_a_drive_goes_is_its_dead_point(chromium, empty):  # noqa: F811
         board.field("Name", "P")
         board.choose("S")
         board.field("Stroke", "900")
-        board.tab.wait_for_timeout(400)
+        board.rest(400)
         assert f"S goes from 0 mm to {500 - np.hypot(300, 200):.1f} mm" in board.text("#live").replace("\u2009", " ")
 
 
@@ -556,7 +555,7 @@ def test_a_file_that_is_dropped_is_opened_as_one_that_is_chosen(chromium, empty)
                     board.tab.locator("#file").set_input_files(
                         {"name": "chosen.json", "mimeType": "application/json", "buffer": text.ljust(size).encode()}
                     )
-                board.tab.wait_for_function("document.getElementById('message').textContent !== ''")
+                board.until("document.getElementById('message').textContent !== ''")
                 assert said in board.text("#message"), door
         assert board.drawing["name"] == "Dropped" and board.said == []
 

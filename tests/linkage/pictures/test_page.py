@@ -159,11 +159,16 @@ class Shown:
         for event, hear in self.heard.items():
             self.tab.on(event, hear)
         self.tab.goto(f"{Path(file).as_uri()}{mark}")
-        for _ in range(3000):  # the policy lets no text be evaluated while the page waits
-            if self.tab.evaluate("window.hydrolinkage !== undefined"):
-                break
-            self.tab.wait_for_timeout(10)
+        self.until("window.hydrolinkage !== undefined")
         self.settle()
+
+    def until(self, condition):
+        """Wait until a condition holds, asked from outside: the policy lets the page evaluate no text while it waits."""
+        for _ in range(3000):
+            if self.tab.evaluate(condition):
+                return
+            self.tab.wait_for_timeout(10)
+        raise AssertionError(f"still not: {condition}")
 
     def settle(self):
         """Wait until what was asked for is drawn, and the verdicts with it."""

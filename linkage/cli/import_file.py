@@ -45,8 +45,9 @@ def import_command(options: Namespace) -> int:
     ensure(is_free, f"{path} is there already and stays as it is; choose another name, -o FILE.")
     machine = found.to_class()
     text = sketch_text(found, path.suffix.lower())
-    if path.suffix.lower() not in (".toml", ".py", ".json") and (found.weights or any(drive.bore for drive in found.drives.values())):
-        say_remark(f"{path} has no word for weights, bores and rods; they are left out.")
+    sizes = found.weights or any(drive.bore for drive in found.drives.values())
+    if path.suffix.lower() not in (".toml", ".py") and (found.forces or (sizes and path.suffix.lower() != ".json")):
+        say_remark(f"{path} has no word for {'forces' if found.forces else 'weights, bores and rods'}; they are left out.")
     with replacing_text(path) as stream:
         stream.write(text)
     print(f"{path}: {machine.__name__}, points: {len(found.points)}, links: {len(found.links)}. Look at it by: hydrolinkage show {path}")

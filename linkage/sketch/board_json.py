@@ -20,8 +20,8 @@ ADDRESS = f"board:{BOARD}."
 
 
 def board_tables(sketch: MachineSketch) -> dict[str, Any]:
-    """Return a sketch as the tables of the board's file."""
-    return {"board": BOARD, **plain_entry(asdict(sketch))}
+    """Return a sketch as the tables of the board's file, which has none of forces."""
+    return {"board": BOARD, **plain_entry({name: each for name, each in asdict(sketch).items() if name != "forces"})}
 
 
 def board_json(sketch: MachineSketch) -> str:

@@ -17,11 +17,11 @@ from ..files.names import shortened
 from ..mechanism import Mechanism
 from ..quantities import is_name, joined_names
 from ..units import parse, show
-from .machine_sketch import MachineSketch, Place, SketchDrive, SketchSlide, longer_side, noiseless
+from .machine_sketch import MachineSketch, Place, SketchDrive, SketchForce, SketchSlide, longer_side, noiseless
 
 OFF_LINE = 1e-3
 """A point farther from its slide than so much of the size of the drawing is not on it."""
-CALLED = "Mechanism", "Stroke", "drawn", "Ground", "Crank", "Pin", "Link", "Guide", "Slide", "Cylinder", "Weight", "deg", "sketch"
+CALLED = "Mechanism", "Stroke", "drawn", "Ground", "Crank", "Pin", "Link", "Guide", "Slide", "Cylinder", "Weight", "Force", "deg", "sketch"
 WORDS = {*CALLED, *vars(Mechanism)}
 """What a member may not be called, because the file of the class says it already."""
 TURN = 2.0 * pi
@@ -61,7 +61,7 @@ class FoundDrive:
 
 @dataclass
 class FoundMachine:
-    """Points, links, slides and drives by the keys of a file, and notes on them. `unit` is 1 of the file [m]; None where it has none."""
+    """Points, links, slides, drives, forces [N] by the keys of a file, and notes. `unit` is 1 of the file [m]; None where it has none."""
 
     file: str
     unit: float | None = None
@@ -69,6 +69,7 @@ class FoundMachine:
     links: list[tuple[str, list[str]]] = field(default_factory=list)
     slides: list[tuple[str, tuple[str, str] | float]] = field(default_factory=list)
     drives: list[FoundDrive] = field(default_factory=list)
+    forces: list[tuple[str, str, Place]] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     left_out: list[str] = field(default_factory=list)
     part: str = ""
@@ -182,6 +183,21 @@ class FoundMachine:
             why = f"{len(arms)} links" if self.points[pivot].fixed else "no fixed pin"
             self.left_out.append(f"the drive at {self.points[pivot].name}, which turns {why}")
 
+    def enter_force(self, name: str, keys: Sequence[str], start: Place, end: Place, size: float, *, turns: bool) -> None:
+        """Enter a force [N] at a place of the link of some points, a new point if need be, or leave it out with the reason.
+
+        It points towards `end`, away from it where its size is below zero.
+        """
+        link, along = next((points for _, points in self.links if {*points} == {*keys}), None), dist(start, end)
+        if turns or link is None or not along:
+            why = "which turns with its link" if turns else "which is on no link" if link is None else "which has no direction"
+            self.left_out.append(f"the force {shortened(name, quote=False)} of {show(abs(size), 'N')}, {why}")
+            return
+        away = {key: (start[0] - self.points[key].place[0], start[1] - self.points[key].place[1]) for key in link}
+        key = min(link, key=lambda each: hypot(*away[each]))
+        key = key if hypot(*away[key]) <= 1e-9 * self.size else self.helper(link[0], away[link[0]], link)
+        self.forces.append((name, key, (size * (end[0] - start[0]) / along, size * (end[1] - start[1]) / along)))
+
     @property
     def size(self) -> float:
         """The longer side of the box around all points, in the file's units; 1 where they stand at one place."""
@@ -216,11 +232,12 @@ class FoundMachine:
             line = remainder(along, TURN) if isinstance(along, float) else (names[along[0]], names[along[1]])
             slides[legal_name(f"slide_{names[key]}", taken)] = SketchSlide(names[key], line)
         drives = dict(self.named_drives(names, places, taken))
+        forces = {legal_name(name, taken): SketchForce(names[key], (noiseless(x), noiseless(y))) for name, key, (x, y) in self.forces}
         if self.left_out:
             self.notes.append(f"Left out: {few(self.left_out, '; ')}.")
         fixed = tuple(names[key] for key, point in self.points.items() if point.fixed)
         title, notes = legal_name(title, {"Mechanism"}), tuple(map(printable, self.notes))
-        return MachineSketch(title, places, fixed, links, slides, drives, notes=notes)
+        return MachineSketch(title, places, fixed, links, slides, drives, forces=forces, notes=notes)
 
     def named_drives(self, names: Mapping[str, str], places: Mapping[str, Place], taken: set[str]) -> Iterator[tuple[str, SketchDrive]]:
         """Yield the drives [SI] by their names; a note on a cylinder of which the file says no stroke."""

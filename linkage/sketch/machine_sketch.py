@@ -81,6 +81,22 @@ class SketchWeight:
 
 
 @dataclass(frozen=True)
+class SketchForce:
+    """A force at a point, its direction fixed to the frame.
+
+    Parameters
+    ----------
+    point : str
+        The point.
+    vector : tuple of float
+        Its parts (x, y) [N].
+    """
+
+    point: str
+    vector: tuple[float, float]
+
+
+@dataclass(frozen=True)
 class MachineSketch:
     """Pins by coordinates, named links, fixed pins, slides and drives: a machine as one draws it.
 
@@ -104,6 +120,8 @@ class MachineSketch:
         Masses at points, by the names of their loads.
     notes : tuple of str
         What reading it changed or left out, in sentences.
+    forces : mapping of str to SketchForce
+        Forces at points, by their names; the drawing board has none.
 
     Raises
     ------
@@ -120,6 +138,7 @@ class MachineSketch:
     lengths: Mapping[str, float] = field(default_factory=dict)
     weights: Mapping[str, SketchWeight] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+    forces: Mapping[str, SketchForce] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         ensure(self.points, f"{self.name}: no point is drawn; a sketch begins with points and links.")
@@ -133,13 +152,15 @@ class MachineSketch:
             numbered.append((f"the drive {name}", (each.start, each.end, each.drawn, *sizes)))
         numbered += [(f"the length {label}", (value,)) for label, value in self.lengths.items()]
         numbered += [(f"the weight {name}", (weight.mass,)) for name, weight in self.weights.items()]
+        numbered += [(f"the force {name}", force.vector) for name, force in self.forces.items()]
         for what, numbers in numbered:
             ensure(all(map(is_number, numbers)), f"{self.name}: {what} has {', '.join(map(cited, numbers))}; give finite numbers.")
         named = [("what is fixed", self.fixed), *((f"the link {name}", points) for name, points in self.links.items())]
         for name, slide in self.slides.items():
             named.append((f"the slide {name}", (slide.point, *(slide.along if isinstance(slide.along, tuple) else ()))))
         named += [(f"the drive {name}", drive.ends) for name, drive in self.drives.items()]
-        named += [(f"the weight {name}", (weight.point,)) for name, weight in self.weights.items()]
+        loads: list[tuple[str, SketchWeight | SketchForce]] = [*self.weights.items(), *self.forces.items()]
+        named += [(f"the load {name}", (load.point,)) for name, load in loads]
         for what, names in named:
             missing = [each for each in names if each not in self.points]
             ensure(not missing, f"{self.name}: {what} names {', '.join(missing)}, which is not among the points.")
@@ -205,6 +226,7 @@ class MachineSketch:
         rams = {f"cylinder_{name}": drive for name, drive in self.drives.items() if drive.bore is not None}
         found["hydraulics"] = {name: {"Cylinder": [*drive.ends], "bore": drive.bore, "rod": drive.rod} for name, drive in rams.items()}
         found["loads"] = {name: {"Weight": weight.point, "mass": weight.mass} for name, weight in self.weights.items()}
+        found["loads"] |= {name: {"Force": force.point, "vector": [*force.vector]} for name, force in self.forces.items()}
         return {name: plain_entry(table) for name, table in found.items() if table}
 
     def check_driven(self) -> None:
@@ -366,6 +388,8 @@ def python_member(section: str, table: Mapping[str, Any]) -> str:
             return f"Guide({', '.join([*ends, *words])})"
         case "hydraulics":
             return f"Cylinder({', '.join(table['Cylinder'])}, bore={table['bore']!r}, rod={table['rod']!r})"
+        case "loads" if "Force" in table:
+            return f"Force({table['Force']}, {(*table['vector'],)})"
         case "loads":
             return f"Weight({table['Weight']}, mass={table['mass']!r})"
     return f"Slide({quoted(table['point'])}, {table['guide']})"

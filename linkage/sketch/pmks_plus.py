@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import takewhile
-from math import pi, radians
+from math import hypot, pi, radians
 from urllib.parse import parse_qs, unquote
 
 import numpy as np
@@ -124,9 +124,9 @@ def read_short_address(found: FoundMachine, text: str) -> None:
     found.ensure(units[:1] in "012" and units, "the address has no unit of length; say --scale 1cm.")
     found.unit = parse(f"1 {LENGTHS[int(units[0])]}")
     texts = iter(rest.split("."))  # each joint and link ends with a dot, and so does each section
-    joint_texts, link_texts = [*takewhile(bool, texts)], [*takewhile(bool, texts)]
+    joint_texts, link_texts, force_texts = ([*takewhile(bool, texts)] for _ in range(3))
     found.ensure(joint_texts and ".." in rest, "the address has no joints and links; copy it whole.")
-    joints, links = list[PlusJoint](), list[PlusLink]()
+    joints, links, heavy = list[PlusJoint](), dict[str, PlusLink](), list[str]()
     for fields in (each.split(",") for each in joint_texts):  # flags and key, name, x, y, angle, then link and two joints of its slot
         found.ensure(len(fields) >= 5 and len(fields[0]) > 1, f"a joint of the address has {len(fields)} parts instead of five or more.")
         bits = DIGITS.find(fields[0][0])
@@ -140,8 +140,16 @@ def read_short_address(found: FoundMachine, text: str) -> None:
         found.ensure(len(fields) >= 9 and len(fields[0]) > 2, f"a link of the address has {len(fields)} parts instead of nine or more.")
         keys = fields[7 : 7 + fields[7:].index("")] if "" in fields[7:] else fields[7:]
         if fields[0][0] not in "Namg4567":  # one that is within another
-            links.append(PlusLink(fields[1] or fields[0][2:], tuple(keys), block=fields[0][1] == "P"))
-    read_plus(found, joints, links, clockwise=bool(whole_of(found, flags) & 1))
+            links[fields[0][2:]] = PlusLink(fields[1] or fields[0][2:], tuple(keys), block=fields[0][1] == "P")
+            heavy += [] if whole_of(found, fields[2]) == 1000 else [fields[1] or fields[0][2:]]
+    if heavy:  # PMKS+ gives each link 1 kg until its user says another mass
+        found.left_out.append(f"the masses of {', '.join(heavy)}")
+    read_plus(found, joints, [*links.values()], clockwise=bool(whole_of(found, flags) & 1))
+    for fields in (each.split(",") for each in force_texts):  # flags and key, link, name, start, end, size
+        found.ensure(len(fields) >= 7, f"a force of the address has {len(fields)} parts instead of seven or more.")
+        bits, (x, y, u, v, size) = DIGITS.find(fields[0][0]), (whole_of(found, each) / 1000.0 for each in fields[-5:])
+        size *= (1.0 if bits & 2 else -1.0) * parse("1 lbf" if units[2:3] == "0" else "1 N")
+        found.enter_force(fields[0][1:], keys_of(links, fields[1]), (x, y), (u, v), size, turns=bool(bits & 1))
 
 
 def whole_of(found: FoundMachine, text: str) -> int:
@@ -172,20 +180,35 @@ def digest_of(text: str) -> str:
 def read_old_address(found: FoundMachine, text: str) -> None:
     """Read joints, links and settings of an address, `j=a,-1.24,-0.89,ab,R,t,Null,t%0A...&l=...&s=10,false,false,cm`."""
     parts = parse_qs(text, keep_blank_values=True, max_num_fields=20)
-    rows = {name: [row.split(",") for row in parts.get(name, [""])[0].splitlines() if row.strip()] for name in "jls"}
+    rows = {name: [row.split(",") for row in parts.get(name, [""])[0].splitlines() if row.strip()] for name in "jlfs"}
     found.ensure(rows["j"] and rows["l"], "the address has no joints and links; copy it whole.")
     joints = []
-    for row in rows["j"]:  # key, x, y, links, R or P, fixed, angle [rad], whether it drives
+    for row in rows["j"]:  # key, x, y, links, R or P, fixed, angle [rad], in the first versions a friction, whether it drives
         found.ensure(len(row) >= 8 and row[4] in ("R", "P"), "a joint of the address has no eight parts with R or P; copy it whole.")
-        key, x, y, _, kind, fixed, angle, drives = row[:8]
+        key, x, y, _, kind, fixed, angle, *drives_of = row
+        drives = drives_of[0] if drives_of[0] in ("t", "f") else "".join(drives_of[1:2])
         turned = found.number(angle, f"the angle of {key}") if kind == "P" and angle != "Null" else 0.0
         joints.append(PlusJoint(key, key, x, y, slides=kind == "P", fixed=fixed == "t", drives=drives == "t", angle=turned))
-    links = [PlusLink(row[0], tuple(filter(None, row[6].split("|"))), block=row[1] == "P") for row in rows["l"] if len(row) > 6]
-    found.ensure(len(links) == len(rows["l"]), "a link of the address has fewer than seven parts; copy it whole.")
-    settings = rows["s"][0] if rows["s"] else []
+    found.ensure(all(len(row) > 6 for row in rows["l"]), "a link of the address has fewer than seven parts; copy it whole.")
+    links, settings = dict[str, PlusLink](), (rows["s"][0] if rows["s"] else [])
+    for row in rows["l"]:  # key, R or P but in the first versions, mass, inertia, its centre, joints
+        joints_of = row[6] if row[1] in ("R", "P") else row[5]
+        links[row[0]] = PlusLink(row[0], tuple(filter(None, joints_of.split("|"))), block=row[1] == "P")
     if len(settings) > 3 and settings[3] in ("cm", "m", "mm", "in", "inch"):
         found.unit = parse(f"1 {settings[3]}")
-    read_plus(found, joints, links, clockwise=settings[1:2] == ["true"])
+    if settings[2:3] == ["true"]:  # with gravity
+        found.left_out.append(f"the masses of {', '.join(links)}")
+    read_plus(found, joints, [*links.values()], clockwise=settings[1:2] == ["true"])
+    for row in rows["f"]:  # key, link, start, end, whether it turns with the link (f), outwards, size; in the first versions two parts
+        found.ensure(len(row) >= 9, "a force of the address has fewer than nine parts; copy it whole.")
+        x, y, u, v, *parts_of = (found.number(each, f"the force {row[0]}") for each in (*row[2:6], *filter(None, row[8:10])))
+        size = (1.0 if row[7] == "true" else -1.0) * hypot(*parts_of) * parse("1 lbf" if "in" in "".join(settings[3:4]) else "1 N")
+        found.enter_force(row[0], keys_of(links, row[1]), (x, y), (u, v), size, turns=row[6] == "f")
+
+
+def keys_of(links: Mapping[str, PlusLink], key: str) -> tuple[str, ...]:
+    """Return the joints of a link, none where it is not there."""
+    return links[key].keys if key in links else ()
 
 
 def read_plus_json(found: FoundMachine, data: JsonTable) -> None:
@@ -202,6 +225,7 @@ def read_plus_json(found: FoundMachine, data: JsonTable) -> None:
         cells = found.list_of(row, "a link")
         found.ensure(len(cells) > 6, f"a link has {len(cells)} cells instead of seven or more.")
         links.append(PlusLink(str(cells[1]), tuple(str(joint_number(key)) for key in str(cells[6]).split("|") if key)))
+    found.left_out += [f"{len(data['f'])} forces"] if data.get("f") else []
     read_plus(found, joints, links)
 
 

@@ -110,6 +110,15 @@ def old_address(plan: Plan):
     return f"https://app.pmksplus.com/?j={'%0A'.join(joints)}%0A&l={'%0A'.join(links)}%0A&f=&s=10,false,false,cm"
 
 
+def first_address(plan: Plan):
+    """Return a share address as the first versions of PMKS+ wrote it, with friction and without kinds of links; None with slides."""
+    address = None if plan.slides else old_address(plan)
+    if address is None:
+        return None
+    joints, _, links = address.partition("&l=")
+    return f"{joints.replace(',Null,', ',0,0.1,').replace('%0A', ',%0A')}&l={links.replace(',R,1,1,', ',1,1,')}"
+
+
 def packed(value):
     """Return a whole number in letters; a negative one begins with 0."""
     text, rest = "", abs(value)
@@ -319,6 +328,7 @@ def dxf(plan: Plan, path):
 
 FORMATS = {
     "csv": (csv, ".csv", None), "linkage2": (linkage2, ".linkage2", None), "pmks": (pmks, ".txt", 1e-3), "old": (old_address, "", None),
+    "first": (first_address, "", None),
     "short": (short_body, "", None), "digest": (lambda plan: short_body(plan, True), "", None), "json": (plus_json, ".json", 1e-3),
     "bodies": (plus_bodies, ".json", None), "pylinkage": (pylinkage, ".json", 1e-3), "dyads": (pylinkage_dyads, ".json", 1e-3),
 }  # fmt: skip

@@ -6,7 +6,7 @@ from math import pi
 import numpy as np
 import pytest
 
-from linkage import DefinitionError, FileError
+from linkage import DefinitionError, FileError, driving_force, pin_forces
 from linkage.cli import main
 from linkage.sketch import MachineSketch, SketchDrive, is_foreign, read_sketch, sketch_of, sketch_text
 from tests import shipped
@@ -70,6 +70,39 @@ def test_what_is_not_had_is_left_out_by_name(tmp_path):
     still = put(tmp_path, "still.linkage2", text.replace('input="true"', ""))
     with pytest.raises(DefinitionError, match=r"--drive O A; .*Left out: the gear wheel; the curved slot of T;"):
         read_sketch(still).to_class()
+
+
+SIX_BAR = (
+    "j=A,1.4,0.485,AB,R,t,0,0.1,t,%0AB,1.67,0.99,AB%7CCB,R,f,0,0.1,f,%0AC,0.255,1.035,CB%7CDCE,R,f,0,0.1,f,%0A"
+    "D,0.285,0.055,DCE,R,t,0,0.1,f,%0AE,0.195,2.54,EF%7CDCE,R,f,0,0.1,f,%0AF,-0.98,2.57,EF%7CGF,R,f,0,0.1,f,%0AG,0.05,0.2,GF,R,t,0,0.1,f,"
+    "&l=AB,1,1,1.5,0.7,A%7CB,,l%0ACB,1,1,1,1,C%7CB,,l%0AEF,1,1,-0.4,2.6,E%7CF,,l%0ADCE,1,1,0.2,1.7,D%7CC%7CE,,b%0A"
+    "GF,1,1,-1.0,2.5,G%7CF,F1,b&f=F1,GF,-1.712,4.26,-1.712,0.508,t,true,0,100%0A&pp=&tp=&s=10,false,false,m"
+)
+"""A six-bar with 100 N on its last link, as PMKS+ shares it."""
+
+
+def test_forces_of_pmks_plus_come_in_with_its_own_results():
+    sketch = read_sketch(SIX_BAR)
+    machine = sketch.to_class()()
+    motion = machine.at(phi=0.0)
+    assert abs(driving_force(motion) + 97.9126) < 1e-4  # printed by PMKS+, to four places
+    told = {"A": (-190.6448, 6.0629), "D": (115.4646, -4.1434), "G": (75.1802, -101.9195)}
+    forces = pin_forces(motion)
+    for pin, body in (("A", "AB"), ("D", "DCE"), ("G", "GFG_1")):
+        assert np.allclose(np.abs(np.ravel(forces.force(pin, body))), np.abs(told[pin]), atol=1e-4), pin
+    assert sketch.points["G_1"] == (-1.712, 4.26) and sketch.forces["F1"].vector == (0.0, -100.0) and not sketch.notes
+    assert "F1 = Force(G_1, (0.0, -100.0))" in sketch.to_python() and "F1 = { Force" in sketch.to_toml()
+    inwards = read_sketch(SIX_BAR.replace("t,true,0,100", "t,false,0,100").replace("tp=&s=10,false,false", "tp=&s=10,false,true"))
+    assert inwards.forces["F1"].vector == (0.0, 100.0) and inwards.notes == ("Left out: the masses of AB, CB, EF, DCE, GF.",)
+    for turned, why in (("f,true", "which turns with its link"), ("t,true,0,100%0AF2,XY,0,0,1,1,t,true", "which is on no link")):
+        assert why in read_sketch(SIX_BAR.replace("t,true", turned)).notes[0]
+    short = (
+        "2P.Ay,1E8.K,0.1011.MA,A,0,0,0.GB,B,0,Im,0.GC,C,0,0r8,0.LP,P,0,0r8,OZ..YRAB,Crank,VG,o,0,9O,c5cae9,A,B,,."
+        "YRBC,Connecting rod,ku,6G,0,0HC,303e9f,B,C,,.YPCP,CP,1Tm,0,0,0,,C,P,,..2F1,BC,F1,0,0r8,0,0bW,1Xg0..N_J"
+    )
+    press = read_sketch(short)
+    assert press.forces["F1"].point == "C" and press.forces["F1"].vector == (0.0, 400.0)
+    assert press.notes == ("Left out: the masses of Crank, Connecting rod, CP.",)
 
 
 def test_many_remarks_are_the_first_few_and_a_count(tmp_path):

@@ -116,7 +116,7 @@ UNITS: dict[str, tuple[float, str]] = {
     "mm2": (mm**2, "area"), "cm2": (cm2, "area"), "m2": (1.0, "area"), "in2": (inch**2, "area"),
     "l/min": (litre / minute, "flow"), "gal/min": (gal / minute, "flow"), "m3/s": (1.0, "flow"),
     "N/m": (N, "stiffness"), "N/mm": (N / mm, "stiffness"), "kN/m": (kN, "stiffness"), "kgf/mm": (kgf / mm, "stiffness"),
-    "lbf/in": (lbf / inch, "stiffness"),
+    "lbf/in": (lbf / inch, "stiffness"), "N s/m": (N, "damping"),
     "J": (1.0, "energy"), "kJ": (1e3, "energy"), "kWh": (3.6e6, "energy"),
     "kW": (1e3, "power"), "hp": (550 * lbf * ft, "power"),
     "m/s": (1.0, "speed"), "mm/s": (mm, "speed"), "in/s": (inch, "speed"),
@@ -130,8 +130,9 @@ UNITS: dict[str, tuple[float, str]] = {
 
 SI: dict[str, str] = {
     "length": "m", "angle": "rad", "time": "s", "mass": "kg", "force": "N", "moment": "Nm", "pressure": "Pa", "volume": "m3", "area": "m2",
-    "flow": "m3/s", "stiffness": "N/m", "power": "W", "energy": "J", "speed": "m/s", "acceleration": "m/s2", "jerk": "m/s3",
-    "angular speed": "rad/s", "angular acceleration": "rad/s2", "angular jerk": "rad/s3", "angle per length": "rad/m", "inertia": "kg m2",
+    "flow": "m3/s", "stiffness": "N/m", "damping": "N s/m", "power": "W", "energy": "J", "speed": "m/s", "acceleration": "m/s2",
+    "jerk": "m/s3", "angular speed": "rad/s", "angular acceleration": "rad/s2", "angular jerk": "rad/s3", "angle per length": "rad/m",
+    "inertia": "kg m2",
 }  # fmt: skip
 """What each measure has in SI."""
 MEASURED = tuple(SI)
@@ -188,12 +189,12 @@ def require_measure(value: object, unit: str, what: str) -> None:
     Raises
     ------
     DefinitionError
-        The amount measures something else. Moments, stiffnesses, what a unit of one's own measures and numbers of an open kind take
-        forces, since `5 * kN` may stand for 5 kN m; numbers of an open kind take volumes as well.
+        The amount measures something else. Moments, stiffnesses, dampings, what a unit of one's own measures and numbers of an open kind
+        take forces, since `5 * kN` may stand for 5 kN m; numbers of an open kind take volumes as well.
     """
     wanted = unit if unit in SI or unit == "number" else UNITS[unit][1] if unit in UNITS else ""
     for each in amounts_in(value):
-        may_stand = {"force": wanted in ("moment", "stiffness") or wanted not in (*MEASURED, "number"), "volume": not wanted}
+        may_stand = {"force": wanted in ("moment", "stiffness", "damping") or wanted not in (*MEASURED, "number"), "volume": not wanted}
         if each.measures != wanted and not may_stand.get(each.measures, False):
             expected = f"value of {wanted}, such as {EXAMPLES[wanted]}" if wanted in EXAMPLES else "number in SI, without a unit"
             given = f"{article(each.measures)} {each.measures}"
@@ -230,7 +231,10 @@ IN_TIME = {"speed": "mm/s", "acceleration": "m/s2", "power": "kW", "flow": "l/mi
 
 def display_unit(measure: str, length: str = "m") -> str:
     """Return the unit that an "angle", a "length", a "force", a "volume" is shown in, a length in that which is said; else ""."""
-    kinds = {"angle": "deg", "length": length, "force": "kN", "moment": "Nm", "pressure": "bar", "time": "s", "volume": "l", **IN_TIME}
+    kinds = {
+        "angle": "deg", "length": length, "force": "kN", "moment": "Nm", "pressure": "bar", "stiffness": "N/mm", "time": "s", "area": "cm2",
+        "volume": "l", "angle per length": "rad/m", **IN_TIME,
+    }  # fmt: skip
     return kinds.get(measure, "")
 
 
@@ -313,7 +317,7 @@ SIGNS = (
     noted("lbf ft"), noted("Pa"), noted("kPa"), noted("MPa"), noted("bar"), noted("kgf_cm2"), noted("kgf/cm2"), noted("psi"), noted("l"),
     noted("litre"), noted("cm3"), noted("m3"), noted("gal"), noted("in3"), noted("mm2"), noted("cm2"), noted("m2"), noted("in2"),
     noted("l/min"), noted("gal/min"), noted("m3/s"), noted("N/m"), noted("N/mm"), noted("kN/m"), noted("kgf/mm"), noted("lbf/in"),
-    noted("J"), noted("kJ"), noted("kWh"), noted("kW"), noted("hp"),
+    noted("N s/m"), noted("J"), noted("kJ"), noted("kWh"), noted("kW"), noted("hp"),
     noted("m/s"), noted("mm/s"), noted("in/s"), noted("m/s2"), noted("mm/s2"), noted("m/s3"), noted("mm/s3"),
     noted("rad/s"), noted("deg/s"), noted("rad/s2"), noted("deg/s2"), noted("rad/s3"), noted("deg/s3"), noted("rad/m"), noted("kg m2"),
 )  # fmt: skip

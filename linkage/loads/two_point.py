@@ -179,7 +179,7 @@ class Spring(TwoPoint):
     free_length: Parameter | None = None
     preload: Parameter | None = None
     drawn_as: ClassVar[DrawnAs] = "spring"
-    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"stiffness": "", "free_length": "mm", "preload": "N"})
+    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"stiffness": "N/m", "free_length": "mm", "preload": "N"})
     not_negative: ClassVar[frozenset[str]] = frozenset({"stiffness", "free_length"})
     optional: ClassVar[frozenset[str]] = frozenset({"free_length", "preload"})
 
@@ -212,7 +212,7 @@ class Damper(TwoPoint):
     B: Reference
     coefficient: Parameter
     drawn_as: ClassVar[DrawnAs] = "damper"
-    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"coefficient": ""})
+    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"coefficient": "N s/m"})
     not_negative: ClassVar[frozenset[str]] = frozenset({"coefficient"})
 
     def push(self, motion: Poses, length: Array, rate: Array) -> Array:

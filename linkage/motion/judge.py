@@ -60,7 +60,7 @@ from .measures import (
 )
 from .motion import Motion
 from .over import ALLOWED, Over, Run, with_strokes
-from .requests import Request, SmoothPiece, Trait, identity_of, is_of_force, measured_in
+from .requests import Request, SmoothPiece, Trait, identity_of, is_of_force, measured_in, stroke_of
 from .search import Span, assembly_error_at, below_zero, extremum_reached, least_margins, strokes_moved
 from .strokes import at_values, strokes_over_axes
 
@@ -1040,7 +1040,7 @@ def integrated(row: SearchRow, place: Domain) -> WorstPiece:
     plan, leaf = place.plan, row.leaf
     assert isinstance(leaf, Integral)
     if place.over.shape != "box" or len(place.running) != 1 or (leaf.by or place.running[0]) != place.running[0]:
-        by, here = leaf.by or next(iter(plan.strokes)), f"here run {', '.join(place.running) or 'none'}"
+        by, here = stroke_of(plan, leaf.by or next(iter(plan.strokes))), f"here run {', '.join(place.running) or 'none'}"
         here = here if place.over.shape == "box" else f"not along {place.over.name or 'a path'}"
         others = ", ".join([f"{by}=(...)", *(f"{each}=0.0" for each in plan.strokes if each != by)])
         raise DefinitionError(f"{plan.title}: {leaf}: an integral is over one stroke that runs, {here}; say over=Over({others}).")

@@ -27,7 +27,7 @@ from ..program import FloatArray
 from ..quantities import Arithmetic, PoseCondition, Quantity, is_number, name_of, x, y
 from ..quantities.quantity import OPERATORS, UFUNCS, Function, Negative, Number, Operation, Sum, stands_for
 from ..steps import Point
-from ..units import IN_TIME, Amount, require_measure, show
+from ..units import Amount, display_unit, require_measure, show
 from .limits import stroke_measure
 from .motion import Motion
 from .requests import Combined, NodeRequest, Request, Value, bound, measured_in, stroke_of
@@ -134,7 +134,7 @@ class FixedNumber(Measure):
         return self.value
 
     def __str__(self) -> str:
-        return show(self.value, SHOWN[self.measures], 6) if self.measures in ("force", "pressure") else f"{self.value:.6g}"
+        return show(self.value, display_unit(self.measures), 6) if self.measures in ("force", "pressure") else f"{self.value:.6g}"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -315,7 +315,7 @@ def integral(quantity: MeasuredQuantity, by: str | None = None, *, case: Case | 
     Measure
         The measure.
     """
-    return in_duty(Integral(require_quantity(quantity, "integral"), by), case)
+    return in_duty(Integral(require_quantity(quantity, "integral"), by if by is None else name_of(by)), case)
 
 
 def at(quantity: MeasuredQuantity, *, case: Case | Spectrum = None, **strokes: float) -> Measure:
@@ -584,14 +584,10 @@ def dimension_value(owner: str, sign: int) -> NodeRequest:
 KINDS = {
     "length": (1.0, 0.0, 0.0, 0.0), "force": (0.0, 1.0, 0.0, 0.0), "angle": (0.0, 0.0, 1.0, 0.0), "pressure": (-2.0, 1.0, 0.0, 0.0),
     "moment": (1.0, 1.0, 0.0, 0.0), "stiffness": (-1.0, 1.0, 0.0, 0.0), "area": (2.0, 0.0, 0.0, 0.0), "volume": (3.0, 0.0, 0.0, 0.0),
-    "angle per length": (-1.0, 0.0, 1.0, 0.0), "speed": (1.0, 0.0, 0.0, -1.0), "acceleration": (1.0, 0.0, 0.0, -2.0),
-    "power": (1.0, 1.0, 0.0, -1.0), "flow": (3.0, 0.0, 0.0, -1.0), "number": (0.0, 0.0, 0.0, 0.0),
+    "damping": (-1.0, 1.0, 0.0, 1.0), "angle per length": (-1.0, 0.0, 1.0, 0.0), "speed": (1.0, 0.0, 0.0, -1.0),
+    "acceleration": (1.0, 0.0, 0.0, -2.0), "power": (1.0, 1.0, 0.0, -1.0), "flow": (3.0, 0.0, 0.0, -1.0), "number": (0.0, 0.0, 0.0, 0.0),
 }  # fmt: skip
 """The powers of length, of force, of angle and of time in what is measured."""
-SHOWN = {
-    "length": "mm", "force": "kN", "angle": "deg", "pressure": "bar", "moment": "Nm", "stiffness": "N/mm", "area": "cm2", "volume": "l",
-    "angle per length": "rad/m", **IN_TIME,
-}  # fmt: skip
 APART = ("length", "angle", "force", "pressure", "speed", "acceleration", "power", "flow")
 """Kinds of which no two add or compare. Work and moments are written in many ways, an angle in them often left out."""
 
@@ -646,9 +642,10 @@ def kind_of_measure(plan: Plan, measure: Measure) -> MeasureKind | None:
     if isinstance(measure, FixedNumber):
         return kind_called(measure.measures)
     if isinstance(measure, Integral):
-        by = measure.by or (next(iter(plan.strokes)) if len(plan.strokes) == 1 else "")
         inner = kind_of_quantity(plan, measure.quantity)
-        return None if inner is None or by not in plan.strokes else inner.times(kind_of_stroke(plan, by))
+        by = [measure.by] if measure.by in plan.strokes else plan.strokes
+        kinds = {kind.name: kind for kind in (inner.times(kind_of_stroke(plan, each)) for each in by)} if inner is not None else {}
+        return next(iter(kinds.values())) if len(kinds) == 1 else None  # of several kinds it depends on which stroke runs
     if isinstance(measure, Leaf):
         for name, value in measure.strokes.items() if isinstance(measure, At) else ():
             require_kind(plan, name, value, f"{plan.title}: {measure}: {name}")
@@ -793,5 +790,5 @@ def measure_unit(plan: Plan, measure: Measure | Constraint) -> str:
     'Nm'
     """
     sides = (measure.left, measure.right) if isinstance(measure, Constraint) else (measure,)
-    found = {SHOWN.get(kind.name, "") for each in sides if (kind := kind_of_measure(plan, each)) is not None}
+    found = {display_unit(kind.name, "mm") for each in sides if (kind := kind_of_measure(plan, each)) is not None}
     return found.pop() if len(found) == 1 else ""

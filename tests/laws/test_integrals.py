@@ -5,10 +5,11 @@ import pytest
 from numpy.testing import assert_allclose
 
 from hydraulics import pressure
-from linkage import LEFT, Crank, Dyad, Ground, Mechanism, Over, Stroke, Weight, drive_force, integral, optimise, ref, y
+from linkage import LEFT, Crank, DefinitionError, Dyad, Ground, Mechanism, Over, Stroke, Weight, drive_force, integral, kN, optimise, ref, y
 from linkage.files.study_tasks import TextMeasures
 from linkage.study import monte_carlo, tornado
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests.laws.test_runs import Lift
 from tests.linkage.study.test_search_ends import Boom, Scissor
 
 
@@ -59,6 +60,14 @@ def test_an_integral_is_one_number_at_every_door(name):
     motion = machine.sweep(20001)
     (strokes,) = motion.strokes.values()
     assert_allclose(values[0], np.trapezoid(motion[quantity], strokes), rtol=1e-6)
+
+
+def test_an_integral_where_one_of_several_strokes_runs_has_its_unit():
+    over = Over(S=(0.0, 0.2), T=0.1)
+    asked = [integral(drive_force("S")), integral(drive_force("S"), by=Lift.S), integral(y("G")), integral(drive_force("S")) <= 3 * kN]
+    assert [str(each).split()[1] for each in Lift().answers(asked, over=over)] == ["Nm", "Nm", "cm2", "Nm"]
+    with pytest.raises(DefinitionError, match=r"'Q' is unknown .*Known: S, T"):
+        Lift().answers([integral(drive_force("S"), by="Q")], over=over)
 
 
 def test_a_way_there_and_back_leaves_no_work_and_a_work_is_the_height_gained():

@@ -104,6 +104,8 @@ KINDS = {
     "LoadCase, scale": (lambda: LoadCase(scale={"w": 2 * mm}), "w=0.002 was given as a length; expected is a number"),
     "Force": (lambda: Force("T", (5 * bar, 0.0)), "x=500000 was given as a pressure"),
     "Moment": (lambda: Moment("O B", M=3 * deg), "an angle"),
+    "Spring, litres": (lambda: Spring("A", "B", stiffness=20 * litre, free_length=0.3), "stiffness=0.02 was given as a volume"),
+    "Damper, volume": (lambda: Damper("A", "B", coefficient=20 * litre), "coefficient=0.02 was given as a volume"),
     "Spring, length": (lambda: Spring("A", "B", stiffness=2e4, free_length=3 * kN), "free_length=3000 was given as a force"),
     "Spring, preload": (lambda: Spring("A", "B", stiffness=2e4, preload=3 * mm), "preload=0.003 was given as a length"),
     "Spring, stiffness": (lambda: Spring("A", "B", stiffness=3 * mm, free_length=0.3), "stiffness=0.003 was given as a length"),

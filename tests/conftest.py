@@ -67,5 +67,5 @@ def pytest_collection(session):
     finally:
         sys.dont_write_bytecode = unwritten
         gc.freeze()
-        gc.set_threshold(50_000, 20, 20)
+        gc.set_threshold(200_000, 20, 20)
         gc.enable()

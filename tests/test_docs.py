@@ -393,6 +393,7 @@ def test_formulas_of_the_pages_are_set():
         assert written.startswith("<math") and "\\" not in written, each
 
 
+@pytest.mark.slow
 def test_the_cells_of_the_notebook_run():
     """In this process, where nothing is shown; what a kernel shows is looked at in the slow part."""
     names: dict = {}

@@ -185,6 +185,7 @@ def test_the_drawn_profile_touches_the_drawn_roller():
     assert scene.extent[0] < -0.03
 
 
+@pytest.mark.slow
 def test_pictures_and_pages_show_it(tmp_path):
     draw(Valve(), at={"phi": 1.0}).savefig(tmp_path / "valve.png")
     page(Valve(), path=tmp_path / "valve.html")

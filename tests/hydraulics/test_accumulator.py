@@ -128,6 +128,7 @@ def test_pressure_falls_as_fluid_leaves(case):
         assert_allclose(block.pressure(p1, withdrawn), expected, rtol=1e-13)
 
 
+@pytest.mark.slow
 @given(charged())
 def test_scaling_the_vessels_scales_the_volumes(case):
     block, p1, p2 = case

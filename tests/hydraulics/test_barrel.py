@@ -167,6 +167,7 @@ def test_a_cylinder_hung_on_a_barrel_and_virtual_work():
     assert forces.joints and {each.kind for each in forces.joints} == {"pin", "gland", "oil"}
 
 
+@pytest.mark.slow
 def test_parts_mirrored_files_pickle_and_pasted_plans():
     class Whole(Mechanism):
         left = Part(Hung)

@@ -84,6 +84,7 @@ class Followed(Loaded):
     lift = Cylinder("A", "B", bore=110 * mm, rod=63 * mm, stroke=out, closed=out + 0.2)
 
 
+@pytest.mark.slow
 def test_a_search_takes_the_row_that_is_best_among_those_that_fit():
     rows = catalogue([63 * mm, 80 * mm, 90 * mm], [45 * mm, 50 * mm], strokes=[0.2, 0.255, 0.32], dead=(0.145, 1.2))
     found = optimise(Loaded(), minimise=most(pressure("lift")), vary={NAMES: rows}, subject_to=[fits("lift")])

@@ -40,7 +40,7 @@ from linkage import (
 from linkage.files import from_dict, load, registry, to_dict, to_json, to_toml
 from linkage.loads import LoadCase, Weight
 from linkage.units import bar, litre, minute, mm
-from tests.for_all import for_all
+from tests.for_all import first_daily, for_all
 
 BLOCK = AccumulatorBlock([Accumulator(4 * litre, 50 * bar), Accumulator(4 * litre, 25 * bar)])
 
@@ -80,7 +80,7 @@ def numbers(machine, case=None):
     return np.stack([force, *lines, pump.pressure_for(motion, case=case), pump.reserve(motion, case=case), np.full(9, pump.time(motion))])
 
 
-@pytest.mark.parametrize("case", [None, "calm"])
+@first_daily(1, "case", ["calm", None])
 @pytest.mark.parametrize("write", [to_toml, to_json])
 def test_circuits_come_back_with_their_pressures(write, case):
     back = load(write(Carried))

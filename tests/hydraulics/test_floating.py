@@ -291,6 +291,7 @@ def test_seals_act_against_the_growth_of_the_length():
         assert_allclose(free - line.thrust(motion, rates), np.sign(grows) * 3 * bar * size.area, rtol=1e-9)
 
 
+@pytest.mark.slow
 def test_a_load_case_may_leave_a_gas_line_out():
     """In such a case its cylinder carries nothing: it is judged in the others, and a value in that case is refused in words."""
     from mechanisms.header_balancer import ThreeHeaders

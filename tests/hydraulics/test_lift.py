@@ -254,6 +254,7 @@ class Upright(Mechanism):
     line = LiftCircuit(lift, pressure=200 * bar, flow=40 * litre / minute)
 
 
+@pytest.mark.slow
 def test_a_load_that_is_nothing_but_rounding_is_told_as_nothing():
     """Whichever side works, alone, on a line or as a telescope: nothing is pushed, held or stuck where the load passes its zero."""
     both, pulling = (Cylinder("A", "B", bore=0.08, rod=0.045, works=works) for works in ("both", "rod"))

@@ -154,6 +154,7 @@ def test_offers_give_the_thrust_and_do_not_buckle():
         Arm.lift.offers(1e9, 160 * bar)
 
 
+@pytest.mark.slow
 def test_buckling_is_of_one_of_the_cylinders_at_its_worst_pose():
     motion, load = Arm().sweep(11), [Actuator("A", "B", force=-100 * kN)]
     (verdict,) = Arm.lift.buckling(motion, load)

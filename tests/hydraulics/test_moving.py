@@ -154,6 +154,7 @@ def test_seals_that_are_too_slow_are_told_over_paths_in_time_alone():
     assert told(Folded()) == (True, "ok   speed: fold stands still over the paths in time.")
 
 
+@pytest.mark.slow
 def test_a_pump_that_is_too_small_is_told_over_paths_in_time_alone():
     class Both(Arm):
         line = LiftCircuit("lift", pressure=200 * bar, flow=46 * litre / minute)

@@ -208,6 +208,7 @@ class Timed(TwoLifts):
     cycle = Over.path(S=ramp(0.0, 0.3, speed=0.15, acceleration=0.5), T=ramp(0.0, 0.3, speed=0.1, acceleration=0.5))
 
 
+@pytest.mark.slow
 def test_a_given_motion_is_checked_with_its_stretch_in_the_machines_verdicts_too():
     machine = Timed()
     cycle = pump_of(machine).check(machine.sweep(11, over="cycle"))

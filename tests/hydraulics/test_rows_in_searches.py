@@ -29,6 +29,7 @@ from linkage import (
     synthesise,
 )
 from linkage.units import g0
+from tests.for_all import first_daily
 
 MASS = 3000.0
 ROWS = catalogue(bores=[63 * mm, 80 * mm], rods=[40 * mm], strokes=[250 * mm, 320 * mm], dead=(200 * mm, 1.0))
@@ -81,7 +82,7 @@ def least_reserve(machine, closed, stroke):
     return float(np.min(180 * bar * np.pi / 4 * machine["lift.bore"] ** 2 / force))
 
 
-@pytest.mark.parametrize("kind", [Named, Plain, Following])
+@first_daily(1, "kind", [Named, Plain, Following])
 def test_the_best_row_is_that_of_all_rows_looked_at_one_by_one(kind):
     """The lever is to turn as far as it can, with a reserve of 1.2: every row by its own triangle."""
     found = optimise(kind(), maximise=most("lean") - least("lean"), vary={"lift": ROWS}, subject_to=[least(reserve("lift")) >= 1.2])
@@ -106,6 +107,7 @@ def test_the_best_row_is_that_of_all_rows_looked_at_one_by_one(kind):
     assert again.strokes["S"].end == machine.strokes["S"].end and dict(again.dimensions) == dict(machine.dimensions)
 
 
+@pytest.mark.slow
 def test_pivots_are_searched_with_the_rows():
     vary = {"lift": ROWS, "A": (0.6, 0.8)} | {"A.x": (0.6, 0.8), "A.y": (-0.6, -0.4)}
     del vary["A"]
@@ -128,7 +130,7 @@ def test_pivots_are_searched_with_the_rows():
     assert found.value >= by_hand - 1e-9
 
 
-@pytest.mark.parametrize("kind", [Named, Plain])
+@first_daily(1, "kind", [Named, Plain])
 def test_a_synthesis_chooses_a_row_that_reaches_all_points(kind):
     """Angles over 300 mm of stroke: rows of 250 mm do not reach the last, and say so."""
     known = kind(OB=0.52)

@@ -51,6 +51,7 @@ def verdict(machine, rule):
     return found
 
 
+@pytest.mark.slow
 def test_a_pump_against_a_shut_rod_side():
     motion = Press().sweep(3)
     assert Press.back.intensified(motion, case="empty") / bar == pytest.approx(np.full(3, 392.2), abs=0.05)

@@ -320,6 +320,7 @@ class Sliding(Mechanism):
     line = LiftCircuit(hoist, pressure=160 * bar, mechanical_efficiency=0.9)
 
 
+@pytest.mark.slow
 def test_over_several_strokes_both_sides_of_each_border_are_looked_at():
     judge, borders = Sliding().judge(), ENDS[:-1] - 1.5
     S = np.sort(np.concatenate([np.linspace(0.0, 4.0, 101), borders]))

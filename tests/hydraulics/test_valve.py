@@ -57,6 +57,7 @@ def test_a_tank_with_pressure_presses_back_and_opens():
     assert setting.ok is False and "pressure in lowering act on the valve as up to 144 bar in lifting" in setting.sentence
 
 
+@pytest.mark.slow
 def test_where_the_load_opens_the_valve_and_where_the_pump_does_not():
     heavy = LoadCase("heavy", scale={"weight": 1.5})
 

@@ -144,6 +144,7 @@ def test_programs_of_the_judge_give_what_the_motion_gives(seed):
 DAILY_MACHINES = ("axle", "hoist_tipper", "grapple")
 
 
+@pytest.mark.slow
 @for_all("name", DAILY_MACHINES, slow=[name for name in registered() if name not in DAILY_MACHINES])
 def test_programs_of_verdicts_give_what_the_motion_gives(name):
     """Cylinders that work one way and both, telescopes, closed lines, gas, ropes, supports, parts: whatever is judged."""

@@ -3,6 +3,7 @@
 from functools import cache
 
 import numpy as np
+import pytest
 from numpy.testing import assert_allclose
 
 from linkage import Crank, Ground, Mechanism, Outline, Part, Planes, Stroke, clearance, gap, mm, ref
@@ -74,6 +75,7 @@ def alone(seed):
     return one, other, machine, gaps(machine)
 
 
+@pytest.mark.slow
 @SEEDS
 def test_where_the_pair_stands_changes_nothing(seed):
     one, other, _, wanted = alone(seed)

@@ -243,6 +243,7 @@ def test_a_redundant_link_does_not_refuse_a_thrust_that_is_determined():
     assert np.allclose(driving_force(Doubled().at(phi=0.5)), 10 * 9.80665 * 0.3 * np.cos(0.5))
 
 
+@pytest.mark.slow
 def test_a_double_line_that_locks_by_the_numbers_of_a_design_is_told():
     """The class has one ratio; a bore of a hair more has another. Of a batch one design is enough."""
     assert held_verdict(Double().judge()) is None

@@ -260,6 +260,7 @@ def test_a_cylinder_next_to_its_dead_point_is_right_told_or_refused():
     assert count >= 6
 
 
+@pytest.mark.slow
 def test_loads_that_cancel_are_zero_at_every_door_however_short_a_direction_is():
     crane = ChainCrane()  # its arm is folded: nothing pushes; T lies along YK, which is 45 mm long here
     place = {"phi": crane["phi_0"], "psi": crane["phi_0"], "t": 2.52}

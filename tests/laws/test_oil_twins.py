@@ -33,7 +33,7 @@ from linkage import (
 )
 from linkage.statics import held_verdict
 from linkage.units import bar, litre
-from tests.for_all import for_all
+from tests.for_all import first_daily, for_all
 from tests.hydraulics.test_oil import Axle, Levelled
 from tests.members import told_by
 
@@ -139,6 +139,7 @@ class Unequal(Double):
     slave = Cylinder("U", "W", bore=100 * mm, rod=56 * mm)
 
 
+@pytest.mark.slow
 def test_a_double_line_of_one_ratio_carries_as_a_single_one_and_of_two_locks():
     one, two = Single().sweep(9), Double().sweep(9)
     for name in ("lift", "master", "slave"):
@@ -198,6 +199,7 @@ class Triad(Mechanism):
     sketch = drawn(S=0.0)
 
 
+@pytest.mark.slow
 def test_a_slave_may_be_found_in_a_group():
     motion, step = Triad().sweep(5), 1e-6
     assert list(Triad.plan.groups) and np.abs(Triad.level.oil(motion)).max() < 1e-16
@@ -217,7 +219,7 @@ def filled_by(oil, **members):
     return type("Filled", (Levelled,), members | {"level": OilLine("master.piston_side", "slave.piston_side", **ends)})
 
 
-@pytest.mark.parametrize("factor", [1.0, 2.0, -0.5])
+@first_daily(1, "factor", [-0.5, 1.0, 2.0])
 def test_oil_may_be_a_stroke_a_dimension_or_what_follows_them(factor):
     S, put_in = np.array([1.3, 1.5, 1.7]), 1e-4
     plain = Levelled(**{"level.oil": factor * put_in}).at(S=S)

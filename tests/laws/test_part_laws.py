@@ -84,6 +84,7 @@ def test_a_part_that_is_mirrored_or_turned_stands_there(machine, how):
         assert np.nanmax(np.abs(difference), initial=0.0) <= 1e-10 * scale
 
 
+@pytest.mark.slow
 @ALL
 def test_mirrored_twice_is_not_mirrored(machine):
     once = whole(machine, mirrored=True)

@@ -260,6 +260,7 @@ class Wide(Mechanism):
     P = OnLink(T, D, TP=0.8, DTP=-120 * deg)
 
 
+@pytest.mark.slow
 @for_all("kind", [Rocking, Wide])
 @for_all("seed", range(2), slow=range(2, 4))
 def test_poses_next_to_dead_points_of_loops_are_found_too(kind, seed):

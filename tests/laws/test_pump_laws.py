@@ -3,6 +3,7 @@
 from itertools import permutations
 
 import numpy as np
+import pytest
 from numpy.testing import assert_allclose
 
 from hydraulics import LiftCircuit, Pump
@@ -118,6 +119,7 @@ class Closed(PumpedExcavator):
     )  # fmt: skip
 
 
+@pytest.mark.slow
 def test_a_closed_cycle_closes_and_a_second_pump_changes_nothing():
     machine = Closed()
     motion = machine.sweep(11, over="cycle")

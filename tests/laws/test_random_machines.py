@@ -225,6 +225,7 @@ def test_the_work_of_the_thrusts_is_the_change_of_energy(first):
                 assert_allclose(given, work.sum(), rtol=0, atol=1e-11 * scale, err_msg=f"seed {seed}, {stroke}")
 
 
+@pytest.mark.slow
 @BLOCKS
 def test_the_work_of_the_oil_is_the_change_of_energy(first):
     """Pressure times the oil that goes in, on both sides of every cylinder that holds: a line without losses."""
@@ -272,6 +273,7 @@ def test_requests_are_the_same_forces(seed):
 # -- one thing in the place of another ---------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @BLOCKS
 def test_a_cylinder_may_be_replaced_by_its_thrust(first):
     """Its arm becomes a crank, if it is none, the cylinder an actuator: the same pin forces, and the crank has nothing left to do."""

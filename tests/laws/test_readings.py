@@ -4,6 +4,7 @@ import math
 from functools import cache
 
 import numpy as np
+import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
 from linkage.program import Kernel, interpret
@@ -85,6 +86,7 @@ def test_places_by_the_program_and_by_the_steps(machine):
     agree(Kernel(nodes)(given).values[:, 0], steps, firm(machine, given, (400,)))
 
 
+@pytest.mark.slow
 def test_some_of_these_poses_are_out_of_reach_and_some_are_not():
     machines = [*filter(is_closed, MACHINES.values()), *random_machines()]
     shares = [np.isnan(kernel(machine)(inputs(machine, 1, 400)).values).mean() for machine in machines]

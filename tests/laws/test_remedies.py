@@ -184,6 +184,7 @@ def kept(seeds, wanted):
     assert set().union(*(looked for _, looked in found)) >= wanted
 
 
+@pytest.mark.slow
 def test_remedies_of_random_levers_keep_their_promise():
     kept(SEEDS, {"lifting", "holding"})
 

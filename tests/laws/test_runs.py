@@ -6,6 +6,7 @@ import re
 from functools import cache
 
 import numpy as np
+import pytest
 from numpy.testing import assert_allclose
 
 from hydraulics import Cylinder, LiftCircuit, reserve, thrust
@@ -126,6 +127,7 @@ def test_every_column_of_every_run_lies_within_what_is_judged(machine):
 PRINTED = re.compile(r"[−-]?\d+(?:\.\d+)?")
 
 
+@pytest.mark.slow
 @for_all("machine", [OfCases], slow=[OfABox, OfPaths, OfPoses, LoadedFrontLoader])
 def test_no_printed_value_of_a_report_lies_outside_what_is_judged(machine):
     """The tables of a report, cell by cell, in the units that stand in their headings."""
@@ -223,6 +225,7 @@ class OnWheels(OfPaths):
     body = Weight("M", mass=500.0)
 
 
+@pytest.mark.slow
 def test_a_report_looks_at_forces_and_limits_where_the_machine_is_judged():
     subject = ReportSubject.of(OnWheels(), {}, 5)
     assert {(one.case, round(float(np.max(one.motion.strokes["T"])), 3)) for one in subject.forces} == {("heavy", 0.12), ("empty", 0.08)}

@@ -1,6 +1,7 @@
 """Laws of forces in time over random machines: rates and accelerations of strokes as inputs of programs, and the inertia of masses."""
 
 import numpy as np
+import pytest
 from numpy.testing import assert_allclose
 
 from hydraulics import FloatCircuit
@@ -37,6 +38,7 @@ def asked(motion, found):
     return [*drives, *(pin_force(each.point, each.on) for each in joints)], [np.hypot(*each.force) for each in joints]
 
 
+@pytest.mark.slow
 @EACH
 def test_programs_take_rates_as_inputs(seed):
     draft = random_machine(seed)

@@ -182,6 +182,7 @@ class Rubbing(Excavator):
     dig = None
 
 
+@pytest.mark.slow
 def test_friction_counts_with_the_direction_of_lifting():
     machine = Rubbing()
     field = working_field(machine, "L", RADII, HEIGHTS, hold={"S3": 0.2})
@@ -358,6 +359,7 @@ def most_of_a_grid(machine, field, count):
     return found
 
 
+@pytest.mark.slow
 @first_daily(1, "seed", [0, 1, 2, 3, 4, 5, 6, 9, 18])
 def test_two_strokes_to_spare_are_no_worse_than_a_grid(seed):
     rng, base = np.random.default_rng(seed), Telehandler()
@@ -380,6 +382,7 @@ def test_what_is_kept_is_kept_and_branches_are_all_seen():
             assert found.met == field.reached[3 * k, 2 * n]
 
 
+@pytest.mark.slow
 def test_random_places_are_rightly_called_reached():
     rng = np.random.default_rng(5)
     machine = Excavator()
@@ -398,6 +401,7 @@ def test_why_a_cell_is_out_of_reach():
     assert field.limiter[0, 2] == "out of reach"
 
 
+@pytest.mark.slow
 def test_a_field_is_pickled():
     field = working_field(Excavator(), "L", RADII, HEIGHTS, rule=ISO_10567, **ALONE)
     found = pickle.loads(pickle.dumps(field))
@@ -422,6 +426,7 @@ class CarriedArm(Mechanism):
     crane = Part(Arm, lift=lift, fold=fold, mirrored=True, at=(0.4, 0.2))
 
 
+@pytest.mark.slow
 def test_a_mirrored_part_lifts_the_same_at_the_mirrored_place():
     alone = working_field(Arm(), "K", AROUND, UP)
     part = working_field(CarriedArm(), "crane.K", 0.4 - AROUND, UP + 0.2)

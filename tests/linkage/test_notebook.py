@@ -124,6 +124,7 @@ def test_pin_forces_are_their_worst():
     assert float(at_t[4]) == pytest.approx(np.hypot(*forces.force("C", on="CBT")).max() / 1e3, rel=0.02)
 
 
+@pytest.mark.slow
 def test_studies_are_shown():
     found = survey(MACHINE, {"AB": np.linspace(0.09, 0.11, 5)}, top)
     assert next(row for row in cells(html(found)) if row[0] == "top")[4] == "5"

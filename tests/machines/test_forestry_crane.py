@@ -1,6 +1,7 @@
 """A forestry crane: boom cylinder, arm cylinder on a lever and a link, a telescope with its own cylinder; three strokes, one path."""
 
 import numpy as np
+import pytest
 from numpy.testing import assert_allclose
 
 from hydraulics import Cylinder, LiftCircuit, lift_verdicts
@@ -210,6 +211,7 @@ def test_friction_takes_its_senses_from_the_path():
             assert_allclose(between(forces, "P", "PNUH", "OBPCQ")[:, k], found["P"], rtol=1e-9, atol=1e-6)
 
 
+@pytest.mark.slow
 def test_what_is_said_along_the_path():
     """The path goes straight from pose to pose; what is least or most lies anywhere on it."""
     t = np.linspace(0.0, 1.0, 321)

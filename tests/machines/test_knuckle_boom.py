@@ -1,6 +1,7 @@
 """A knuckle-boom loader: a ram lifts the boom, another folds the jib by a rocker on the boom and a link; the jib's weight pulls at it."""
 
 import numpy as np
+import pytest
 from numpy.testing import assert_allclose
 
 from hydraulics import Cylinder, LiftCircuit
@@ -95,6 +96,7 @@ def test_a_ram_whose_side_holds_no_such_load_is_told():
     assert told.answer.value <= least * (1 - 1e-12)
 
 
+@pytest.mark.slow
 def test_it_is_not_told_where_a_side_holds_it_or_a_line_judges():
     both = type("Both", (KnuckleBoom,), {"jib": Cylinder("C", "D", bore=100 * mm, rod=60 * mm, works="both")})
     on_pump = type("Pumped", (KnuckleBoom,), {"pump": LiftCircuit("jib", pressure=180 * bar)})

@@ -179,6 +179,7 @@ def knot(length, wide):
     return 100e3 / (1.0 + ((length - 0.66) / wide) ** 2)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("wide", "counts"), [(8 * mm, (5,)), (0.3 * mm, (2, 50))])
 def test_verdicts_from_few_poses(wide, counts):
     """The least reserve, the fullest pressure and the most used rod lie at the knot, between whatever poses were given."""

@@ -123,6 +123,7 @@ def test_report_goes_on_and_says_what_is_lost(said, tmp_path):
     assert code == 0 and "161 mm short" in (tmp_path / "out.md").read_text(encoding="utf-8")
 
 
+@pytest.mark.slow
 def test_limits_tell_the_box_beside_the_strokes(said):
     code, out, err = said(f"limits {LIFT} --check")
     assert code == 1 and not err and "S1: declared 0 to 225 mm" in out and "together: S1 = 0 to 225 mm, S2 = 0 to 340 mm" in out
@@ -188,6 +189,7 @@ def test_wrong_over_is_refused_in_one_line(said, command, over, words):
     assert code == 2 and words in err.splitlines()[-1] and len(err.splitlines()) <= 2
 
 
+@pytest.mark.slow
 def test_worst_pins_are_those_of_the_judge_with_case_and_place(said):
     _, out, _ = said(f"forces {DECLARED} --over level --count 2")
     (answer,) = Declared().answers([most(pin_force("A"))], over=Declared.level)

@@ -278,7 +278,7 @@ def random_problem(seed):
 
 
 @pytest.mark.filterwarnings("ignore::linkage.SingularWarning")
-@first_daily(2, "seed", sorted(range(40), key=lambda seed: seed not in (1, 5)))
+@first_daily(1, "seed", sorted(range(40), key=lambda seed: seed != 1))
 def test_random_problems_on_random_machines(seed):
     found = random_problem(seed)
     if found is None:
@@ -311,12 +311,14 @@ class Rooted(Lift):
     root = 1.0 / ref("slack") ** 0.5
 
 
+@pytest.mark.slow
 def test_the_edge_of_reach_is_found_from_within():
     """The travel of G grows up to the dead point at the stroke's start."""
     best = check_winner(Lift(), dict(maximise=TRAVEL, vary={"OB": (0.02, 0.6), "A.x": (-0.3, 0.3)}, starts=3))
     assert best.value > 1.5
 
 
+@pytest.mark.slow
 def test_a_box_that_is_hardly_reached_is_searched():
     ask = dict(minimise=most(pressure("lift")), vary={"OB": (0.02, 0.9), "A": around(0.4)}, subject_to=[TRAVEL >= 0.8], starts=3)
     check_winner(Lift(), ask, designs=2000)
@@ -328,6 +330,7 @@ def test_an_integral_with_kinks_is_as_exact_as_a_fine_sweep():
     assert_allclose(best.value, np.trapezoid(np.abs(motion.angle("O", "G")), motion.strokes["S"]), rtol=1e-8)
 
 
+@pytest.mark.slow
 def test_where_all_goes_in_steps_no_design_of_all_beats_the_winner():
     vary = {"A.x": (-0.06, 0.06, 0.02), "A.y": (-0.06, 0.06, 0.02), "OB": (0.25, 0.35, 0.02)}
     best = optimise(Lift(), minimise=most(pressure("lift")), vary=vary, subject_to=[TRAVEL >= 0.68])
@@ -339,6 +342,7 @@ def test_where_all_goes_in_steps_no_design_of_all_beats_the_winner():
     assert_allclose(best.value, worth.min(), rtol=1e-6)
 
 
+@pytest.mark.slow
 def test_an_equation_is_met_on_steps_wherever_these_allow_it():
     vary = {"A.x": (-0.06, 0.06, 0.02), "A.y": (-0.06, 0.06), "OB": (0.25, 0.35, 0.02)}
     best = optimise(Lift(), minimise=most(pressure("lift")), vary=vary, subject_to=[TRAVEL == 0.68], starts=2)

@@ -193,6 +193,7 @@ def test_lifting_the_mower_clear_of_the_ground():
     assert np.all(down.by_itself)
 
 
+@pytest.mark.slow
 def test_the_verdict_looks_between_the_poses():
     fine = np.linspace(0.0, 0.26, 2001)
     lift = over({"S": fine}, lifted)["lift"]

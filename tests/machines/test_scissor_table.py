@@ -236,6 +236,7 @@ def stiff_links():
     return StiffLinks
 
 
+@pytest.mark.slow
 @for_all(("machine", "at"), lambda: [(Stiff, BY_ROLLER), (stiff_links(), by_length())])
 @pytest.mark.parametrize(("direction", "sense"), [("extending", 1), ("retracting", -1)])
 def test_rollers_rub(machine, at, direction, sense):

@@ -197,6 +197,7 @@ def test_the_limits_tell_the_dead_centre():
     assert f"{DEAD / deg:.2f}"[:4] in said
 
 
+@pytest.mark.slow
 def test_pressures_on_both_sides_and_the_fullest_between_the_poses():
     angles = np.linspace(90 * deg, 150 * deg, 5)
     motion, own = Fold().at(phi=angles), over({"phi": angles}, truth)

@@ -215,6 +215,7 @@ class Bucket(Mechanism):
 BUCKET_ROWS = catalogue(bores=[50 * mm, 63 * mm], rods=[36 * mm], strokes=[320 * mm, 400 * mm], dead=460 * mm)
 
 
+@pytest.mark.slow
 def test_a_bucket():
     """It lies open at the start, is at 28 deg below level after 0.2 m and closed after 0.4 m: a stroke of 320 mm does not reach."""
     task = FunctionTask([0.0, 0.2, 0.4], [10 * deg, -28 * deg, -75 * deg], of="dig")

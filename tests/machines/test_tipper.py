@@ -207,6 +207,7 @@ def returning_list():
     return ReturningList
 
 
+@pytest.mark.slow
 @for_all("machine", lambda: [Returning, returning_list()])
 def test_three_elements_on_two_points(machine):
     """The cylinder carries what the spring and the damper leave; each has its own thrust and its own end forces."""

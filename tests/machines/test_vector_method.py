@@ -137,6 +137,7 @@ def test_the_drawing_has_the_same_rods_and_pins(which):
     assert one.stays == other.stays == ()
 
 
+@pytest.mark.slow
 @for_all("write", [to_toml], slow=[to_json])
 @both
 def test_a_file_goes_there_and_back(which, write):

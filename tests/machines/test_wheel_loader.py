@@ -187,6 +187,7 @@ def test_breakout_at_the_edge():
         assert_allclose(found[k], spare / rise if rise > 0 else np.nan, rtol=1e-10)
 
 
+@pytest.mark.slow
 def test_verdicts_while_the_arm_lifts():
     """The tilt cylinder locked; the lever's angle follows the arm by the length TU."""
     motion = WheelLoader().sweep(S1=3, S2=0.200)

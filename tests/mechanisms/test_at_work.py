@@ -234,6 +234,7 @@ def test_the_loaders_places_and_thrusts_by_hand():
 HELD = {"phi": 0.8, "psi": 2.0, "t": 0.5, "swing": 0.0, "theta": -0.5, "twin": -0.5}
 
 
+@pytest.mark.slow
 def test_a_plumb_grapple_pushes_as_it_does_alone_and_moves_no_head():
     """The pushes of both levers and of the stem are in balance in the head: it hangs plumb, and the crane carries its load alone."""
     motion, forces = Forwarder().at(**HELD), pin_forces(Forwarder().at(**HELD))

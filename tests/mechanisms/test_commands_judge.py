@@ -53,6 +53,7 @@ def test_the_crane_tells_what_its_cylinders_fail(capsys):
         assert not disagreement(f"crane {name}", name, capsys)
 
 
+@pytest.mark.slow
 def test_a_command_writes_no_verdicts_into_csv(capsys):
     assert main(["table", "grapple", "--check", "--csv", "-"]) == 1
     assert not judged_lines(capsys.readouterr().out)

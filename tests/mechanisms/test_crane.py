@@ -206,7 +206,8 @@ def brute_force(A_k):
     return best
 
 
-@pytest.mark.parametrize("A_k", [6.9, pytest.param(6.5, marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("A_k", [6.9, 6.5])
 def test_back_broken_skeleton_of_least_mass(A_k):
     value, x = minimum(BackBrokenSkeleton, BACK, BROKEN, [*BackBrokenSkeleton.conditions(">=")], 2, {"A_k": A_k})
     assert x is not None

@@ -355,6 +355,7 @@ def searched(machine, bore, rounds=7):
     return machine, float(low.value)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("bore", [pytest.param(125, marks=pytest.mark.slow), 140])
 def test_a_search_through_the_machine_finds_the_reference(bore):
     shares = [1.05, 1.04, 0.97, 1.03, 0.96, 1.02, 1.01]
@@ -612,7 +613,7 @@ def test_verdicts_of_the_boom():
     assert found["length"].startswith(f"FAIL length: {says}")
 
 
-@pytest.mark.parametrize("machine", [ArmDrive, DirectArmDrive, DirectArmDriveAbove])
+@first_daily(1, "machine", [ArmDrive, DirectArmDrive, DirectArmDriveAbove])
 def test_an_arm_is_asked_for_one_moment_at_a_time(machine):
     """Over the drive's own cases the cylinder's least reserve is the least of both movements: moment given over moment asked."""
     drive = machine()
@@ -708,6 +709,7 @@ def test_bell_crank_of_no_angle_is_the_lever():
     assert_allclose(sides[2] ** 2, sides[0] ** 2 + sides[1] ** 2 - 2 * sides[0] * sides[1] * np.cos(35 * deg), rtol=1e-14)
 
 
+@pytest.mark.slow
 def test_design_over_a_bell_crank_keeps_its_conditions():
     """By (2.45) to (2.59): the four-bar of the design found, its cylinder at both ends, the moments it gives over those asked for."""
     found = design_arm_drive(cylinders=DriveCylinders(sizes=BORES[7:]), scheme="b", starts=2)

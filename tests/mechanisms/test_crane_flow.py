@@ -98,6 +98,7 @@ def test_drives_on_their_own_are_those_of_the_crane(machine):
     assert_allclose(arm_moment(crane, psi), (-given["folding"], given["opening"]), rtol=1e-9)
 
 
+@pytest.mark.slow
 @first_daily(1, "machine", [DirectCrane, DirectCraneAbove])
 def test_a_direct_drive_carries_the_crane_by_virtual_work(machine):
     """The cylinder's thrust is the arm's moment over the lever (2.30); the pin E carries that thrust; the reserve is 1."""
@@ -272,6 +273,7 @@ def test_command_refuses_in_words(run):
             run(*words)
 
 
+@pytest.mark.slow
 def test_other_cranes_have_maps_too():
     for crane in (ChainCrane(), DirectCraneAbove()):
         assert np.isfinite(load_map(crane, [2.0], [5.0]).load).all()

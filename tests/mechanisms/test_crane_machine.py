@@ -238,6 +238,7 @@ def brute_force(crane, heights, radii, count):
     return found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("machine", [Crane, pytest.param(ChainCrane, marks=pytest.mark.slow)])
 def test_load_map_is_brute_force(machine):
     crane, heights, radii = machine(), HEIGHTS[1::6], RADII[::4]
@@ -373,6 +374,7 @@ def test_in_the_whole_box_nothing_is_better_than_on_its_way():
     assert on_way[3].value <= in_box[3].value * (1 + 1e-9)
 
 
+@pytest.mark.slow
 def test_what_fails_of_its_boom_on_its_way_is_told():
     for name, rules in (("lift", ["buckling"]), ("lift_line", ["lifting"])):
         assert [each.rule for each in told_by(Crane(), name) if each.ok is False] == rules

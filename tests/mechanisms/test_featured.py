@@ -92,6 +92,7 @@ def test_what_a_file_says_wrongly_of_it_comes_with_its_line(text):
         load(f'name = "Own"\n[featured]\n{text}\n')
 
 
+@pytest.mark.slow
 def test_a_machine_of_ones_own_says_what_it_is_about(tmp_path):
     class Own(MowerLift):
         """A mower that is watched by its rod."""

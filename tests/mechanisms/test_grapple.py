@@ -302,6 +302,7 @@ def only(bore, rod, S, rho):
     return Combination(bore, rod, S, -1.0, rho, 0.0, rho - 0.004, rho + 0.003)
 
 
+@pytest.mark.slow
 def test_optimise_finds_the_optimum():
     found = design(Duty(), combinations=[only(0.050, 0.028, 0.25, 0.191)])
     assert found.value == pytest.approx(BEST_RATIO, rel=1e-6)
@@ -323,6 +324,7 @@ def test_the_whole_design_problem():
     assert strong.variables["rho"] == pytest.approx(0.2743958996498181, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_combinations_are_ranked_and_told():
     duty = Duty(cylinders=[(0.050, 0.028), (0.063, 0.036)], strokes=[0.25])
     even, arm = feasible(duty), feasible(duty, "arm")
@@ -375,6 +377,7 @@ def test_both_levers_pull_alike_on_the_crosshead():
     assert_allclose(np.hypot(*forces.force("O")), np.hypot(*forces.force("P")), rtol=1e-9)
 
 
+@pytest.mark.slow
 def test_verdicts_of_one_cylinder_on_both_levers():
     said = "\n".join([*told_by(machine := CrossheadGrapple()), *machine.rules(machine.at(theta=0.0))])
     assert "FAIL" not in said and "E stands 70.0 mm over the housing" in said
@@ -449,6 +452,7 @@ def test_a_design_that_cannot_be_is_refused_in_words(design, words):
         Grapple(**design)
 
 
+@pytest.mark.slow
 def test_a_cylinder_without_a_place_is_told_with_the_arm_that_has_one():
     machine = Grapple(rho=0.10)
     motion = machine.at(theta=0.0)

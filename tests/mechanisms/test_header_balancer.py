@@ -227,6 +227,7 @@ class WithBallast(HeaderBalancer):
     ballast = Weight(HeaderBalancer.G2, mass=500)
 
 
+@pytest.mark.slow
 @first_daily(1, "number", HEADERS)
 def test_added_weight_counts_like_a_heavier_header(number):
     """500 kg at G2 are 500 kg more of header: table, limits and verdicts are the same."""
@@ -467,6 +468,7 @@ def test_the_machine_turned_a_little_keeps_its_horizon():
     assert_allclose(HeaderState(at_horizon(machine.at(h=0.0))).height, 0.0, atol=1e-12)
 
 
+@pytest.mark.slow
 def test_the_setting_table_of_a_fast_movement_is_stricter():
     slow, fast = ({column.name: column.shown for column in setting_table([300 * kgf], {"n": n})} for n in (1.0, 1.4))
     assert slow["safe 1"][0] == 1.0 and fast["safe 1"][0] == 0.0

@@ -159,6 +159,7 @@ def test_the_command_prints_table_and_verdicts(capsys):
     assert "P_req, kgf/cm2" in shown
 
 
+@pytest.mark.slow
 def test_the_command_writes_csv_and_a_figure(capsys, tmp_path):
     table, drawn = tmp_path / "t.csv", tmp_path / "f.png"
     assert balance("header_balancer", "--header", "1", "--csv", str(table), "--figure", "3b", "-o", str(drawn)) == 0
@@ -170,6 +171,7 @@ def test_the_command_writes_csv_and_a_figure(capsys, tmp_path):
     assert drawn.stat().st_size > 10_000
 
 
+@pytest.mark.slow
 def test_the_command_charges_for_a_reaction_and_lists_settings(capsys):
     assert balance("header_balancer", "--header", "3", "--reaction", "300kgf", "--table") == 0
     shown = capsys.readouterr().out

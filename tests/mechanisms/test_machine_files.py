@@ -77,6 +77,7 @@ def test_forces_and_pressures_come_back(name, write):
     assert same(forces(load(write(machine))()), forces(machine()))
 
 
+@pytest.mark.slow
 @for_all("write", [to_toml], slow=[to_json])
 @for_all("name", DESIGNS)
 def test_design_comes_back(name, write):
@@ -115,6 +116,7 @@ def run(tmp_path, monkeypatch, capsys):
     return runs
 
 
+@pytest.mark.slow
 def test_plain_commands_take_the_files(run):
     code, out, err = run("show", "balancer.toml")
     assert (code, err) == (0, "")
@@ -144,6 +146,7 @@ def test_save_says_what_is_left_out(run):
     assert "ends in .toml or .json" in run("save", "klann", "klann.xml")[2]
 
 
+@pytest.mark.slow
 @first_daily(1, ("command", "machine", "setting"), [
     ("grapple", "grapple", ("bore", "63mm")), ("hitch", "three_point_hitch", ("OB", "320mm")),
     ("balance", "header_balancer", ("charge", "40kgf_cm2")),

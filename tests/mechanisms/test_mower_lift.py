@@ -207,6 +207,7 @@ def test_verdict_of_the_other_reading():
     assert "too weak from S = 550.0 to 560.4 mm" in text
 
 
+@pytest.mark.slow
 @for_all(("dimensions", "printed"), [({}, "0.5660"), ({"BOG": OTHER_READING}, "0.5604")])
 @for_all("count", [2, 5, 50, 500])
 def test_end_of_the_short_range_is_a_root(dimensions, printed, count):
@@ -285,6 +286,7 @@ def test_verdict_of_a_batch_counts_designs():
     assert "to 1.504" in text and "the first is design 1: at 155 kgf/cm2 the least reserve is 0.737, at S = 550.0 mm" in text
 
 
+@pytest.mark.slow
 def test_verdict_where_poses_are_out_of_reach():
     lift = MowerLift()
     found = rules(lift, lift.at(S=[0.3, 0.6, 0.7], unreachable="nan"))
@@ -309,6 +311,7 @@ def test_verdict_is_the_same_from_however_many_poses(dimensions):
     assert len(said) == 1
 
 
+@pytest.mark.slow
 def test_verdict_of_a_batch_is_the_same_from_however_many_poses():
     lift = MowerLift(BOG=np.array([0.5, 1.5, 2.5]))
     assert len({tuple(lift.verdicts(lift.sweep(count))) for count in (2, 50)}) == 1
@@ -337,6 +340,7 @@ class WithFriction(MowerLift):
     pin_O = PinFriction(MowerLift.O, radius=20 * mm, coefficient=0.15)
 
 
+@pytest.mark.slow
 def test_added_weight_counts_like_a_heavier_section():
     """500 kg of ballast at G are 500 kgf more of weight: table, verdict and pins say the same."""
     added, heavier = WithBallast(), MowerLift(weight=1400 * kgf)

@@ -122,6 +122,7 @@ def test_the_flat_hitch_by_equilibrium_and_by_virtual_work():
     assert_allclose(capacity(motion)[1:-1], (18e6 * 2 * pi / 4 * 0.110**2 * 0.85 / rise)[1:-1], rtol=1e-4)
 
 
+@pytest.mark.slow
 @first_daily(1, "number", HEADERS)
 def test_the_reaction_is_steady_with_every_header(number):
     machine, before = steady_balancer(number), with_header(number)
@@ -146,6 +147,7 @@ def test_three_headers_side_by_side_are_the_three_machines(number):
     assert_allclose(motion[f"length{number}"], state.motion.distance("A", "B"), rtol=1e-12)
 
 
+@pytest.mark.slow
 def test_the_search_finds_the_strong_lift():
     found = optimise(**strong_lift(), method="local")
     assert found.value == pytest.approx(1.24689, abs=2e-5)

@@ -176,6 +176,7 @@ def test_remedy_does_what_it_says():
             assert capacity(hitch.sweep(201)).min() <= capacity(ThreePointHitch(OB=0.31).sweep(201)).min()
 
 
+@pytest.mark.slow
 def test_too_heavy_an_implement_fails():
     assert verdict(ThreePointHitch, "capacity", **{"load.mass": 8100.0}).startswith("ok")
     assert verdict(ThreePointHitch, "capacity", **{"load.mass": 8300.0}).startswith("FAIL")
@@ -382,6 +383,7 @@ def test_every_added_load_counts_in_the_capacity():
     assert "FAIL capacity" in " ".join(Laden(**{"toolbox.mass": 10e3}).rules(hitch.replaced(**{"toolbox.mass": 10e3}).sweep(5)))
 
 
+@pytest.mark.slow
 def test_upper_link_beside_an_added_spring_at_its_pin():
     class Sprung(ThreePointHitch):
         helper = Spring(ThreePointHitch.M, ThreePointHitch.D, stiffness=4e3, free_length=0.3)
@@ -465,6 +467,7 @@ def test_figures_refuse_what_they_cannot_show():
         figure("lift", ThreePointHitch(MK=0.2))
 
 
+@pytest.mark.slow
 def test_capacity_command(capsys):
     assert main(["hitch", "three_point_hitch", "--count", "3", "--vertical", "--pins"]) == 0
     out = capsys.readouterr().out

@@ -80,6 +80,7 @@ def check_plates(seeds):
             assert_allclose(motion["C"], plate.corners(plate.angle(motion.strokes["S"]))[0], rtol=0, atol=1e-7, err_msg=str(seed))
 
 
+@pytest.mark.slow
 def test_a_plate_on_two_equal_rods_stays_on_its_branch():
     check_plates(range(4))
 

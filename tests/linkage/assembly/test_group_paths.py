@@ -17,6 +17,7 @@ from tests.linkage.random_parts import group_parts
 LOW, HIGH = np.radians(62.0), np.radians(88.0)
 
 
+@pytest.mark.slow
 def test_many_poses_in_any_order_are_the_few():
     """5000 poses on both sides of the sketch, shuffled, against some of them asked for one by one."""
     random = np.random.default_rng(4)
@@ -246,6 +247,7 @@ def chained_groups(count):
     return types.new_class(f"Chained{count}", (Mechanism,), {}, lambda space: [space.__setitem__(*each) for each in body.items()])
 
 
+@pytest.mark.slow
 def test_groups_in_a_chain_cost_as_many_solutions_as_there_are_groups(monkeypatch):
     solved, correct = [], newton.Newton.correct
     monkeypatch.setattr(newton.Newton, "correct", lambda *given: solved.append(given[0].group.name) or correct(*given))

@@ -219,6 +219,7 @@ def test_a_guide_of_the_group_may_be_named_by_a_text():
     assert np.array_equal(one["Q"], other["Q"])
 
 
+@pytest.mark.slow
 def test_a_group_slides_on_a_guide_of_its_own_while_its_links_are_measured():
     class Hatch(Mechanism):
         S = Stroke(0.0, 0.02)

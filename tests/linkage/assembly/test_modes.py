@@ -135,6 +135,7 @@ def written(figure):
     return [text.get_text().replace("\n    ", " ") for text in texts]
 
 
+@pytest.mark.slow
 def test_page_of_modes_shows_each_with_its_code():
     modes = ThreePointHitch().assemblies(S=0.1)
     figure = draw(modes)
@@ -192,6 +193,7 @@ def names_of(figure):
     return {text.get_text(): text.xy for text in figure.axes[0].texts if hasattr(text, "xy")}
 
 
+@pytest.mark.slow
 def test_two_designs_the_first_faint():
     hitch = ThreePointHitch()
     other = hitch.replaced(OB=0.32)
@@ -206,6 +208,7 @@ def test_two_designs_the_first_faint():
     assert faint != strong
 
 
+@pytest.mark.slow
 def test_designs_in_colours_name_what_differs():
     hitch = ThreePointHitch()
     figure = draw([hitch, hitch.replaced(OB=0.32), hitch.replaced(OB=0.34, M=(0.22, 0.95), CD=0.63, ED=0.5)])

@@ -66,6 +66,7 @@ def test_the_stroke_that_is_named_fits_the_drawing():
     assert remarks(flap(lambda S: 0.528 + S)()) == []  # rounded to a millimetre, as a drawing is read
 
 
+@pytest.mark.slow
 def test_angles_and_lengths_of_a_plate_are_told_and_a_design_that_fits_is_not():
     texts = remarks(flap(lambda S: 0.528 + S, flap=Link("O B T N", OB=0.45, BOT=12 * deg))())
     assert [text.split(" = ")[0] for text in texts] == ["The sketch has OB", "The sketch has BOT"]

@@ -16,7 +16,7 @@ from linkage.cli import main
 from linkage.files import load
 from linkage.mobility import mobility
 from linkage.sketch import MachineSketch, SketchDrive, SketchSlide, SketchWeight, is_foreign, read_sketch, sketch_of
-from linkage.sketch.board_json import board_json
+from linkage.sketch.board_json import board_json, board_tables
 from tests import shipped
 from tests.for_all import check_all
 from tests.linkage.pictures.test_page import chromium  # noqa: F401
@@ -72,7 +72,7 @@ def board(chromium):  # noqa: F811
 
 def text_of(sketch):
     """Return a sketch as the text of the board's file."""
-    return json.dumps(drawing_data(sketch)["drawing"])
+    return json.dumps(board_tables(sketch))
 
 
 def read_text(text, folder, name="board.json"):

@@ -90,6 +90,7 @@ def test_workbook_has_the_chart(tmp_path):
     assert book["Cells"].max_row == 1 + found.load.size
 
 
+@pytest.mark.slow
 def test_a_page_is_written_in_the_language_it_begins_with(tmp_path, capsys):
     file = tmp_path / "chart.html"
     assert main(["chart", MACHINE, *AXES, "--language", "ru", "-o", str(file)]) == 0

@@ -130,6 +130,7 @@ def test_columns_stand_anywhere_between_options(said, arguments):
     assert expected[0] == 0 and said("table", *arguments.split()) == expected
 
 
+@pytest.mark.slow
 def test_a_plots_columns_stand_behind_options_too(said, tmp_path):
     file, drawn = str(tmp_path / "lift.svg"), []
     for arguments in (("kz", "-o", file, "--count", "11"), ("-o", file, "--count", "11", "kz"), ("-o", file, "--count", "11", "I")):
@@ -310,7 +311,7 @@ def test_a_users_cylinder_shows_its_thrust_and_its_pressure(said, own):
 MAGIC = {".png": b"\x89PNG", ".svg": b"<?xml", ".pdf": b"%PDF", ".gif": b"GIF89a"}
 
 
-@first_daily(2, "suffix", [".png", ".pdf", ".svg"])
+@first_daily(1, "suffix", [".pdf", ".png", ".svg"])
 def test_plot_writes_the_format_of_the_name(said, tmp_path, suffix):
     file = tmp_path / f"curves{suffix}"
     assert said("plot", "mower_lift", "I", "kz", "-o", str(file), "--count", "5") == (0, f"{file}\n", "")
@@ -323,7 +324,7 @@ def test_draw_draws_the_machine_under_its_name(said, own):
     assert {file.name for file in own.glob("*.png")} == {"Lever.png", "mower_lift.png"}
 
 
-@pytest.mark.parametrize("options", ["--forces --poles", "--on OB --path B --at S=0.7"])
+@first_daily(1, "options", ["--forces --poles", "--on OB --path B --at S=0.7"])
 def test_what_is_laid_over_a_drawing(said, own, options):
     """Options draw what the call draws: the same picture as `draw(...)` with its keyword."""
     from linkage import draw
@@ -337,6 +338,7 @@ def test_what_is_laid_over_a_drawing(said, own, options):
     assert lines[0] == lines[1]
 
 
+@pytest.mark.slow
 def test_plot_without_columns_draws_what_the_machine_is_about(said, own):
     assert said("plot", "three_point_hitch", "-o", "own.svg", "--count", "11")[:2] == (0, "own.svg\n")
     assert said("plot", "three_point_hitch", "capacity", "-o", "named.svg", "--count", "11")[:2] == (0, "named.svg\n")
@@ -349,6 +351,7 @@ def test_animation_is_written_silently_in_a_pipe(said, own):
     assert (own / "lever.gif").read_bytes().startswith(MAGIC[".gif"])
 
 
+@pytest.mark.slow
 def test_an_animation_holds_a_stroke_or_runs_between_two_values(said, own):
     code, out, _ = said("animate", "pantograph", "-o", "drawn.html", "--count", "3", "--at", "Y=50mm", "--at", "X=0.15,250mm")
     assert (code, out) == (0, "drawn.html\n")
@@ -358,6 +361,7 @@ def test_an_animation_holds_a_stroke_or_runs_between_two_values(said, own):
     assert strokes["Y"]["at"] == 0.05 and (strokes["X"]["start"], strokes["X"]["end"]) == (0.15, 0.25)
 
 
+@pytest.mark.slow
 def test_a_curve_is_drawn_over_one_stroke_the_others_held(said, own):
     assert said("plot", "front_loader", "boom", "--at", "lift=0.1", "-o", "boom.svg")[:2] == (0, "boom.svg\n")
     assert "<!-- Front loader at lift = 100 mm -->" in (own / "boom.svg").read_text(encoding="utf-8")

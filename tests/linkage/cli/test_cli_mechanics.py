@@ -156,6 +156,7 @@ def test_forces_of_every_pin_and_on_a_body(said):
         assert np.abs(sum(value for name, value in found.items() if f"_{axis}" in name)).max() < 1e-9  # they balance
 
 
+@pytest.mark.slow
 def test_forces_over_all_cases_and_directions_are_the_worst(said):
     code, out, _ = said("forces", "rubbing.py", "--count", "3")
     assert code == 0 and re.search(r"^O +pin .* on the road +(extending|retracting)$", out, re.MULTILINE)
@@ -174,6 +175,7 @@ def test_limits_of_any_machine(said):
     assert code == 1 and "FAIL assembly" in out and "FAIL dead points" in out
 
 
+@pytest.mark.slow
 def test_limits_of_many_strokes_need_no_grid_of_all(said):
     """Six strokes: a grid of 21 poses each would be 86 million."""
     code, out, err = said("limits", "forwarder", "--at", "phi=40deg")
@@ -276,6 +278,7 @@ def test_options_stand_in_any_order(said):
         assert said(*words.split()) == expected
 
 
+@pytest.mark.slow
 def test_one_system_of_units_for_table_and_sentence(said):
     _, plain, _ = said("capacity", "loader.py", "--count", "2")
     code, out, _ = said("capacity", "loader.py", "--count", "2", "--units", "us")
@@ -397,6 +400,7 @@ def test_one_name_for_one_quantity(said):
     assert "further load, kN" in heads[1] and "capacity, kN" not in heads[1] and "capacity:" not in heads[1]
 
 
+@pytest.mark.slow
 def test_a_verdict_of_capacity_is_over_every_stroke(said, tmp_path):
     """The table runs along the first stroke; what is judged is all strokes, unless --at or --over narrow it."""
     text = LOADER.replace("OG=0.90", "OG=0.90 + t").replace("    A, O =", "    t = Stroke(0.0, 0.5)\n    A, O =")

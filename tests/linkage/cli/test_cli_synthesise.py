@@ -46,6 +46,7 @@ def test_it_writes_what_is_asked_for(task, capsys):
     assert imread(task / "seen/here/task.png").shape[1] > 1000
 
 
+@pytest.mark.slow
 def test_where_nothing_runs_the_exit_code_says_so(task, capsys):
     text = TASK.replace('OA = "20 to 60 mm"', 'OA = "300 to 310 mm"').replace('BAP = "0 to 90 deg"', 'BAP = "0 to 10 deg"')
     (task / "task.toml").write_text(text, encoding="utf-8")

@@ -86,6 +86,7 @@ def test_a_path_is_drawn(tmp_path, loader, capsys):
     assert picture.stat().st_size > 1000 and str(picture) in capsys.readouterr().out
 
 
+@pytest.mark.slow
 def test_a_path_with_a_stroke_that_is_held_is_a_film(tmp_path, loader, capsys):
     film = tmp_path / "lift.gif"
     path = written(tmp_path, "T_y\n1.2\n1.3\n1.4\n")
@@ -120,6 +121,7 @@ def test_a_stroke_that_is_not_there_is_told(tmp_path, loader, capsys):
     assert "nowhere.csv" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_the_page_along_a_path(tmp_path, loader, capsys):
     file = tmp_path / "lift.html"
     assert main(["follow", loader, "--path", written(tmp_path, heights(2400)), "--language", "ru", "-o", str(file)]) == 0

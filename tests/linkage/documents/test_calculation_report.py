@@ -302,6 +302,7 @@ def test_rules_are_those_of_the_verdicts_and_the_mark_counts_them(grab):
     assert dict(grab.facts)["Judged over"] == "S = 0 to 250 mm, T = 0 to 300 mm"
 
 
+@pytest.mark.slow
 def test_a_rule_that_says_nothing_is_counted_apart():
     class Idle(Grab):
         lift = Cylinder("A", "B", bore=80 * mm, rod=45 * mm, works="rod")
@@ -363,6 +364,7 @@ class CorneredBare(CorneredOnce):
     lift = pump = work = None
 
 
+@pytest.mark.slow
 @first_daily(1, "machine", [CorneredBare, CorneredOnce, Cornered])
 def test_places_that_are_lost_leave_gaps_and_one_remark(machine):
     document = report_document(machine(), at={"T": (0.0, 0.75)})
@@ -419,6 +421,7 @@ def test_what_cannot_be_reported_is_refused_in_words(tmp_path):
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", [".html", pytest.param(".pdf", marks=pytest.mark.slow)])
 def test_the_same_inputs_give_the_same_bytes_in_another_process(tmp_path, suffix):
     program = (
@@ -563,6 +566,7 @@ class Beside(OverCentre):
     pump = LiftCircuit(["ram", "aid"], pressure=180 * bar)
 
 
+@pytest.mark.slow
 @first_daily(1, "machine", [OverCentre, Pumped, pytest.param(Beside, marks=pytest.mark.slow)])
 def test_a_dead_centre_in_the_middle_of_the_run_is_gone_round(machine, tmp_path):
     """Forces are refused in the middle: the calculation is of the pose beside it, and every number of it is one."""

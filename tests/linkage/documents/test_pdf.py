@@ -18,7 +18,7 @@ from linkage.documents.title import TitleBlock
 from linkage.formulas.typeset import Fenced, Lines, boxes
 from linkage.formulas.typst import typst_math
 from linkage.verdict import Verdict
-from tests.for_all import for_all
+from tests.for_all import first_daily, for_all
 
 needs_poppler = pytest.mark.skipif(shutil.which("pdftotext") is None, reason="poppler's pdftotext is not installed")
 
@@ -59,7 +59,7 @@ def test_the_paper_is_a4_and_the_file_says_what_it_is_and_no_date():
     assert content == pdf(report_document(Boom()))
 
 
-@pytest.mark.parametrize("kind", [Boom, Weak])
+@first_daily(1, "kind", [Weak, Boom])
 def test_what_is_kept_and_what_is_broken_is_marked(kind):
     data = document_data(report_document(kind()))
     cells = [cell for section in data["sections"] for block in section["blocks"] for row in block.get("rows", ()) for cell in row]

@@ -169,6 +169,7 @@ def test_a_title_block_is_text(wrong, tmp_path):
         report(Loader(), tmp_path / "a.md", **wrong)
 
 
+@pytest.mark.slow
 def test_the_command_has_the_title_block(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     options = [part for name, value in FULL.items() for part in (f"--{name}", value)]
@@ -487,6 +488,7 @@ DAILY = {("mower_lift", "ru")}
 EDGES = [(name, language) for name in sorted(registered()) for language in ("en", "ru")]
 
 
+@pytest.mark.slow
 @needs_poppler
 @pytest.mark.parametrize(("name", "language"), [each if each in DAILY else pytest.param(*each, marks=pytest.mark.slow) for each in EDGES])
 def test_nothing_is_cut_at_the_papers_edge(name, language):
@@ -512,6 +514,7 @@ def test_a_long_heading_of_a_curve_fits_its_picture():
     assert not beyond_the_picture(Illustration("curve", "", size, room, paint))
 
 
+@pytest.mark.slow
 @needs_poppler
 def test_no_text_of_a_title_block_is_lost():
     long = {name: f"{name} " + "Forestry and Construction Machines of the North " * 3 for name in FIELDS}
@@ -521,6 +524,7 @@ def test_no_text_of_a_title_block_is_lost():
     assert not beyond_the_margins(page) and not covering_texts(page)
 
 
+@pytest.mark.slow
 @needs_poppler
 def test_a_long_word_breaks_inside_the_margins():
     word = "Hydraulikzylinderkolbenstangenfuehrungsbuchse" * 4

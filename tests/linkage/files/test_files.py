@@ -48,6 +48,7 @@ def test_machine_comes_back_as_it_was(name):
     same_motion(machine(), back())
 
 
+@pytest.mark.slow
 @ALL
 def test_json_says_the_same(name):
     machine = MACHINES[name]

@@ -6,6 +6,7 @@ from importlib.metadata import entry_points
 from pathlib import Path
 
 import numpy as np
+import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
@@ -129,6 +130,7 @@ def test_anything_at_all(value):
     settled(from_dict, value)
 
 
+@pytest.mark.slow
 @settings(deadline=None)
 @given(EXPRESSIONS)
 def test_any_expression_as_an_output_and_as_a_length(text):

@@ -31,6 +31,7 @@ def returned(write):
     return load(write(Loaded))
 
 
+@pytest.mark.slow
 @for_all("direction", DIRECTIONS)
 @for_all("case", CASES)
 @for_all("write", [to_toml, to_json])

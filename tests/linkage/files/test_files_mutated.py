@@ -5,6 +5,7 @@ import pytest
 from tests.linkage.files.mutated_files import tried
 
 
+@pytest.mark.slow
 def test_files_with_a_few_things_put_wrong(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     counts, wrong = tried(range(50), tmp_path)

@@ -434,6 +434,7 @@ def test_no_feasible_design_is_told_with_the_relaxation(here, said):
     assert code == 1 and "can be assembled over the whole stroke" in err
 
 
+@pytest.mark.slow
 def test_a_killed_search_goes_on_to_the_same_bits(here, said):
     file = written(here, QUICK.replace("starts = 2", "starts = 3\nfolder = 'run'") + OUTPUTS)
     program = """if True:

@@ -76,6 +76,7 @@ def test_equations_are_the_motion(machine):
     assert check_values(machine(), poses(machine())) >= 7
 
 
+@pytest.mark.slow
 @for_all(
     ("machine", "targets"),
     [(hitch, ["B", "C", "D", "F", "K", "G", "tilt"]) for hitch in HITCHES]
@@ -177,6 +178,7 @@ def test_expansion_places_the_point(machine):
                 assert_allclose([place.x, place.y], motion[name], rtol=0, atol=1e-12)
 
 
+@pytest.mark.slow
 def test_program_read_by_sympy_has_the_motions_derivatives():
     """Exact derivatives by SymPy of the traced program, at 40 digits, against the program's own."""
 

@@ -3,6 +3,7 @@
 import sys
 
 import numpy as np
+import pytest
 from numpy.testing import assert_allclose
 
 from linkage import LEFT, Crank, Dyad, Ground, Mechanism, Stroke
@@ -43,6 +44,7 @@ def last_ratio(dyads):
     return np.array([making, placing, deriving, nodes])
 
 
+@pytest.mark.slow
 def test_class_positions_and_ratios_grow_with_the_length():
     last_ratio(5)  # what is done once for all
     short, middle, long = (np.minimum(last_ratio(count), last_ratio(count)) for count in (8, 16, 32))  # caches fill in between

@@ -281,6 +281,7 @@ def leaning(count):
     return type(f"Leaning{count}", (Mechanism,), members)
 
 
+@pytest.mark.slow
 def test_what_only_the_product_of_its_parts_suspects_is_looked_at_by_a_compiled_program(monkeypatch):
     """Six dyads of which each is far from its dead point: none of their poses is worked out node by node, and the values are the same."""
     machine, S = leaning(6)(), np.linspace(0.0, 2e-4, 300)

@@ -70,7 +70,7 @@ def told(machine):
     return [each for each in verdicts if each.rule == "dead points"]
 
 
-@first_daily(2, "seed", range(40))
+@first_daily(1, "seed", range(40))
 def test_a_dead_point_at_an_end_is_told_and_no_mark_contradicts_its_words(seed):
     rng = np.random.default_rng(seed)
     frame, arm, bent = rng.uniform(0.3, 0.9), rng.uniform(0.2, 0.9), rng.choice([0.0, rng.uniform(-0.6, 0.6)])
@@ -84,6 +84,7 @@ def test_a_dead_point_at_an_end_is_told_and_no_mark_contradicts_its_words(seed):
     assert verdict.count("B at") == 1 + (seed % 3 == 2)
 
 
+@pytest.mark.slow
 @first_daily(1, "off", [1e-9, 1e-3, 1e-6])
 def test_one_that_ends_beyond_its_dead_point_is_told_as_before(off):
     verdicts = lever(0.5, 0.8 + off, 0.4, 0.4, 0.0)().verdicts()
@@ -96,6 +97,7 @@ def test_one_that_ends_well_before_its_dead_point_is_told_as_before():
     assert verdict.ok and "none within the stroke; the nearest: of B = Dyad(A, O) at S = 300.0 mm, 10 mm beyond it" in verdict
 
 
+@pytest.mark.slow
 def test_sliders_cranks_and_batches_end_in_dead_points_too():
     class Slider(Mechanism):
         S = Stroke(0.0, 0.2)
@@ -151,7 +153,7 @@ class Arms(Mechanism):
     D = Crank(A, AD=0.4, angle=u + v)
 
 
-@first_daily(2, "seed", [3, 0, 1, 2, *range(4, 30)])
+@first_daily(1, "seed", range(30))
 def test_a_pole_is_never_told_as_a_value(seed):
     rng = np.random.default_rng(seed)
     machine = (Rocker, Rocker, Rocker, Arms)[seed % 4]()

@@ -32,7 +32,7 @@ from mechanisms.classics.four_bar import FourBar
 from mechanisms.classics.front_loader import FrontLoader
 from mechanisms.classics.toggle_press import TogglePress
 from mechanisms.three_point_hitch import ThreePointHitch
-from tests.for_all import for_all
+from tests.for_all import first_daily, for_all
 from tests.linkage.program.test_backends import GROUPED, MACHINES, SHIPPED
 
 STROKE = np.linspace(0.0, 0.25, 41)
@@ -141,7 +141,7 @@ def test_every_machine_is_evaluated(machine):
 
 
 @pytest.mark.parametrize("backend", ["numpy", "floats"])
-@pytest.mark.parametrize("many", [3, 700])
+@first_daily(1, "many", [3, 700])
 def test_what_is_out_of_reach_is_nan_where_a_motion_says_so(backend, many):
     hitch = ThreePointHitch(OB=np.linspace(0.15, 0.4, many), CD=np.linspace(0.5, 0.7, many))
     stroke = np.linspace(0.0, 0.3, 50)
@@ -374,6 +374,7 @@ class Folds(Mechanism):
     B = Dyad(A, O, AB=S, OB=0.3, side=LEFT)
 
 
+@pytest.mark.slow
 def test_a_place_at_the_very_end_of_reach_is_that_of_a_motion(monkeypatch):
     """Rounding puts some of these ends out of reach; they are assembled to rounding, here as there."""
     mended = []
@@ -387,6 +388,7 @@ def test_a_place_at_the_very_end_of_reach_is_that_of_a_motion(monkeypatch):
     assert mended
 
 
+@pytest.mark.slow
 def test_a_request_of_places_has_one_value_at_a_dead_point():
     """A motion gives what the bulk call gives, where the points stand to rounding: a number wherever it is no ratio."""
     for machine in (TogglePress(), FrontLoader()):

@@ -154,6 +154,7 @@ def test_the_gradient_of_a_transmission_angle_is_the_central_difference():
         assert_allclose(exact, (up - down) / (2.0 * step), atol=1e-7)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not has_compiler(), reason="no C compiler")
 def test_combinations_in_c_say_what_evaluate_says(tmp_path):
     hitch, S = ThreePointHitch(), np.linspace(0.0, 0.25, 30)

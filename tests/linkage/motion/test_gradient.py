@@ -28,6 +28,7 @@ def difference(machine, name, read, strokes, h=1e-5):
     return (4 * near - wide) / 3
 
 
+@pytest.mark.slow
 @MACHINES
 def test_gradient_of_a_position_is_the_difference_of_designs(machine):
     strokes, names = mid(machine), list(machine.plan.table.entries)

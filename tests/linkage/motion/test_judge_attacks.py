@@ -97,6 +97,7 @@ def test_measures_that_make_no_number_are_not_kept():
     assert "what is calculated from them has none" in str(root)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("machine", [pytest.param(Loader(), marks=pytest.mark.slow), Rubbing()])
 def test_measures_of_a_cylinder_and_of_all_pins_combine(machine):
     over, two = Over.poses(S=[0.0, 0.1, 0.3], T=[0.1, 0.1, 0.1]), [most(pin_force("O", "OBC")), most(thrust("lift"))]
@@ -143,6 +144,7 @@ def test_where_nothing_is_asked_nothing_is_said_to_be_kept_or_not():
     assert [each.ok for each in verdicts] == [None] and verdicts[0].startswith("--   assembly: ")
 
 
+@pytest.mark.slow
 @first_daily(1, "places", [dict(S=[0.1, 0.1], T=[0.05, 0.05]), dict(S=[0.1], T=[0.05]), dict(S=0.1, T=0.05)])
 def test_a_path_that_stays_is_the_pose_where_it_stays(places):
     questions = [least(reserve("lift")) >= 1.0, most(pin_force("A")), most(thrust("tilt"))]

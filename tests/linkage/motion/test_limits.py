@@ -363,6 +363,7 @@ def test_where_nothing_is_reached_there_is_no_dead_point():
     assert limits["phi"].intervals == () and limits["phi"].cylinder_dead_points == ()
 
 
+@pytest.mark.slow
 def test_a_machine_of_hundreds_of_metres_is_told_wherever_it_is_asked():
     """Millimetres that were typed as metres; not so a point far away that only gives a guide its direction."""
 

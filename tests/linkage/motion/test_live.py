@@ -137,6 +137,7 @@ def test_laws_that_cannot_be_traced_are_left_out_by_name():
     assert "cannot be traced" in live.left_out["odd"]
 
 
+@pytest.mark.slow
 @NEEDED
 def test_angles_and_pins_are_followed_by_a_function_of_one_pose():
     for machine, asked, at in (

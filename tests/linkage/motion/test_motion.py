@@ -298,6 +298,7 @@ def test_out_of_reach_in_a_batch_counts_the_designs():
         ThreePointHitch(CD=[0.62, 0.61, 0.2]).sweep(11)
 
 
+@pytest.mark.slow
 def test_nan_where_asked_and_the_rest_as_ever():
     S = np.array([0.1, 0.45, 0.2])
     motion, good = ThreePointHitch().at(S=S, unreachable="nan"), ThreePointHitch().at(S=S[[0, 2]])

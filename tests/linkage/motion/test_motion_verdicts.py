@@ -145,6 +145,7 @@ def test_a_batch_is_told_how_many_designs_fail():
     assert any("judged for up to 200 designs" in each for each in many.verdicts(many.sweep(2)))
 
 
+@pytest.mark.slow
 def test_a_variants_further_members_are_judged_and_shown_beside_the_machines_own():
     class Owned(Boom):
         load = Weight("G", mass=800)

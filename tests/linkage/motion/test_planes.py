@@ -36,7 +36,7 @@ from linkage.vectors import Vec, pick
 from mechanisms.at_work.forwarder import Forwarder
 from mechanisms.classics.four_bar import FourBar
 from mechanisms.three_point_hitch import ThreePointHitch
-from tests.for_all import for_all
+from tests.for_all import first_daily, for_all
 
 
 def star(rng, corners):
@@ -135,7 +135,7 @@ def test_circles_are_round():
     assert_allclose(motion[gap("wheel", "knob")], expected, rtol=1e-13)
 
 
-@pytest.mark.parametrize("corners", [3, 4, 8, 13])
+@first_daily(3, "corners", [3, 4, 8, 13])
 def test_pieces_are_convex_and_make_up_the_whole(corners):
     rng = np.random.default_rng(corners)
     for _ in range(25):
@@ -221,6 +221,7 @@ def test_the_gap_of_another_form_has_exact_derivatives_and_places():
     assert_allclose(nearest_places(at.plan, at._placed, "bucket", "lug").gap, at[gap("bucket", "lug")], rtol=1e-12)
 
 
+@pytest.mark.slow
 def test_a_form_that_crosses_itself_in_a_design_is_refused():
     machine = Dented(dent=0.8)
     for asked in (lambda: machine.at(s=[0.0, 0.1])[gap("bucket", "lug")], lambda: machine.evaluate([clearance()], s=[0.0, 0.1])):
@@ -336,6 +337,7 @@ def test_what_is_no_plane_is_refused_in_words(make, words):
         make()
 
 
+@pytest.mark.slow
 @for_all("seed", range(3))
 def test_the_least_gap_of_many_pairs_is_that_of_all_of_them(seed):
     """Bodies whose widths keep them apart are not looked at, and none of them is the nearest; at one pose and at twenty."""
@@ -350,6 +352,7 @@ def test_the_least_gap_of_many_pairs_is_that_of_all_of_them(seed):
 # -- where they come nearest -------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @for_all("seed", range(1), slow=range(1, 6))
 def test_the_nearest_places_are_as_far_apart_as_the_gap(seed):
     """The same number as the program's, between a place of the one and a place of the other; moved by it they just touch."""

@@ -139,6 +139,7 @@ def test_the_strokes_that_are_held_are_told():
     assert [(each.stroke, each.value, each.unit) for each in limits["S"].held] == [("S2", 0.1, "m")]
 
 
+@pytest.mark.slow
 def test_only_what_moves_with_a_stroke_can_cross_along_it():
     flat = Loader(TD=0.25).at(S=0.1, S2=float(Loader(TD=0.25).at(S=0.0, S2=0.1).distance("C", "T")) - 0.70 + 0.25)
     assert flat.limits()["S"].change_points == ()

@@ -104,7 +104,7 @@ def test_more_strokes(k):
 
 
 @first_daily(1, "first", [0, 10, 20, 30])
-@pytest.mark.parametrize("k", [2, 3])
+@first_daily(1, "k", [2, 3])
 def test_an_answer_does_not_follow_from_what_else_is_asked(k, first):
     cases = [case(seed, k) for seed in range(first, first + 10)]
     together = highest_in(InUnitBox(k, *(each.f for each in cases)))[0][:, 0]

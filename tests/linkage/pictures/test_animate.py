@@ -92,6 +92,7 @@ def test_a_count_is_a_whole_number_from_two(count):
 # -- frames ------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_frame_is_the_same_however_it_is_reached():
     stage = Stage(playback(ThreePointHitch(), 7), ["G"], None, 50)
     first = stage.frame(0)
@@ -125,6 +126,7 @@ def test_strokes_held_and_poses_not_reached_are_said():
     assert any(text.get_text().startswith("not reached beyond S = ") for text in short.figure.texts)
 
 
+@pytest.mark.slow
 def test_names_keep_close_to_their_points():
     stage = Stage(playback(FrontLoader(), 9), [], None, 100)
     for part in stage.drawing.parts:
@@ -148,6 +150,7 @@ def test_a_gif_has_every_frame_loops_and_stays_small(tmp_path):
     assert file.stat().st_size < 14 * 2_000_000 / 118
 
 
+@pytest.mark.slow
 def test_an_mp4_has_every_frame(tmp_path):
     ffmpeg = pytest.importorskip("imageio_ffmpeg")
     file = animate(FourBar(), tmp_path / "bars.MP4", count=4, column="psi")

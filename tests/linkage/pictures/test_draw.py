@@ -319,7 +319,7 @@ def boxes(figure):
     return {text.get_text(): Text.get_window_extent(text) for text in figure.axes[0].texts if text.get_text()}
 
 
-@for_all("cls", ALL)
+@for_all("cls", ALL[-3:], slow=ALL[:-3])
 def test_names_keep_clear_of_each_other_of_pins_and_of_the_edge(cls):
     figure = shown(cls)
     names = boxes(figure)
@@ -459,7 +459,7 @@ def test_a_limit_shades_the_side_that_fails_and_marks_the_crossing():
 
 def test_no_words_of_a_limit_and_its_crossings_meet():
     motion, along = FourBar().sweep(201), np.linspace(-1.0, 1.0, 201)
-    for sign, middle, wide in product((1.0, -1.0), (-0.6, -0.3, 0.0, 0.3, 0.6), (0.02, 0.1, 2.0)):
+    for sign, middle, wide in product((1.0, -1.0), (-0.6, 0.3), (0.02, 2.0)):
         curve = Column("hump", sign * np.exp(-(((along - middle) / wide) ** 2)))
         check_texts(plot(motion, [curve], limits={"hump": (0.8 * sign, "all that the pump can carry", "above" if sign > 0.0 else "below")}))
         plt.close()

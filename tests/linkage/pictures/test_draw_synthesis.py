@@ -67,6 +67,7 @@ def test_points_and_misses_stand_where_they_are(kind):
     assert {str(n + 1) for n in range(len(wanted))} <= numbers and "C" in numbers
 
 
+@pytest.mark.slow
 def test_a_function_is_drawn_as_its_curve_with_the_wanted_values_on_it():
     found = found_for("function")
     figure = draw(found, answers=1)

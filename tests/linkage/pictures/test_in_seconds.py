@@ -82,6 +82,7 @@ def test_curves_and_tables_stand_over_time():
         assert figure.axes[0].lines[0].get_xdata()[[0, -1]] == pytest.approx([0.0, 1.8])
 
 
+@pytest.mark.slow
 def test_a_film_plays_in_real_time(tmp_path):
     animate(Timed(), tmp_path / "up.gif", count=5)
     with Image.open(tmp_path / "up.gif") as film:
@@ -105,6 +106,7 @@ def test_a_page_slides_in_seconds():
         assert requests.motion.time[[0, -1]] == pytest.approx([0.0, 1.8])
 
 
+@pytest.mark.slow
 def test_a_report_tells_instants(tmp_path):
     report(Timed(), tmp_path / "up.md", count=5)
     text = (tmp_path / "up.md").read_text(encoding="utf-8")
@@ -167,6 +169,7 @@ def test_a_motion_is_shown_in_the_load_case_of_its_over_by_every_reader(tmp_path
     assert "as it runs" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_a_motion_is_drawn_at_an_instant_as_it_runs_there():
     motion = LoadedLever().sweep(4, over="rise")
     for forces in (True, "OBT"):

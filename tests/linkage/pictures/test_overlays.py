@@ -128,7 +128,7 @@ def with_forces(kind):
     return motion, draw(motion, forces=True)
 
 
-@first_daily(2, "machine", [Press, *sorted([*LOADED, Tipper], key=lambda each: each.__name__ not in FIRST)], ids=attrgetter("__name__"))
+@first_daily(1, "machine", [Press, *sorted([*LOADED, Tipper], key=lambda each: each.__name__ not in FIRST)], ids=attrgetter("__name__"))
 def test_arrows_are_the_pin_forces_and_loads_in_one_scale(machine):
     motion, figure = with_forces(machine)
     found = forces_at_pose(motion, 0, ForceQuestion()).found
@@ -187,6 +187,7 @@ def test_axle_loads_stand_at_the_supports_of_the_frame():
     assert named(level, "load front on frame") and not named(level, "load front along the ground")
 
 
+@pytest.mark.slow
 def test_the_free_body_of_a_vehicle_closes():
     for kind in (Digger, Truck):
         figure = draw(kind().at(S=0.1, s=0.1), forces="frame", case="down")
@@ -275,6 +276,7 @@ def test_values_cover_neither_names_nor_each_other():
         assert not a.overlaps(b), f"{first} covers {second}"
 
 
+@pytest.mark.slow
 def test_forces_over_the_bold_pose_of_several():
     machine = ThreePointHitch()
     figure = draw(machine, at=[0.0, 0.1], forces=True, path=["G"])
@@ -304,6 +306,7 @@ class Dead(Mechanism):
     load = Weight(B, mass=100.0)
 
 
+@pytest.mark.slow
 def test_what_a_pose_keeps_is_no_warning():
     poses = (ThreePointHitch(**given).at(S=0.1) for given in ({}, {"circuit.pressure": 20e5}))
     kept, short = (named(draw(motion, forces=True), "note")["note"].get_color() for motion in poses)
@@ -415,6 +418,7 @@ def test_a_pin_about_which_no_load_turns_is_refused(pin, words):
         draw(ThreePointHitch().at(S=0.1), forces=pin)
 
 
+@pytest.mark.slow
 def test_a_force_on_a_spring_names_it_once():
     """At the press's ram the spring's other end is a sliding block, which bears no name."""
     texts = {each.get_text() for each in draw(RegenerativePress().at(S=0.2), forces=True).axes[0].texts}
@@ -447,6 +451,7 @@ def test_velocities_stand_square_on_the_rays_of_the_pole(machine):
                 assert_allclose(speed[point], spin * np.array([-ray[1], ray[0]]), atol=1e-9 * max(fastest, abs(spin) * np.hypot(*ray)))
 
 
+@pytest.mark.slow
 @first_daily(2, "machine", [ThreePointHitch, FourBar, Press], ids=lambda machine: machine.__name__)
 def test_velocity_arrows_are_in_one_scale(machine):
     motion = pose_of(machine())
@@ -566,6 +571,7 @@ def gap_lines(figure, pair):
     return [np.array(line.get_xydata()) for line in lines[::3]], texts
 
 
+@pytest.mark.slow
 def test_the_worst_pose_is_drawn_with_what_comes_nearest_there():
     hitch = Beside()
     (answer,) = hitch.answers([least(clearance())])
@@ -668,6 +674,7 @@ def test_one_place_has_one_label_of_all_bodies_that_turn_about_it(machine):
     assert sorted(name for mark in marks for name in mark.name.removeprefix("pole of ").split(", ")) == sorted(bodies)
 
 
+@pytest.mark.slow
 def test_the_excavator_has_one_pole_and_one_label():
     figure = draw(Excavator(), pole=True)
     (text,) = [text.get_text() for text in figure.findobj(Text) if str(text.get_gid()).startswith("pole of ")]

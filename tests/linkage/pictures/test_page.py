@@ -319,6 +319,7 @@ def test_wrong_questions_are_answered_in_words(tmp_path):
     assert not file.exists()
 
 
+@pytest.mark.slow
 def test_a_second_page_of_a_machine_traces_nothing_again(tmp_path, monkeypatch):
     machine = MowerLift()
     first = page(machine, tmp_path / "first.html").read_bytes()
@@ -350,6 +351,7 @@ def test_a_page_opens_in_silence_and_asks_for_nothing_but_itself(chromium, writt
         assert len(shown.told) == len(verdicts)
 
 
+@pytest.mark.slow
 @first_daily(2, "machine", [ThreePointHitch(), StephensonThree(), Reach()], ids=lambda each: type(each).__name__)
 def test_the_page_says_what_python_says_of_random_designs(chromium, written, machine):
     random = np.random.default_rng(13)
@@ -769,6 +771,7 @@ class Stacker(FourBar):
     """A class of one's own."""
 
 
+@pytest.mark.slow
 def test_what_is_copied_of_ones_own_class_runs_and_says_where_nothing_was_changed(chromium, written, tmp_path, capsys):
     with Shown(chromium, written(Stacker())) as shown:
         texts = {}
@@ -799,6 +802,7 @@ def test_what_is_copied_of_a_files_machine_imports_the_file(tmp_path):
     assert named_in_code(Grapple)["module"] == "mechanisms.grapple"
 
 
+@pytest.mark.slow
 def test_every_path_that_a_machine_declares_runs_and_what_is_out_of_bounds_is_told(chromium, tmp_path):
     with Shown(chromium, page(Digging(), tmp_path / "digging.html")) as shown:
         runs = shown("[...document.getElementById('run').options].map((each) => each.textContent)")
@@ -821,6 +825,7 @@ MARKS = (
 )
 
 
+@pytest.mark.slow
 def test_a_jump_of_a_curve_is_upright_and_a_name_stands_beside_a_support(chromium, tmp_path):
     """The header balancer's shoe takes up the load at once where the line has run empty."""
     within = {"F_R free": (8000.0, "within the jump", "below")}
@@ -838,6 +843,7 @@ def test_a_jump_of_a_curve_is_upright_and_a_name_stands_beside_a_support(chromiu
         assert marks and not [mark for mark in marks if left < mark[0] - x < right and top < mark[1] - y < bottom]
 
 
+@pytest.mark.slow
 def test_what_happened_on_the_way_is_as_delivered_once_a_dimension_changes(chromium, tmp_path):
     design = RegenerativePress()
     run = design.plan.members["supply"].run(design, demands={"ram": 0.2}, start={"S": 0.0}, until=1.0)
@@ -869,6 +875,7 @@ NOTHING_SET = {
 }
 
 
+@pytest.mark.slow
 def test_a_text_that_sets_nothing_is_told_and_changes_nothing(chromium, written):
     with Shown(chromium, written(ThreePointHitch())) as shown:
         before = shown.state["design"]
@@ -891,6 +898,7 @@ def test_texts_with_units_are_read(chromium, written):
             assert [design[name] for name in ("OB", "M.x", "M.y")] == pytest.approx([0.305, 0.231, 1.04], rel=1e-12)
 
 
+@pytest.mark.slow
 def test_a_links_text_is_an_option_of_commands(chromium, delivered, capsys):
     with Shown(chromium, delivered) as shown:
         shown("hydrolinkage.set({ design: { CD: 0.63 } })")
@@ -1142,6 +1150,7 @@ def test_dimensions_are_added_and_taken_away(chromium, written):
         assert shown(names) == ["load.mass"]
 
 
+@pytest.mark.slow
 def test_a_machine_of_a_file_and_requests_as_columns(chromium, written):
     boom = load(str(DATA / "loader_boom.toml"))()
     with Shown(chromium, written(boom)) as shown:
@@ -1185,6 +1194,7 @@ class Shared(Mechanism):
     mass = Weight(A, mass=10)
 
 
+@pytest.mark.slow
 def test_what_every_machine_is_given_is_followed(chromium, written):
     """Its drive's force, thrust, pressure and reserve, at another design too."""
     design = {"OB": 0.58, "load.mass": 1100.0}
@@ -1207,6 +1217,7 @@ class Cased(Lifting):
     down = Over.path(S=[0.2, 0.05], cases=["plain"])
 
 
+@pytest.mark.slow
 def test_curves_of_a_path_are_in_its_load_case_and_a_reserve_is_the_pumps_load(chromium, tmp_path):
     machine, file = Cased(), tmp_path / "cased.html"
     with Shown(chromium, page(machine, file, column="reserve", limit={"reserve": (1.25, "a quarter", "below")})) as shown:
@@ -1249,6 +1260,7 @@ def test_curves_of_a_path_are_in_its_load_case_and_a_reserve_is_the_pumps_load(c
         assert ax.get_title(loc="left").startswith("pump load in %")
 
 
+@pytest.mark.slow
 def test_a_delivered_design_that_asks_too_much_is_told_so(chromium, written, tmp_path):
     heavy = Lifting(**{"load.mass": 9000.0})
     assert any(each.ok is False for each in heavy.verdicts(heavy.sweep(101)) if each.is_rule)
@@ -1275,6 +1287,7 @@ class Hanging(Mechanism):
     pump = LiftCircuit(lift, pressure=17 * MPa, relief=17 * MPa)
 
 
+@pytest.mark.slow
 def test_what_fails_of_a_changed_design_is_said_with_what_would_help(chromium, written):
     with Shown(chromium, written(Lifting())) as shown:
         assert shown("(given) => hydrolinkage.set(given)", {"design": {"lift.bore": 0.04, "lift.rod": 0.02, "lift.stroke": 0.15}})
@@ -1293,6 +1306,7 @@ def test_what_fails_of_a_changed_design_is_said_with_what_would_help(chromium, w
         assert all("it would have to be held down with" in each and "set the supports wider" in each for each in mine)
 
 
+@pytest.mark.slow
 def test_one_dimension_that_is_shown_at_first_makes_a_rule_hold(chromium, written):
     """What is not kept chooses sliders, too: one of them moved to an end is enough. Designs beside each other say which rule fails."""
     with Shown(chromium, written(Digger(**{"load.mass": 2500.0}))) as shown:
@@ -1332,6 +1346,7 @@ def test_a_strokes_value_is_typed_and_its_slider_goes_over_all_that_is_declared(
         assert shown.state["at"]["S"] == 0.0
 
 
+@pytest.mark.slow
 def test_holding_is_followed_on_both_sides_and_never_green_above_the_valve(chromium, written):
     """The load pulls: 502 of 170 bar stand in the rod side, where the working side has none."""
     verdicts = {each.rule: each for each in Hanging().verdicts() if each.is_rule}
@@ -1376,6 +1391,7 @@ def test_what_has_no_program_leaves_the_other_columns_in_one():
     assert_allclose([*values_together(motion, asked).values()], [motion[asked[0]], motion[asked[2]]], rtol=1e-12)
 
 
+@pytest.mark.slow
 def test_groups_count_among_dead_points(chromium, written):
     machine = StephensonThreeFar()
     (verdict,) = (each for each in machine.verdicts() if each.rule == "dead points")
@@ -1411,11 +1427,13 @@ def test_a_cylinder_of_which_nothing_is_known_is_drawn(chromium, written):
         assert "pressure" not in ram
 
 
+@pytest.mark.slow
 def test_a_pin_with_several_joints_and_a_torque_has_the_arrows_that_can_be_told_apart(chromium, written):
     with Shown(chromium, written(Shared())) as shown:
         assert shown.said == [] and len(shown("hydrolinkage.data.arrows")) >= 4
 
 
+@pytest.mark.slow
 @for_all(("machine", "names"), [(Grapple, {"D", "H", "M_g", "M_1", "M_g/M_1"})], slow=[(HeaderBalancer, {"H", "P", "F_R free"})])
 def test_what_a_balancer_and_a_grapple_are_about_is_followed(machine, names):
     requests = PageRequests(machine(), 101, at={})
@@ -1476,6 +1494,7 @@ def test_the_page_of_a_motion_runs_along_its_path(chromium, tmp_path):
         assert [each[2] for each in data["verdicts"] if each[1] in told] == [*told.values()]
 
 
+@pytest.mark.slow
 def test_a_stroke_of_its_own_leaves_the_path_and_the_link_restores_the_place(chromium, tmp_path):
     motion = level_lift()
     with Shown(chromium, page(motion, tmp_path / "follow.html")) as shown:
@@ -1498,6 +1517,7 @@ def test_a_stroke_of_its_own_leaves_the_path_and_the_link_restores_the_place(chr
         assert shown.state["at"] == pytest.approx(before)
 
 
+@pytest.mark.slow
 def test_a_path_that_is_reached_in_part_keeps_the_numbers_of_its_places():
     motion = level_lift(top=2.9, unreachable="nan")
     count = int(motion.reached.sum())
@@ -1510,6 +1530,7 @@ def test_a_path_that_is_reached_in_part_keeps_the_numbers_of_its_places():
     assert (along["start"], along["end"]) == (10 - count, 9)
 
 
+@pytest.mark.slow
 def test_several_strokes_that_run_together_are_a_path():
     machine = LevelLoader()
     data = data_of(page_html(machine, at={"lift": [0.9, 1.1, 0.9], "dump": [0.8, 0.9, 0.8], "push": 0.8}, count=11))
@@ -1605,6 +1626,7 @@ def test_on_a_phone_the_name_and_the_forces_of_what_is_touched_are_told(chromium
         assert told == ["B", "59.6\N{THIN SPACE}kN on OBC from lift"]
 
 
+@pytest.mark.slow
 def test_a_group_with_a_rule_that_fails_has_one_heading_and_folds_what_is_kept(chromium, tmp_path):
     file = page(ThreePointHitch(**{"lift.rod": 0.02}), tmp_path / "rod.html")
     for size in (LAPTOP, PHONE):
@@ -1645,6 +1667,7 @@ class Pair(Row):
     c = d = e = None
 
 
+@pytest.mark.slow
 def test_crowded_points_of_parts_go_by_the_letters_of_pictures(chromium, tmp_path):
     with Shown(chromium, page(Row(), tmp_path / "row.html")) as shown:
         drawn = draw(Row().at(phi=1.0))

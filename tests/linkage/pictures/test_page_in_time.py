@@ -137,6 +137,7 @@ def test_barrels_arrows_and_verdicts_are_of_what_runs():
         assert not any(each.get("unknown") for each in said.values())
 
 
+@pytest.mark.slow
 def test_what_a_page_does_not_follow_is_not_kept():
     for kind in (Pumped, LoadedLever):
         _, data, found, _, _ = played(kind())

@@ -141,8 +141,7 @@ def check(machine, designs, n=9):
     ("machine", "lengths"),
     [
         *((each, 1) for each in (ThreePointHitch, MowerLift)),
-        (Grab, 0),  # two strokes: Python looks at many poses
-        pytest.param(CorneredOnce, 0, marks=SLOW),
+        *(pytest.param(each, 0, marks=SLOW) for each in (Grab, CorneredOnce)),  # two strokes: Python looks at many poses
         *(pytest.param(each, 3, marks=SLOW) for each in (ThreePointHitch, Grapple, Grab, CorneredOnce, LostOnce, Cornered, Lost)),
     ],
 )
@@ -193,6 +192,7 @@ class Follows(Grab):
     box = Over(S=(far, 0.05), T=("deep", 0.2))
 
 
+@pytest.mark.slow
 @NEEDED
 def test_ends_that_follow_the_design_are_those_of_the_changed_one():
     count, kept = check(Follows(), [{}, {"far": 0.2, "deep": 0.05}, {"far": 0.11}])
@@ -223,6 +223,7 @@ def test_it_looks_at_five_thousand_poses_of_the_crane_at_most():
     assert crane["n"] == 17 and crane["count"] <= 5000
 
 
+@pytest.mark.slow
 @NEEDED
 def test_a_live_reserve_is_near_that_of_the_delivered_verdict():
     _, data, (said,) = asked_in_node(Grab(), [({}, 17, True)])
@@ -232,6 +233,7 @@ def test_a_live_reserve_is_near_that_of_the_delivered_verdict():
     assert said["found"][place]["case"] == verdict.answer.case == "shock"
 
 
+@pytest.mark.slow
 @NEEDED
 def test_of_one_pose_it_says_what_python_says_and_whether_it_is_judged():
     machine, random = OnPath(**{"load.mass": 900.0}), np.random.default_rng(4)
@@ -281,7 +283,7 @@ def check_delivered(machine):
             assert delivered(data, name, system) == told(machine, name, system)
 
 
-@pytest.mark.parametrize("name", ("mower_lift", pytest.param("log_splitter", marks=SLOW), "lifting_arm"))
+@pytest.mark.parametrize("name", ("lifting_arm", *(pytest.param(name, marks=SLOW) for name in ("mower_lift", "log_splitter"))))
 def test_delivered_verdicts_are_pythons_word_for_word(name):
     for design in near(MACHINES[name], 5, 1):
         check_delivered(MACHINES[name](**design))

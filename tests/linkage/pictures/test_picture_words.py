@@ -100,6 +100,7 @@ def test_forces_and_lengths_are_in_the_system_that_is_chosen():
     assert not number_before("kN", figure)
 
 
+@pytest.mark.slow
 def test_moments_and_velocities_are_in_the_system_that_is_chosen():
     with unit_system("us"):
         figure = draw(Loaded().at(phi=0.9), forces=True, velocities=dict(phi=1.0))
@@ -151,6 +152,7 @@ def test_masses_and_moments_of_bodies_are_marked_at_their_places():
         assert np.hypot(*(bar - 0.5 * (at["O"] + at["A"])).T).max() < 1.1 * scene.size
 
 
+@pytest.mark.slow
 def test_a_long_legend_is_written_so_small_that_it_fits():
     with language("ru"):
         figure = draw(ThreePointHitch(), forces=True, path=["G"])

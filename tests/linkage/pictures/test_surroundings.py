@@ -313,6 +313,7 @@ def test_a_picture_of_too_many_pixels_is_refused_before_it_is_read(tmp_path):
             draw(machine)
 
 
+@pytest.mark.slow
 def test_blocks_that_stand_in_themselves_or_too_deep_are_refused(tmp_path):
     ezdxf = pytest.importorskip("ezdxf", reason="drawings are read with ezdxf")
 

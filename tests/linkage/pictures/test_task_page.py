@@ -5,6 +5,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from linkage import DefinitionError, deg, mm, page
+from tests.for_all import first_daily
 from tests.linkage.pictures.test_draw_synthesis import found_for
 from tests.linkage.pictures.test_page import PHONE, Shown, chromium, data_of  # noqa: F401
 from tests.linkage.synthesis.test_task_error import nearest
@@ -29,7 +30,7 @@ def numbers(line):
     return float(words[2]), float(words[words.index("most") + 1])
 
 
-@pytest.mark.parametrize("kind", ["path", "function", "poses"])
+@first_daily(1, "kind", ["path", "function", "poses"])
 def test_it_shows_the_task_and_what_every_answer_misses(chromium, written, kind):  # noqa: F811
     found, unit = found_for(kind), deg if kind == "function" else mm
     with Shown(chromium, written(kind)) as shown:

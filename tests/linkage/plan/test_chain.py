@@ -151,6 +151,7 @@ def test_a_relative_crank_is_driven_by_its_own_stroke():
 # -- the picture ---------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @over_machines()
 def test_the_picture_has_every_body_and_joint_and_none_upon_another(machine):
     graph = machine().graph

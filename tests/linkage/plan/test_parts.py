@@ -342,6 +342,7 @@ FOREIGN = {
 STANDS = {"upright": dict(at=(1, 2)), "turned": dict(angle=0.5), "mirrored": dict(mirrored=True), "carried": dict(on=("O", "Q"))}
 
 
+@pytest.mark.slow
 @for_all("stands", STANDS)
 @for_all("kind", FOREIGN)
 def test_steps_of_other_packages_move_with_a_part_or_are_refused(kind, stands):
@@ -503,6 +504,7 @@ o = { q = [0.1, 0.2], a.s2 = 0.1, "b.s2" = 0.1, b.twin.S = 0.2 }
     assert_array_equal(again().at(**poses)["b.upper.T"], machine().at(**poses)["b.upper.T"])
 
 
+@pytest.mark.slow
 def test_a_stroke_may_leave_a_column_without_a_number(tmp_path):
     export(Loader(), tmp_path / "pair.xlsx", at={"s2": 0.1, "twin.S": 0.1}, count=3)
     assert (tmp_path / "pair.xlsx").stat().st_size > 10_000

@@ -151,6 +151,7 @@ def hitch_designs(m, n):
     return designs | {"S": np.linspace(0.0, 0.25, n)}
 
 
+@pytest.mark.slow
 @for_all(("m", "n"), [(1, 1), (1, 40000), (3, 50), (50, 3), (20000, 2), (9000, 20)])
 def test_designs_and_poses_in_every_proportion(m, n):
     kernel, inputs = everything(ThreePointHitch), hitch_designs(m, n)

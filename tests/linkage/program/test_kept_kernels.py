@@ -14,6 +14,7 @@ from numpy.testing import assert_array_equal
 
 from linkage.program import cache as kept
 from linkage.program.cache import CompiledFile, cache_folder, compiled_in_file, is_cached, is_own
+from tests.for_all import first_daily
 
 numba = pytest.importorskip("numba")
 posix = pytest.mark.skipif(sys.platform == "win32", reason="rights of POSIX")
@@ -78,7 +79,7 @@ def torn(draw, raw):
     return changed[kind]
 
 
-@pytest.mark.parametrize("suffix", ["nbi", "nbc", "json"])
+@first_daily(1, "suffix", ["nbi", "nbc", "json"])
 def test_a_torn_or_altered_kernel_is_thrown_away_and_made_again(folder, suffix):
     draw = random.Random(11)
     used()
@@ -113,8 +114,8 @@ def test_a_disk_that_keeps_nothing_changes_no_number(folder, monkeypatch):
 
 
 @posix
-@pytest.mark.parametrize("place", ["", "__pycache__"])
-@pytest.mark.parametrize("mode", [0o777, 0o775, 0o757])
+@first_daily(1, "place", ["__pycache__", ""])
+@first_daily(2, "mode", [0o775, 0o757, 0o777])
 def test_a_folder_that_others_can_write_is_not_used(folder, place, mode):
     used()
     os.chmod(folder.parent, 0o755)

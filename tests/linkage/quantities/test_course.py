@@ -69,6 +69,7 @@ def test_derivatives_are_those_of_the_values_whatever_a_course_is_made_of():
             assert moved == pytest.approx(course(inner, order + 1), abs=1e-5 * max(size, 1.0)), (seed, order)
 
 
+@pytest.mark.slow
 def test_a_course_split_anywhere_and_put_together_is_the_same_to_the_last_bits():
     for seed in range(40):
         random = np.random.default_rng([seed, 1])

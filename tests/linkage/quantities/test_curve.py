@@ -99,6 +99,7 @@ def test_javascript_says_the_same():
     assert_allclose(said, [Lifted().function(asked)(phi) for phi in (0.3, 2.9, 6.0)], rtol=1e-11, atol=1e-15)
 
 
+@pytest.mark.slow
 def test_sympy_reads_the_program_and_the_equations():
     motion = Lifted().at(phi=0.7)
     (closed,) = program_expressions(Lifted.plan, "height")

@@ -54,6 +54,7 @@ def off(found, wanted):
     return float(np.nanmax(np.abs(found - wanted), initial=0.0)) / float(np.abs(wanted).max())
 
 
+@pytest.mark.slow
 @for_all("order", [1, 2])
 @for_all("S", [0.7 + 1e-9, 1.3 - 1e-6], slow=[0.75, 0.7 + 1e-5, 1.0])
 def test_any_step_next_to_a_dead_point_tells_what_it_loses(order, S):

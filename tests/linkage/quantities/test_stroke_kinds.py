@@ -24,6 +24,7 @@ from linkage.motion import stroke_unit
 from linkage.plan.members import strokes_text
 from linkage.reports import results
 from linkage.units import deg, litre, mm
+from tests.for_all import first_daily
 from tests.linkage.pictures.test_page import data_of
 
 
@@ -94,7 +95,7 @@ def test_all_that_shows_a_stroke_knows_what_it_measures(kind, unit):
     assert str(answer).endswith(shown)
 
 
-@pytest.mark.parametrize(("kind", "unit"), [KINDS[place] for place in (1, 4, 7)])
+@first_daily(1, ("kind", "unit"), [KINDS[place] for place in (1, 4, 7)])
 def test_a_page_and_a_report_say_it_in_its_unit(kind, unit, tmp_path):
     machine, (shown, force, _) = kind(), SHOWN[unit]
     assert data_of(page(machine, tmp_path / "it.html").read_text())["strokes"][0]["unit"] == shown

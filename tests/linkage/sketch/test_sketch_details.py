@@ -10,6 +10,7 @@ from linkage import DefinitionError, FileError, driving_force, pin_forces
 from linkage.cli import main
 from linkage.sketch import MachineSketch, SketchDrive, is_foreign, read_sketch, sketch_of, sketch_text
 from tests import shipped
+from tests.for_all import first_daily
 from tests.linkage.sketch import emit
 from tests.linkage.sketch.plans import BY_NAME
 from tests.linkage.sketch.test_sketch_files import compare
@@ -177,7 +178,7 @@ def test_a_length_of_a_row_is_in_the_unit_of_the_table_unless_it_has_its_own(tmp
 # -- out again ---------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("suffix", [".csv", ".linkage2", ".txt"])
+@first_daily(1, "suffix", [".linkage2", ".csv", ".txt"])
 def test_a_sketch_goes_out_and_comes_in_again(suffix, tmp_path):
     for name in ("four_bar", "slider_crank", "inverted_slider_crank", "three_point_hitch"):
         sketch = sketch_of(shipped.MACHINES[name])
@@ -259,6 +260,7 @@ def test_the_command_ends_with_2_and_the_option_that_helps(tmp_path, capsys):
     assert not (tmp_path / "a.toml").exists()
 
 
+@pytest.mark.slow
 def test_no_file_of_another_program_is_written_over(tmp_path, capsys, monkeypatch):
     monkeypatch.chdir(tmp_path)
     for name, text in (("a.csv", emit.csv(BY_NAME["Rocker"])), ("a.linkage2", emit.linkage2(BY_NAME["Rocker"])), ("b.csv", "1,2\n")):

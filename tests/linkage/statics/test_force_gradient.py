@@ -126,6 +126,7 @@ class Differences:
             assert_allclose(each, wanted, rtol=0, atol=1e-7 * scale, err_msg=f"{tell} by {name}")
 
 
+@pytest.mark.slow
 @half(0)
 def test_gradient_of_thrust_is_the_difference_of_designs(machine):
     motion, differences = compared(machine)

@@ -173,6 +173,7 @@ def test_arrays_over_the_poses_are_solved_on_arrays():
     assert row.strokes["S"] in motion.strokes["S"]
 
 
+@pytest.mark.slow
 def test_the_largest_force_is_found_between_the_poses():
     class Knot(ThreePointHitch):
         """A spring that stiffens in a knot of half a millimetre of its length."""
@@ -228,6 +229,7 @@ def chain(count):
     return type(f"Chain{count}", (Mechanism,), members)
 
 
+@pytest.mark.slow
 def test_the_program_of_a_long_chain_grows_with_its_length():
     sizes = []
     for count in (4, 8, 16):

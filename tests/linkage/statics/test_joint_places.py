@@ -156,6 +156,7 @@ def test_what_acts_on_a_body_goes_by_its_joint_where_it_is_no_point():
     assert all(each.place is None for each in found.joints if each.kind != "mesh")
 
 
+@pytest.mark.slow
 def test_pictures_show_it_there():
     for forces in (True, "M B", "frame"):
         assert draw(Train(), forces=forces) is not None

@@ -81,6 +81,7 @@ def test_a_machine_has_the_largest_of_all_cases_directions_and_places():
     assert all(row.drive in row.movement and "S = " in row.place for row in rows.values())
 
 
+@pytest.mark.slow
 def test_fewer_cases_or_a_smaller_box_are_never_worse():
     machine = Grab()
     rows = max_table(machine)

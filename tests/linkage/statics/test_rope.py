@@ -32,7 +32,7 @@ from linkage import (
 )
 from linkage.pictures.scene import Scene
 from linkage.units import deg, g0, mm
-from tests.extending.readings import Case, a_page_is_written, a_report_is_written, marked, numba_says_the_same
+from tests.extending.readings import DOCUMENTS, Case, equations_say_the_same, marked, numba_says_the_same
 from tests.for_all import for_all
 
 
@@ -314,6 +314,6 @@ CASE = Case(
 )  # fmt: skip
 
 
-@pytest.mark.parametrize("read", marked(numba_says_the_same, a_page_is_written, a_report_is_written))
+@pytest.mark.parametrize("read", marked(numba_says_the_same, equations_say_the_same, *DOCUMENTS))
 def test_readings_agree(read, tmp_path):
     read(CASE, tmp_path)

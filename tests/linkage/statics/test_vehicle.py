@@ -482,6 +482,7 @@ class MirroredPart(Mechanism):
     hill = LoadCase(slope=0.1)
 
 
+@pytest.mark.slow
 @first_daily(1, "machine", [MirroredPart, UnderAPart])
 def test_the_frame_of_parts_balances_and_has_equations(machine):
     at = {"own.S": 0.1, "own.s": 0.2}

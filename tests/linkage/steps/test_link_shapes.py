@@ -75,6 +75,7 @@ def test_group_stands_as_sketched_however_its_links_are_said(seed):
     check_kept(group_sheet(seed), seed)
 
 
+@pytest.mark.slow
 @SEEDS
 def test_dyads_stand_as_sketched_however_their_links_are_said(seed):
     check_kept(dyad_sheet(seed), seed)

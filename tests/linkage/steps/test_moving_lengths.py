@@ -86,6 +86,7 @@ def test_values_ratios_and_forces(step, name):
     assert_allclose(driving_force(places), 10.0 * G * (later.y("X") - earlier.y("X")) / (2 * h), rtol=1e-6, atol=1e-6)
 
 
+@pytest.mark.slow
 @for_all(("step", "name"), CASES[1::2], slow=CASES)
 def test_gradients_and_kernels(step, name):
     kind = machine_of(step, name)

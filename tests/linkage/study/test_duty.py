@@ -136,6 +136,7 @@ def test_the_least_mean_thrust_is_that_of_a_grid(spread):
     assert worst.value > found.value
 
 
+@pytest.mark.slow
 def test_a_front_of_two_goals_in_a_duty():
     front = optimise(
         Lever(), minimise=[most(drive_force()), as_measure(most(distance("A", "B")))], vary={"OB": (0.7, 0.9)}, case=DUTY, limit=300
@@ -144,6 +145,7 @@ def test_a_front_of_two_goals_in_a_duty():
         assert_allclose(point.values[0], mean(lambda case, m=point.machine: forces(m, np.linspace(0, 0.3, 3001), case).max()), rtol=1e-5)
 
 
+@pytest.mark.slow
 def test_a_synthesis_ranks_by_the_mean_and_keeps_its_conditions_in_every_case():
     """Two heights for three dimensions: many levers do the task."""
     S = np.array([0.0, 0.3])

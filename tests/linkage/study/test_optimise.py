@@ -202,6 +202,7 @@ def test_the_stroke_may_follow_the_design():
 # -- load cases, spread, several objectives -----------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_several_load_cases_are_all_kept_and_the_worst_counts():
     asked = dict(maximise=least(reserve("lift")), vary={"OB": (0.25, 0.35)}, starts=1)
     both, full, plain = (optimise(Loaded(), **asked, case=case) for case in (["full", "empty"], "full", "plain"))
@@ -262,6 +263,7 @@ def test_choices_alone_are_all_looked_at():
     assert_allclose(best.value, max(every), rtol=1e-6)
 
 
+@pytest.mark.slow
 def test_steps_are_kept_and_no_design_on_steps_beats_it(tmp_path):
     vary = {"OB": (0.25, 0.35, 0.01), "A.y": (-0.06, 0.06)}
     best = optimise(Boom(), minimise=most(pressure("lift")), vary=vary, subject_to=[TRAVEL <= 0.64], starts=2)
@@ -295,6 +297,7 @@ def test_rounding_says_what_it_costs_and_keeps_the_conditions():
 # -- what limits it ---------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_multiplier_is_what_giving_way_gains():
     def search(travel, high):
         vary, limits = {"A": around(60 * mm), "OB": (0.25, high)}, [at(y("G"), S=0.25) - at(y("G"), S=0.0) >= travel]
@@ -338,7 +341,8 @@ def test_nothing_that_cannot_be_assembled_is_ever_returned():
         optimise(Reaching(), minimise=at("OB"), vary={"OB": (0.05, 0.15)})
 
 
-@pytest.mark.parametrize("also", [{}, pytest.param({"OB": (0.25, 0.35)}, marks=pytest.mark.slow)], ids=["alone", "with a length"])
+@pytest.mark.slow
+@pytest.mark.parametrize("also", [{}, {"OB": (0.25, 0.35)}], ids=["alone", "with a length"])
 def test_a_design_that_is_refused_counts_as_one_that_cannot_be(also):
     """Beyond some back pressure nothing is left of the pump's: that is refused of a motion, and no reason to stop a search."""
     vary, limits = {"circuit.back_pressure": (0.0, 900 * bar), **also}, [least(reserve("lift")) >= 1.5]
@@ -421,6 +425,7 @@ def leaf_slopes(problem):
     return [rows.slopes[0, int(np.argmax(rows.values[0]))] / local.leaf_scales[leaf]]
 
 
+@pytest.mark.slow
 def test_groups_solved_by_iteration_are_searched_too():
     machine = StephensonThreeFar()
     names = [name for name in ("AB", "CB", "OA") if name in machine]
@@ -432,6 +437,7 @@ def test_groups_solved_by_iteration_are_searched_too():
     assert_allclose(np.ptp(fine), best.value, rtol=1e-5)
 
 
+@pytest.mark.slow
 def test_friction_and_functions_of_a_motion_are_searched_by_differences():
     class Worn(Boom):
         pin = PinFriction("O", radius=30 * mm, coefficient=0.2)
@@ -497,6 +503,7 @@ class Balanced(Mechanism):
     line = LiftCircuit(ram, pressure=200 * bar)
 
 
+@pytest.mark.slow
 def test_movements_that_no_design_needed_but_the_winner_are_sought_too():
     """Pulling in, the rod side has the smaller area: where both thrusts are nearly equal, its pressure is the greater one."""
     goal = most(pressure("ram"))
@@ -506,6 +513,7 @@ def test_movements_that_no_design_needed_but_the_winner_are_sought_too():
     assert len(best.problem.objectives) == 2
 
 
+@pytest.mark.slow
 def test_exact_rows_of_forces_hold_with_several_cylinders_and_strokes():
     class Two(Mechanism):
         S1 = Stroke(0.0, 0.2)
@@ -541,6 +549,7 @@ def test_local_search_of_elastic_and_plain_agree_where_all_is_kept():
 # -- kept on the way ------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_searches_that_meet_are_judged_once_and_are_the_same_design(monkeypatch):
     """Where one search ended the next ones look at once; the first alone adds poses and is judged between them."""
     judged, truths = [], Problem.truths
@@ -626,6 +635,7 @@ def test_a_dimension_that_follows_another_is_told_so():
         optimise(Following(), minimise=most("tilt"), vary={"lift.closed": (0.2, 0.3)})
 
 
+@pytest.mark.slow
 def test_a_limit_of_zero_may_be_active_and_rounding_stays_in_the_range():
     vary = {"A": around(50 * mm), "OB": (0.25, 0.28)}
     by_limit, by_zero = (

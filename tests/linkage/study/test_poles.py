@@ -33,6 +33,7 @@ def test_a_divisor_that_passes_zero_is_refused_wherever_it_stands(ways):
         optimise(Rocker(), minimise=least(1 / gap), **BOX)
 
 
+@pytest.mark.slow
 def test_what_stays_bounded_is_found():
     """The least of a square's reciprocal, or of a size, is bounded; so is a quotient whose divisor stays away from zero."""
     for each in (at(1 / (y("D") - HEIGHT) ** 2, S=0.4), at(abs(1 / (y("D") - HEIGHT)), S=0.4), most(1 / (y("D") - 0.1))):
@@ -41,6 +42,7 @@ def test_what_stays_bounded_is_found():
         assert best.value <= min(values) * (1.0 + 1e-9)
 
 
+@pytest.mark.slow
 def test_a_pole_within_the_stroke_of_a_part_of_the_box_ends_soon_in_words():
     """The best goes towards designs whose divisor begins to pass zero: it is refused, or what is found has a value and names that edge."""
     gap = y("D") - float(Rocker().at(S=0.4).y("D"))
@@ -55,6 +57,7 @@ def test_a_pole_within_the_stroke_of_a_part_of_the_box_ends_soon_in_words():
             assert best.value == pytest.approx(np.max(best.machine.sweep(2001)[quantity]), rel=1e-6)
 
 
+@pytest.mark.slow
 def test_a_zone_and_settings_tell_no_pole_as_a_value():
     gap = y("D") - float(Rocker().at(S=0.4).y("D"))
     for quantity, vary in ((1 / gap, {"OA": (0.25, 0.35)}), (x("D") / gap, {"OA": (0.25, 0.35), "CD": (0.45, 0.55)})):

@@ -127,6 +127,7 @@ def test_the_population_is_drawn_inside(regions):
     assert np.array_equal(space.drawn(unit, "Wheeled", 1), space.drawn(unit, "Wheeled", 1))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("regions", [{"C": ["plate", outside("wheel")]}, pytest.param({"C": L_SHAPE, "O": CORNER}, marks=pytest.mark.slow)])
 def test_no_pivot_of_an_answer_is_outside(regions):
     """The known machine's own pivot stands outside, so that another one is to be found."""

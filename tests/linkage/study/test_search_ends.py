@@ -134,6 +134,7 @@ def test_a_limit_is_kept_told_and_gives_the_best_so_far_the_same_each_time(name,
     assert found[0] == found[1]
 
 
+@pytest.mark.slow
 def test_more_designs_are_never_worse_and_a_folder_goes_on_beyond_a_limit(tmp_path):
     machine, ask = ENDING["boom"]()
     few, all_of_them = optimise(machine, **ask, limit=60, folder=tmp_path), optimise(machine, **ask)
@@ -144,6 +145,7 @@ def test_more_designs_are_never_worse_and_a_folder_goes_on_beyond_a_limit(tmp_pa
     assert_allclose(optimise(machine, **ask, folder=tmp_path).value, all_of_them.value, rtol=1e-12)
 
 
+@pytest.mark.slow
 def test_an_infinite_derivative_is_no_error():
     """The root of a bore that may be zero; the lift of a boom that ends in its dead point, where G's travel has no finite derivative."""
     root = optimise(Boom(), minimise=at("lift.bore") ** 0.5, vary={"lift.bore": (0.0, 0.1)}, starts=1)
@@ -176,6 +178,7 @@ def test_a_link_that_just_reaches_is_named_with_its_step():
     assert "OB = " in edge
 
 
+@pytest.mark.slow
 def test_an_optimum_held_by_conditions_and_ends_names_no_edge():
     machine, ask = ENDING["loader"]()
     best = optimise(machine, **ask, starts=2)
@@ -240,6 +243,7 @@ def test_nor_is_it_in_a_survey():
     assert set(found["root"].tolist()) == {False, True}
 
 
+@pytest.mark.slow
 def test_infinity_on_the_good_side_is_kept_and_so_is_what_nothing_limits():
     best = optimise(Boom(), minimise=most(pressure("lift")), vary={"OB": (0.25, 0.35)}, subject_to=[least(boundless) >= 1.0], starts=1)
     assert best.value > 0.0

@@ -36,6 +36,7 @@ def sampled(over, count, seed):
 # -- one pose for each design ------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_paired_is_the_motion_of_each_design():
     over = sampled({**BOX, "MK": (0.5, 0.96)}, 60, 1)
     S = np.random.default_rng(2).uniform(0.0, 0.25, 60)
@@ -73,6 +74,7 @@ def test_paired_finds_the_pins_of_groups():
         assert_allclose(together.ratio("G")[:, place], alone.ratio("G"), rtol=1e-8)
 
 
+@pytest.mark.slow
 def test_zone_of_a_machine_with_a_group():
     found = zone(Triad(), lambda motion: motion.y("G"), {"AB": (0.098, 0.102)}, phi=[0.0, 0.3])
     direct = Triad(AB=np.linspace(0.098, 0.102, 41)).at(phi=[0.0, 0.3]).y("G")

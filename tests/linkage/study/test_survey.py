@@ -66,6 +66,7 @@ def test_every_design_is_measured_once_and_in_its_place(small):
     assert sorted((batch.start, batch.stop) for batch in found.batches) == [(k, min(k + 64, 1000)) for k in range(0, 1000, 64)]
 
 
+@pytest.mark.slow
 def test_results_do_not_depend_on_the_batches(small, monkeypatch):
     machine, over = group_designs(400)
     many = survey(machine, over, far_points)
@@ -143,6 +144,7 @@ def test_numba_on_request(designs, measure):
         same(survey(machine, over, measure, backend="numba", executor=pool), numba)
 
 
+@pytest.mark.slow
 @first_daily(1, ("designs", "measure"), [(group_designs, far_points), (hitch_designs, travel)])
 def test_threads_that_trace_a_machine_at_the_same_time(designs, measure):
     machine, over = designs(64)
@@ -416,6 +418,7 @@ def beside_results(count):
         tracemalloc.stop()
 
 
+@pytest.mark.slow
 def test_memory_is_bounded_by_the_batch(monkeypatch):
     monkeypatch.setattr(BATCHES, "AIM", 1e-3)
     monkeypatch.setattr(BATCHES, "LEAST", 5e-4)

@@ -85,6 +85,7 @@ def test_spawned_processes_give_what_one_process_gives(small, wanted, spawned, g
     same(survey(*given, measure, executor=spawned), wanted(measure))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("client", [False, pytest.param(True, marks=pytest.mark.slow)], indirect=True, ids=["thread", "process"])
 @FIRST
 def test_dask_gives_what_one_process_gives(small, wanted, client, given, measure):
@@ -279,6 +280,7 @@ def test_batch_that_is_lost_again_and_again(small, tmp_path):
     same(survey(hitch, over, travel, folder=tmp_path), survey(hitch, over, travel))
 
 
+@pytest.mark.slow
 def test_interrupt_calls_back_what_is_queued(small, client, tmp_path):
     hitch, over = hitch_designs(64 * 40)
     log = tmp_path / "log"

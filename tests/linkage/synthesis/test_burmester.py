@@ -123,6 +123,7 @@ def over_region():
     return burmester(POSES, BELOW)
 
 
+@pytest.mark.slow
 def test_pivots_are_picked_in_the_region_and_their_machines_run():
     found = over_region()
     low, high = np.min(BELOW, axis=0), np.max(BELOW, axis=0)
@@ -236,6 +237,7 @@ def test_no_link_of_five_poses_is_missed_that_a_search_finds():
     assert len(hits) > 1
 
 
+@pytest.mark.slow
 def test_a_region_is_that_of_a_search():
     """A wheel is left out of it, as in `regions=` of a search."""
     wheel = Outline.circle((0.1, -0.25), 0.12)

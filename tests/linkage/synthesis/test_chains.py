@@ -92,6 +92,7 @@ def machines_of(links):
     return [(inversion, crank) for chain in chains(links) for inversion in chain.inversions for crank in inversion.cranks]
 
 
+@pytest.mark.slow
 def test_some_machines_of_eight_links():
     random = np.random.default_rng(8)
     every = machines_of(8)

@@ -59,6 +59,7 @@ def found():
     return synthesise([FourBar, SliderCrank], path=PathTask(rod_path()), starts=8)
 
 
+@pytest.mark.slow
 def test_the_class_that_a_path_is_of_is_found_exactly_and_ranked_first(found):
     best = found.best
     assert type(best.machine) is SliderCrank
@@ -167,6 +168,7 @@ def test_machines_that_are_installed_are_the_list_where_none_is_given():
     assert not {"StephensonTwo", "Crane", "DragLink", "Jansen"} & set(kinds)
 
 
+@pytest.mark.slow
 def test_machines_of_chains_are_classes_like_others():
     points = FourBar().at(phi=np.linspace(0.3, 5.5, 6))["P"].T
     bar = chains(4)[0].inversions[0].machine()

@@ -84,6 +84,7 @@ def test_what_runs_well_is_in_it():
     assert 200 < runs.sum() < 3000
 
 
+@pytest.mark.slow
 @first_daily(1, ("machine", "of"), [(StephensonOne(), "F"), (SixBar(), "Q")])
 def test_six_bars_in_it_run_over_five_thousand_poses(machine, of):
     found = curve_catalogue(machine, of, count=60)
@@ -169,6 +170,7 @@ def test_a_closed_curve_in_a_machine_out(four_bars, bar, points):
     found.machine.sweep(721)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("limit", [999, pytest.param(None, marks=pytest.mark.slow)])
 def test_the_word_makes_one(monkeypatch, limit):
     monkeypatch.setattr("linkage.synthesis.curve_catalogue.CURVES", 500)

@@ -78,6 +78,7 @@ def test_any_bar_is_found_from_five_of_its_points(seed):
     found_again(seed)
 
 
+@pytest.mark.slow
 def test_no_solution_is_missed_that_a_search_finds():
     """Newton's method on the lengths from places at random: each four-bar that it comes to is among those of the continuation."""
     bar, phi = bar_at(8, 5)
@@ -102,6 +103,7 @@ def test_no_solution_is_missed_that_a_search_finds():
     assert len(hits) > 3
 
 
+@pytest.mark.slow
 def test_pivots_anywhere_and_the_branch_that_each_begins_on():
     bar, phi = bar_at(12, 5)
     moved = 0.2 * np.exp(0.7j)

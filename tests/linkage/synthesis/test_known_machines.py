@@ -19,6 +19,7 @@ def found_again(name, seed, **options):
     return task.exact(task.found(**options))
 
 
+@pytest.mark.slow
 @for_all("name", [*CLASSES][::2], slow=[*CLASSES][1::2])
 def test_the_evaluators_stand_where_the_classes_do(name):
     known = CLASSES[name]

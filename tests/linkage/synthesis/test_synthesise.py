@@ -99,7 +99,8 @@ class PolarFrame(PolarBar):
     A = Crank(O, OA=1 * mm, angle="phi")
 
 
-@pytest.mark.parametrize("kind", [pytest.param(PolarBar, marks=pytest.mark.slow), PolarFrame])
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", [PolarBar, PolarFrame])
 def test_eighteen_points_are_met_where_the_frame_is_a_length_and_an_angle(kind):
     """In the papers' box, 75 times as wide as the machine that is drawn."""
     names = {PolarBar: ("x0", "y0", "r1"), PolarFrame: ("O.x", "O.y", "OC")}[kind]
@@ -114,6 +115,7 @@ def test_eighteen_points_are_met_where_the_frame_is_a_length_and_an_angle(kind):
     assert np.sum((places(bar, phi) - np.transpose(papers.EIGHTEEN) * mm) ** 2) <= 0.00902889 * SQUARE_MM
 
 
+@pytest.mark.slow
 def test_five_timed_points():
     task = PathTask(np.array(papers.FIVE) * mm, of="P", at=papers.FIVE_AT)
     found = synthesise(Bar(), path=task, vary=box(50 * mm, held=True))
@@ -179,6 +181,7 @@ def test_a_known_bar_is_found_again_from_its_untimed_path():
     found.machine.sweep(721)
 
 
+@pytest.mark.slow
 def test_a_known_hitch_is_found_again_along_its_stroke():
     known = ThreePointHitch(MK=0.83, CD=0.60, OB=0.31)
     strokes = np.linspace(0.0, 0.25, 6)
@@ -343,6 +346,7 @@ def bar_task(count, **task):
     return synthesise(FourBar(), path=path, vary=vary, starts=4, **task)
 
 
+@pytest.mark.slow
 @for_all(("count", "each"), [(5, 2)], slow=[(1, 1), (1, 3), (2, 1)])
 def test_few_points_and_points_given_twice(count, each):
     found = bar_task(count, each=each)
@@ -389,6 +393,7 @@ def test_a_dimension_that_moves_nothing_makes_no_other_machine():
     assert_allclose(found.machine["OA"], 0.03, rtol=0, atol=1e-9)
 
 
+@pytest.mark.slow
 @first_daily(1, "values", [[0.030, 0.036, 0.040], (0.030, 0.040, 0.002)])
 def test_choices_and_steps_hold_the_known_bar(values):
     points = FourBar(OA=0.036, AB=0.11).at(phi=np.linspace(0.3, 3.5, 8))["P"].T
@@ -396,6 +401,7 @@ def test_choices_and_steps_hold_the_known_bar(values):
     assert found.best.most <= 1e-10 and abs(found.machine["OA"] - 0.036) <= 1e-12
 
 
+@pytest.mark.slow
 @for_all("limit", [500], slow=[2000])
 def test_a_limit_counts_designs(limit):
     known = FourBar(OA=0.036, AB=0.11, CB=0.085, AP=0.05)

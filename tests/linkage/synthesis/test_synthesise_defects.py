@@ -26,6 +26,7 @@ def near(machine, part=1e-4):
     return {name: (machine[name] * (1 - part), machine[name] * (1 + part)) for name in ("OA", "AB", "CB", "AP")}
 
 
+@pytest.mark.slow
 def test_points_in_another_order_are_told_with_the_order():
     known = Bar()
     at = np.array([0.5, 1.5, 2.5, 3.5, 4.5, 5.5])
@@ -98,6 +99,7 @@ def test_gaps_and_parts_of_masks(closed):
     assert point_ranges([1, 2, 3, 5, 7, 8]) == "1-3, 5, 7-8"
 
 
+@pytest.mark.slow
 def test_an_answer_near_a_change_point_says_how_near():
     """Parallelogram lengths but for a few hundredths of a millimetre."""
     known = FourBar(OA=0.040, AB=0.10002, CB=0.03999 + 0.00004)
@@ -223,6 +225,7 @@ def test_strokes_that_differ_by_whole_turns_or_rounding_are_in_one_order():
         assert not in_order(fit, own, base[0]), seed
 
 
+@pytest.mark.slow
 def test_timed_points_functions_and_poses_over_the_seam():
     """In order, whatever the way round and wherever the turn begins; at equal steps the first point may stand again at the end."""
     for place, kind in enumerate(TURNING):

@@ -80,6 +80,7 @@ def test_a_machine_on_other_sides_is_that_of_its_assembly(kind):
     assert known
 
 
+@pytest.mark.slow
 @for_all(("kind", "name"), [(FourBar, "B"), (Klann, "H"), (Tailed, "T"), (Pair, "two.B"), (Tipper, "G")])
 def test_such_a_machine_goes_to_other_processes_and_is_one_class(kind, name):
     machine = kind()
@@ -108,6 +109,7 @@ def test_both_branches_of_a_bar_are_searched(timed):
     assert found.machine.sweep(721).reached.all()
 
 
+@pytest.mark.slow
 def test_sides_stand_in_tables_rows_of_catalogues_and_rounded_machines(tmp_path):
     task = PathTask(np.array(papers.FIVE) * mm, of="P", at=papers.FIVE_AT)
     vary = box(50 * mm, held=True) | {("B.side", "AP"): [(LEFT, 2.4 * mm), ("right", 2.4 * mm), (RIGHT, 2 * mm)]}
@@ -124,6 +126,7 @@ def test_sides_stand_in_tables_rows_of_catalogues_and_rounded_machines(tmp_path)
         assert sides_of(found.rounded(0.1 * mm, place=place).machine) == sides_of(each.machine)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("kind", "point", "name", "vary"),
     [

@@ -35,6 +35,7 @@ def alone():
     return searched()
 
 
+@pytest.mark.slow
 def test_threads_give_the_same_bits(alone):
     with ThreadPoolExecutor(3) as pool:
         assert bits(searched(executor=pool)) == bits(alone)

@@ -11,6 +11,7 @@ from linkage import DefinitionError, FunctionTask, PathTask, PoseTask, deg, mm, 
 from linkage.study import monte_carlo
 from mechanisms.classics.four_bar import FourBar
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests.for_all import first_daily
 
 BOX = {"OA": (0.02, 0.06), "CB": (0.05, 0.2), "AP": (0.02, 0.15), "BAP": (0.0, 90 * deg)}
 POINTS = np.array([(0.03, 0.06), (0.015, 0.07), (0.0, 0.072), (-0.015, 0.066), (-0.022, 0.05)])
@@ -40,7 +41,7 @@ def searched(kind):
     return synthesise(FourBar(), vary=BOX, starts=4, **{word: task})
 
 
-@pytest.mark.parametrize("kind", ["path", "untimed", "function", "poses"])
+@first_daily(3, "kind", ["path", "function", "poses", "untimed"])
 def test_the_measure_of_an_answer_is_its_error(kind):
     found = searched(kind)
     place = len(found.solutions) - 1

@@ -816,6 +816,8 @@ def check_together(elements: Mapping[str, object] | Sequence[tuple[str, object]]
 
 def value_text(value: object) -> str:
     """Return a parameter as it is written: a number, an expression, a name."""
+    if type(value) is np.ndarray and value.ndim:
+        return f"{value.size} values"
     return source_text(quantity(value)) if isinstance(value, (str, Quantity)) else repr(plain(value))
 
 

@@ -93,7 +93,8 @@ class Grid:
         if self._is_plain:
             return self.designs
         given, varying = self.designs.items(), self._varying
-        return {name: np.broadcast_to(value, shape).ravel() if name in varying else float(value) for name, value in given}
+        full = {name: value if value.shape == shape else np.broadcast_to(value, shape) for name, value in given if name in varying}
+        return {name: full[name].ravel() if name in varying else float(value) for name, value in given}
 
     @cached_property
     def flat(self) -> dict[str, Any]:
@@ -161,9 +162,10 @@ class Grid:
         return values.reshape(len(values), *self.shape)
 
     def inputs_at(self, mask: Mask) -> dict[str, FloatArray]:
-        """Return the inputs at some poses, shape (n,)."""
-        count, given = np.count_nonzero(mask), self.inputs.items()
-        return {name: np.broadcast_to(value, self.shape)[mask] if value.ndim else np.full(count, value) for name, value in given}
+        """Return the inputs at some poses, shape (n,); one number where all have it."""
+        given, shape = self.inputs.items(), self.shape
+        full = {name: value if value.shape in ((), shape) else np.broadcast_to(value, shape) for name, value in given}
+        return {name: value[mask] if value.ndim else value for name, value in full.items()}
 
     def read_at(self, mask: Mask) -> ArrayReading:
         """Return the eager reading of some poses."""

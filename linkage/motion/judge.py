@@ -467,9 +467,11 @@ class RowFunction:
                 found = evaluate_bound(Evaluation(grid, tuple(self._bound.values())), None, "nan")
                 for k, each in zip(self._bound, found, strict=True):
                     values[k] = np.broadcast_to(each, motion.shape)
+            alone = dict[Hashable, FloatArray]()
             for k, row in enumerate(self.rows):
                 if k not in self._bound:
-                    values[k] = values_over(motion, row.request)
+                    key = key_of(self.plan, row.request)
+                    values[k] = alone[key] = alone[key] if key in alone else values_over(motion, row.request)
                 if row.is_reciprocal:
                     unlimited[k] = values[k] <= 0.0
                 if (np.isnan(values[k]) & motion.reached).any():
@@ -563,18 +565,18 @@ class Candidate:
     time: FloatArray
     undefined: Mask
     """Whether its measures have values and what is calculated from these has none, such as 0 / 0 or the root of what is negative."""
+    design: tuple[int, ...] = ()
 
     def of_design(self, place: tuple[int, ...], shape: tuple[int, ...]) -> Candidate:
         """Return that of one design of a batch of some shape, by its place in it."""
-        seen = None if self.seen is None else self.seen.of_design(place)
         if not shape:  # it is the only one
-            return replace(self, seen=seen)
+            return self
         own = {
             name: np.broadcast_to(getattr(self, name), shape)[place]
             for name in ("value", "margin", "unbounded", "lawless", "unlimited", "time", "undefined")
         }
         strokes = {name: np.broadcast_to(value, shape)[place] for name, value in self.strokes.items()}
-        return replace(self, strokes=strokes, seen=seen, **own)
+        return replace(self, strokes=strokes, design=place, **own)
 
 
 class Judge:
@@ -827,9 +829,9 @@ class Judge:
         """Return the lost places of a candidate of one design."""
         seen = candidate.seen
         if seen is not None:
-            key = (id(candidate.place), seen.design, current_language(), current_system())  # as it is told there
+            key = (id(candidate.place), candidate.design, current_language(), current_system())  # as it is told there
             if key not in self._lost:
-                self._lost[key] = candidate.place.lost_places(seen)
+                self._lost[key] = candidate.place.lost_places(seen.of_design(candidate.design))
             return self._lost[key]
         if not candidate.lawless or not np.isnan(candidate.value):
             return NONE_LOST
@@ -886,7 +888,7 @@ class Judge:
             lost = LostPlaces(float(worst.lawless), {}, said("it has no value at places that were looked at"), False)
         units = {name: stroke_unit(self.plan, name) for name in strokes}
         count = sum(each.count for each in {id(one.seen): one.seen for one in candidates}.values() if each is not None)
-        outside = float(worst.seen.outside) if worst.seen is not None else 0.0
+        outside = float(np.asarray(worst.seen.outside)[worst.design]) if worst.seen is not None else 0.0
         return Answer(
             question, value, ok, status, strokes, worst.situation.case, worst.situation.direction, worst.situation.drive, worst.side,
             worst.place.over.name, lost, float(worst.unlimited), outside, worst.place.width if worst.seen is not None else {}, count, units,

@@ -183,7 +183,7 @@ class ArrayReading(Reading):
 
     For each step that closes a loop, `sines` holds the sine of the angle between its links, NaN where it fails. `rounding` holds how much
     larger the numbers are whose difference closes the loop than its own links. For each member that takes a direction between points,
-    `spans` holds their least distance over the machine's size. For each that leaves the range of a table, `outside` holds the words for it.
+    `closest` holds the least square of their distance [m2]. For each that leaves the range of a table, `outside` holds the words for it.
     """
 
     ROUNDING = 8 * np.finfo(float).eps
@@ -192,7 +192,7 @@ class ArrayReading(Reading):
         super().__init__(members, lengths, inputs)
         self.sines: dict[str, Scalar] = {}
         self.rounding: dict[str, Scalar] = {}
-        self.spans: dict[str, Scalar] = {}
+        self.closest: dict[str, Scalar] = {}
         self.outside: dict[str, str] = {}
 
     def curve(self, curve: Tabulated, x: Scalar, order: int = 0) -> Scalar:
@@ -222,5 +222,11 @@ class ArrayReading(Reading):
         return Reading(self.members, self.lengths, self.inputs)
 
     def apart(self, square: Scalar) -> Scalar:
-        self.spans[self.owner] = np.minimum(self.spans.get(self.owner, np.inf), np.sqrt(square / self.extent))
+        self.closest[self.owner] = np.minimum(self.closest.get(self.owner, np.inf), square)
         return square
+
+    @property
+    def spans(self) -> dict[str, Scalar]:
+        """The least distance between two points whose direction a member takes, over the machine's size."""
+        with np.errstate(all="ignore"):
+            return {name: np.sqrt(square / self.extent) for name, square in self.closest.items()}

@@ -21,12 +21,12 @@ from ..motion.requests import dimensions_of, identity_of, slope
 from ..numeric.descent import NEAR, descended, is_one_solution, without_repeats
 from ..numeric.line import Curve, Index, highest_between, sign_changes
 from ..plan import Mask, require_kind
-from ..program import FloatArray, RunOptions
+from ..program import QUICKEST, FloatArray, RunOptions
 from ..shown import HasSentence
 from ..units import show, unit_or_none
 from .box import Box, range_of, setting_words, unit_points
 from .checks import check_one_design, unit_of, why_not_assembled
-from .measured import QuantityLike, StudyPoses, quantity_values, traced_number
+from .measured import QuantityLike, StudyPoses, traced_number
 from .poles import FAR, TINY
 
 SAMPLES = 1025
@@ -140,7 +140,7 @@ def settings_for(
     pose = StudyPoses(machine.at(unreachable="nan", **{each: [value] for each, value in strokes.items()}))
 
     def curve(at: FloatArray) -> FloatArray:
-        return quantity_values(pose.of_each(machine.replaced(**{name: at}), np.zeros(at.shape, int)), quantity) - target if at.size else at
+        return pose.values(machine.replaced(**{name: at}), quantity, QUICKEST)[:, 0] - target if at.size else at
 
     identity = None if callable(quantity) else identity_of(machine.plan, quantity)
     known = ("settings", name, identity, target, low, high)
@@ -165,7 +165,8 @@ def settings_for(
 def roots_of(curve: Curve, low: float, high: float) -> tuple[FloatArray, FloatArray, list[float]]:
     """Return the samples of a curve between two values, its values there, and its zeros."""
     at = np.linspace(low, high, SAMPLES)
-    known = np.isfinite(curve(at))
+    off = curve(at)
+    known = np.isfinite(off)
     edges = np.flatnonzero(known[1:] != known[:-1])
     if edges.size:  # the ends of every reachable range are samples too
 
@@ -173,8 +174,10 @@ def roots_of(curve: Curve, low: float, high: float) -> tuple[FloatArray, FloatAr
             return np.asarray(np.isfinite(curve(places.ravel())).reshape(places.shape))
 
         inside, outside = (at[np.where(known[edges] == is_inside, edges, edges + 1)] for is_inside in (True, False))
-        at = np.sort(np.concatenate([at, last_holding(reached, inside, outside)[0]]))
-    off = curve(at)
+        ends = last_holding(reached, inside, outside)[0]
+        at, off = np.concatenate([at, ends]), np.concatenate([off, curve(ends)])
+        order = np.argsort(at, kind="stable")
+        at, off = at[order], off[order]
     size = np.abs(off)
     with np.errstate(invalid="ignore"):
         signs = np.sign(off)

@@ -19,7 +19,7 @@ from linkage.errors import ensure, unwarned
 from linkage.language import noted, said, translated
 from linkage.loads.element import Formulas
 from linkage.mechanism import require_mechanism
-from linkage.motion import Judge, MotionFunction, Over, judge_along, require_motion
+from linkage.motion import MotionFunction, judge_along, require_motion
 from linkage.motion.grid import recalled
 from linkage.plan import Plan
 from linkage.program import FloatArray
@@ -138,7 +138,7 @@ def behind(motion: Motion, distance: float = BEHIND, share: float = SHARE) -> Fl
     require_number("distance", distance, "one number in m is expected, such as 0.61", kind="length")
     tested = {"FG": distance, "KFG": 90 * deg}
     moved = Motion(motion.plan, motion.designs | tested, motion.strokes, motion.unreachable)
-    return circuit_of(moved).lifted(moved, "G", own_loads(motion), share=share)
+    return moved._requested(lifted("G", share))
 
 
 def stroke_per_newton(motion: Motion) -> FloatArray:
@@ -146,12 +146,16 @@ def stroke_per_newton(motion: Motion) -> FloatArray:
 
     Unlike the capacity it has no gap where the ratio goes through zero, so that extremes are sought in it.
     """
-    circuit = circuit_of(motion)
-    (lift,) = circuit.rams(motion)
-    most = circuit.largest(motion, own_loads(motion)) * circuit.efficiency(motion, "mechanical")
-    spare = most - lift.thrust(motion, own_loads(motion), direction="extending")
-    with np.errstate(divide="ignore"):
-        return np.asarray(lift.thrust(motion, [Force("G", (0.0, -1.0))]) / np.maximum(spare, 0.0))
+
+    def found() -> FloatArray:
+        circuit = circuit_of(motion)
+        (lift,) = circuit.rams(motion)
+        most = circuit.largest(motion, own_loads(motion)) * circuit.efficiency(motion, "mechanical")
+        spare = most - lift.thrust(motion, own_loads(motion), direction="extending")
+        with np.errstate(divide="ignore"):
+            return np.asarray(lift.thrust(motion, [Force("G", (0.0, -1.0))]) / np.maximum(spare, 0.0))
+
+    return motion._once("stroke per newton", found)
 
 
 def stroke_size_per_newton(motion: Motion) -> FloatArray:
@@ -284,13 +288,14 @@ def remedy(motion: Motion) -> str:
 
 def best_change(motion: Motion, names: Sequence[str], steps: FloatArray) -> tuple[int, float]:
     """Return which of some dimensions, each changed by its step [m], raises the least capacity most, and by which share of it."""
-    designs = {name: motion.designs[name] + np.where([each == name for each in names], steps, 0.0) for name in dict.fromkeys(names)}
-    fine = Over.poses(S=closely(motion).strokes["S"].tolist())
-    before, after = (Judge(motion.plan, motion.designs | each, [fine]) for each in ({}, designs))
-    found = after.answer(most(stroke_per_newton)).value
-    burden = np.where(after.motion.reached.all(axis=1) & np.isfinite(found), found, np.inf)
+    tried, changes = [*names, ""], np.append(steps, 0.0)  # the last is the design as it is
+    designs = {name: motion.designs[name] + np.where([each == name for each in tried], changes, 0.0) for name in dict.fromkeys(names)}
+    fine = Motion(motion.plan, motion.designs | designs, closely(motion).strokes, "nan")
+    found = stroke_per_newton(fine)
+    worst = np.where(np.isnan(found), -np.inf, found).max(axis=1)
+    burden = np.where(fine.reached.all(axis=1) & np.isfinite(worst), worst, np.inf)[:-1]
     place = int(np.argmin(burden))
-    return place, float(before.answer(most(stroke_per_newton)).value) / float(burden[place]) - 1.0
+    return place, float(worst[-1] / burden[place]) - 1.0
 
 
 # -- figure 2: the zones ---------------------------------------------------------------------------------------

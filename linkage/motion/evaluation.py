@@ -316,8 +316,9 @@ def examined(
         what, own, left = requests[k], reading.copied(), PrecisionLeft(values[first:last], errors[first:last], size)
         what.read_own(own)  # its own notes in the reading count for no other
         names, error = what.names(plan), what.error(plan, left)
-        moving = {name: span for name, span in own.spans.items() if not name or (name in names and plan.moves(plan.members[name]))}
-        spans = {name: np.broadcast_to(span, error.shape) for name, span in moving.items()}
+        moving = {name: each for name, each in own.closest.items() if not name or (name in names and plan.moves(plan.members[name]))}
+        with np.errstate(all="ignore"):  # over the machine's size
+            spans = {name: np.broadcast_to(np.sqrt(square / reading.extent), error.shape) for name, square in moving.items()}
         conditions = {name: np.broadcast_to(cond, error.shape) for name, cond in loop_conditions(plan, own, names).items()}
         if Trait.STANDS_FOR_OTHERS in what.traits:  # what the loops alone lose
             error = np.maximum.reduce([error, *(0.3 * np.finfo(float).eps * cond * cond for cond in conditions.values())])

@@ -224,9 +224,3 @@ class ArrayReading(Reading):
     def apart(self, square: Scalar) -> Scalar:
         self.closest[self.owner] = np.minimum(self.closest.get(self.owner, np.inf), square)
         return square
-
-    @property
-    def spans(self) -> dict[str, Scalar]:
-        """The least distance between two points whose direction a member takes, over the machine's size."""
-        with np.errstate(all="ignore"):
-            return {name: np.sqrt(square / self.extent) for name, square in self.closest.items()}

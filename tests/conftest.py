@@ -16,6 +16,8 @@ settings.register_profile("steady", deadline=None, max_examples=25)
 settings.load_profile("steady")
 
 
+SEARCHES = {"closed_curve", "dwell", "exact_synthesis", "path", "regions"}
+"""The pages of `docs/howto` whose examples search: they take seconds, and run under `slow`."""
 WAITING = defaultdict(list)
 """By test file the plans of the machines that it brought along, whose mobility is checked before the first of its tests."""
 
@@ -45,6 +47,11 @@ def pytest_make_collect_report(collector):
         return (yield)
     finally:
         mechanism.check = check
+
+
+def pytest_itemcollected(item):
+    if item.path.parent.name == "howto" and item.path.stem in SEARCHES:
+        item.add_marker("slow")
 
 
 @pytest.hookimpl(tryfirst=True)

@@ -298,6 +298,7 @@ def answers(block, p1, withdrawn, at):
     return np.stack([*asked, warm.fluid(at), np.full_like(withdrawn, block.lowest_charge), warm.pressure_holding(block.fluid(at) / 2)])
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=20)  # real nitrogen is found by iteration
 @given(charged(), NOWHERE, st.integers(0, 5))
 def test_a_block_with_an_absent_vessel_is_the_block_without_it(case, absent, place):

@@ -127,8 +127,7 @@ def test_every_column_of_every_run_lies_within_what_is_judged(machine):
 PRINTED = re.compile(r"[−-]?\d+(?:\.\d+)?")
 
 
-@pytest.mark.slow
-@for_all("machine", [OfCases], slow=[OfABox, OfPaths, OfPoses, LoadedFrontLoader])
+@for_all("machine", (), slow=[OfCases, OfABox, OfPaths, OfPoses, LoadedFrontLoader])
 def test_no_printed_value_of_a_report_lies_outside_what_is_judged(machine):
     """The tables of a report, cell by cell, in the units that stand in their headings."""
     ends, seen = judged_ends(machine), 0

@@ -1,6 +1,7 @@
 """A fork-lift's mast: two equal tilt cylinders in parallel and an assist cylinder on the same line, a carriage that runs on the mast."""
 
 import numpy as np
+import pytest
 from numpy.testing import assert_allclose
 
 from hydraulics import Cylinder, LiftCircuit, lift_verdicts
@@ -190,6 +191,7 @@ def test_lifted_against_the_pump_and_held_against_the_relief_valve():
     assert_allclose(Mast.circuit.holding(motion).working, own["p"], rtol=1e-10)         # one line, one pressure
 
 
+@pytest.mark.slow
 def test_the_verdicts_of_the_line():
     motion = Mast().at(**PATH)
     t = np.linspace(0.0, 1.0, 301)

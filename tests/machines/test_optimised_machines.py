@@ -231,7 +231,7 @@ PROBLEMS = {
         subject_to=[most(angle("H", "V")) - least(angle("H", "V")) >= 120 * deg], starts=2,
     )),
 }  # fmt: skip
-QUICK = ("mower", "plough", "fold")
+QUICK = ("plough",)
 
 
 @pytest.mark.filterwarnings("ignore::linkage.SingularWarning")

@@ -98,8 +98,7 @@ def test_drives_on_their_own_are_those_of_the_crane(machine):
     assert_allclose(arm_moment(crane, psi), (-given["folding"], given["opening"]), rtol=1e-9)
 
 
-@pytest.mark.slow
-@first_daily(1, "machine", [DirectCrane, DirectCraneAbove])
+@first_daily(0, "machine", [DirectCrane, DirectCraneAbove])
 def test_a_direct_drive_carries_the_crane_by_virtual_work(machine):
     """The cylinder's thrust is the arm's moment over the lever (2.30); the pin E carries that thrust; the reserve is 1."""
     crane, side = machine(), 1.0 if machine is DirectCrane else -1.0
@@ -185,6 +184,7 @@ def test_border_is_closed():
 # The load cases for strength.
 
 
+@pytest.mark.slow
 def test_strength_has_the_forces_of_all_pins():
     crane = Crane()
     found = strength(crane)

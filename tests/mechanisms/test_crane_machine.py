@@ -353,6 +353,7 @@ def test_it_runs_from_position_to_position():
         assert_allclose(place, [np.degrees(at["phi"]), np.degrees(at["psi"]), at["t"]], atol=1e-9)
 
 
+@pytest.mark.slow
 def test_its_way_shows_what_its_drives_are_designed_for():
     """The arm's drive is the source's optimum, so its reserve is 1 on the way; in the whole box it is not."""
     crane = Crane()

@@ -227,8 +227,7 @@ class WithBallast(HeaderBalancer):
     ballast = Weight(HeaderBalancer.G2, mass=500)
 
 
-@pytest.mark.slow
-@first_daily(1, "number", HEADERS)
+@first_daily(0, "number", HEADERS)
 def test_added_weight_counts_like_a_heavier_header(number):
     """500 kg at G2 are 500 kg more of header: table, limits and verdicts are the same."""
     header = HEADERS[number]

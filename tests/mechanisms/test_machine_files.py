@@ -146,8 +146,7 @@ def test_save_says_what_is_left_out(run):
     assert "ends in .toml or .json" in run("save", "klann", "klann.xml")[2]
 
 
-@pytest.mark.slow
-@first_daily(1, ("command", "machine", "setting"), [
+@first_daily(0, ("command", "machine", "setting"), [
     ("grapple", "grapple", ("bore", "63mm")), ("hitch", "three_point_hitch", ("OB", "320mm")),
     ("balance", "header_balancer", ("charge", "40kgf_cm2")),
 ])  # fmt: skip

@@ -18,8 +18,7 @@ DEMANDS = {
 }
 
 
-@pytest.mark.slow
-@for_all("machine", [RegenerativePress], slow=[PumpedExcavator, PumpedTelehandler, PumpedForwarder])
+@for_all("machine", (), slow=[RegenerativePress, PumpedExcavator, PumpedTelehandler, PumpedForwarder])
 def test_no_verdict_fails_and_files_hold_it(machine):
     verdicts = machine().verdicts()
     assert [verdict for verdict in verdicts if verdict.startswith("FAIL")] == []

@@ -122,8 +122,7 @@ def test_the_flat_hitch_by_equilibrium_and_by_virtual_work():
     assert_allclose(capacity(motion)[1:-1], (18e6 * 2 * pi / 4 * 0.110**2 * 0.85 / rise)[1:-1], rtol=1e-4)
 
 
-@pytest.mark.slow
-@first_daily(1, "number", HEADERS)
+@first_daily(0, "number", HEADERS)
 def test_the_reaction_is_steady_with_every_header(number):
     machine, before = steady_balancer(number), with_header(number)
     now, was = (HeaderState(over_following(each.at(h=0.0), 1001)) for each in (machine, before))

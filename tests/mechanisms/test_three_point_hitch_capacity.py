@@ -32,11 +32,11 @@ from mechanisms.three_point_hitch import (
     weakest,
 )
 from mechanisms.three_point_hitch.capacity import stages
-from tests.for_all import for_all
+from tests.for_all import first_daily, for_all
 from tests.mechanisms.hitch_reference import REFERENCE
 from tests.members import told_by
 
-ALL = pytest.mark.parametrize("machine", [ThreePointHitch, HitchCategory2, HitchCategory1])
+ALL = first_daily(1, "machine", [ThreePointHitch, HitchCategory2, HitchCategory1])
 FORCE = 2 * np.pi / 4 * 0.110**2 * 18e6
 ETA = 0.85
 

@@ -247,6 +247,7 @@ def test_undo_leads_to_the_empty_sheet_and_back(chromium, empty):  # noqa: F811
         assert board.drawing == full and board.tab.locator("#redo").is_disabled() and board.said == []
 
 
+@pytest.mark.slow
 def test_a_task_is_read_by_the_synthesis_and_undone(chromium, empty, tmp_path, monkeypatch):  # noqa: F811
     monkeypatch.chdir(tmp_path)
     with Board(chromium, empty) as board:
@@ -273,6 +274,7 @@ def test_a_task_is_read_by_the_synthesis_and_undone(chromium, empty, tmp_path, m
         assert board("hydrolinkage.state().targets") is None and board("hydrolinkage.state().trails") == {} and board.said == []
 
 
+@pytest.mark.slow
 def test_a_pin_slides_on_a_link_that_turns_about_a_fixed_pin(chromium, empty):  # noqa: F811
     with Board(chromium, empty) as board:
         board.use("crank", (0, 300), (100, 300))
@@ -288,6 +290,7 @@ def test_a_pin_slides_on_a_link_that_turns_about_a_fixed_pin(chromium, empty):  
         assert abs(x * v - y * u) < 1e-9 and abs(at["B"][0] - 0.1 * np.cos(200 * deg)) < 1e-9 and board.said == []
 
 
+@pytest.mark.slow
 def test_two_fingers_see_closer_and_one_leads(chromium, empty):  # noqa: F811
     with Board(
         chromium, empty, PHONE, has_touch=True, is_mobile=True, viewport=dict(zip(("width", "height"), PHONE, strict=True))
@@ -325,12 +328,14 @@ def test_two_fingers_see_closer_and_one_leads(chromium, empty):  # noqa: F811
         assert board.said == []
 
 
+@pytest.mark.slow
 def test_what_the_board_cannot_hold_is_told_where_it_is_delivered(chromium, tmp_path):  # noqa: F811
     large = MachineSketch("Large", {f"P{n}": (0.1 * n, 1.0) for n in range(201)}, ("P0",), {})
     with Board(chromium, drawing_board(large, tmp_path / "large.html")) as board:
         assert "a drawing has a table points with at most 200 entries" in board.text("#message") and board.said == []
 
 
+@pytest.mark.slow
 def test_a_reload_keeps_the_work(chromium, empty):  # noqa: F811
     with Board(chromium, empty) as board:
         slider_crank(board)
@@ -356,6 +361,7 @@ def test_a_reload_keeps_the_work(chromium, empty):  # noqa: F811
             assert board.drawing["points"] == {} and board.said == [], damage
 
 
+@pytest.mark.slow
 def test_what_is_led_moves_and_no_link_is_stretched(chromium, empty):  # noqa: F811
     with Board(chromium, empty) as board:
         four_bar(board)
@@ -375,6 +381,7 @@ def test_what_is_led_moves_and_no_link_is_stretched(chromium, empty):  # noqa: F
         assert board.said == []
 
 
+@pytest.mark.slow
 def test_no_name_is_marked_as_text_while_a_pin_is_led(chromium, empty):  # noqa: F811
     with Board(chromium, empty) as board:
         four_bar(board)
@@ -475,6 +482,7 @@ def bucket(board):
     board.use("bar", "G", "H")
 
 
+@pytest.mark.slow
 def test_a_plate_that_is_pressed_ends_with_enter(chromium, empty):  # noqa: F811
     with Board(chromium, empty) as board:
         bucket(board)
@@ -506,6 +514,7 @@ def test_beyond_all_reach_no_drive_is_blamed_for_a_hair(chromium, empty):  # noq
         assert blamed == {"links", "drives"}
 
 
+@pytest.mark.slow
 def test_how_far_a_drive_goes_is_its_dead_point(chromium, empty):  # noqa: F811
     with Board(chromium, empty) as board:
         board.use("bar", (0, 0), (300, 0))

@@ -324,7 +324,7 @@ def test_draw_draws_the_machine_under_its_name(said, own):
     assert {file.name for file in own.glob("*.png")} == {"Lever.png", "mower_lift.png"}
 
 
-@first_daily(1, "options", ["--forces --poles", "--on OB --path B --at S=0.7"])
+@first_daily(0, "options", ["--forces --poles", "--on OB --path B --at S=0.7"])
 def test_what_is_laid_over_a_drawing(said, own, options):
     """Options draw what the call draws: the same picture as `draw(...)` with its keyword."""
     from linkage import draw
@@ -580,7 +580,7 @@ def test_module_is_the_command():
     assert err.startswith("hydrolinkage: Command 'tabel' is unknown.") and err.count("\n") == 1
 
 
-@first_daily(1, "form", [["--csv", "-"], []])
+@first_daily(0, "form", [["--csv", "-"], []])
 def test_closed_pipe_is_silent(form):
     running = shell("-m", "linkage", "table", "mower_lift", "I", "--count", "20000", *form)
     assert running.stdout.readline()

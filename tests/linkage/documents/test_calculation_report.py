@@ -364,8 +364,7 @@ class CorneredBare(CorneredOnce):
     lift = pump = work = None
 
 
-@pytest.mark.slow
-@first_daily(1, "machine", [CorneredBare, CorneredOnce, Cornered])
+@first_daily(0, "machine", [CorneredBare, CorneredOnce, Cornered])
 def test_places_that_are_lost_leave_gaps_and_one_remark(machine):
     document = report_document(machine(), at={"T": (0.0, 0.75)})
     texts = [block for section in document.sections for block in section.blocks if isinstance(block, str)]
@@ -376,6 +375,7 @@ def test_places_that_are_lost_leave_gaps_and_one_remark(machine):
     assert grids(document, "Fx, kN")[0].rows
 
 
+@pytest.mark.slow
 def test_an_over_is_judged_in_the_place_of_the_box():
     document = report_document(Grab(), over=Over(S=(0.0, 0.1), T=0.0))
     assert dict(document.facts)["Judged over"] == "S = 0 to 100 mm, T = 0 mm"
@@ -454,6 +454,7 @@ def test_markdown_and_its_pictures_are_replaced_whole(tmp_path):
         report(Lifter(), tmp_path / "own.md")
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(shutil.which("pdftotext") is None, reason="poppler's pdftotext is not installed")
 def test_the_text_of_a_pdf_can_be_selected_in_russian_too(tmp_path):
     document, path = report_document(Lifter(), language="ru"), tmp_path / "m.pdf"
@@ -566,8 +567,7 @@ class Beside(OverCentre):
     pump = LiftCircuit(["ram", "aid"], pressure=180 * bar)
 
 
-@pytest.mark.slow
-@first_daily(1, "machine", [OverCentre, Pumped, pytest.param(Beside, marks=pytest.mark.slow)])
+@first_daily(0, "machine", [OverCentre, Pumped, pytest.param(Beside, marks=pytest.mark.slow)])
 def test_a_dead_centre_in_the_middle_of_the_run_is_gone_round(machine, tmp_path):
     """Forces are refused in the middle: the calculation is of the pose beside it, and every number of it is one."""
     with pytest.raises(SingularError):

@@ -186,7 +186,7 @@ def test_results_come_before_inputs_and_inputs_before_equations():
     assert [title for title in titles if title in order] == order
 
 
-@for_all("machine", [Loader, MowerLift], slow=[ThreePointHitch])
+@for_all("machine", [Loader], slow=[MowerLift, ThreePointHitch])
 def test_the_sketch_is_on_the_first_page_with_every_pin_by_name(machine):
     sketch = shown(machine).sections[0].blocks[0]
     figure = Figure(figsize=sketch.size)

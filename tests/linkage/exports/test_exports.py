@@ -57,7 +57,7 @@ from tests.tools.sources import sources
 
 POSES = 7
 PAPERS = {"mower": MowerLift, "header": HeaderBalancer, "hitch": ThreePointHitch}
-DAILY = first_daily(2, "name", PAPERS)
+DAILY = first_daily(1, "name", PAPERS)
 SHIPPED = shipped.MACHINES
 OTHERS = ("hitch", "header")
 """Those that LibreOffice is asked about under `slow`, in a run of their own: it takes seconds for each."""
@@ -419,8 +419,7 @@ def test_a_drawing_has_the_machine_in_millimetres(tmp_path):
     assert lengths["OB"] == pytest.approx(300.0) and lengths["MK"] == pytest.approx(880.0)
 
 
-@pytest.mark.slow
-@for_all("machine", [ThreePointHitch, Excavator, Telehandler])
+@for_all("machine", (), slow=[ThreePointHitch, Excavator, Telehandler])
 def test_names_on_a_drawing_cover_neither_pins_nor_each_other(machine):
     parts = [*pose_parts(machine().at(**stroke_middles(machine())), 0)]
     names = [each for each in parts if isinstance(each, Lettering)]
@@ -439,8 +438,7 @@ def test_dimensions_on_a_drawing_have_the_names_that_the_designer_gave():
     assert {"boom.BA", "tool.LM"} <= named and named - {*Excavator().dimensions} == {"boom.E arm.F", "boom.CD", "arm.G tool.H"}
 
 
-@pytest.mark.slow
-@for_all("machine", [ThreePointHitch, HeaderBalancer, MowerLift])
+@for_all("machine", (), slow=[ThreePointHitch, HeaderBalancer, MowerLift])
 def test_a_pin_on_the_frame_stands_as_in_pictures(machine, tmp_path):
     """Its triangle is on the side where pictures and pages have it: below, or beside where below is no room."""
     motion = machine().at(**stroke_middles(machine()))
@@ -487,7 +485,7 @@ def test_a_page_has_true_size_and_words(tmp_path):
     assert {"bodies", "pins", "paths", "cylinders"} <= {each.get("class") for each in root.iter(f"{name}g")}
 
 
-FEW = ("three_point_hitch", "inverted_slider_crank")
+FEW = ("inverted_slider_crank",)
 
 
 @first_daily(len(FEW), "name", [*FEW, *(name for name in SHIPPED if name not in FEW)])

@@ -1,7 +1,6 @@
 """Steps of one's own whose rules put vectors together from numbers: their equations say what the rules do."""
 
 import numpy as np
-import pytest
 from numpy.testing import assert_allclose
 
 from linkage import LEFT, Dimension, Dyad, Ground, Mechanism, OnLink, Stroke, driving_force, equations
@@ -91,8 +90,7 @@ def test_equations_are_printed(rule):
     assert found.latex().count("begin{align}") == found.latex().count("end{align}")
 
 
-@pytest.mark.slow
-@for_all("rule", ["components"], slow=["place + vector", "length"])
+@for_all("rule", (), slow=["components", "place + vector", "length"])
 def test_a_report_has_them(rule):
     assert html_text(report_document(machine_with(rule), count=3))
 

@@ -84,8 +84,7 @@ def test_a_dead_point_at_an_end_is_told_and_no_mark_contradicts_its_words(seed):
     assert verdict.count("B at") == 1 + (seed % 3 == 2)
 
 
-@pytest.mark.slow
-@first_daily(1, "off", [1e-9, 1e-3, 1e-6])
+@first_daily(0, "off", [1e-9, 1e-3, 1e-6])
 def test_one_that_ends_beyond_its_dead_point_is_told_as_before(off):
     verdicts = lever(0.5, 0.8 + off, 0.4, 0.4, 0.0)().verdicts()
     assert not verdicts[0].ok and verdicts[0].rule == "assembly" and contradictions(verdicts) == []

@@ -144,8 +144,7 @@ def test_where_nothing_is_asked_nothing_is_said_to_be_kept_or_not():
     assert [each.ok for each in verdicts] == [None] and verdicts[0].startswith("--   assembly: ")
 
 
-@pytest.mark.slow
-@first_daily(1, "places", [dict(S=[0.1, 0.1], T=[0.05, 0.05]), dict(S=[0.1], T=[0.05]), dict(S=0.1, T=0.05)])
+@first_daily(0, "places", [dict(S=[0.1, 0.1], T=[0.05, 0.05]), dict(S=[0.1], T=[0.05]), dict(S=0.1, T=0.05)])
 def test_a_path_that_stays_is_the_pose_where_it_stays(places):
     questions = [least(reserve("lift")) >= 1.0, most(pin_force("A")), most(thrust("tilt"))]
     stays, there = (Rubbing().answers(questions, over=over) for over in (Over.path(**places), Over.poses(S=[0.1], T=[0.05])))

@@ -337,8 +337,7 @@ def test_what_is_no_plane_is_refused_in_words(make, words):
         make()
 
 
-@pytest.mark.slow
-@for_all("seed", range(3))
+@for_all("seed", (), slow=range(3))
 def test_the_least_gap_of_many_pairs_is_that_of_all_of_them(seed):
     """Bodies whose widths keep them apart are not looked at, and none of them is the nearest; at one pose and at twenty."""
     rng, machine = np.random.default_rng(seed), Forwarder()
@@ -352,8 +351,7 @@ def test_the_least_gap_of_many_pairs_is_that_of_all_of_them(seed):
 # -- where they come nearest -------------------------------------------------------------------------------
 
 
-@pytest.mark.slow
-@for_all("seed", range(1), slow=range(1, 6))
+@for_all("seed", (), slow=range(6))
 def test_the_nearest_places_are_as_far_apart_as_the_gap(seed):
     """The same number as the program's, between a place of the one and a place of the other; moved by it they just touch."""
     rng = np.random.default_rng(40 + seed)

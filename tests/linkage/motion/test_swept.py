@@ -148,6 +148,7 @@ def test_what_cannot_be_swept_is_refused_with_the_remedy():
         assert words in " ".join(str(caught.value).split()), words
 
 
+@pytest.mark.slow
 def test_every_reader_takes_a_swept_motion(tmp_path):
     class Arm(Lever):
         turn = Stroke(0.0, 1.0)

@@ -162,7 +162,7 @@ def test_outline_keeps_its_distance(points, radius):
 # -- a mechanism at a pose ---------------------------------------------------------------------------------
 
 
-@for_all("cls", ALL)
+@for_all("cls", (), slow=ALL)
 def test_circles_stand_on_the_points_at_every_pose(cls):
     motion = one_motion(cls)
     drawing = mechanism(axes(), motion)
@@ -349,6 +349,7 @@ def test_scales_are_equal_and_hold_every_pose(cls):
         assert left < x.min() and x.max() < right and bottom < y.min() and y.max() < top
 
 
+@pytest.mark.slow
 def test_a_sheet_that_would_be_mostly_empty_holds_what_is_drawn():
     (low, high), (left, right) = draw(ArmDrive()).axes[0].get_ylim(), draw(ArmDrive()).axes[0].get_xlim()
     travel = ArmDrive().sweep(41)["T"][1]

@@ -171,6 +171,7 @@ def test_a_force_on_a_page_acts_on_the_body_on_which_it_is_drawn(machine):
     assert not found or sorted(couples) == sorted(name.split()[1] for name, *_ in drawn if name.startswith("couple "))
 
 
+@pytest.mark.slow
 def test_axle_loads_stand_at_the_supports_of_the_frame():
     motion = Digger().at(S=0.1, s=0.1)
     found = standing(motion, case="up")
@@ -451,8 +452,7 @@ def test_velocities_stand_square_on_the_rays_of_the_pole(machine):
                 assert_allclose(speed[point], spin * np.array([-ray[1], ray[0]]), atol=1e-9 * max(fastest, abs(spin) * np.hypot(*ray)))
 
 
-@pytest.mark.slow
-@first_daily(2, "machine", [ThreePointHitch, FourBar, Press], ids=lambda machine: machine.__name__)
+@first_daily(0, "machine", [ThreePointHitch, FourBar, Press], ids=lambda machine: machine.__name__)
 def test_velocity_arrows_are_in_one_scale(machine):
     motion = pose_of(machine())
     rates = dict.fromkeys(motion.strokes, 0.3)
@@ -500,6 +500,7 @@ def test_three_poles_stand_in_a_line(name):
     assert checked > 5
 
 
+@pytest.mark.slow
 def test_pole_over_a_sweep_is_the_centrode():
     machine = ThreePointHitch()
     motion = machine.sweep(5)
@@ -582,6 +583,7 @@ def test_the_worst_pose_is_drawn_with_what_comes_nearest_there():
     assert any(f"{answer.strokes['S'] * 1e3:.4g} mm" in text.get_text() for text in figure.findobj(Text))
 
 
+@pytest.mark.slow
 def test_a_motion_shows_the_gap_at_its_pose_and_faint_where_it_is_least():
     motion = Beside().sweep(21)
     values = motion[clearance()]

@@ -351,8 +351,7 @@ def test_a_page_opens_in_silence_and_asks_for_nothing_but_itself(chromium, writt
         assert len(shown.told) == len(verdicts)
 
 
-@pytest.mark.slow
-@first_daily(2, "machine", [ThreePointHitch(), StephensonThree(), Reach()], ids=lambda each: type(each).__name__)
+@first_daily(0, "machine", [ThreePointHitch(), StephensonThree(), Reach()], ids=lambda each: type(each).__name__)
 def test_the_page_says_what_python_says_of_random_designs(chromium, written, machine):
     random = np.random.default_rng(13)
     with Shown(chromium, written(machine)) as shown:
@@ -479,6 +478,7 @@ def test_a_value_goes_as_far_as_can_be_assembled_and_says_why_no_farther(chromiu
         assert not ThreePointHitch(CD=reached + 1e-5).at(S=0.0, unreachable="nan").reached.any()
 
 
+@pytest.mark.slow
 def test_no_dead_point_is_told_beyond_an_end_that_is_lost_itself(chromium, written):
     class Corner(Mechanism):
         p, q = Stroke(0.0, 0.2), Stroke(0.0, 0.2)
@@ -854,7 +854,7 @@ def test_what_happened_on_the_way_is_as_delivered_once_a_dimension_changes(chrom
         assert shown.text(".event") == f"as delivered: {told}" and shown.said == []
 
 
-@first_daily(1, "playing", [False, True])
+@first_daily(0, "playing", [False, True])
 def test_the_first_change_by_keyboard_is_undone(chromium, written, playing):
     with Shown(chromium, written(ThreePointHitch(), vary=SIZES), reduced_motion="no-preference" if playing else "reduce") as shown:
         assert shown.state["playing"] is playing
@@ -1330,6 +1330,7 @@ def test_one_dimension_that_is_shown_at_first_makes_a_rule_hold(chromium, writte
         assert any(name.startswith("axle load") and text.count("\u2715") == 2 for name, text in rows.items())
 
 
+@pytest.mark.slow
 def test_a_strokes_value_is_typed_and_its_slider_goes_over_all_that_is_declared(chromium, tmp_path):
     with Shown(chromium, page(Lifting(), tmp_path / "part.html", at={"S": (0.05, 0.12)})) as shown:
         field = shown.tab.locator(".stroke input[type='text']")
@@ -1433,8 +1434,7 @@ def test_a_pin_with_several_joints_and_a_torque_has_the_arrows_that_can_be_told_
         assert shown.said == [] and len(shown("hydrolinkage.data.arrows")) >= 4
 
 
-@pytest.mark.slow
-@for_all(("machine", "names"), [(Grapple, {"D", "H", "M_g", "M_1", "M_g/M_1"})], slow=[(HeaderBalancer, {"H", "P", "F_R free"})])
+@for_all(("machine", "names"), (), slow=[(Grapple, {"D", "H", "M_g", "M_1", "M_g/M_1"}), (HeaderBalancer, {"H", "P", "F_R free"})])
 def test_what_a_balancer_and_a_grapple_are_about_is_followed(machine, names):
     requests = PageRequests(machine(), 101, at={})
     live = live_text(machine.plan, requests.by_name, name="engine")
@@ -1702,7 +1702,7 @@ def robot_field():
     return working_field(Robot(), "B", [0.5, 0.9, 1.1, 3.0], [0.5, 0.8, 1.0], limits={"rated load": 2e3})
 
 
-@first_daily(1, "made", [digger_field, telehandler_field, robot_field])
+@first_daily(0, "made", [digger_field, telehandler_field, robot_field])
 def test_a_charts_page_has_the_numbers_of_its_field_and_the_poses_of_its_strokes(made):
     field = made()
     data = data_of(chart_page(field, "en"))

@@ -21,7 +21,7 @@ from mechanisms.crane import Crane
 from mechanisms.grapple import Grapple
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
-from tests.for_all import for_all
+from tests.for_all import first_daily, for_all
 from tests.linkage.known_machines import GrabArms
 from tests.linkage.motion.in_node import NEEDED, SHIPPED, designs_near, elsewhere, possible
 
@@ -283,14 +283,7 @@ def check_delivered(machine):
             assert delivered(data, name, system) == told(machine, name, system)
 
 
-@pytest.mark.parametrize("name", ("lifting_arm", *(pytest.param(name, marks=SLOW) for name in ("mower_lift", "log_splitter"))))
+@first_daily(1, "name", sorted(MACHINES, key=lambda name: name != "lifting_arm"))
 def test_delivered_verdicts_are_pythons_word_for_word(name):
-    for design in near(MACHINES[name], 5, 1):
-        check_delivered(MACHINES[name](**design))
-
-
-@SLOW
-@pytest.mark.parametrize("name", MACHINES)
-def test_delivered_verdicts_of_all_machines_are_pythons_word_for_word(name):
     for design in near(MACHINES[name], 17, 4):
         check_delivered(MACHINES[name](**design))

@@ -313,7 +313,7 @@ def check_names(cls, count):
                     assert to_box(box, place) > own - 2.0, (pose, name, other)
 
 
-@for_all("cls", [ThreePointHitch, RobertsCognates], slow=[HeaderBalancer, Grapple, Jansen])
+@for_all("cls", [ThreePointHitch, RobertsCognates])
 def test_names_belong_to_their_pins(cls):
     check_names(cls, 2)
 

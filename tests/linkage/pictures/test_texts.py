@@ -22,7 +22,7 @@ from linkage.pictures.shapes import lines_cross
 from linkage.pictures.sheet import empty_figure, points_a_metre, sheet
 from linkage.pictures.style import STRONG
 from linkage.pictures.symbols import LabelPart
-from tests.for_all import for_all
+from tests.for_all import first_daily, for_all
 from tests.linkage.motion.in_node import elsewhere
 
 SHIPPED = {point.name: point for point in entry_points(group="hydrolinkage.machines")}
@@ -168,8 +168,7 @@ def check_machine(machine):
         plt.close(figure)
 
 
-@pytest.mark.slow
-@for_all("seed", (1,), slow=(0, *range(2, 20)))
+@for_all("seed", (), slow=range(20))
 def test_values_keep_clear_at_any_pose(seed):
     """Poses that nobody chose, outside what is judged, where arrows crowd about few pins; one each of machines of several strokes."""
     for name in ("levelled_telehandler", "grapple"):
@@ -184,14 +183,8 @@ def test_values_keep_clear_at_any_pose(seed):
             plt.close(figure)
 
 
-@for_all("name", QUICK)
-def test_no_text_covers_another(name):
-    check_machine(SHIPPED[name].load()())
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", SHIPPED)
-def test_no_text_of_any_shipped_machine_covers_another(name):
+@first_daily(2, "name", sorted(SHIPPED, key=lambda name: name not in QUICK))
+def test_no_text_of_a_shipped_machine_covers_another(name):
     check_machine(SHIPPED[name].load()())
 
 
@@ -221,6 +214,7 @@ class FarAway(Mechanism):
     g, h, i = Force(A, (0.3e3, 0.7e3)), Force(A, (0.1e3, 0.8e3)), Force(A, (0.0, 0.8e3))
 
 
+@pytest.mark.slow
 def test_nine_forces_at_a_pin_far_from_the_origin():
     figure = draw(FarAway().at(phi=0.6), forces=True)
     check_texts(figure)
@@ -248,6 +242,7 @@ def test_a_colour_without_an_arrow_has_no_key():
     assert [each.get_text() for each in figure.axes[0].get_legend().get_texts()] == ["s = 0 mm", "s = 50 mm"]
 
 
+@pytest.mark.slow
 def test_a_heading_is_parted_between_strokes():
     telehandler = SHIPPED["levelled_telehandler"].load()()
     figure = plot(telehandler, at=dict(lift=(0.0, 0.7)))

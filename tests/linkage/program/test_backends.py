@@ -151,8 +151,7 @@ def hitch_designs(m, n):
     return designs | {"S": np.linspace(0.0, 0.25, n)}
 
 
-@pytest.mark.slow
-@for_all(("m", "n"), [(1, 1), (1, 40000), (3, 50), (50, 3), (20000, 2), (9000, 20)])
+@for_all(("m", "n"), (), slow=[(1, 1), (1, 40000), (3, 50), (50, 3), (20000, 2), (9000, 20)])
 def test_designs_and_poses_in_every_proportion(m, n):
     kernel, inputs = everything(ThreePointHitch), hitch_designs(m, n)
     tall = {name: value if name == "S" or np.ndim(value) == 0 else value[:, None] for name, value in inputs.items()}

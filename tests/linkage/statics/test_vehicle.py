@@ -284,7 +284,8 @@ def test_along_the_ground_it_is_held_by_friction():
     assert_allclose(slipping(case="up").of(motion), np.abs(found.along) / found.friction, rtol=1e-12)
 
 
-@pytest.mark.parametrize(
+@first_daily(
+    1,
     ("kind", "each_of"),
     [
         (Digger, (axle_load("rear"), axle_load("front", case="heavy"), slipping(case="up"))),
@@ -482,8 +483,7 @@ class MirroredPart(Mechanism):
     hill = LoadCase(slope=0.1)
 
 
-@pytest.mark.slow
-@first_daily(1, "machine", [MirroredPart, UnderAPart])
+@first_daily(0, "machine", [MirroredPart, UnderAPart])
 def test_the_frame_of_parts_balances_and_has_equations(machine):
     at = {"own.S": 0.1, "own.s": 0.2}
     for case in (None, "hill"):

@@ -120,6 +120,7 @@ def test_the_derivative_of_a_duty_is_that_of_differences():
     assert value != 0.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("spread", [{"OB": (0.7, 0.9)}])
 def test_the_least_mean_thrust_is_that_of_a_grid(spread):
     """The box in steps of 5 mm, by the triangle."""

@@ -144,8 +144,7 @@ def test_numba_on_request(designs, measure):
         same(survey(machine, over, measure, backend="numba", executor=pool), numba)
 
 
-@pytest.mark.slow
-@first_daily(1, ("designs", "measure"), [(group_designs, far_points), (hitch_designs, travel)])
+@first_daily(0, ("designs", "measure"), [(group_designs, far_points), (hitch_designs, travel)])
 def test_threads_that_trace_a_machine_at_the_same_time(designs, measure):
     machine, over = designs(64)
 

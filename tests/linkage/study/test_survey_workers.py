@@ -207,6 +207,7 @@ def test_failure_in_a_worker_names_its_designs(small, spawned, client, tmp_path)
         assert 0 < kept < 640 and f"{kept} of 640 designs are done and kept in" in caught.value.__notes__[-1]
 
 
+@pytest.mark.slow
 @FORKING
 def test_pool_whose_worker_was_killed_tells_and_another_goes_on(small, tmp_path):
     hitch, over = hitch_designs(1280)

@@ -93,14 +93,6 @@ def machines_of(links):
 
 
 @pytest.mark.slow
-def test_some_machines_of_eight_links():
-    random = np.random.default_rng(8)
-    every = machines_of(8)
-    for number in random.choice(len(every), 1, replace=False):
-        check_machine(*every[number], random)
-
-
-@pytest.mark.slow
 def test_every_machine_of_eight_links():
     random = np.random.default_rng(8)
     for chain in chains(8):

@@ -84,8 +84,7 @@ def test_what_runs_well_is_in_it():
     assert 200 < runs.sum() < 3000
 
 
-@pytest.mark.slow
-@first_daily(1, ("machine", "of"), [(StephensonOne(), "F"), (SixBar(), "Q")])
+@first_daily(0, ("machine", "of"), [(StephensonOne(), "F"), (SixBar(), "Q")])
 def test_six_bars_in_it_run_over_five_thousand_poses(machine, of):
     found = curve_catalogue(machine, of, count=60)
     for number in range(0, 60, 6):

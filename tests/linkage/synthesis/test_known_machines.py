@@ -19,8 +19,7 @@ def found_again(name, seed, **options):
     return task.exact(task.found(**options))
 
 
-@pytest.mark.slow
-@for_all("name", [*CLASSES][::2], slow=[*CLASSES][1::2])
+@for_all("name", (), slow=CLASSES)
 def test_the_evaluators_stand_where_the_classes_do(name):
     known = CLASSES[name]
     machine, (stroke, ends) = known.kind(), known.stroke()

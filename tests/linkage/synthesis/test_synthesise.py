@@ -346,8 +346,7 @@ def bar_task(count, **task):
     return synthesise(FourBar(), path=path, vary=vary, starts=4, **task)
 
 
-@pytest.mark.slow
-@for_all(("count", "each"), [(5, 2)], slow=[(1, 1), (1, 3), (2, 1)])
+@for_all(("count", "each"), (), slow=[(5, 2), (1, 1), (1, 3), (2, 1)])
 def test_few_points_and_points_given_twice(count, each):
     found = bar_task(count, each=each)
     assert found.best.most <= 1e-10
@@ -393,16 +392,14 @@ def test_a_dimension_that_moves_nothing_makes_no_other_machine():
     assert_allclose(found.machine["OA"], 0.03, rtol=0, atol=1e-9)
 
 
-@pytest.mark.slow
-@first_daily(1, "values", [[0.030, 0.036, 0.040], (0.030, 0.040, 0.002)])
+@first_daily(0, "values", [[0.030, 0.036, 0.040], (0.030, 0.040, 0.002)])
 def test_choices_and_steps_hold_the_known_bar(values):
     points = FourBar(OA=0.036, AB=0.11).at(phi=np.linspace(0.3, 3.5, 8))["P"].T
     found = synthesise(FourBar(), path=PathTask(points, of="P"), vary={"OA": values, "AB": (0.08, 0.14)}, starts=2)
     assert found.best.most <= 1e-10 and abs(found.machine["OA"] - 0.036) <= 1e-12
 
 
-@pytest.mark.slow
-@for_all("limit", [500], slow=[2000])
+@for_all("limit", (), slow=[500, 2000])
 def test_a_limit_counts_designs(limit):
     known = FourBar(OA=0.036, AB=0.11, CB=0.085, AP=0.05)
     points = known.at(phi=np.linspace(0.3, 5.7, 10))["P"].T

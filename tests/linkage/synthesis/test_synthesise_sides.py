@@ -80,8 +80,7 @@ def test_a_machine_on_other_sides_is_that_of_its_assembly(kind):
     assert known
 
 
-@pytest.mark.slow
-@for_all(("kind", "name"), [(FourBar, "B"), (Klann, "H"), (Tailed, "T"), (Pair, "two.B"), (Tipper, "G")])
+@for_all(("kind", "name"), (), slow=[(FourBar, "B"), (Klann, "H"), (Tailed, "T"), (Pair, "two.B"), (Tipper, "G")])
 def test_such_a_machine_goes_to_other_processes_and_is_one_class(kind, name):
     machine = kind()
     side = LEFT if sides_of(machine)[name] is RIGHT else RIGHT
@@ -94,7 +93,7 @@ def test_such_a_machine_goes_to_other_processes_and_is_one_class(kind, name):
     assert changed == {name}
 
 
-@first_daily(1, "timed", [True, False])
+@first_daily(0, "timed", [True, False])
 def test_both_branches_of_a_bar_are_searched(timed):
     """The other branch has a better design for these points than the branch of the class."""
     known = OtherBar(OA=0.012, AB=0.036, CB=0.028, AP=0.022)

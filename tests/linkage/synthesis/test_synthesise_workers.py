@@ -56,6 +56,7 @@ def test_dask_gives_the_same_bits(alone, tmp_path):
         assert bits(searched(executor=client.get_executor())) == bits(alone)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("calls", [3, pytest.param(7, marks=pytest.mark.slow)])
 def test_a_search_that_was_interrupted_goes_on(alone, tmp_path, calls):
     left = [calls]

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from linkage.checks import require
-from linkage.errors import DefinitionError, ensure, known_name
-from linkage.files.names import FileTable, by_whole_names, require_entry, shortened
+from linkage.errors import DefinitionError, cited, ensure, known_name
+from linkage.files.names import FileTable, by_whole_names
 from linkage.files.source import Source, measured_columns, source
 from linkage.frozen import immutable
 from linkage.loads import LoadCase
@@ -87,7 +87,7 @@ def table_under(key: str, data: FileTable, faults: Source) -> FileTable:
     given = data.get(key, {})
     if isinstance(given, Mapping):
         return dict(by_whole_names(given))
-    faults.add((key,), f"{shortened(given)} stands where a table is expected, such as {EXAMPLE}.")
+    faults.add((key,), f"{cited(given)} stands where a table is expected, such as {EXAMPLE}.")
     return {}
 
 
@@ -105,7 +105,7 @@ def demand_read(given: object, until: float) -> Demand:
     if not isinstance(given, list):
         return si_number(given, "speed")
     fits = all(isinstance(row, list) and len(row) == 2 for row in given)
-    require_entry(fits and given, given, 'is no list of rows, each an instant and a speed, such as ["2 s", "0.1 m/s"]')
+    require(fits and given, "", given, 'is no list of rows, each an instant and a speed, such as ["2 s", "0.1 m/s"]')
     times, speeds = [si_number(row[0], "time") for row in given], [si_number(row[1], "speed") for row in given]
     ensure(times[-1] < until, f"the last row begins at {times[-1]:g} s, and the programme ends at {until:g} s; give a later `until`.")
     if times[0] > 0.0:

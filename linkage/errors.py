@@ -175,9 +175,13 @@ class StudyError(LinkageError):
         self.designs = designs
 
 
-def cited(value: object, most: int = 60) -> str:
-    """Return a value as a message shows it: on one line, and cut where it is long."""
-    text = " ".join(repr(value).split())
+def cited(value: object, most: int = 60, quote: bool = True) -> str:
+    """Return a value as a message shows it: on one line, cut where it is long, a text without quotes where it is no quotation."""
+    try:
+        text = " ".join(repr(value).split())
+    except (ValueError, RecursionError):
+        text = f"an endless {type(value).__name__}"
+    text = text if quote or not isinstance(value, str) else text[1:-1]
     return text if len(text) <= most else f"{text[: most - 3]}..."
 
 

@@ -6,12 +6,13 @@ from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any
 
-from ..errors import DefinitionError, ensure, known_name, unknown
+from ..checks import require
+from ..errors import DefinitionError, cited, ensure, known_name, unknown
 from ..quantities import Course, Curve, is_number, ramp
 from ..units import UNITS, Amount, units_of
 from .design import degrees_text
 from .expression import one_unit
-from .names import FileTable, Keywords, Names, require_entry, shortened
+from .names import FileTable, Keywords, Names
 from .source import measured_columns
 from .validators import amount_of
 
@@ -58,7 +59,7 @@ def course_read(given: object, names: Names) -> Course | Curve:
 def step_read(table: object, names: Names) -> Course | Curve | float:
     """Return one step of a course; the seconds of a hold."""
     if not isinstance(table, Mapping):
-        raise DefinitionError(f'{shortened(table)} is no step of a course; write {{ ramp = ["100 mm", "300 mm"], speed = "150 mm/s" }}.')
+        raise DefinitionError(f'{cited(table)} is no step of a course; write {{ ramp = ["100 mm", "300 mm"], speed = "150 mm/s" }}.')
     kind = next((each for each in STEPS if each in table), None)
     if kind is None:
         raise unknown("Step", next(iter(table), ""), STEPS)
@@ -66,7 +67,7 @@ def step_read(table: object, names: Names) -> Course | Curve | float:
         known_name("Key", key, (kind, *STEPS[kind]))
     numbers = {key: value if key == "kind" else numbers_read(key, value, names) for key, value in table.items()}
     if kind == "hold":
-        require_entry(is_number(numbers["hold"]), table["hold"], "is not a number of seconds")
+        require(is_number(numbers["hold"]), "", table["hold"], "is not a number of seconds")
         return float(numbers["hold"])
     if kind == "ramp":
         ends = numbers.pop("ramp")
@@ -92,9 +93,9 @@ def numbers_read(key: str, given: object, names: Names) -> Any:
     unit, measures = one_unit(given) if isinstance(given, str) else "", MEASURES.get(key, ())
     if unit and UNITS[unit][1] not in measures:
         fits = units_of(*measures)
-        raise DefinitionError(f"{key} = {shortened(given)}: use one of {', '.join(fits)}." if fits else f"{key} has no units.")
+        raise DefinitionError(f"{key} = {cited(given)}: use one of {', '.join(fits)}." if fits else f"{key} has no units.")
     found = amount_of(given, names, "")
-    ensure(is_number(found), f"{key} = {shortened(given)}: a number is expected; a course follows no dimension.")
+    ensure(is_number(found), f"{key} = {cited(given)}: a number is expected; a course follows no dimension.")
     if not unit or "time" in measures:
         return float(found)
     return Amount(found, "angle" if UNITS[unit][1].startswith("ang") else "length")
@@ -126,7 +127,7 @@ def rows_read(name: object, folder: Path | None, strokes: Collection[str]) -> Fi
     What is neither is passed over. DefinitionError for a file that cannot be read, or that says no time or no stroke.
     """
     if folder is None or not isinstance(name, str) or Path(name).name != name:
-        raise DefinitionError(f"csv = {shortened(name)}: a table stands in the folder of the file that names it; give its name alone.")
+        raise DefinitionError(f"csv = {cited(name)}: a table stands in the folder of the file that names it; give its name alone.")
     measures = {stroke: MEASURES["values"] for stroke in strokes} | {"time": MEASURES["times"]}
     found = measured_columns(folder / name, f"csv = {name}", lambda column: measures.get(column, ()))
     if "time" not in found or len(found) < 2:

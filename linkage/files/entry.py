@@ -12,8 +12,8 @@ from dataclasses import MISSING, dataclass, fields, is_dataclass, replace
 from inspect import Parameter, ismethod, signature
 from typing import Any
 
-from ..checks import is_listed
-from ..errors import DefinitionError, ensure, errors_of
+from ..checks import is_listed, require, require_type
+from ..errors import DefinitionError, cited, ensure, errors_of
 from ..frozen import immutable
 from ..loads import ForceElement
 from ..quantities import Member
@@ -21,7 +21,7 @@ from ..quantities.member import KEPT_AS, annotated_kind, kinds_said
 from ..steps import Point, Step
 from ..units import SI
 from .design import Design
-from .names import NAME_LENGTH, FileTable, Keywords, Names, entry_as, require_entry, shortened
+from .names import NAME_LENGTH, FileTable, Keywords, Names
 from .source import Mistakes
 from .validators import KINDS, Kind, amount, fixed_number, quantity_of
 
@@ -271,14 +271,14 @@ class FileEntry:
 
     def read(self, given: object, names: Names) -> Member:
         """Return the member of an entry; DefinitionError, with all mistakes by their keys, for a wrong entry."""
-        given = entry_as(given, Mapping, f"is not a table {{ key = value }} with the keys {', '.join(self.keys)}")
+        given = require_type("", given, Mapping, f"is not a table {{ key = value }} with the keys {', '.join(self.keys)}")
         mistakes = Mistakes()
         unknown = [key for key in given if key not in self.keys] if self.has_labels else []  # labels: lengths and angles of points
         ensure(len(unknown) <= LABELS, f"{len(unknown)} labels are too many; up to {LABELS} are read.")
         taken = {"self", *(each.name for each in parameters_of(self.describes))}
         for key in unknown:
             if not (isinstance(key, str) and key.isidentifier() and len(key) <= 3 * NAME_LENGTH) or key in taken:
-                raise DefinitionError(f"{shortened(key)} is not a label; write the points' names joined, such as AB or BOC.")
+                raise DefinitionError(f"{cited(key)} is not a label; write the points' names joined, such as AB or BOC.")
         labels: Keywords = dict.fromkeys(unknown)
         parents: Iterable[Any] = ()
         if self.word:
@@ -290,7 +290,7 @@ class FileEntry:
                     words, several = self._kind_words(), given[self.word]
                     what = f"two {words[0]}s" if words in (["point"] * 2, ["guide"] * 2) else " and ".join(f"a {word}" for word in words)
                     fits = is_listed(several) and len(several) == len(self.built_from)
-                    require_entry(fits, several, f"is not {what}, such as {self._parents()}")
+                    require(fits, "", several, f"is not {what}, such as {self._parents()}")
                     parents = [argument.kind.read(each, names) for argument, each in zip(self.built_from, several, strict=True)]
         else:
             under_keys = read_table(given, names, self.built_from, mistakes)

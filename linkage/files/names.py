@@ -5,17 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar, cast
+from typing import TYPE_CHECKING, Any, TypeAlias
 from unicodedata import normalize
 
 from ..checks import is_listed
-from ..errors import DefinitionError, ensure, unknown
+from ..errors import DefinitionError, cited, ensure, unknown
 from ..quantities import Member, Quantity, Ref, is_name
 
 if TYPE_CHECKING:
     from ..mechanism import Mechanism
 
-Kind = TypeVar("Kind")
 FileTable: TypeAlias = Mapping[str, Any]
 """A table of a file: what stands under its keys."""
 Keywords: TypeAlias = dict[str, Any]
@@ -56,13 +55,13 @@ class Names:
     def checked(self, name: object, kind: str) -> str:
         """Return a name that stands for a member of a kind; DefinitionError, with those there are, for any other."""
         if not isinstance(name, str):
-            raise DefinitionError(f"{shortened(name)} stands where the name of a {kind} is expected.")
+            raise DefinitionError(f"{cited(name)} stands where the name of a {kind} is expected.")
         owner, _, own = name.rpartition(".")
         if name not in self.kinds and kind in ("quantity", "link", "point") and self.kinds.get(owner) == "load" and own:
             return name  # what a load holds by a name of its own, such as the length of a cylinder or its barrel
         if name not in self.kinds:
             known = [each for each, its_kind in self.kinds.items() if its_kind == kind]
-            raise unknown(kind.capitalize(), shortened(name, quote=False), known)
+            raise unknown(kind.capitalize(), name, known)
         ensure(self.kinds[name] == kind, f"{name} of [{self.sections.get(name, 'parts')}] is not a {kind}.")
         return name
 
@@ -84,34 +83,12 @@ def member_name(name: object) -> str:
     if isinstance(name, str) and not is_name(name) and is_name(normalize("NFKC", name)):
         raise DefinitionError(f"{name!r} is spelled with look-alike letters; write {normalize('NFKC', name)!r}.")
     if not isinstance(name, str) or not is_name(name):
-        raise DefinitionError(f"{shortened(name)} is not a name: letters, digits and _, no digit first, no word of Python.")
+        raise DefinitionError(f"{cited(name)} is not a name: letters, digits and _, no digit first, no word of Python.")
     if name.startswith("__") or len(name) > NAME_LENGTH:
-        raise DefinitionError(f"{shortened(name)} cannot be a name here: up to {NAME_LENGTH} characters, no double _ at the start.")
+        raise DefinitionError(f"{cited(name)} cannot be a name here: up to {NAME_LENGTH} characters, no double _ at the start.")
     return name
 
 
 def listed(given: object) -> Sequence[Any]:
     """Return the items of a list, or anything but a list as the only one."""
     return given if is_listed(given) else [given]
-
-
-def entry_as(given: object, kind: type[Kind] | tuple[type[Kind], ...], expected: str) -> Kind:
-    """Return a value of a kind from a file; DefinitionError for anything else, in the words of `require_entry`."""
-    require_entry(isinstance(given, kind), given, expected)
-    return cast(Kind, given)
-
-
-def require_entry(holds: object, given: object, expected: str) -> None:
-    """Refuse a value of a file unless a condition holds: `"S": a list is expected.`, `"S" is no list.`"""
-    if not holds:
-        raise DefinitionError(f"{shortened(given)}{' ' if expected.startswith('is ') else ': '}{expected}.")
-
-
-def shortened(value: object, quote: bool = True) -> str:
-    """Return a value as text for a message: not too long, in one line, nothing unprintable."""
-    try:
-        text = ascii(value) if isinstance(value, str) and not value.isprintable() else repr(value)
-    except (ValueError, RecursionError):
-        text = f"an endless {type(value).__name__}"
-    text = text if quote or not isinstance(value, str) else text[1:-1]
-    return text if len(text) <= NAME_LENGTH else f"{text[:NAME_LENGTH]}..."

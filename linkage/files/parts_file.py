@@ -10,14 +10,14 @@ from collections.abc import Mapping
 from typing import Any
 
 from .. import plugins
-from ..checks import is_class_of
+from ..checks import is_class_of, require, require_type
 from ..errors import DefinitionError, unknown
 from ..mechanism import Mechanism
 from ..plan import Part
 from ..quantities import Member, is_member_or_name, is_nothing, label, name_of, quantity
 from ..steps import Point
 from .design import Design, degrees_text
-from .names import Keywords, Names, by_whole_names, entry_as, require_entry
+from .names import Keywords, Names, by_whole_names
 from .validators import Read, coordinates_of, points_of, quantity_of, switch_of
 
 OWN_KEYS: Mapping[str, Read] = {"on": points_of, "at": coordinates_of, "angle": quantity_of, "mirrored": switch_of}
@@ -27,7 +27,7 @@ FILES = (".toml", ".json")
 
 def machine_named(given: object, names: Names) -> type[Mechanism]:
     """Return the class that a part's `machine` names: one of the file, one that is installed, or that of a file beside this one."""
-    given = entry_as(given, str, 'is no machine; write machine = "Arm", of [machines.Arm...] or an installed one')
+    given = require_type("", given, str, 'is no machine; write machine = "Arm", of [machines.Arm...] or an installed one')
     if given in names.machines:
         return names.machines[given]
     if given.endswith(FILES) and names.load_beside is not None:
@@ -42,7 +42,7 @@ def machine_named(given: object, names: Names) -> type[Mechanism]:
 
 def part_read(given: Any, names: Names) -> Part:
     """Return the part that an entry says."""
-    require_entry(isinstance(given, Mapping) and "machine" in given, given, 'is no part; write { machine = "Arm", S = "s1" }')
+    require(isinstance(given, Mapping) and "machine" in given, "", given, 'is no part; write { machine = "Arm", S = "s1" }')
     machine = machine_named(given["machine"], names)
     plan = machine.plan
     options: Keywords = {key: read(given[key], names) for key, read in OWN_KEYS.items() if key in given}

@@ -13,12 +13,13 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import AssemblyError, DefinitionError, FileError, about, ensure
+from ..checks import require
+from ..errors import AssemblyError, DefinitionError, FileError, about, cited, ensure
 from ..mechanism import Mechanism
 from ..motion import Featured
 from ..plan import Table
 from ..steps import Point
-from .names import FileTable, Names, by_whole_names, member_name, require_entry, shortened
+from .names import FileTable, Names, by_whole_names, member_name
 from .parts_file import dotted_kinds, machine_named
 from .registry import registry
 from .source import Source, source
@@ -85,7 +86,7 @@ def from_dict(data: Mapping[str, object], trust: Collection[str] = ()) -> type[M
 def trusted(given: object) -> tuple[str, ...]:
     """Return the packages that may be imported; DefinitionError for anything but a list of names."""
     if isinstance(given, str) or not isinstance(given, Collection) or not all(isinstance(each, str) and each for each in given):
-        raise DefinitionError(f'trust={shortened(given)} is no list of packages; write trust=["mypackage"].')
+        raise DefinitionError(f'trust={cited(given)} is no list of packages; write trust=["mypackage"].')
     return tuple(given)
 
 
@@ -137,8 +138,8 @@ def built(
 def machine_beside(folder: Path | None, trust: Collection[str], depth: int, name: str) -> type[Mechanism]:
     """Return the machine of another file in the folder of the current one; DefinitionError for one elsewhere."""
     if folder is None:
-        raise DefinitionError(f"{shortened(name)}: a text has no folder; put the machine in it, [machines.Name...].")
-    require_entry(Path(name).name == name, name, "the file of a part stands in the folder of the one that names it; give its name alone")
+        raise DefinitionError(f"{cited(name)}: a text has no folder; put the machine in it, [machines.Name...].")
+    require(Path(name).name == name, "", name, "the file of a part stands in the folder of the one that names it; give its name alone")
     found = source(folder / name)
     return built(found.data, found, trust, folder, depth)
 
@@ -168,7 +169,7 @@ def head_read(data: FileTable, faults: Source) -> tuple[str, str | None, Feature
         ensure(title is not None, 'the name of the mechanism is missing; begin with name = "ThreePointHitch".')
         member_name(title)
     if doc is not None and not (isinstance(doc, str) and all(each.isprintable() or each in "\n\t" for each in doc)):
-        faults.add(("doc",), f"{shortened(doc)} is not a text of printable characters.")
+        faults.add(("doc",), f"{cited(doc)} is not a text of printable characters.")
     with faults.at_key("featured"):
         if not isinstance(given, Mapping) or not {"column", "path", "limits", "coupler"} >= given.keys():
             raise DefinitionError('a table is expected, column = "tilt", path = ["G"], limits = { tilt = [0.1, "most"] }.')
@@ -228,7 +229,7 @@ def ordered(data: FileTable, names: Names, faults: Source) -> list[str]:
     order = data.get("order", [])
     given: list[Any] = order if isinstance(order, list) and all(isinstance(each, str) for each in order) else [None]
     anywhere = {name for table in data.values() if isinstance(table, Mapping) for name in table}
-    unknown = [shortened(each) for each in given if each not in anywhere]
+    unknown = [cited(each) for each in given if each not in anywhere]
     if unknown or len(set(given)) < len(given):
         faults.add(("order",), f"a list of names is expected, each once; {', '.join(unknown[:3]) or 'one'} is not such a name.")
     return list(dict.fromkeys([*(each for each in given if each in names.sections), *names.sections]))

@@ -17,8 +17,8 @@ from types import ModuleType
 from typing import Any, TypeAlias
 
 from .. import loads, plugins, steps, surroundings
-from ..checks import is_class_of
-from ..errors import DefinitionError, ensure, unknown
+from ..checks import is_class_of, require_type
+from ..errors import DefinitionError, cited, ensure, unknown
 from ..motion import OPTIONS, Over, Planes, stroke_unit
 from ..plan import Part
 from ..quantities import Course, Curve, Dimension, Member, PoseCondition, Quantity, Stroke, is_number, quantity, ref
@@ -29,7 +29,7 @@ from .course_file import STEPS, course_read, course_written, is_course, numbers_
 from .design import Design, degrees_text, in_unit
 from .entry import PATH, FileEntry, worded
 from .expression import expression, one_unit
-from .names import Keywords, Names, by_whole_names, entry_as, listed, shortened
+from .names import Keywords, Names, by_whole_names, listed
 from .parts_file import part_read, part_written
 from .validators import amount_of, arrow_of, coordinates_of, number_of, points_of, quantity_of, stroke_ends, strokes_of, word_list_of
 
@@ -42,7 +42,7 @@ _COMPARED = re.compile(r"([^<>=!]+)(<=|>=)([^<>=!]+)")
 
 def over_read(given: object, names: Names) -> Over:
     """Return the `Over` of a table; DefinitionError, with the key, for a wrong one."""
-    given = entry_as(given, Mapping, 'is not a table of strokes, such as { phi = ["15 deg", "80 deg"], t = 0.0 }')
+    given = require_type("", given, Mapping, 'is not a table of strokes, such as { phi = ["15 deg", "80 deg"], t = 0.0 }')
     given, known = dict(by_whole_names(given, tuple(STEPS))), names.strokes
     if "csv" in given:
         given = {**rows_read(given.pop("csv"), names.folder, known), **given}
@@ -73,10 +73,10 @@ def condition_of(text: object, names: Names) -> PoseCondition:
     """Return the condition on poses that a text says, `x(T) <= 4`; DefinitionError for any other."""
     found = _COMPARED.fullmatch(text) if isinstance(text, str) else None
     if found is None:
-        raise DefinitionError(f'{shortened(text)} is no condition on poses; write a comparison in quotes, "x(T) <= 4", with <= or >=.')
+        raise DefinitionError(f'{cited(text)} is no condition on poses; write a comparison in quotes, "x(T) <= 4", with <= or >=.')
     left, right = (expression(found.group(side).strip(), names) for side in (1, 3))
     if left.is_constant and right.is_constant:
-        raise DefinitionError(f"{shortened(text)} compares two numbers; one side is a quantity such as x(T).")
+        raise DefinitionError(f"{cited(text)} compares two numbers; one side is a quantity such as x(T).")
     if left.constant is not None:
         return PoseCondition(right, {"<=": ">=", ">=": "<="}[found.group(2)], left.constant)
     return PoseCondition(left, found.group(2), right if right.constant is None else right.constant)
@@ -152,7 +152,7 @@ def dimension_of(given: object, names: Names) -> Dimension:
         case {"value": value, **others} if not others.keys() - {"unit"} and isinstance(others.get("unit", ""), str):
             return Dimension(number_of(value, names), str(others.get("unit", "")))
         case Mapping():
-            raise DefinitionError(f'{shortened(dict(given))}: a dimension is a number, "500 mm", or {{ value = 0.5, unit = "mm" }}.')
+            raise DefinitionError(f'{cited(dict(given))}: a dimension is a number, "500 mm", or {{ value = 0.5, unit = "mm" }}.')
     return Dimension(number_of(given, names), one_unit(given) if isinstance(given, str) else "")
 
 
@@ -207,7 +207,7 @@ def link_of(*points: str, **labels: Any) -> steps.Link:
 def planes_read(given: object, names: Names) -> Planes:
     """Return the planes that an entry says: `{ planes = ["OBC AB", "CD EDF"], width = "60 mm" }`."""
     if not isinstance(given, Mapping) or "planes" not in given or not given.keys() <= {"planes", "width"}:
-        raise DefinitionError(f'{shortened(given)}: write {{ planes = ["OBC AB", "CD EDF"], width = "60 mm" }}.')
+        raise DefinitionError(f'{cited(given)}: write {{ planes = ["OBC AB", "CD EDF"], width = "60 mm" }}.')
     return Planes(*word_list_of(given["planes"], names), width=quantity_of(given.get("width", 0.0), names))
 
 
@@ -295,7 +295,7 @@ class Registry:
             return words[found[0]]
         example = EXAMPLES.get(section) or next(iter(words.values())).example
         key = next((key for key in table if isinstance(key, str)), "")
-        what = unknown("Kind", shortened(key, quote=False), words) if key else f"{shortened(given)} is no entry of [{section}]."
+        what = unknown("Kind", key, words) if key else f"{cited(given)} is no entry of [{section}]."
         others = [(word, other) for other, known in self.sections.items() for word in known if word and word in table]
         elsewhere = f" {others[0][0]} stands in [{others[0][1]}]." if others else ""
         raise DefinitionError(f"{what} Write it like {example}.{elsewhere}{self.absent()}")
@@ -338,7 +338,7 @@ def class_of(path: Any, section: str, trust: Collection[str]) -> type[Member]:
     """Return the class that an import path names; DefinitionError unless it is imported already or its package is trusted."""
     module, colon, name = path.partition(":") if isinstance(path, str) else ("", "", "")
     if not colon or not all(part.isidentifier() for part in (*module.split("."), *name.split("."))):
-        raise DefinitionError(f'{shortened(path)} is no import path of a class; write "package.module:Class".')
+        raise DefinitionError(f'{cited(path)} is no import path of a class; write "package.module:Class".')
     if module not in sys.modules and any(module == each or module.startswith(f"{each}.") for each in trust):
         try:
             import_module(module)

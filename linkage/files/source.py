@@ -18,9 +18,9 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from ..disk import read
-from ..errors import DefinitionError, FileError, ensure, known_name
+from ..errors import DefinitionError, FileError, cited, ensure, known_name
 from ..units import UNITS, Amount, units_of
-from .names import NAME_LENGTH, Keywords, shortened
+from .names import NAME_LENGTH, Keywords
 
 Key = tuple[str, ...]
 
@@ -39,7 +39,7 @@ def source(path_or_text: str | os.PathLike[str]) -> Source:
         return decoded(TEXT, encoded, path_or_text.lstrip().startswith("{"))
     path = Path(path_or_text)
     if path.suffix not in (".toml", ".json"):
-        raise FileError(f"{shortened(os.fspath(path_or_text), quote=False)}: the name of a mechanism's file ends in .toml or .json.")
+        raise FileError(f"{cited(os.fspath(path_or_text), quote=False)}: the name of a mechanism's file ends in .toml or .json.")
     return replace(decoded(path.name, read(path, FILE_BYTES + 1), path.suffix == ".json"), folder=path.parent)
 
 
@@ -91,7 +91,7 @@ def unique(pairs: list[tuple[str, Any]]) -> Keywords:
     table = dict(pairs)
     if len(table) < len(pairs):
         [(key, _)] = Counter(key for key, _ in pairs).most_common(1)
-        raise ValueError(f"the key {shortened(key)} stands twice")
+        raise ValueError(f"the key {cited(key)} stands twice")
     return table
 
 
@@ -206,7 +206,7 @@ def measured_columns(
         found[name] = []
         for line, row in rows:
             text = row[place] if place < len(row) else ""
-            ensure(is_numeral(text) or (gaps and not text), f"{where}: in line {line} {shortened(text)} is no number.")
+            ensure(is_numeral(text) or (gaps and not text), f"{where}: in line {line} {cited(text)} is no number.")
             found[name].append(Amount(float(text or nan) * by, UNITS[unit][1]))
     return found
 
@@ -293,7 +293,7 @@ class Source(Mistakes):
         """Return all mistakes, one a line."""
         lines = []
         for line, key, message in sorted(((self.line_of(key), key, message) for key, message in self.found), key=itemgetter(0)):
-            parts = [part if len(part) <= NAME_LENGTH and (part.isidentifier() or part.isdecimal()) else shortened(part) for part in key]
+            parts = [part if len(part) <= NAME_LENGTH and (part.isidentifier() or part.isdecimal()) else cited(part) for part in key]
             places = [*([f"line {line}"] if line else []), *([".".join(parts)] if parts else [])]
             lines.append(f"{', '.join(places)}: {message}" if places else message)
         if len(lines) == 1:

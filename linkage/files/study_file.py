@@ -19,9 +19,9 @@ from inspect import Parameter, signature
 from pathlib import Path
 from typing import Any, TypeAlias, get_type_hints
 
-from ..checks import is_listed
+from ..checks import is_listed, require, require_type
 from ..disk import check_place
-from ..errors import DefinitionError, FileError, ensure, known_name, one_word, unknown
+from ..errors import DefinitionError, FileError, cited, ensure, known_name, one_word, unknown
 from ..frozen import immutable
 from ..loads import PLAIN_CASE, LoadCase
 from ..mechanism import Mechanism
@@ -34,7 +34,7 @@ from ..study.tolerances import Tolerance, tolerances_of
 from ..study.variants import is_side
 from ..units import parse, parse_span
 from .criterion import criterion_of
-from .names import FileTable, Keywords, by_whole_names, entry_as, listed, require_entry, shortened
+from .names import FileTable, Keywords, by_whole_names, listed
 from .source import TEXT, Mistakes, Source, each_of, source
 
 FindMachine: TypeAlias = Callable[[str, Path], type[Mechanism]]
@@ -91,7 +91,7 @@ class StudyHead:
             kind = None
             with faults.at_key("machine"):
                 if not isinstance(text, str) or not text:
-                    what = "the machine is missing" if text is None else f"{shortened(text)} is no name in quotes"
+                    what = "the machine is missing" if text is None else f"{cited(text)} is no name in quotes"
                     raise DefinitionError(f'{what}; begin with machine = "three_point_hitch", a name of `hydrolinkage list` or a file.')
                 kind = find(text, base)
             if kind is not None:
@@ -139,8 +139,8 @@ def keywords_read(
 
 def file_path(head: StudyHead, given: object) -> Path:
     """Return a path as it is meant: relative to the file's own folder. DefinitionError for anything else."""
-    text = entry_as(given, str, "is no path in quotes")
-    require_entry(text.strip(), given, "is no path in quotes")
+    text = require_type("", given, str, "is no path in quotes")
+    require(text.strip(), "", given, "is no path in quotes")
     return head.base / text
 
 
@@ -150,7 +150,7 @@ def file_path(head: StudyHead, given: object) -> Path:
 def by_dimensions(given: object, what: str, read: Callable[[str, Any], Any], words: Sequence[str] = ()) -> dict[Any, Any]:
     """Return the results of reading a table's entries, by the whole names of dimensions; SeveralError, each mistake under its name."""
     if not isinstance(given, Mapping):
-        raise DefinitionError(f"{what} = {shortened(given)}: a table by the names of dimensions is expected, such as [{what}] OB = ...")
+        raise DefinitionError(f"{what} = {cited(given)}: a table by the names of dimensions is expected, such as [{what}] OB = ...")
     return dict(each_of(by_whole_names(given, words), lambda name, value: (name, read(name, value))))
 
 
@@ -176,7 +176,7 @@ def amount_said(given: Any, measures: str) -> float:
     """Return a number [SI], or that of a text with a unit of the right kind; DefinitionError for anything else."""
     if isinstance(given, str):
         return parse(given, measures)
-    ensure(is_number(given), f'{shortened(given)} is no number and no text with a unit, such as "60 mm".')
+    ensure(is_number(given), f'{cited(given)} is no number and no text with a unit, such as "60 mm".')
     return float(given)
 
 
@@ -185,9 +185,9 @@ def value_said(plan: Plan, name: str, given: object) -> Any:
     measures, spellings = measure_of_name(plan, name), plan.table.spellings
     if is_listed(given):
         expected = "one value expected" if name in spellings else "two coordinates expected"
-        require_entry(name not in spellings and len(given) == 2, given, expected)
+        require(name not in spellings and len(given) == 2, "", given, expected)
         return tuple(amount_said(each, measures) for each in given)
-    require_entry(f"{name}.x" not in spellings, given, f'{name} is a point; write its two coordinates, ["220 mm", "950 mm"]')
+    require(f"{name}.x" not in spellings, "", given, f'{name} is a point; write its two coordinates, ["220 mm", "950 mm"]')
     return amount_said(given, measures)
 
 
@@ -209,9 +209,9 @@ def vary_said(head: StudyHead, given: object) -> dict[Any, Any]:
             found[names[0]] = range_said(value, head.plan, names[0])
         else:
             found[names] = []
-            for row in entry_as(value, list, f"rows are expected, a list [...] with {len(names)} values each"):
+            for row in require_type("", value, list, f"rows are expected, a list [...] with {len(names)} values each"):
                 fits = isinstance(row, list) and len(row) == len(names)
-                require_entry(fits, row, f"is no row of {', '.join(names)}; it has a value for each of them")
+                require(fits, "", row, f"is no row of {', '.join(names)}; it has a value for each of them")
                 kinds = [measure_of_name(head.plan, each) for each in names]
                 values = zip(names, row, kinds, strict=True)
                 found[names].append([each if is_side(part) else amount_said(each, kind) for part, each, kind in values])
@@ -235,7 +235,7 @@ def range_said(given: object, plan: Plan, name: str) -> Any:
                 known_name("Key", key, RANGE_KEYS)
             keys = given.keys() - {"step"}
             sound = keys in ({"from", "to"}, {"around"}) or given.keys() == {"choices"}
-            require_entry(sound, dict(given), "write { from, to, step }, { around, step } or { choices = [...] }")
+            require(sound, "", dict(given), "write { from, to, step }, { around, step } or { choices = [...] }")
             if keys == {"choices"}:
                 return range_said(given["choices"], plan, name)
             values = [amount_said(given[key], measures) for key in ("around", "from", "to", "step") if key in given]
@@ -245,7 +245,7 @@ def range_said(given: object, plan: Plan, name: str) -> Any:
             if near is not None:
                 return around(*(parse(each, measures) for each in near.group("by", "step") if each is not None))
             ends = parse_span(given, measures)
-    require_entry(ends is not None, given, f"is no range; write {RANGE_WORDS}")
+    require(ends is not None, "", given, f"is no range; write {RANGE_WORDS}")
     return ends
 
 
@@ -273,10 +273,10 @@ def tolerance_said(given: object, measures: str) -> Tolerance:
             for each in given:
                 known_name("Key", each, TOLERANCE_KEYS)
             sound = "limits" in given and not isinstance(given["limits"], Mapping)
-            require_entry(sound, dict(given), 'write { limits = "0.1 mm", law = "uniform" }')
+            require(sound, "", dict(given), 'write { limits = "0.1 mm", law = "uniform" }')
             return replace(tolerance_said(given["limits"], measures), law=given.get("law", "normal"))
         case list():
-            require_entry(len(given) == 2, given, 'two limits are expected, such as ["-0.1 mm", "0.2 mm"]')
+            require(len(given) == 2, "", given, 'two limits are expected, such as ["-0.1 mm", "0.2 mm"]')
             return Tolerance((amount_said(given[0], measures), amount_said(given[1], measures)))
         case str():
             given = given.strip().removeprefix("+-").removeprefix("±")
@@ -299,7 +299,7 @@ def over_said(head: StudyHead, given: object) -> Keywords:
             raise DefinitionError(f'{what}; write them here, over = {{ S = "0 to 200 mm" }}.')
         return dict(over.strokes)
     what = 'a table of strokes is expected, such as over = { S = "0 to 200 mm" }, or the name of an Over that the machine declares'
-    given = entry_as(given, Mapping, what)
+    given = require_type("", given, Mapping, what)
 
     def part(name: str, value: object) -> tuple[str, object]:
         said = part_said(head, known_name("Stroke", name, plan.strokes, where=plan.title), value)
@@ -314,16 +314,16 @@ def part_said(head: StudyHead, stroke: str, given: object) -> Any:
     measures = stroke_measure(head.plan, stroke)
     match given:
         case Mapping():
-            require_entry(set(given) == {"from", "to"}, dict(given), 'write { from = "0 mm", to = "200 mm" }')
+            require(set(given) == {"from", "to"}, "", dict(given), 'write { from = "0 mm", to = "200 mm" }')
             return part_said(head, stroke, [given["from"], given["to"]])
         case [*ends]:
-            require_entry(len(ends) == 2, given, "two ends are expected")
+            require(len(ends) == 2, "", given, "two ends are expected")
             named = [isinstance(each, str) and re.match(r"\s*[^\W\d]", each) is not None for each in ends]
             pairs = zip(ends, named, strict=True)
             return tuple(criterion_of(each, head.machine) if is_named else amount_said(each, measures) for each, is_named in pairs)
         case str():
             span = parse_span(given, measures)
-            require_entry(span is None or len(span) != 3, given, "a search looks at the whole of a stroke, not at steps of it")
+            require(span is None or len(span) != 3, "", given, "a search looks at the whole of a stroke, not at steps of it")
             return amount_said(given, measures) if span is None else span
     return amount_said(given, measures)
 
@@ -338,7 +338,7 @@ def case_said(head: StudyHead, given: object) -> Any:
 
 def count_at_least(least: int, head: StudyHead, given: Any) -> int:
     """Return a whole number of at least so much."""
-    require_entry(is_whole(given) and given >= least, given, f"a whole number is expected, at least {least}")
+    require(is_whole(given) and given >= least, "", given, f"a whole number is expected, at least {least}")
     return int(given)
 
 
@@ -375,6 +375,6 @@ def outputs_said(head: StudyHead, kinds: Mapping[str, Sequence[str]]) -> dict[st
     found: dict[str, tuple[Path, ...]] = {}
     with head.faults.at_key("outputs"):
         given = head.data.get("outputs", {})
-        given = entry_as(given, Mapping, f"a table is expected, such as [outputs] {next(iter(kinds))} = ..")
+        given = require_type("", given, Mapping, f"a table is expected, such as [outputs] {next(iter(kinds))} = ..")
         found = dict(each_of(given.items(), checked))
     return found

@@ -25,7 +25,8 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from ..errors import DefinitionError, LinkageError, ensure, known_name, unknown
+from ..checks import require, require_type
+from ..errors import DefinitionError, LinkageError, cited, ensure, known_name, unknown
 from ..frozen import immutable
 from ..loads import Acting
 from ..mechanism import Mechanism
@@ -47,7 +48,7 @@ from ..study.survey import Progress
 from ..units import display_unit, parse_span, show
 from . import study_file
 from .criterion import condition_said, criterion_of, measure_or_constant, measure_said, quantity_said
-from .names import FileTable, Keywords, by_whole_names, entry_as, require_entry, shortened
+from .names import FileTable, Keywords, by_whole_names
 from .source import each_of
 from .study_file import FindMachine, Settings, StudyHead, amount_said
 
@@ -123,7 +124,7 @@ def named_measures(given: Any) -> dict[str, str]:
     """Return the texts of a table of measures by name; those of a list by themselves."""
     if isinstance(given, list):
         return {str(text): text for text in given}
-    return {shortened(str(name), quote=False): text for name, text in given.items()}
+    return {cited(str(name), quote=False): text for name, text in given.items()}
 
 
 # -- the studies ---------------------------------------------------------------------------------------------
@@ -169,7 +170,7 @@ def box_said(head: StudyHead, given: object) -> Keywords:
 
 def swept_strokes(head: StudyHead, given: object) -> Keywords:
     """Return the strokes that are looked at [SI], arrays or single values; SeveralError with all mistakes, each under its stroke."""
-    given = entry_as(given, Mapping, 'a table of strokes is expected, such as strokes = { S = "100 mm" }')
+    given = require_type("", given, Mapping, 'a table of strokes is expected, such as strokes = { S = "100 mm" }')
 
     def values(name: str, value: object) -> tuple[str, object]:
         known_name("Stroke", name, head.plan.strokes, where=head.plan.title)
@@ -196,10 +197,10 @@ def pose_said(head: StudyHead, given: object) -> Keywords:
 def measures_said(head: StudyHead, given: object) -> dict[str, tuple[str, str]]:
     """Return the texts of measures and conditions by name, each with its unit; SeveralError with all mistakes, each under its name."""
     sound = isinstance(given, (Mapping, list)) and given
-    require_entry(sound, given, "a table of measures by names of your own is expected, or a list of them")
+    require(sound, "", given, "a table of measures by names of your own is expected, or a list of them")
 
     def measured(name: str, text: object) -> tuple[str, tuple[str, str]]:
-        text = entry_as(text, str, 'is no text in quotes, such as "least(tilt)"')
+        text = require_type("", text, str, 'is no text in quotes, such as "least(tilt)"')
         return name, (text, TextMeasures({name: text}, 3, head.found["over"] or {}).units(head.machine)[name])
 
     return dict(each_of(named_measures(given).items(), measured))
@@ -242,7 +243,7 @@ def one_case(head: StudyHead, given: object) -> str:
 def percentile_list(head: StudyHead, given: Any) -> tuple[float, ...]:
     """Return percentages from 0 to 100."""
     sound = isinstance(given, list) and all(is_number(each) and 0.0 <= each <= 100.0 for each in given)
-    require_entry(sound, given, "percentages from 0 to 100 are expected, such as [5, 50, 95]")
+    require(sound, "", given, "percentages from 0 to 100 are expected, such as [5, 50, 95]")
     return tuple(map(float, given))
 
 
@@ -439,7 +440,7 @@ def read_study(path: str | os.PathLike[str], find: FindMachine, settings: Settin
     tasks: dict[str, Keywords] = {}
     for section in asked:
         with head.faults.at_key(section):
-            given = entry_as(head.data[section], Mapping, f"a table is expected, [{section}]")
+            given = require_type("", head.data[section], Mapping, f"a table is expected, [{section}]")
             tasks[section] = study_file.keywords_read(head, TASKS[section], given)
     if not asked:
         head.faults.add((), f"there is no study; begin one with {' or '.join(f'[{each}]' for each in TASKS)}.")

@@ -23,7 +23,8 @@ from typing import Annotated, Any, TypeAlias
 
 import numpy as np
 
-from ..errors import DefinitionError, ensure, known_name
+from ..checks import require, require_type
+from ..errors import DefinitionError, cited, ensure, known_name
 from ..frozen import immutable
 from ..motion import outside, stroke_measure
 from ..motion.measures import Condition, Measure, measure_of, words_of
@@ -40,7 +41,7 @@ from ..synthesis import FunctionTask, PathTask, PoseTask, synthesise
 from ..units import UNITS, factor
 from . import study_file
 from .criterion import condition_said, measure_said, quantity_said
-from .names import Keywords, entry_as, require_entry, shortened
+from .names import Keywords
 from .source import Mistakes, csv_rows, each_of, heading_read, is_numeral, unit_factor
 from .study_file import FindMachine, Read, Settings, StudyHead, amount_said
 
@@ -124,13 +125,13 @@ def objectives_said(head: StudyHead, given: object) -> list[Measure]:
 
 def conditions_said(head: StudyHead, given: object) -> list[Condition]:
     """Return the conditions of a list of texts; SeveralError with all mistakes, each under its number."""
-    given = entry_as(given, (str, list), 'a list of conditions is expected, such as ["most(tilt) <= 8 deg"]')
+    given = require_type("", given, (str, list), 'a list of conditions is expected, such as ["most(tilt) <= 8 deg"]')
     return study_file.texts_said(given, lambda text: condition_said(text, head.machine, head.found["over"]))
 
 
 def regions_said(head: StudyHead, given: object) -> Keywords:
     """Return the regions of points as `optimise` takes them; SeveralError with all mistakes, each under its point."""
-    given = entry_as(given, Mapping, 'a region for each point is expected, such as regions = { C = "plate" }')
+    given = require_type("", given, Mapping, 'a region for each point is expected, such as regions = { C = "plate" }')
 
     def region_said(point: str, shapes: object) -> tuple[str, object]:
         region = shape_said(shapes)
@@ -154,7 +155,7 @@ def shape_said(given: Any) -> Any:
             return [tuple(amount_said(each, "length") for each in corner) for corner in given]
         case [_, *_]:
             return [shape_said(each) for each in given]
-    raise DefinitionError(f"{shortened(given)} is no region; write {REGION_WORDS}.")
+    raise DefinitionError(f"{cited(given)} is no region; write {REGION_WORDS}.")
 
 
 def is_corner(given: object) -> bool:
@@ -170,9 +171,9 @@ def rounding_said(head: StudyHead, given: object) -> dict[str, float] | None:
     for step, value in (given if isinstance(given, Mapping) else {"to": given}).items():
         ensure(step in ROUND_KEYS, f'{step} is no step; write round = {{ to = "1 mm", angle = "0.1 deg" }}.')
         found[step] = amount_said(value, ROUND_KEYS[step])
-        require_entry(found[step] > 0.0, value, "a step above zero is expected")
+        require(found[step] > 0.0, "", value, "a step above zero is expected")
         if step == "to" and found[step] > COARSEST * size_of_machine(head.machine):
-            raise DefinitionError(f'{shortened(value)} is as coarse as the machine; write it with its unit, "1 mm".')
+            raise DefinitionError(f'{cited(value)} is as coarse as the machine; write it with its unit, "1 mm".')
     return found
 
 
@@ -247,7 +248,7 @@ def by_class(read: Read, head: StudyHead, given: Any, *, is_of_points: bool = Fa
 
 def timed_said(head: StudyHead, given: object) -> object:
     """Return how the points are timed: true, false or "steps"."""
-    require_entry(isinstance(given, bool) or given == "steps", given, 'true, false or "steps" is expected')
+    require(isinstance(given, bool) or given == "steps", "", given, 'true, false or "steps" is expected')
     return given
 
 
@@ -257,7 +258,7 @@ def timed_said(head: StudyHead, given: object) -> object:
 def switch_said(key: str, head: StudyHead, given: object) -> bool:
     """Return true or false under a key."""
     if not isinstance(given, bool):
-        raise DefinitionError(f"{key} = {shortened(given)}: true or false is expected.")
+        raise DefinitionError(f"{key} = {cited(given)}: true or false is expected.")
     return given
 
 
@@ -268,7 +269,7 @@ POINTS = 'points = [[30, 60], [15, 70]] with unit = "mm", or a CSV file, "points
 def subject_said(name: str, head: StudyHead, given: object) -> Any:
     """Return the task's subject: a point, a quantity, two points."""
     if not isinstance(given, str) or not given.strip():
-        raise DefinitionError(f"of is missing; write {OF[name]}." if given is None else f"{shortened(given)}: write {OF[name]}.")
+        raise DefinitionError(f"of is missing; write {OF[name]}." if given is None else f"{cited(given)}: write {OF[name]}.")
     if name == "function":
         found = quantity_said(given, head.machine)
         return given.strip() if given.strip() in head.plan.members else found
@@ -346,7 +347,7 @@ SYNTHESIS_TASKS: Mapping[str, Callable[..., Any]] = {"path": path_task, "functio
 
 def task_said(name: str, head: StudyHead, given: object) -> Any:
     """Return the task of a table. The path of several machines may be left to their couplers' points."""
-    given = entry_as(given, Mapping, f'a table is expected, {name} = {{ of = "P", points = "points.csv" }}')
+    given = require_type("", given, Mapping, f'a table is expected, {name} = {{ of = "P", points = "points.csv" }}')
     if name == "path" and head.machines and given.get("of") is None:
         given = {**given, "of": {}}
     return SYNTHESIS_TASKS[name](**study_file.keywords_read(head, SYNTHESIS_TASKS[name], given))
@@ -399,11 +400,11 @@ def points_said(given: object, columns: Sequence[PointColumn], units: Mapping[st
         return points_of_file(base / given, columns, units)
     words = ", ".join(each.name for each in columns if not each.optional)
     if not isinstance(given, list) or not given:
-        raise DefinitionError(f'{shortened(given)}: rows of {words} are expected, [[30, 60], [15, 70]], or a CSV file, "points.csv".')
+        raise DefinitionError(f'{cited(given)}: rows of {words} are expected, [[30, 60], [15, 70]], or a CSV file, "points.csv".')
     sizes = {len(columns), len([each for each in columns if not each.optional])}
     for number, row in enumerate(given, 1):
         if not isinstance(row, list) or len(row) not in sizes or len(row) != len(given[0]):
-            raise DefinitionError(f"row {number}, {shortened(row)}: a list with {words} is expected, all rows of one length.")
+            raise DefinitionError(f"row {number}, {cited(row)}: a list with {words} is expected, all rows of one length.")
     found = {}
     for place, column in enumerate(columns[: len(given[0])]):
         by = units.get(column.measures, 1.0)
@@ -430,7 +431,7 @@ def points_of_file(path: Path, columns: Sequence[PointColumn], units: Mapping[st
     for line, row in rows:
         ensure(len(row) == len(first), f"{path.name}, line {line}: {len(row)} fields where the first line has {len(first)}.")
         for name, (place, by) in places.items():
-            ensure(is_numeral(row[place]), f"{path.name}, line {line}, {name}: {shortened(row[place])} is no finite number.")
+            ensure(is_numeral(row[place]), f"{path.name}, line {line}, {name}: {cited(row[place])} is no finite number.")
             found[name].append(float(row[place]) * by)
     ensure(rows, f"{path.name} has headings and no row; write a row for each point.")
     return {name: np.array(values) for name, values in found.items()}

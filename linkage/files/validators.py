@@ -11,15 +11,15 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..checks import is_listed
-from ..errors import DefinitionError, ensure, known_name, unknown
+from ..checks import is_listed, require, require_type
+from ..errors import DefinitionError, cited, ensure, known_name
 from ..quantities import Number, Quantity, is_number, label, name_of, quantity
 from ..steps import Arrow
 from ..units import UNITS, Amount, parse
 from ..vectors import Side
 from .design import Design, degrees_text, option_said
 from .expression import arrow_in, expression, one_unit
-from .names import Names, by_whole_names, entry_as, listed, require_entry, shortened
+from .names import Names, by_whole_names, listed
 from .source import each_of
 
 Read: TypeAlias = Callable[[Any, Names], Any]
@@ -75,14 +75,14 @@ def quantity_of(given: Any, names: Names) -> Quantity:
     """Return a number [SI], a text such as `500 mm`, or an expression as a quantity."""
     if isinstance(given, str):
         return expression(given, names)
-    require_entry(is_number(given), given, "is neither a finite number nor an expression in quotes")
+    require(is_number(given), "", given, "is neither a finite number nor an expression in quotes")
     return Number(float(given))
 
 
 def number_of(given: object, names: Names, measures: str = "") -> float:
     """Return a number, or that of a text without names and with a unit of the right kind [SI]."""
     found: float = amount_of(given, names, measures)
-    require_entry(not isinstance(found, Quantity), given, "a number is expected here, with no names in it")
+    require(not isinstance(found, Quantity), "", given, "a number is expected here, with no names in it")
     return found
 
 
@@ -92,7 +92,7 @@ def amount_of(given: object, names: Names, measures: str) -> Any:
     Where nothing says what it should measure, a number with a unit knows what it does.
     """
     if not isinstance(given, str):
-        require_entry(is_number(given), given, "is not a finite number")
+        require(is_number(given), "", given, "is not a finite number")
         return given  # an int stays one: it prints as it was written
     unit = one_unit(given)
     if unit and measures and UNITS[unit][1] != measures:
@@ -105,14 +105,14 @@ def amount_of(given: object, names: Names, measures: str) -> Any:
 
 def two_items(what: str, one: Read, given: Any, names: Names) -> tuple[Any, Any]:
     """Return the items of a list of two, each read by itself."""
-    require_entry(is_listed(given) and len(given) == 2, given, f"is not {what}")
+    require(is_listed(given) and len(given) == 2, "", given, f"is not {what}")
     return one(given[0], names), one(given[1], names)
 
 
 def items_of(one: Read, wrong: str, most: float, given: object, names: Names) -> tuple[Any, ...]:
     """Return the items of a list, each read by itself; `wrong` is the message for anything else, {given}."""
     if not is_listed(given) or len(given) > most:
-        raise DefinitionError(wrong.format(given=shortened(given)))
+        raise DefinitionError(wrong.format(given=cited(given)))
     return tuple(each_of(enumerate(given), lambda place, each: one(each, names)))
 
 
@@ -125,7 +125,7 @@ def lists_of(given: object, names: Names, depth: int = 0) -> Any:
     """Return a number or a word, or a list of them, or lists of lists as tuples."""
     if not is_listed(given):
         return word_of(given) if isinstance(given, str) else number_of(given, names)
-    require_entry(depth != DEEPEST, given, f"lists stand in each other more than {DEEPEST} deep")
+    require(depth != DEEPEST, "", given, f"lists stand in each other more than {DEEPEST} deep")
     return tuple(lists_of(each, names, depth + 1) for each in given)
 
 
@@ -134,14 +134,14 @@ def lists_of(given: object, names: Names, depth: int = 0) -> Any:
 
 def arrow_of(given: object, names: Names) -> Arrow | str:
     """Return a vector, or the name of one."""
-    given = entry_as(given, str, 'is not a vector, such as "Vector(A, O)"')
+    given = require_type("", given, str, 'is not a vector, such as "Vector(A, O)"')
     return arrow_in(given, names)
 
 
 def words_in(given: Any, what: str) -> Sequence[Any]:
     """Return the words of a text such as `O B C`, or of a list; DefinitionError where there is none."""
     words: Sequence[Any] = given.split() if isinstance(given, str) else given
-    require_entry(is_listed(words) and words, given, f"is not {what}")
+    require(is_listed(words) and words, "", given, f"is not {what}")
     return words
 
 
@@ -154,7 +154,7 @@ def body_of(given: object, names: Names) -> str:
     """Return the name of a link, or the names of points of a body, in one text."""
     what = 'a body; name a link, or two of its points such as "O B"'
     words = words_in(given, what)
-    require_entry(len(set(map(str, words))) == len(words), given, f"is not {what}")
+    require(len(set(map(str, words))) == len(words), "", given, f"is not {what}")
     kind = "point" if len(words) > 1 else "link"
     return " ".join(names.checked(word, kind) for word in words)
 
@@ -172,7 +172,7 @@ def factors_of(given: Any, names: Names) -> dict[str, float]:
 
 def strokes_of(given: object, names: Names) -> dict[str, float]:
     """Return values of strokes by name [SI]."""
-    said = dict(by_whole_names(entry_as(given, Mapping, "is not a table of strokes, such as { S = 0.0 }")))
+    said = dict(by_whole_names(require_type("", given, Mapping, "is not a table of strokes, such as { S = 0.0 }")))
     for name in said:
         known_name("Stroke", name, names.strokes)
     return {name: number_of(value, names) for name, value in said.items()}
@@ -180,9 +180,7 @@ def strokes_of(given: object, names: Names) -> dict[str, float]:
 
 def member_of(given: object, names: Names) -> str:
     """Return the name of any member."""
-    if not isinstance(given, str) or given not in names.kinds:
-        raise unknown("Name", shortened(given, quote=False), names.kinds)
-    return given
+    return known_name("Name", given, names.kinds)
 
 
 def rope_points_of(given: object, names: Names) -> tuple[str, ...]:
@@ -193,20 +191,20 @@ def rope_points_of(given: object, names: Names) -> tuple[str, ...]:
 def side_named(given: object, names: Names) -> Side | None:
     """Return the side that a word says."""
     found = Side.parse(given) if isinstance(given, str) else None
-    require_entry(found is not None, given, 'is not a side; write "LEFT" or "RIGHT"')
+    require(found is not None, "", given, 'is not a side; write "LEFT" or "RIGHT"')
     return found
 
 
 def word_of(given: Any, names: Names | None = None) -> str:
     """Return a word that stands for itself."""
     if not isinstance(given, str) or not given.isprintable():
-        raise DefinitionError(f"{shortened(given)} stands where a word in quotes is expected.")
+        raise DefinitionError(f"{cited(given)} stands where a word in quotes is expected.")
     return given
 
 
 def switch_of(given: object, names: Names) -> bool:
     """Return true or false."""
-    return bool(entry_as(given, (bool, np.bool_), "is neither true nor false"))
+    return bool(require_type("", given, (bool, np.bool_), "is neither true nor false"))
 
 
 # -- as they are written -----------------------------------------------------------------------------------

@@ -13,11 +13,11 @@ from typing import Any
 
 from ..checks import is_class_of
 from ..disk import replacing_text
-from ..errors import DefinitionError, FileError
+from ..errors import DefinitionError, FileError, cited
 from ..mechanism import Mechanism, declared, require_mechanism
 from ..plan import Part
 from .design import Design, changed, measured_labels, without_sketch
-from .names import FileTable, Keywords, Names, shortened
+from .names import FileTable, Keywords, Names
 from .parts_file import dotted_kinds, machines_of
 from .registry import registry
 
@@ -44,7 +44,7 @@ def to_dict(machine: Machine) -> Keywords:
         A file cannot hold it: several designs at once, members and functions of unknown kinds.
     """
     if not isinstance(machine, Mechanism) and not is_class_of(machine, Mechanism):
-        raise DefinitionError(f"{shortened(machine)} is no mechanism; give a class of Mechanism, or a design of one.")
+        raise DefinitionError(f"{cited(machine)} is no mechanism; give a class of Mechanism, or a design of one.")
     members = declared(type(machine) if isinstance(machine, Mechanism) else machine)
     if isinstance(machine, Mechanism) and changed(machine):  # it has moved away from its sketch: sides are said, pins stand where they are
         members = {name: without_sketch(name, member, machine) for name, member in members.items()}
@@ -177,7 +177,7 @@ def save(machine: Machine, path: str | os.PathLike[str]) -> None:
         raise FileError(f"a path is expected, not {type(path).__name__}.")
     place = Path(path)
     if place.suffix not in writers:
-        raise FileError(f"{shortened(os.fspath(path), quote=False)}: the name of a mechanism's file ends in .toml or .json.")
+        raise FileError(f"{cited(os.fspath(path), quote=False)}: the name of a mechanism's file ends in .toml or .json.")
     text = writers[place.suffix](machine)
     with replacing_text(place) as stream:
         stream.write(text)

@@ -7,8 +7,7 @@ from collections.abc import Mapping
 from dataclasses import asdict
 from typing import Any
 
-from ..errors import DefinitionError, FileError
-from ..files.names import shortened
+from ..errors import DefinitionError, FileError, cited
 from ..quantities import is_name
 from .found import WORDS, FoundMachine, printable
 from .machine_sketch import MachineSketch, Place, SketchDrive, SketchSlide, SketchWeight, plain_entry
@@ -31,7 +30,7 @@ def board_json(sketch: MachineSketch) -> str:
 
 def read_board(found: FoundMachine, data: Mapping[str, Any]) -> None:
     """Read a file of the board: its sketch as it is, and its points and links for drives that are asked for."""
-    found.ensure(data["board"] == BOARD, f"it is of another board, {shortened(data['board'])}; bring hydrolinkage up to date.")
+    found.ensure(data["board"] == BOARD, f"it is of another board, {cited(data['board'])}; bring hydrolinkage up to date.")
     try:
         found.board_sketch = drawn_sketch(found, data)
     except DefinitionError as error:
@@ -90,7 +89,7 @@ def named_entries(found: FoundMachine, data: Mapping[str, Any], part: str) -> di
 def legal(found: FoundMachine, given: object) -> str:
     """Return a name that a member may have."""
     is_legal = is_name(given) and given not in WORDS and not str(given).startswith("_")
-    found.ensure(is_legal, f"{shortened(given)} is no name for a part of a machine; take letters, digits and _.")
+    found.ensure(is_legal, f"{cited(given)} is no name for a part of a machine; take letters, digits and _.")
     return str(given)
 
 

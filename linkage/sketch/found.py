@@ -12,8 +12,7 @@ from math import cos, dist, hypot, inf, isfinite, pi, remainder, sin
 from typing import Any, TypeAlias
 from unicodedata import normalize
 
-from ..errors import FileError, did_you_mean
-from ..files.names import shortened
+from ..errors import FileError, cited, did_you_mean
 from ..mechanism import Mechanism
 from ..quantities import is_name, joined_names
 from ..units import parse, show
@@ -86,8 +85,8 @@ class FoundMachine:
 
     def add_point(self, key: str, name: object, x: object, y: object, fixed: bool = False) -> None:
         """Enter a point; FileError for one that is there, and for coordinates that are no finite numbers."""
-        self.ensure(key not in self.points, f"the point {shortened(key)} stands twice; each point has a name of its own.")
-        place = self.number(x, f"x of {shortened(key)}"), self.number(y, f"y of {shortened(key)}")
+        self.ensure(key not in self.points, f"the point {cited(key)} stands twice; each point has a name of its own.")
+        place = self.number(x, f"x of {cited(key)}"), self.number(y, f"y of {cited(key)}")
         self.points[key] = FoundPoint(str(name) or key, place, fixed)
 
     def ensure(self, holds: object, message: str) -> None:
@@ -102,7 +101,7 @@ class FoundMachine:
         except (ValueError, OverflowError):
             value = inf
         if not (isfinite(value) and abs(value) < 1e12):
-            raise FileError(f"{self.here}, {where}: {shortened(given)} is no finite number; correct it in the file.")
+            raise FileError(f"{self.here}, {where}: {cited(given)} is no finite number; correct it in the file.")
         return value
 
     def table(self, given: object, what: str) -> JsonTable:
@@ -127,14 +126,14 @@ class FoundMachine:
         is_there = isinstance(key, str) and key in self.points
         if not is_there:
             hint = did_you_mean(str(key), [point.name for point in self.points.values()])
-            raise FileError(f"{self.here}: {what} names the point {shortened(key)}, which is not there.{shortened(hint, quote=False)}")
+            raise FileError(f"{self.here}: {what} names the point {cited(key)}, which is not there.{cited(hint, quote=False)}")
         return str(key)
 
     def add_link(self, name: str, keys: Sequence[object], what: str = "") -> None:
         """Enter a link, each of its points once; one of fewer than two points is left out."""
-        points = [*dict.fromkeys(self.known(key, what or f"the link {shortened(name)}") for key in keys)]
+        points = [*dict.fromkeys(self.known(key, what or f"the link {cited(name)}") for key in keys)]
         if len(points) < 2:
-            self.left_out.append(f"the link {shortened(name, quote=False)} of one point")
+            self.left_out.append(f"the link {cited(name, quote=False)} of one point")
         elif points:
             self.links.append((name, points))
 
@@ -214,7 +213,7 @@ class FoundMachine:
         used |= {key for _, along in self.slides if isinstance(along, tuple) for key in along}
         used |= {each for drive in self.drives for each in drive.ends}
         loose = [key for key, point in self.points.items() if key not in used and not point.fixed]
-        self.left_out += [f"the point {shortened(self.points.pop(key).name, quote=False)}, which is on no link" for key in loose]
+        self.left_out += [f"the point {cited(self.points.pop(key).name, quote=False)}, which is on no link" for key in loose]
         self.ensure(self.points, "it holds no points that a link joins.")
         taken = set(WORDS)
         names, labels = self.point_names(taken)

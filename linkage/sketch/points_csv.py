@@ -9,8 +9,7 @@ from collections.abc import Callable
 from functools import partial
 from math import degrees
 
-from ..errors import DefinitionError, FileError
-from ..files.names import shortened
+from ..errors import DefinitionError, FileError, cited
 from ..files.source import delimiter_of, text_rows
 from ..units import DIGITS, parse, units_of
 from .found import FoundDrive, FoundMachine
@@ -37,7 +36,7 @@ def read_points_csv(found: FoundMachine, text: str) -> None:
     units = {head[2] or head[3] for head in heads[2:4] if head} - {None}
     if units:
         lengths, others = units_of("length"), ", ".join(sorted(units - {*units_of("length")}))
-        found.ensure(not others, f"{shortened(others)} is no unit of length; known are {', '.join(lengths)}.")
+        found.ensure(not others, f"{cited(others)} is no unit of length; known are {', '.join(lengths)}.")
         found.ensure(len(units) == 1, "x and y have one unit of length, such as [mm].")
         found.unit = parse(f"1 {units.pop()}", "length")
     later: list[tuple[str, str, list[str], str]] = []
@@ -48,7 +47,7 @@ def read_points_csv(found: FoundMachine, text: str) -> None:
         if kind.lower() == "point":
             found.ensure(name, "the point has no name.")
             is_said = what.lower() in ("", "fixed", "pin")
-            found.ensure(is_said, f"{shortened(what)} says nothing of a point; it is fixed or a pin.")
+            found.ensure(is_said, f"{cited(what)} says nothing of a point; it is fixed or a pin.")
             found.add_point(name, name, x, y, what.lower() == "fixed")
         else:
             found.ensure(kind.lower() in ROWS, f"{kind or 'nothing'} is none of point, {', '.join(ROWS)}.")

@@ -10,8 +10,7 @@ from pathlib import Path
 from types import MappingProxyType
 
 from ..disk import Place, read
-from ..errors import DefinitionError, FileError, ensure, unknown
-from ..files.names import shortened
+from ..errors import DefinitionError, FileError, cited, ensure, unknown
 from ..files.source import FILE_BYTES, decoded
 from ..quantities import joined_names
 from .board_json import ADDRESS, read_board
@@ -116,7 +115,7 @@ def content_of(file: Place, layers: Mapping[str, Sequence[str]]) -> tuple[FoundM
     path = Path(file)
     suffix = path.suffix.lower()
     if suffix not in SUFFIXES:
-        raise FileError(f"{shortened(text, quote=False)}: the name of a file to import ends in one of {', '.join(SUFFIXES)}.")
+        raise FileError(f"{cited(text, quote=False)}: the name of a file to import ends in one of {', '.join(SUFFIXES)}.")
     found, title = FoundMachine(path.name), "".join(word[:1].upper() + word[1:] for word in re.findall(r"[^\W_]+", path.stem))
     if suffix == ".dxf":
         read(path, most=0)  # a file that is not there is named in words
@@ -154,7 +153,7 @@ def read_address(found: FoundMachine, text: str) -> None:
     else:
         holds = query if WEB.match(query) is None else ""
         found.ensure(holds, "there is no machine behind the address; copy it whole, with what stands behind its ?.")
-        found.ensure(SHORT.match(query), f"the address is damaged behind its ?, {shortened(query)}; copy it whole.")
+        found.ensure(SHORT.match(query), f"the address is damaged behind its ?, {cited(query)}; copy it whole.")
         read_short_address(found, query)
 
 

@@ -506,8 +506,7 @@ class AccumulatorBlock:
         given = (one_number(pressure, "Pressure", "pressure") for pressure in (p_min, p_max, allowed))
         low, high, limit = (float(self._absolute(pressure)) - self.atmosphere for pressure in given)
         text = partial(show, unit=unit or self.unit or "bar", digits=4)
-        if low > high:
-            raise DefinitionError(f"p_min = {text(low)} is above p_max = {text(high)}; exchange them.")
+        ensure(not low > high, f"p_min = {text(low)} is above p_max = {text(high)}; exchange them.")
         charges = {number: there(charge, vessel) for number, (charge, vessel) in enumerate(self._bank, 1) if np.any(vessel > 0.0)}
         worst = {"charge": (low + self.atmosphere, np.max), "compression": (high + self.atmosphere, np.min)}
         found = []

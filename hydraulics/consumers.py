@@ -22,10 +22,11 @@ from linkage.motion import Motion, PoseFunction, Request, ratio
 from linkage.motion.requests import as_they_run
 from linkage.plan import Plan, rate_name
 from linkage.quantities import NamedMembers, distance, of_kind
+from linkage.quantities.member import in_class
 from linkage.statics import AnyMotion, LawRequest, each_once, same
 from linkage.units import show
 
-from .cylinders import PISTON, ROD, OnLines, Ram, cylinder_request, in_class, line_thrust, lines_of
+from .cylinders import PISTON, ROD, OnLines, Ram, cylinder_request, line_thrust, lines_of
 from .inputs import Array, one_design
 from .lifting_line import LiftLine
 from .valve import HoldingValve

@@ -34,7 +34,7 @@ from linkage.motion.motion_verdicts import HasVerdicts, PageWords, over_time
 from linkage.plan import Mask, Plan
 from linkage.program import is_traced
 from linkage.quantities import InnerQuantity, Quantity, distance, label, quantity
-from linkage.quantities.member import Member, NamedMembers, Reference, body_name, is_member_or_name, name_of, of_kind
+from linkage.quantities.member import Member, NamedMembers, Reference, body_name, in_class, is_member_or_name, name_of, of_kind, own_name
 from linkage.statics import LawRequest, applied_elements, elements_of, held_in_case, is_among, member_thrust, own_rates, request_text, same
 from linkage.statics.poses import AnyMotion, motion_of_whole
 from linkage.units import show, shown_number
@@ -1127,7 +1127,7 @@ def cylinder_request(
     It is written as a function, `word`, of the cylinder, of what stands `before` and `after` the direction, and of the load case. It is
     in no load case that leaves out the lines of the cylinder, so that this may carry nothing.
     """
-    named = cylinder if isinstance(cylinder, str) else cylinder.name or cylinder
+    named = own_name(cylinder) or cylinder
 
     def text(acting: Acting) -> str:
         return request_text(word, [str(each) for each in (named, *before, acting.direction, *after) if each is not None], acting)
@@ -1616,11 +1616,6 @@ def lines_of(cylinder: Ram, members: NamedMembers) -> list[tuple[Circuit, Chambe
 def circuits_among(members: NamedMembers) -> list[Circuit]:
     """Return the circuits and oil lines of a class."""
     return [*of_kind(members, Circuit).values()]
-
-
-def in_class(members: NamedMembers, reference: Reference) -> Member | str:
-    """Return the member of a class that a reference names; the reference itself where there is none of that name."""
-    return members.get(reference if isinstance(reference, str) else reference.name, reference)
 
 
 def side_left(cylinder: Ram, members: NamedMembers) -> Works:

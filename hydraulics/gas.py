@@ -21,7 +21,7 @@ from linkage.program import is_traced
 from linkage.quantities.quantity import plain
 from linkage.units import bar
 
-from .inputs import Array, all_finite, kelvin, positive
+from .inputs import Array, all_finite, kelvin, positive, without
 
 ROOM = 293.15
 """The temperature at which charges are stated unless a gas says otherwise, K."""
@@ -209,9 +209,7 @@ class Polytropic(Gas):
 
     def __post_init__(self) -> None:
         n = all_finite(self.n, "Polytropic exponent", "number")
-        outside = (n < 1.0) | (n > 10.0)
-        if np.any(outside):
-            raise DefinitionError(f"Polytropic exponent n = {n[outside][0]:.6g} is outside 1..10; 1 is isothermal, 1.4 adiabatic.")
+        without(n, (n < 1.0) | (n > 10.0), "Polytropic exponent n", "{} is outside 1..10; 1 is isothermal, 1.4 adiabatic")
         kelvin(self.temperature, "Gas temperature")
 
     def __str__(self) -> str:

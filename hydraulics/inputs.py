@@ -62,31 +62,31 @@ def one_design(value: ArrayLike) -> float:
     return float(np.ravel(value)[0])
 
 
+def without(array: Array, bad: Any, what: str, fault: str) -> Array:
+    """Return an array; DefinitionError where some of it is `bad`, with the largest of that put into the words of the fault."""
+    if np.any(bad):
+        raise DefinitionError(f"{what} = {fault.format(f'{max(array[bad], key=abs):.6g}')}.")
+    return array
+
+
 def positive(value: float | ArrayLike, what: str, remedy: str = "give a positive number in SI units") -> Array:
     """Return the value as floats, its shape kept; DefinitionError unless every one is finite and above zero."""
     if isinstance(value, float) and 0.0 < value < np.inf:
         return np.asarray(value)
     array = all_finite(value, what)
-    if np.any(array <= 0.0):
-        raise DefinitionError(f"{what} = {np.min(array):.6g} is not above zero; {remedy}.")
-    return array
+    return without(array, array <= 0.0, what, f"{{}} is not above zero; {remedy}")
 
 
 def not_negative(value: ArrayLike, what: str, remedy: str = "give zero or more") -> Array:
     """Return the value as floats, its shape kept; DefinitionError unless every one is finite and not below zero."""
     array = all_finite(value, what)
-    if np.any(array < 0.0):
-        raise DefinitionError(f"{what} = {np.min(array):.6g} is below zero; {remedy}.")
-    return array
+    return without(array, array < 0.0, what, f"{{}} is below zero; {remedy}")
 
 
 def in_metres(value: ArrayLike, what: str, most: float = WIDEST) -> Array:
     """Return a length [m], its shape kept; DefinitionError where it is above `most`, so that millimetres were meant."""
     array = all_finite(value, what, "length")
-    if np.any(array > most):
-        large = float(np.max(array))
-        raise DefinitionError(f"{what} = {large:.6g} m is more than any cylinder has; write {large:.6g} * mm if these are millimetres.")
-    return array
+    return without(array, array > most, what, "{0} m is more than any cylinder has; write {0} * mm if these are millimetres")
 
 
 def stroke_in_metres(value: ArrayLike, what: str, bore: ArrayLike | None = None) -> Array:
@@ -97,21 +97,14 @@ def stroke_in_metres(value: ArrayLike, what: str, bore: ArrayLike | None = None)
 def in_pascals(value: ArrayLike, what: str) -> Array:
     """Return a pressure [Pa], its shape kept; DefinitionError where it is next to nothing and not none, so that bar were meant."""
     array = all_finite(value, what, "pressure")
-    size = np.abs(array)
-    faint = (size > 0.0) & (size < FAINTEST)
-    if np.any(faint):
-        text = f"{array[faint][0]:.6g}"
-        raise DefinitionError(f"{what} = {text} Pa is next to nothing; write {text} * bar if these are bar, or {text} * kgf_cm2.")
-    return array
+    size, words = np.abs(array), "{0} Pa is next to nothing; write {0} * bar if these are bar, or {0} * kgf_cm2"
+    return without(array, (size > 0.0) & (size < FAINTEST), what, words)
 
 
 def in_cubic_metres(value: ArrayLike, what: str) -> Array:
     """Return a flow [m3/s], its shape kept; DefinitionError where no pump gives so much, so that litres a minute were meant."""
     array = all_finite(value, what, "flow")
-    if np.any(array > STRONGEST):
-        large = f"{np.max(array):.6g}"
-        raise DefinitionError(f"{what} = {large} m3/s is more than any pump gives; write {large} * litre / minute if it is in l/min.")
-    return array
+    return without(array, array > STRONGEST, what, "{0} m3/s is more than any pump gives; write {0} * litre / minute if it is in l/min")
 
 
 def pose_values(value: ArrayLike, what: str, kind: str) -> Array:
@@ -143,10 +136,8 @@ def above_vacuum(pressure: Array, atmosphere: float, what: str) -> Array:
 def kelvin(value: ArrayLike, what: str, low: float = 200.0, high: float = 400.0) -> Array:
     """Return a gas temperature [K]; DefinitionError outside low..high, where degrees Celsius were meant or the law ends."""
     array = all_finite(value, what, "number")
-    outside = (array < low) | (array > high)
-    if np.any(outside):
-        raise DefinitionError(f"{what} = {array[outside][0]:.6g} K is outside {low:g}..{high:g} K; give kelvin: 20 deg C is 293.15.")
-    return array
+    words = f"{{}} K is outside {low:g}..{high:g} K; give kelvin: 20 deg C is 293.15"
+    return without(array, (array < low) | (array > high), what, words)
 
 
 def _floats(value: ArrayLike, what: str, kind: str) -> Array:

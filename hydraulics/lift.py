@@ -22,6 +22,7 @@ from linkage.loads import FRICTIONLESS, Acting, Case, ForceElement, Loads, Param
 from linkage.motion import Answer, Judge, Motion, PageWords, Question, Span, below_zero, over_time, reached_spans, require_motion
 from linkage.motion.measures import Condition, at, least, most
 from linkage.quantities import NamedMembers, Reference, distance, label, of_kind
+from linkage.quantities.member import in_class
 from linkage.statics import LawRequest, elements_of, is_among
 from linkage.units import UNITS, show
 from linkage.verdict import Verdict
@@ -37,7 +38,6 @@ from .cylinders import (
     Side,
     as_in,
     carries_loads,
-    in_class,
     judge_of,
     least_and_most,
     other_side,

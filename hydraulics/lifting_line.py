@@ -283,10 +283,7 @@ class LiftLine(Circuit):
 
     def back(self, motion: Poses) -> Array:
         """Return the pressure of the returning oil [Pa]; DefinitionError where it is negative."""
-        value = in_pascals(self.number(motion, "back_pressure"), "Back pressure")
-        if np.any(value < 0.0):
-            raise DefinitionError(f"Back pressure = {np.min(value):.6g} Pa is below zero; give zero or more.")
-        return value
+        return not_negative(in_pascals(self.number(motion, "back_pressure"), "Back pressure"), "Back pressure")
 
     # -- lifting -------------------------------------------------------------------------------------------
 

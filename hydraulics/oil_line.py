@@ -31,7 +31,7 @@ from linkage.loads.element import UNBOUNDED, Formulas
 from linkage.motion import Condition, Judge, Motion, PageWords, Question, at, least, most
 from linkage.plan import require_kinds
 from linkage.quantities import AtPose, Distance, Number, Quantity, Stroke, Variable, label, quantity
-from linkage.quantities.member import Member, NamedMembers, Reference, Where, is_member_or_name, name_of, of_kind
+from linkage.quantities.member import Member, NamedMembers, Reference, Where, in_class, is_member_or_name, name_of, of_kind, own_name
 from linkage.quantities.quantity import plain
 from linkage.statics import AnyMotion, LawRequest, each_once, held_in_case, plan_of, same
 from linkage.units import require_measure, show
@@ -52,7 +52,6 @@ from .cylinders import (
     by_other_lines,
     chamber_area,
     circuits_among,
-    in_class,
     is_named,
     least_and_most,
     lines_giving,
@@ -349,7 +348,7 @@ class OilLine(PumpLine, GasLine):
 
     def examine(self, members: NamedMembers, title: str) -> None:
         for each in self.references:
-            name = each if isinstance(each, str) else each.name
+            name = own_name(each)
             if name and name not in members:
                 known = [each.name for each in members.values() if isinstance(each, (Ram, Supply))]
                 raise unknown("Cylinder, pump, valve or tank", name, known, where=f"{title}.{self.name}")

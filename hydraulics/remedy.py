@@ -9,6 +9,7 @@ from linkage.errors import DefinitionError, LinkageError, ensure, unwarned
 from linkage.language import said
 from linkage.loads import ForceElement
 from linkage.motion import Answer, Judge, Question
+from linkage.quantities.member import own_name
 from linkage.units import rounded_up, show
 
 from .inputs import follows
@@ -29,7 +30,7 @@ def resized(judge: Judge, element: Element, sizes: Sizes) -> tuple[Judge, Elemen
     designs = dict(judge.designs)
     for name, value in sizes.items():
         given = element.given(name)
-        called = (given if isinstance(given, str) else given.name) if follows(given) else f"{element.name}.{name}"
+        called = own_name(given) if follows(given) else f"{element.name}.{name}"
         ensure(called in plan.table.spellings, f"{plan.title}: {element.name}.{name} follows an expression and cannot be set alone.")
         owner, sign = plan.table.spellings[called]
         designs[owner] = sign * value

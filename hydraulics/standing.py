@@ -15,9 +15,10 @@ import numpy as np
 from linkage.loads import Acting, LoadCase, Tie
 from linkage.plan import Plan
 from linkage.quantities import NamedMembers
+from linkage.quantities.member import in_class
 from linkage.statics import AnyMotion, held_in_case, is_among, member_thrust, plan_in_case, same, stroke_followed, tied_forces
 
-from .cylinders import Chamber, Circuit, Ram, by_other_lines, chamber_area, changes_in_motion, circuits_among, in_class, line_thrust
+from .cylinders import Chamber, Circuit, Ram, by_other_lines, chamber_area, changes_in_motion, circuits_among, line_thrust
 from .inputs import Array
 
 

@@ -22,11 +22,12 @@ from linkage.loads import Acting, ActingKeywords, Case, Loads, Parameter, Poses,
 from linkage.motion import Condition, HasVerdicts, Judge, Question, at, most
 from linkage.plan import Plan
 from linkage.quantities import Member, NamedMembers, Reference, label, name_of, of_kind
+from linkage.quantities.member import in_class
 from linkage.statics import AnyMotion, LawRequest, held_in_case, member_thrust, request_text, same
 from linkage.units import show
 from linkage.verdict import Verdict
 
-from .cylinders import PISTON, Circuit, OnLines, Ram, carries_loads, circuits_among, in_class
+from .cylinders import PISTON, Circuit, OnLines, Ram, carries_loads, circuits_among
 from .inputs import Array, follows, in_pascals, number_set, one_design, positive
 from .lifting_line import LiftLine
 from .standing import common_area, common_sum, moves_in

@@ -22,7 +22,7 @@ from contextvars import ContextVar
 from types import MappingProxyType
 from typing import Any, Self
 
-from .errors import DefinitionError, article, cited, known_name, unknown
+from .errors import DefinitionError, article, cited, ensure, known_name, unknown
 from .language import noted, translated
 from .star import declare_public
 
@@ -160,8 +160,7 @@ def add_unit(name: str, factor: float, measures: str, systems: Iterable[str] = (
         fault = f"{name} is known already, as {UNITS[name][0]:.9g} of SI for {UNITS[name][1]}; choose another name"
     elif measures not in SI and factor != 1.0:
         fault = f"the first unit of {measures} is that of SI, with the factor 1; add it before"
-    if fault:
-        raise DefinitionError(f"{where}: {fault}.")
+    ensure(not fault, f"{where}: {fault}.")
     chosen = [known_name("System of units", each, SYSTEMS, where=where) for each in systems]
     SI.setdefault(measures, name)
     UNITS[name] = UnitFactor(factor, measures), measures
@@ -225,17 +224,16 @@ def factor(unit: str) -> float:
     return UNITS[unit][0] if unit else 1.0
 
 
-IN_TIME = {"speed": "mm/s", "acceleration": "m/s2", "power": "kW", "flow": "l/min"}
-"""The units in which what happens in time is shown."""
+SHOWN = {
+    "angle": "deg", "force": "kN", "moment": "Nm", "pressure": "bar", "time": "s", "volume": "l", "area": "cm2", "stiffness": "N/mm",
+    "angle per length": "rad/m", "speed": "mm/s", "acceleration": "m/s2", "power": "kW", "flow": "l/min",
+}  # fmt: skip
+"""The unit that each kind but a length is shown in."""
 
 
 def display_unit(measure: str, length: str = "m") -> str:
     """Return the unit that an "angle", a "length", a "force", a "volume" is shown in, a length in that which is said; else ""."""
-    kinds = {
-        "angle": "deg", "length": length, "force": "kN", "moment": "Nm", "pressure": "bar", "stiffness": "N/mm", "time": "s", "area": "cm2",
-        "volume": "l", "angle per length": "rad/m", **IN_TIME,
-    }  # fmt: skip
-    return kinds.get(measure, "")
+    return length if measure == "length" else SHOWN.get(measure, "")
 
 
 DIGITS = r"(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
@@ -254,8 +252,7 @@ def parse(text: str, kind: str = "") -> float:
     if not isinstance(text, str) or not isinstance(kind, str):
         raise DefinitionError(f"{cited(text if isinstance(kind, str) else kind)} is no text; write a number and a unit in quotes, '180mm'.")
     match = _QUANTITY.match(text)
-    if _COMMA.match(text):
-        raise DefinitionError(f"{text!r}: decimals are written with a point, {text.replace(',', '.')!r}.")
+    ensure(not _COMMA.match(text), f"{text!r}: decimals are written with a point, {text.replace(',', '.')!r}.")
     if match is None:
         raise DefinitionError(f"{text!r} is not a value; write a number and a unit, such as 180mm or -75deg.")
     number, unit = match.groups()
@@ -267,8 +264,7 @@ def parse(text: str, kind: str = "") -> float:
         raise DefinitionError(f"{text!r} is {article(measured)} {measured} where a {wanted}.")
     whole = unit[:-4] if unit is not None and unit.endswith("/min") and unit[:-4] in UNITS else ""
     value = float(float(number) * UNITS[whole][0] / minute if whole else float(number) * factor)  # to the last bit as 40 * litre / minute
-    if not math.isfinite(value):
-        raise DefinitionError(f"{text!r} is not a finite number.")
+    ensure(math.isfinite(value), f"{text!r} is not a finite number.")
     return value
 
 

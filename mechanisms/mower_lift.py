@@ -9,12 +9,9 @@ from __future__ import annotations
 from math import atan2, hypot, pi
 from typing import Any
 
-import numpy as np
-
 from hydraulics import Cylinder, CylinderSize, LiftCircuit, pressure, reserve, thrust
-from hydraulics.inputs import in_pascals, positive
+from hydraulics.inputs import efficient, in_pascals, positive
 from linkage import RIGHT, Column, CosineAngle, Dyad, Featured, Ground, Mechanism, Motion, OnLink, Outline, Over, ramp, ratio
-from linkage.errors import DefinitionError
 from linkage.loads import ForceElement, Weight
 from linkage.loads.element import Formulas
 from linkage.quantities import Coordinate, Dimension, Stroke, angle, distance, y
@@ -73,13 +70,10 @@ class MowerLift(Mechanism):
     def __init__(self, **dimensions: Any) -> None:
         """Set the design [SI]; DefinitionError also for a load, pressure or bore not above zero, an efficiency not in (0, 1]."""
         super().__init__(**dimensions)
-        for name in ("weight", "p_max", "bore", "k_m", "k_g"):
-            positive(self[name], name)
+        for name, held in {"weight": positive, "p_max": positive, "bore": positive, "k_m": efficient, "k_g": efficient}.items():
+            held(self[name], name)
         in_pascals(self["p_max"], "p_max")
         CylinderSize(self["bore"], self["lift.rod"])
-        for name in ("k_m", "k_g"):
-            if np.any(np.asarray(self[name]) > 1.0):
-                raise DefinitionError(f"{name} = {np.max(self[name]):.6g} is above 1; an efficiency lies between 0 and 1.")
 
     def columns(self, motion: Motion) -> list[Column]:
         """Return the worksheet's table, and the rod's forces."""

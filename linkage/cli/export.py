@@ -11,7 +11,7 @@ import numpy as np
 
 from .. import plugins
 from ..disk import check_place, replacing_text
-from ..errors import DefinitionError, FileError, ensure
+from ..errors import FileError, ensure
 from ..motion import Motion
 from .command import Command, count_option, default_name, machine_options, option, repeatable, whole_number
 from .settings import ALONG, machine_of, strokes_or_motion, tell_gaps
@@ -104,8 +104,7 @@ def new_command(options: Namespace) -> int:
     ensure(name.isidentifier(), f"{options.name!r} gives no name of a class; take letters and digits, no digit first, such as loader.")
     own = given if is_file else Path(f"{'_'.join(words).lower()}.py")
     path = own if options.output is None else Path(options.output)
-    if given.suffix and not is_file:
-        raise DefinitionError(f"{given}: a machine's file ends in one of {', '.join(TEMPLATES)}, which chooses the form.")
+    ensure(not given.suffix or is_file, f"{given}: a machine's file ends in one of {', '.join(TEMPLATES)}, which chooses the form.")
     ensure(path.suffix.lower() in TEMPLATES, f"-o {path}: the file's name ends in one of {', '.join(TEMPLATES)}, which chooses the form.")
     check_place(path)
     if path.exists():

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..errors import DefinitionError, FileError
+from ..errors import DefinitionError, FileError, ensure
 from ..files.criterion import quantity_said
 from ..files.source import csv_rows, heading_read
 from ..mechanism import Mechanism
@@ -230,8 +230,7 @@ def axis_said(option: str, text: str) -> FloatArray:
     if not step[0] * (last - first) > 0.0:
         raise DefinitionError(f"{option} {text}: no step of {step[0]:g} m leads from {first:g} to {last:g} m; give another step.")
     count = (last - first) / step[0]
-    if count > 1e6:
-        raise DefinitionError(f"{option} {text}: these are {count:.3g} places; give a longer step.")
+    ensure(not count > 1e6, f"{option} {text}: these are {count:.3g} places; give a longer step.")
     return np.asarray(first + step[0] * np.arange(int(count + 1e-9) + 1))
 
 

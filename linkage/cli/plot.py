@@ -55,8 +55,7 @@ def draw_command(options: Namespace) -> int:
     path = picture(options, machine)
     if (options.case or options.direction) and not (options.forces or options.on):
         raise DefinitionError("--case and --direction are of forces; say --forces too, or --on BODY.")
-    if options.forces and options.on:
-        raise DefinitionError("--forces are those of all pins, --on those of one body; give one of them.")
+    ensure(not (options.forces and options.on), "--forces are those of all pins, --on those of one body; give one of them.")
     at, acting = settings.strokes_given(machine, options), settings.acting_of(machine, options)
     if at:
         settings.with_gaps(machine, stroke_middles(machine) | at)

@@ -407,6 +407,5 @@ def parse_limit(text: str, columns: Sequence[Column]) -> tuple[str, tuple[float,
     unit = units[known_name("Column", name, units, "--limit")]
     side, words = LIMITS[sign]
     limit = si_value(value, UNITS[unit][1] if unit else "", f"--limit {name}")
-    if not unit and value[-1].isalpha():
-        raise DefinitionError(f"--limit {name}: {value!r} has a unit, and the column has none; give a number alone.")
+    ensure(unit or not value[-1].isalpha(), f"--limit {name}: {value!r} has a unit, and the column has none; give a number alone.")
     return name, (limit, f"{words} {value}", side)

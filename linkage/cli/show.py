@@ -93,8 +93,7 @@ def check_asked(options: Namespace) -> None:
     named = [name for name, value in given.items() if value not in (None, False, [])]
     if named and not options.equations:
         raise DefinitionError(f"{named[0]} says how equations are printed; say --equations too.")
-    if options.wrt is not None and not options.ratio:
-        raise DefinitionError(f"--wrt {options.wrt}: it is the stroke of --ratio; say --ratio too, such as --ratio G.")
+    ensure(options.wrt is None or options.ratio, f"--wrt {options.wrt}: it is the stroke of --ratio; say --ratio too, such as --ratio G.")
     if options.latex and (options.numbers or options.strokes):
         raise DefinitionError("--latex prints symbols, not numbers; leave out --numbers and --at, or --latex.")
 

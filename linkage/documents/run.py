@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from ..checks import require_whole
-from ..errors import AssemblyError, DefinitionError, LinkageError, SingularError, unwarned
+from ..errors import AssemblyError, DefinitionError, LinkageError, SingularError, ensure, unwarned
 from ..language import said
 from ..loads import PLAIN_CASE, Acting, Case, ForceElement, LoadCase
 from ..mechanism import Mechanism, require_mechanism
@@ -222,8 +222,7 @@ class ReportSubject:
     @cached_property
     def forces(self) -> list[PinForces]:
         """The joint forces at the poses of each table in every situation that is judged there; raises LinkageError."""
-        if len(self.machine.links) < 2:
-            raise DefinitionError(f"{self.machine.plan.title}: its points form no bodies, so that no joint carries anything.")
+        ensure(len(self.machine.links) >= 2, f"{self.machine.plan.title}: its points form no bodies, so that no joint carries anything.")
         with unwarned():
             situations = [(motion, self.judge.actings(drive_force(), run.title)) for run, motion in self.tables]
             return [pin_forces_under(motion, each) for motion, there in situations for each in there]

@@ -292,14 +292,11 @@ def check_exportable(what: Mechanism | Motion, exporter: Exporter, at: object, t
     given = require_type(f"{title}: at", at, Mapping, "values of strokes by name are expected, such as at=dict(S=0.1)", of=str)
     for name, value in given.items():
         require(numbers_in(value).size, f"{title}: at: {name}", value, "a number or several are expected, in SI")
-    if isinstance(what, Motion) and at:
-        raise DefinitionError(f"{title}: a motion has its poses; at= goes with a machine.")
+    ensure(not (isinstance(what, Motion) and at), f"{title}: a motion has its poses; at= goes with a machine.")
     require_type(f"{title}: trace", trace, (list, tuple), 'a list of points is expected, such as trace=["G"]')
     require_type(f"{title}: columns", columns, (list, tuple), "a list of columns is expected, such as results(machine, motion)", of=Column)
-    if trace and "trace" not in exporter.takes:
-        raise DefinitionError(f"{title}: trace= draws the paths of points, in {' and '.join(suffixes('trace'))}.")
-    if columns and "columns" not in exporter.takes:
-        raise DefinitionError(f"{title}: columns= chooses what a {' or a '.join(suffixes('columns'))} holds.")
+    ensure(not trace or "trace" in exporter.takes, f"{title}: trace= draws the paths of points, in {' and '.join(suffixes('trace'))}.")
+    ensure(not columns or "columns" in exporter.takes, f"{title}: columns= chooses what a {' or a '.join(suffixes('columns'))} holds.")
 
 
 def over_strokes(machine: Mechanism, at: Mapping[str, Any], count: int) -> Motion:
@@ -331,8 +328,7 @@ def drawing_of(job: ExportJob) -> tuple[list[DrawnPose], tuple[Part, ...], str]:
         end = job.what.strokes.get(moving, job.what.strokes[first])
         path = job.what.at(unreachable="nan", **{**held, moving: np.linspace(end.start, end.end, job.count)})
     indices = [int(each) for each in np.flatnonzero(np.broadcast_to(motion.reached, motion.shape).ravel())] if motion.shape else [0]
-    if len(indices) > MOST_POSES:
-        raise DefinitionError(f"{motion.plan.title}: {len(indices)} poses do not go into one drawing; choose up to {MOST_POSES}.")
+    ensure(len(indices) <= MOST_POSES, f"{motion.plan.title}: {len(indices)} poses do not go into one drawing; choose up to {MOST_POSES}.")
     poses: list[DrawnPose] = [(pose_words(motion, index), tuple(pose_parts(motion, index))) for index in indices]
     return poses, path_parts(path, job.trace), motion.plan.heading
 

@@ -30,8 +30,9 @@ from ..errors import DefinitionError, LinkageError, cited, ensure, known_name, u
 from ..frozen import immutable
 from ..loads import Acting
 from ..mechanism import Mechanism
-from ..motion import Column, Request, stroke_display_unit, stroke_measure
+from ..motion import Column, stroke_display_unit, stroke_measure
 from ..motion.measures import At, Condition, Constraint, FixedNumber, Integral, Leaf, Measure, in_case, measure_of
+from ..motion.requests import situated
 from ..plan import Mask, Plan
 from ..program import FloatArray
 from ..quantities import is_number
@@ -218,8 +219,7 @@ def quantities_said(head: StudyHead, given: object) -> Keywords:
     def one(name: str, text: object) -> tuple[str, object]:
         if isinstance(criterion_of(text, head.machine), Measure):
             return name, in_case(measure_said(text, head.machine), case)
-        quantity = quantity_said(text, head.machine)
-        return name, quantity.under(Acting(case=case), keep=True) if case is not None and isinstance(quantity, Request) else quantity
+        return name, situated(quantity_said(text, head.machine), Acting(case=case))
 
     return dict(each_of(named_measures(given if isinstance(given, (list, Mapping)) else [given]).items(), one))
 

@@ -11,7 +11,7 @@ from typing import ClassVar, Literal, Protocol, Self, TypeAlias, TypedDict, Type
 
 from numpy.typing import ArrayLike
 
-from ..checks import require_number, require_type
+from ..checks import require, require_number, require_type
 from ..errors import DefinitionError, cited, known_name, unknown
 from ..frozen import immutable, keep_own, refuses_changes
 from ..quantities import Member, Reference, in_degrees, is_member_or_name, name_of
@@ -190,8 +190,7 @@ def shut_members(case: LoadCase, members: Mapping[str, Member], where: str) -> d
 
 def check_words(title: object, scale: object, only: object, shut: object) -> None:
     """Raise DefinitionError for a title that is no text, and for anything but a choice of loads."""
-    if not isinstance(title, str):
-        raise DefinitionError(f'LoadCase({cited(title)}): its title is expected first, LoadCase("transport", scale={{"load": 2.0}}).')
+    require(isinstance(title, str), "LoadCase(title", title, 'its title is expected first, LoadCase("transport", scale={"load": 2.0})')
     opening, remedy = f"LoadCase({title!r})", f"[{only!r}]" if isinstance(only, str) else 'their names, only=["load"]'
     if not isinstance(scale, Mapping):
         said = f"scale={cited(scale)} does not say what is scaled"

@@ -44,7 +44,6 @@ from .measures import (
     Leaf,
     Least,
     Measure,
-    Most,
     Reachable,
     Worst,
     check_condition,
@@ -60,7 +59,7 @@ from .measures import (
 )
 from .motion import Motion
 from .over import ALLOWED, Over, Run, with_strokes
-from .requests import Request, SmoothPiece, Trait, identity_of, is_of_force, measured_in, stroke_of
+from .requests import Request, SmoothPiece, Trait, identity_of, is_of_force, measured_in, situated, stroke_of
 from .search import Span, assembly_error_at, below_zero, extremum_reached, least_margins, strokes_moved
 from .strokes import at_values, strokes_over_axes
 
@@ -107,7 +106,7 @@ class SearchRow:
     @property
     def is_reciprocal(self) -> bool:
         """Whether one over it is looked for."""
-        return self.piece.reciprocal is not None and isinstance(self.leaf, Least)
+        return self.piece.reciprocal is not None and self.leaf.sense < 0.0
 
     @property
     def request(self) -> Any:
@@ -117,7 +116,7 @@ class SearchRow:
     @property
     def stays_at_zero(self) -> bool:
         """Whether the searched request continues below zero, where the request itself does not."""
-        return self.piece.below is not None and isinstance(self.leaf, Most)
+        return self.piece.below is not None and self.leaf.sense > 0.0
 
     @property
     def search_sign(self) -> float:
@@ -746,14 +745,14 @@ class Judge:
     def search_rows(self, leaf: Leaf, place: Domain) -> list[SearchRow]:
         """Return the pieces of a leaf over one `Over`, each once."""
         quantity = leaf.quantity
-        request = quantity.under(self.acting) if isinstance(quantity, Request) else quantity
-        sense = -1.0 if isinstance(leaf, Least) else 1.0
+        request = situated(quantity, self.acting, keep=False)
+        sense = leaf.sense or 1.0
         found: dict[Any, SearchRow] = {}
         for situation in place.situations(request, self.acting):
-            situated = request.under(situation.acting, keep=True) if isinstance(request, Request) else request
-            pieces: Sequence[SmoothPiece] = (SmoothPiece(situated),)
-            if isinstance(situated, Request) and not isinstance(leaf, Integral):  # the worst integral of a piece is not that of the worst
-                pieces = situated.pieces(self.plan)
+            own = situated(request, situation.acting)
+            pieces: Sequence[SmoothPiece] = (SmoothPiece(own),)
+            if isinstance(own, Request) and not isinstance(leaf, Integral):  # the worst integral of a piece is not that of the worst
+                pieces = own.pieces(self.plan)
             for piece in pieces:
                 key = key_of(self.plan, piece.request)
                 if key not in found:
@@ -770,7 +769,7 @@ class Judge:
         One piece alone stays as it is. A comparison of several measures does, too, and is one more in each movement with friction.
         """
         leaf = constraint.left
-        bounds_worst = (isinstance(leaf, Least) and constraint.symbol == ">=") or (isinstance(leaf, Most) and constraint.symbol == "<=")
+        bounds_worst = (leaf.sense, constraint.symbol) in ((-1.0, ">="), (1.0, "<="))
         if not (bounds_worst and isinstance(leaf, Leaf) and isinstance(leaf.quantity, Request)) or constraint.right.leaves:
             if not rubs(self.plan, self.motion, self.acting):
                 return [constraint]
@@ -1016,8 +1015,8 @@ def valued(question: Any, values: Mapping[Leaf, FloatArray]) -> tuple[FloatArray
         running = {each for each in question.leaves if not isinstance(each, At)}
         value = np.asarray(question.from_leaves(values.__getitem__), float)
         (leaf,) = running if len(running) == 1 else (question,)
-        of_leaf = np.where(np.isnan(value), np.nan, values[leaf]) if isinstance(leaf, (Least, Most)) else value
-        return value, of_leaf if isinstance(leaf, Least) else -of_leaf
+        of_leaf = np.where(np.isnan(value), np.nan, values[leaf]) if leaf.sense else value
+        return value, of_leaf if leaf.sense < 0.0 else -of_leaf
     left, right = (np.asarray(each.from_leaves(values.__getitem__), float) for each in (question.left, question.right))
     size = MET * np.maximum(np.abs(np.where(np.isfinite(left), left, 0.0)), np.abs(np.where(np.isfinite(right), right, 0.0)))
     apart = {">=": left - right, "<=": right - left}.get(question.symbol)

@@ -45,6 +45,7 @@ class Measure(Arithmetic):
 
     __hash__ = object.__hash__
     of = FormerName("from_leaves")
+    sense: ClassVar[float] = 0.0
 
     @property
     @abstractmethod
@@ -179,7 +180,6 @@ class Leaf(Measure):
 
     quantity: MeasuredQuantity
     word: ClassVar[str] = ""
-    sense: ClassVar[float] = 0.0
 
     @property
     def bare_quantity(self) -> str | Quantity | Request | Callable[[Motion], FloatArray]:

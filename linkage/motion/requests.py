@@ -13,7 +13,7 @@ from functools import reduce
 from itertools import product
 from operator import or_
 from types import MappingProxyType
-from typing import Any, TypeAlias, cast
+from typing import Any, TypeAlias, TypeVar, cast
 from weakref import ref
 
 import numpy as np
@@ -219,6 +219,7 @@ class Request(Arithmetic):
 
 
 RequestLike: TypeAlias = str | Member | Request
+AnyRequest = TypeVar("AnyRequest")
 
 
 @dataclass(frozen=True, eq=False)
@@ -259,7 +260,12 @@ def as_they_run(requests: Sequence[RequestLike], accelerated: bool, timed: bool 
     acting = Acting(direction=direction, rates=AS_IT_RUNS, accelerations=AS_IT_RUNS if accelerated else None)
     if type(requests) not in (list, tuple):
         return requests
-    return [each.under(acting, keep=timed) if isinstance(each, Request) else each for each in requests]
+    return [situated(each, acting, keep=timed) for each in requests]
+
+
+def situated(quantity: AnyRequest, acting: Acting, *, keep: bool = True) -> AnyRequest:
+    """Return a request in a situation, as its `under` does; anything else as it is."""
+    return cast(AnyRequest, quantity.under(acting, keep=keep)) if isinstance(quantity, Request) else quantity
 
 
 def is_of_force(quantity: object) -> bool:
@@ -525,7 +531,7 @@ class Combined(Request):
         return [each for each in self.parts if isinstance(each, Request)]
 
     def under(self, acting: Acting, *, keep: bool = False) -> Combined:
-        parts = tuple(each.under(acting, keep=keep) if isinstance(each, Request) else each for each in self.parts)
+        parts = tuple(situated(each, acting, keep=keep) for each in self.parts)
         return self if all(a is b for a, b in zip(parts, self.parts, strict=True)) else Combined(self.function, parts, self.text)
 
     def movements(self, plan: Plan, rubs: bool) -> tuple[str, ...]:

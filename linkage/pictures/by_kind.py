@@ -10,7 +10,7 @@ import numpy as np
 
 from ..assembly import Assembly
 from ..checks import require
-from ..errors import DefinitionError, is_yes
+from ..errors import DefinitionError, ensure, is_yes
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, RequestLike
 from ..reports import NOTHING
@@ -193,14 +193,12 @@ def draw(
             raise DefinitionError(f"draw([...]): {given} are expected.")
         return draw_designs(designs, at, path, count) if designs else draw_modes(modes)
     if "networkx" in sys.modules and isinstance(machine, sys.modules["networkx"].MultiGraph):
-        if at is not None or path or is_laid:
-            raise DefinitionError("draw(machine.graph): a graph has no poses; it is drawn by itself.")
+        ensure(at is None and not path and not is_laid, "draw(machine.graph): a graph has no poses; it is drawn by itself.")
         return draw_chain(machine)
     if isinstance(machine, Mechanism) and not is_laid and any(map(np.ndim, machine.dimensions.values())):
         return draw_designs([machine], at, path, count)
     if isinstance(machine, Burmester):
-        if at is not None or path or is_laid:
-            raise DefinitionError("draw(burmester(...)): its poses are those that were given; it is drawn by itself.")
+        ensure(at is None and not path and not is_laid, "draw(burmester(...)): its poses are those that were given; it is drawn by itself.")
         return draw_burmester(machine)
     if isinstance(machine, Optimum):
         if at is not None or path or is_laid:
@@ -265,6 +263,5 @@ def plot(
         return plot_optimum(motion)
     if isinstance(motion, Mechanism):
         return plot_machine(motion, columns, limits, at, count)
-    if at or count != 101:
-        raise DefinitionError("plot(motion, ...): a motion has its poses; at= and count= go with a machine, plot(machine, at=...).")
+    ensure(not at and count == 101, "plot(motion, ...): a motion has its poses; at= and count= go with a machine, plot(machine, at=...).")
     return plot_motion(motion, columns, limits)

@@ -9,7 +9,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..errors import DefinitionError, LawError, LinkageError, UntracedError, unwarned
+from ..errors import LawError, LinkageError, UntracedError, ensure, unwarned
 from ..language import heading_of, language, translated
 from ..loads import FRICTIONLESS, PLAIN_CASE, Acting
 from ..mechanism import Mechanism
@@ -18,7 +18,7 @@ from ..motion.judge import Domain, Judge, SearchRow, leaf_key, measures_of
 from ..motion.measures import At, Constraint, Integral, Leaf, Measure, conditions_of, dimension_value
 from ..motion.motion_verdicts import NEAR, rules_of, verdict_questions
 from ..motion.over import ALLOWED
-from ..motion.requests import NodeRequest, bound, is_of_force
+from ..motion.requests import NodeRequest, bound, is_of_force, situated
 from ..plan import Plan
 from ..program import Node
 from ..quantities import is_number, quantity
@@ -80,7 +80,7 @@ class LiveQuestions:
         for name, given in limits.items():
             column, request, why = columns[name]
             limit, self.units[name] = limit_of(given), column.unit
-            at_rest = request.under(Acting(direction=FRICTIONLESS), keep=True) if isinstance(request, Request) else request
+            at_rest = situated(request, Acting(direction=FRICTIONLESS))
             for each in () if why else dict.fromkeys((request, at_rest)):  # where no program gives it while it moves, that is at rest
                 self.untraced, before = False, dict(self.by_name)
                 self.ask(name, "", least(each) >= limit.value if limit.fails == "below" else most(each) <= limit.value)
@@ -115,8 +115,7 @@ class LiveQuestions:
 
     def leaf_rows(self, leaf: Leaf) -> list[Piece]:
         """Return the pieces of a leaf with the names of their rows, over every `Over`; of a value at one pose the row alone."""
-        if isinstance(leaf, Integral):
-            raise DefinitionError(f"{leaf}: an integral is not followed in the page.")
+        ensure(not isinstance(leaf, Integral), f"{leaf}: an integral is not followed in the page.")
         found = []
         for number, place in enumerate(self.judge.places[:1] if isinstance(leaf, At) else self.judge.places):
             is_timed = place.instants is not None and is_of_force(leaf.quantity)

@@ -48,8 +48,7 @@ def draw_machine(
     time: float | None, faint: bool,
 ) -> Figure | Drawing:
     """Return a mechanism's figure at chosen strokes, or a motion at one of its poses, on axes if they are given; see `draw`."""
-    if ax is not None and overlays:
-        raise DefinitionError("draw(ax=...): forces, velocities, poles and gaps have a figure of their own; leave out ax=.")
+    ensure(ax is None or not overlays, "draw(ax=...): forces, velocities, poles and gaps have a figure of their own; leave out ax=.")
     if isinstance(machine, Motion):
         is_plain = at is None and is_listed(path) and not path and is_whole(count) and count == 101
         if not is_plain:

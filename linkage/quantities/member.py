@@ -413,6 +413,16 @@ def name_of(reference: Reference) -> str:
     return reference.name
 
 
+def own_name(reference: Reference) -> str:
+    """Return the name of a reference, "" of a member without one."""
+    return reference if isinstance(reference, str) else reference.name
+
+
+def in_class(members: NamedMembers, reference: Reference) -> Member | str:
+    """Return the member of a class that a reference names; the reference itself where there is none of that name."""
+    return members.get(own_name(reference), reference)
+
+
 def needs(member: Member) -> Iterator[str]:
     """Yield the names that a member needs, through its unnamed parts; DefinitionError for a part that has to have a name."""
     if member.needs_name and not member.name:

@@ -335,8 +335,7 @@ def quantity(value: Operand) -> Quantity:
     if is_reference(value):
         return Ref(value)
     fault = "stands where a number, a quantity or its name is expected"
-    if isinstance(value, str):
-        raise DefinitionError(f"{value!r} {fault}; write a number without quotes.")
+    ensure(not isinstance(value, str), f"{value!r} {fault}; write a number without quotes.")
     is_endless = isinstance(value, (float, int)) and not isinstance(value, bool)
     raise DefinitionError(f"{cited(value)} {'is not a finite number; give a value in SI' if is_endless else fault}.")
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Container, Iterator, Sequence
 from dataclasses import replace
-from typing import TypeVar, cast
+from typing import cast
 
 import numpy as np
 
@@ -15,14 +15,12 @@ from ..files.criterion import REQUESTS, request_function
 from ..language import noted
 from ..loads import PLAIN, PLAIN_CASE, Acting, Case, ForceElement
 from ..mechanism import Mechanism, played_along, require_mechanism
-from ..motion import Answer, Column, Motion, Over, Request, Tabled, columns_of, least, most, require_motion, speakers, stroke_unit
+from ..motion import Answer, Column, Motion, Over, Tabled, columns_of, least, most, require_motion, speakers, stroke_unit
 from ..motion.judge import Domain
 from ..motion.measures import MeasuredQuantity
-from ..motion.requests import may_be_unlimited
+from ..motion.requests import AnyRequest, may_be_unlimited, situated
 from ..program import FloatArray
 from ..statics import drive_force, driving_force, held_fault
-
-AnyRequest = TypeVar("AnyRequest")
 
 
 def results(machine: Mechanism, motion: Motion, case: Case = None) -> list[Column]:
@@ -115,7 +113,7 @@ def worst_answer(machine: Mechanism, motion: Motion, place: Domain, acting: Acti
 
 def request_in_case(request: AnyRequest, case: Case) -> AnyRequest:
     """Return a request in a load case."""
-    return cast(AnyRequest, request.under(Acting(case=case), keep=True)) if isinstance(request, Request) and case is not None else request
+    return situated(request, Acting(case=case))
 
 
 def columns_about(machine: Mechanism, found: Sequence[Column]) -> list[str]:

@@ -190,7 +190,7 @@ class FoundMachine:
         link, along = next((points for _, points in self.links if {*points} == {*keys}), None), dist(start, end)
         if turns or link is None or not along:
             why = "which turns with its link" if turns else "which is on no link" if link is None else "which has no direction"
-            self.left_out.append(f"the force {shortened(name, quote=False)} of {show(abs(size), 'N')}, {why}")
+            self.left_out.append(f"the force {cited(name, quote=False)} of {show(abs(size), 'N')}, {why}")
             return
         away = {key: (start[0] - self.points[key].place[0], start[1] - self.points[key].place[1]) for key in link}
         key = min(link, key=lambda each: hypot(*away[each]))

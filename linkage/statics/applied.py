@@ -115,10 +115,8 @@ def over_poses(motion: AnyMotion, values: ArrayLike, vector: int, name: str, wha
         array = np.asarray(values)
     except ValueError:
         raise DefinitionError(f"{opening} is {cited(values)}{expected}.") from None
-    if array.dtype.kind not in "fiu":
-        raise DefinitionError(f"{opening} holds {array.dtype.name}, no real numbers{expected}.")
-    if array.shape[:vector] != lead:
-        raise DefinitionError(f"{opening} has the shape {array.shape}{expected}.")
+    ensure(array.dtype.kind in "fiu", f"{opening} holds {array.dtype.name}, no real numbers{expected}.")
+    ensure(array.shape[:vector] == lead, f"{opening} has the shape {array.shape}{expected}.")
     try:
         full = np.broadcast_to(array.reshape((*lead, *(1,) * (len(shape) - array.ndim), *array.shape[vector:])), shape)
     except ValueError:

@@ -20,7 +20,7 @@ from ..loads import Acting, Case, Force, ForceElement, Support, TwoPoint
 from ..motion import HasVerdicts, Judge, Motion, Over, RequestLike, speakers
 from ..motion.grid import not_joined
 from ..motion.judge import Domain
-from ..motion.measures import Least, Measure, Most, words_of
+from ..motion.measures import Measure, words_of
 from ..motion.places import way_of
 from ..plan import Mask, Plan
 from ..program import FloatArray, Kernel
@@ -343,8 +343,8 @@ def member_limits(plan: Plan, case: Case, *, are_remarks: bool = False) -> tuple
         for name, member in speakers(plan, HasVerdicts).items():
             for rule, condition in (member.load_remarks(loaded) if are_remarks else member.load_limits(loaded)).items():
                 for each in condition.constraints(None):
-                    is_least = isinstance(each.left, Least)
-                    if isinstance(each.left, (Least, Most)) and each.symbol == (">=" if is_least else "<="):
+                    is_least = each.left.sense < 0.0
+                    if each.left.sense and each.symbol == (">=" if is_least else "<="):
                         for row in judge.search_rows(each.left, judge.places[0]):
                             request = row.piece.below if row.stays_at_zero else row.piece.request
                             if isinstance(request, (LawRequest, Quantity)):

@@ -21,6 +21,7 @@ from ..motion import Column, Condition, HasVerdicts, Judge, Motion, Tabled, leas
 from ..plan import Plan, strokes_alone
 from ..program import FloatArray
 from ..quantities import InnerQuantity, Member, NamedMembers, Number, Quantity, Reference, Variable, is_number, label, name_of, quantity
+from ..quantities.member import in_class
 from ..steps import Point
 from ..units import show
 from ..verdict import Verdict
@@ -129,7 +130,7 @@ class Rope(ForceElement, Tabled, HasVerdicts):
         """
         found = []
         for each in self.run:
-            member = members.get(each if isinstance(each, str) else each.name, each)
+            member = in_class(members, each)
             found.append(Station(name_of(member.point), member) if isinstance(member, Pulley) else Station(name_of(each)))
         return tuple(found)
 

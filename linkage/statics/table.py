@@ -129,8 +129,7 @@ def max_table(results: Results, over: OverLike = None, acting: Acting | None = N
     """
     if isinstance(results, Judged):
         return judged_table(results.judge(over, acting))
-    if over is not None or acting is not None:
-        raise DefinitionError("max_table: over= and acting= are for a machine; results of pin_forces say both themselves.")
+    ensure(over is None and acting is None, "max_table: over= and acting= are for a machine; results of pin_forces say both themselves.")
     found: list[object] = list(results) if isinstance(results, (list, tuple, Iterator)) else [results]
     best: dict[tuple[str, str, str, str], PinLoad] = {}
     wrong = [each for each in found if not isinstance(each, PinForces)]

@@ -14,7 +14,7 @@ from ..errors import DefinitionError
 from ..language import said
 from ..loads import Acting, ForceElement, LinkMass, Weight
 from ..motion import Judge, Request, require_motion
-from ..motion.requests import Combined
+from ..motion.requests import Combined, situated
 from ..motion.strokes import checked_name
 from ..plan import Plan
 from ..program import FloatArray
@@ -110,7 +110,7 @@ def dynamic_factor(request: Request) -> Combined:
     DefinitionError
         The request is of no force, so that inertia changes nothing in it.
     """
-    without = request.under(Acting(inertia=False), keep=True) if isinstance(request, Request) else request
+    without = situated(request, Acting(inertia=False))
     if without is request or not isinstance(request, Request):
         raise DefinitionError(f'dynamic_factor({request}): a force is expected, such as dynamic_factor(thrust("lift")).')
     return Combined("divide", (request, without), f"dynamic_factor({request})")

@@ -595,8 +595,7 @@ def reaction(
     acting = situation_of("reaction", loads=loads, **situation)
     motion = held_in_case(require_motion(motion), acting)
     own, title = motion.plan.of_kind(Support), motion.plan.title
-    if support is None and len(own) != 1:
-        raise DefinitionError(f"{title} has {len(own)} supports: say which one, such as Support('R', (0, 1)).")
+    ensure(support is not None or len(own) == 1, f"{title} has {len(own)} supports: say which one, such as Support('R', (0, 1)).")
     if isinstance(support, Support):
         name, element = support.name or str(support), support
     else:

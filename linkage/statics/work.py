@@ -11,7 +11,7 @@ from weakref import ref
 import numpy as np
 
 from ..checks import require_number
-from ..errors import DefinitionError, UntracedError, heard, warn
+from ..errors import DefinitionError, UntracedError, ensure, heard, warn
 from ..loads import Acting, ActingKeywords, Loads, TwoPoint, situation_of, takes_situation
 from ..loads.element import AS_IT_RUNS, AT_REST, SENSES, ForceElement, Rate, Rates
 from ..motion import Motion, require_motion
@@ -89,8 +89,7 @@ def stroke_force(motion: Motion, acting: Acting, drive: str | None, efficiency: 
         else:
             force = poses.flattened(found.drives[stroke])
     require_number("efficiency", efficiency, "a number above 0 and up to 1 is expected", above=0.0, most=1.0)
-    if efficiency != 1.0 and not rates.sense:
-        raise DefinitionError('An efficiency works against the motion: say direction="extending" or "retracting".')
+    ensure(efficiency == 1.0 or rates.sense, 'An efficiency works against the motion: say direction="extending" or "retracting".')
     return poses.full(np.where(force * rates.sense > 0.0, force / efficiency, force * efficiency))
 
 

@@ -259,8 +259,7 @@ def solutions_for(machine: Mechanism, vary: Mapping[str, object], targets: Seque
     check_one_design(machine)
     search = Search.of(machine, vary, targets)
     box, k, plan = search.box, len(search.box.ranges), machine.plan
-    if not k and len(box.choices) < 2:
-        raise DefinitionError(f'{plan.title}: nothing may vary; give a range such as {{"MK": (0.5, 1.3)}} or a list of choices.')
+    ensure(k or len(box.choices) >= 2, f'{plan.title}: nothing may vary; give a range such as {{"MK": (0.5, 1.3)}} or a list of choices.')
     what = f"{len(targets)} target{'s' * (len(targets) > 1)} leave{'s' * (len(targets) == 1)} {k} ranges a family of settings"
     ensure(k <= len(targets), f"{plan.title}: {what}; hold {k - len(targets)} of {', '.join(box.ranges)}, or give as many targets more.")
     with unwarned(), np.errstate(all="ignore"):

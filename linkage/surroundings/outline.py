@@ -384,8 +384,7 @@ def outline_corners(given: object, what: str) -> tuple[tuple[Quantity, ...], ...
     if isinstance(given, (str, Mapping, Member)) or not isinstance(given, (Sequence, np.ndarray)):
         raise DefinitionError(f"{what}: {cited(given)} is no list of corners; write [(0, 0), (0.4, 0), (0.4, 0.3)] in m.")
     found = tuple(corner_of(each, what) for each in given)
-    if len(found) < 2:
-        raise DefinitionError(f"{what}: a line has 2 corners at least, here are {len(found)}.")
+    ensure(len(found) >= 2, f"{what}: a line has 2 corners at least, here are {len(found)}.")
     return found
 
 
@@ -458,8 +457,7 @@ def dxf_entities(path: str) -> tuple[Any, list[Any]]:
     except (OSError, lldxf.const.DXFError) as error:
         raise FileError(f"{path} is no DXF drawing that can be read: {error}") from error
     every = list(islice(unblocked(drawing.modelspace(), path), MOST + 1))
-    if len(every) > MOST:
-        raise DefinitionError(f"{path}: its blocks, inserted, are more than {MOST} lines, which no picture shows; take some of them out.")
+    ensure(len(every) <= MOST, f"{path}: its blocks, inserted, are more than {MOST} lines, which no picture shows; take some of them out.")
     return drawing, [each for each in every if each.dxftype() != "INSERT"]
 
 

@@ -248,8 +248,7 @@ class PoseTask:
         if length is not None:
             require_number(f"{what}: length", length, "a length above zero is expected, in m", above=0.0, kind="length")
         for each in of.values() if is_by_class(of) else [of]:
-            if not isinstance(each, str) or len(each.split()) != 2:
-                raise DefinitionError(f'{what}: two points of the body are expected, such as of="C D".')
+            ensure(isinstance(each, str) and len(each.split()) == 2, f'{what}: two points of the body are expected, such as of="C D".')
         timed, ordered = timed_strokes("PoseTask", at, len(parts["x"])), is_yes(f"{what}: in_order", in_order)
         vars(self).update(parts, of=of, at=timed, length=length, in_order=ordered)
 

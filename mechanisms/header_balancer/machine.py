@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from hydraulics import Accumulator, AccumulatorBlock, Cylinder, FloatCircuit, isothermal
-from hydraulics.inputs import in_pascals, positive
+from hydraulics.inputs import in_pascals, not_negative, positive
 from linkage import LEFT, Column, Dyad, Featured, Ground, Link, Mechanism, Motion, OnLink, Outline, Vector
 from linkage.errors import DefinitionError, cited
 from linkage.language import noted, said
@@ -90,8 +90,7 @@ class HeaderBalancer(Mechanism):
         for name in ("L_min", "L_OB", "L_OR", "m1", "charge", "follows", "shoes", "pump", "valve"):
             positive(self[name], name)
         for name in ("m2", "seals", "atmosphere", "V_I", "V_II"):
-            if np.any(np.asarray(self[name]) < 0.0):
-                raise DefinitionError(f"{name} = {np.min(self[name]):.6g} is negative; give zero or more.")
+            not_negative(self[name], name)
         for volume, charge in (("V_I", "P_I"), ("V_II", "P_II")):
             there = np.asarray(self[volume]) > 0.0
             in_pascals(positive(self[charge] if np.all(there) else np.where(there, self[charge], self["pump"]), charge), charge)

@@ -317,7 +317,7 @@ class FloatCircuit(GasLine):
     seal_friction: Parameter = 0.0
     exponent: Parameter = 1.0
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType(
-        {"charge_pressure": "bar", "at": "m", "seal_friction": "bar", "exponent": ""}
+        {"charge_pressure": "bar", "at": "", "seal_friction": "bar", "exponent": ""}
     )
     not_negative: ClassVar[frozenset[str]] = frozenset({"seal_friction"})
     limited: ClassVar[Mapping[str, str]] = MappingProxyType({"exponent": "ratio"})

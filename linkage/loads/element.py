@@ -678,10 +678,10 @@ class ForceElement(Jointed):
         found = []
         for name in self.numbers:
             value = quantity(self.given(name))
-            kind = self.limited.get(name, "not negative" if name in self.not_negative else "number")
+            plain = "stroke" if name in self.stroke_values else "not negative" if name in self.not_negative else "number"
             if isinstance(value, Number):
-                number = float(value.number) if name in self.stroke_values else value.number
-                found.append((f"{self.name}.{name}", number, kind, self.parameters[name]))
+                number = float(value.number) if plain == "stroke" else value.number
+                found.append((f"{self.name}.{name}", number, self.limited.get(name, plain), self.parameters[name]))
         return tuple(found)
 
     def number(self, motion: Poses, name: str) -> Array:

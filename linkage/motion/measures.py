@@ -643,7 +643,7 @@ def kind_of_measure(plan: Plan, measure: Measure) -> MeasureKind | None:
         return kind_called(measure.measures)
     if isinstance(measure, Integral):
         inner = kind_of_quantity(plan, measure.quantity)
-        by = [measure.by] if measure.by in plan.strokes else plan.strokes
+        by = [each for each in plan.strokes if measure.by in (None, each)]
         kinds = {kind.name: kind for kind in (inner.times(kind_of_stroke(plan, each)) for each in by)} if inner is not None else {}
         return next(iter(kinds.values())) if len(kinds) == 1 else None  # of several kinds it depends on which stroke runs
     if isinstance(measure, Leaf):

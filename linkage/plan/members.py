@@ -618,9 +618,12 @@ def as_written(member: Member, turning: frozenset[str]) -> str:
 def plan_measure(plan: Members, variable: str) -> str:
     """Return the kind of a design variable ("length", "angle", "pressure", ...); "" where nothing tells it.
 
-    A dimension without a unit of its own measures what it is added to: `L0` in `AB=L0 + S` is a length.
+    A dimension without a unit of its own measures what it is added to: `L0` in `AB=L0 + S` is a length. A value of a stroke measures what
+    the strokes do, where all are alike.
     """
-    found = plan.table.entries[variable].measures if variable in plan.table.entries else ""
+    entry = plan.table.entries.get(variable)
+    strokes = {*plan.stroke_kinds.values()} if entry is not None and entry.kind == "stroke" else set()
+    found = strokes.pop() if len(strokes) == 1 else entry.measures if entry is not None else ""
     return found or ("length" if variable in plan.spanning else "angle" if variable in plan.turning else "")
 
 

@@ -9,6 +9,7 @@ from numpy.testing import assert_allclose
 from hydraulics import Accumulator, AccumulatorBlock, Cylinder, FloatCircuit, isothermal
 from linkage import RIGHT, Crank, DefinitionError, Dimension, Dyad, Ground, Mechanism, OnLink, Stroke, distance, drawn
 from linkage.loads import Weight
+from linkage.reports.values import dimension_unit
 from linkage.statics import driving_force
 from linkage.units import bar, deg, kN, litre, mm
 from mechanisms.classics.stephenson_three import StephensonThreeFar
@@ -263,6 +264,12 @@ def test_line_on_a_group_of_links():
     batch = OnGroup(DF=np.array([0.1006, 0.1010])).sweep(5)
     for row, DF in enumerate((0.1006, 0.1010)):
         assert_allclose(OnGroup.line.withdrawn(batch)[row], OnGroup.line.withdrawn(OnGroup(DF=DF).sweep(5)), rtol=0, atol=1e-15)
+
+
+def test_a_charging_stroke_that_is_an_angle_is_shown_and_taken_as_one():
+    assert dimension_unit(OnGroup(), "line.at") == "deg" and OnGroup(**{"line.at": 70 * deg})["line.at"] == 70 * deg
+    with pytest.raises(DefinitionError, match=r"line\.at=0\.07 was given as a length; expected is a value of angle"):
+        OnGroup(**{"line.at": 70 * mm})
 
 
 @pytest.mark.parametrize(

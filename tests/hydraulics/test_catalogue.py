@@ -96,6 +96,7 @@ def test_a_search_takes_the_row_that_is_best_among_those_that_fit():
     assert tuple(found.machine[name] for name in NAMES) == min(rows, key=judged)
 
 
+@pytest.mark.slow
 def test_a_search_varies_what_stroke_and_closed_length_follow():
     found = optimise(Followed(), maximise=at("out"), vary={"out": (0.1, 0.4)}, subject_to=[fits("lift")])
     assert found.machine["out"] == pytest.approx(0.3, abs=1e-6)  # closed 500 mm, the least distance of its pins

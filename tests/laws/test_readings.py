@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
+from linkage.plan import REGULAR
 from linkage.program import Kernel, interpret
 from linkage.program.kernel import FEW
 from linkage.program.numpy_backend import LARGEST
@@ -84,6 +85,17 @@ def test_places_by_the_program_and_by_the_steps(machine):
     steps = table([part for name in plan.moving for part in (reading.at(name).x, reading.at(name).y)], (400,))
     agree(table(interpret(nodes, given), (400,)), steps, firm(machine, given, (400,)))
     agree(Kernel(nodes)(given).values[:, 0], steps, firm(machine, given, (400,)))
+
+
+@ALL
+def test_a_loop_is_never_told_nearer_to_a_singular_pose_by_its_square_than_by_its_bound(machine):
+    """Squared sines over REGULAR's are at most 1; what links of constant lengths allow to be told cheaper is no more than these."""
+    given, measures = inputs(machine, 1, 400), [*machine.plan.trace.measures]
+    with np.errstate(all="ignore"):
+        found = table(interpret([node for each in measures for node in (each.node, each.exact, *each.above)], given), (400,))
+    for bound, exact, above, size in found.reshape(-1, 4, 400)[:, :, np.isfinite(found).all(axis=0)]:
+        assert_allclose(bound, np.maximum(above, 0.0) / size, rtol=1e-12)
+        assert np.all(bound <= exact * (1 + 1e-12)) and np.all(exact * REGULAR**2 <= 1 + 1e-12) and exact.max(initial=1.0) > 1e-3
 
 
 @pytest.mark.slow

@@ -88,6 +88,7 @@ def sides(machine):
     return [each for each in told_by(machine, "ram", "jib") if each.rule.startswith("side")]
 
 
+@pytest.mark.slow
 def test_a_ram_whose_side_holds_no_such_load_is_told():
     (told,) = sides(KnuckleBoom())
     least = min(work(lift, fold)["jib"] for lift in np.linspace(0.0, 0.4, 41) for fold in np.linspace(0.0, 0.3, 31))

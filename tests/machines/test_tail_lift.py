@@ -275,6 +275,7 @@ class Sprung(TailLift):
     cage = Weight("Z", mass=90.0)
 
 
+@pytest.mark.slow
 def test_what_a_user_adds_counts():
     """The spring, shorter than it would be, pushes with the cylinder and leaves it less."""
     motion = Sprung().at(**strokes())

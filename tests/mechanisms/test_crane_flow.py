@@ -207,6 +207,7 @@ def test_dragging_keeps_to_the_ground_and_to_the_cylinders():
 # Pictures and the command.
 
 
+@pytest.mark.slow
 @first_daily(1, "name", ["moments", *(name for name in FIGURES if name != "moments")])
 def test_figures_are_drawn(name, tmp_path):
     crane_figure(name).savefig(tmp_path / f"{name}.png")

@@ -399,6 +399,7 @@ def test_the_setting_table_has_each_header():
     assert np.isnan(table["charge 2"][2]) and np.isnan(table["least 2"][2]) and np.isnan(table["safe 2"][2])
 
 
+@pytest.mark.slow
 def test_a_batch_of_charges_is_one_call():
     charges = np.array([30.0, 34.0, 40.0]) * kgf_cm2
     batch = HeaderState(HeaderBalancer(charge=charges, n=1.4).sweep(5))

@@ -151,6 +151,7 @@ def test_a_bad_file_is_refused_with_its_line(tmp_path, text, words):
         read_measured(tmp_path / "m.csv")
 
 
+@pytest.mark.slow
 def test_the_command_prints_table_and_verdicts(capsys):
     assert balance("header_balancer", "--header", "2", "--pressure", "40kgf_cm2", "--count", "3") == 0
     shown = capsys.readouterr().out

@@ -126,6 +126,7 @@ def test_batch_of_designs():
     assert text and text.sentence.startswith(none)
 
 
+@pytest.mark.slow
 def test_verdict_of_a_batch_counts_what_fails():
     hitch = ThreePointHitch(**{"load.mass": [2000, 3000, 9000]})
     *general, text = hitch.verdicts(hitch.sweep(7))
@@ -225,6 +226,7 @@ def test_upper_link_is_hand_equilibrium(machine):
     assert "in tension over this motion" in verdict(machine, "upper link")
 
 
+@pytest.mark.slow
 def test_upper_link_is_pressed_by_a_load_on_the_tractors_side():
     hitch = ThreePointHitch(KFG=-40 * deg)
     motion = hitch.sweep(21)

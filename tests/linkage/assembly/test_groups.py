@@ -122,6 +122,7 @@ def test_the_end_of_a_group_is_its_dead_point():
         StephensonTwoFar().at(psi=dead - 1e-5)
 
 
+@pytest.mark.slow
 def test_two_groups_one_after_the_other():
     class Double(StephensonTwo):
         """A second triad hangs on the first one's pins and the frame."""

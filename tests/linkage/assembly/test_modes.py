@@ -84,6 +84,7 @@ def pasted(machine, code):
 FEW = ("inverted_slider_crank", "scotch_yoke", "three_point_hitch")
 
 
+@pytest.mark.slow
 @for_all(
     "machine",
     lambda: [*map(shipped.MACHINES.get, FEW), Listed, Sketched, GearShift, Plough, drawn_grab()],

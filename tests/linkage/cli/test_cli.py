@@ -318,6 +318,7 @@ def test_plot_writes_the_format_of_the_name(said, tmp_path, suffix):
     assert file.read_bytes().startswith(MAGIC[suffix])
 
 
+@pytest.mark.slow
 def test_draw_draws_the_machine_under_its_name(said, own):
     assert said("draw", "lever.py") == (0, "Lever.png\n", "")
     assert said("draw", "mower_lift", "--at", "S=0.6,0.7", "--path", "B") == (0, "mower_lift.png\n", "")

@@ -292,6 +292,7 @@ def test_one_system_of_units_for_table_and_sentence(said):
     assert said("table", "loader.py", "pressure", "--set", f"OB={300 * mm / inch!r}in", "--count", "2")[0] == 0
 
 
+@pytest.mark.slow
 def test_russian_is_spoken_when_asked_and_no_longer(said):
     _, english, _ = said("show", "loader.py")
     code, out, _ = said("show", "loader.py", "--language", "ru")

@@ -68,7 +68,7 @@ from mechanisms.at_work.telehandler import Telehandler
 from mechanisms.crane import Crane
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
-from tests.for_all import for_all
+from tests.for_all import first_daily, for_all
 from tests.linkage.pictures.test_page_in_time import Pumped, Sudden
 
 needs_poppler = pytest.mark.skipif(shutil.which("pdftotext") is None, reason="poppler's pdftotext is not installed")
@@ -141,7 +141,7 @@ def markdown_of(document):
     return markdown(document, {id(each): "x" for each in blocks(document, Illustration)})
 
 
-@pytest.mark.parametrize("write", [html_text, markdown_of])
+@first_daily(1, "write", [html_text, markdown_of])
 def test_a_title_block_says_what_is_given_and_leaves_lines_for_the_rest(write):
     given = write(signed())
     for value in ("R-104", "2026-05-01", "N. N.", "M. M.", "K. K."):
@@ -310,6 +310,7 @@ def test_no_curve_is_drawn_twice():
 # -- what pins carry ---------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_what_stands_still_is_said_once_and_inertia_has_its_unit(tmp_path):
     class Lever(Mechanism):
         phi = Stroke(0, 60 * deg)

@@ -588,6 +588,7 @@ def numbers(path):
     return {head: np.array(column, float) for head, column in table(path).items() if head != "name"}
 
 
+@pytest.mark.slow
 def test_studies_of_a_file_are_those_of_python(here, said):
     code, out, err = said("study", written(here, STUDY))
     assert (code, err) == (0, "")

@@ -1,6 +1,7 @@
 """Steps of one's own whose rules put vectors together from numbers: their equations say what the rules do."""
 
 import numpy as np
+import pytest
 from numpy.testing import assert_allclose
 
 from linkage import LEFT, Dimension, Dyad, Ground, Mechanism, OnLink, Stroke, driving_force, equations
@@ -82,6 +83,7 @@ def test_equations_are_the_rule(rule):
     assert_allclose(rates["dX/dS"], motion.ratio("X"), rtol=1e-10, atol=1e-12)
 
 
+@pytest.mark.slow
 @for_all("rule", [*RULES][1::2], slow=[*RULES][::2])
 def test_equations_are_printed(rule):
     machine = machine_with(rule)

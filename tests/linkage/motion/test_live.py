@@ -51,6 +51,7 @@ def test_machines_say_the_same_in_javascript():
         assert check(job, found) > 0
 
 
+@pytest.mark.slow
 @NEEDED
 def test_a_thousand_hitches_say_the_same_in_javascript():
     hitch = ThreePointHitch

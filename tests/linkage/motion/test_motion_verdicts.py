@@ -99,6 +99,7 @@ def test_the_rule_of_several_members_bears_their_names():
     assert {"standard size lift", "standard size aux", "length"} <= set(found)
 
 
+@pytest.mark.slow
 def test_a_gas_line_tells_its_range_and_fails_where_it_runs_empty():
     class Floating(Lift):
         pump = None

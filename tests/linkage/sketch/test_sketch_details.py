@@ -160,6 +160,7 @@ def test_a_table_may_have_other_marks_and_units(tmp_path):
         assert read_sketch(put(tmp_path, "Plain.csv", table)) == expected
 
 
+@pytest.mark.slow
 def test_a_length_of_a_row_is_in_the_unit_of_the_table_unless_it_has_its_own(tmp_path):
     head, rows = "kind,name,x{0},y{0},what\n", "point,A,0,0,fixed\npoint,B,300,0,\nlink,,,,A B\ncylinder,lift,,,A B {1}\n"
     units = (" [mm]", None, 1e-3), (" [cm]", None, 1e-2), (" [in]", None, 0.0254), ("", 1e-3, 1e-3), (" [mm]", 0.01, 0.01)

@@ -225,6 +225,7 @@ def test_a_gradient_over_two_strokes_is_a_grid():
     assert_allclose(found[0], driving_force(motion, [Weight(machine.plan.moving[0], mass=1.0)], second), atol=1e-9)
 
 
+@pytest.mark.slow
 def test_at_a_dead_point_it_is_refused_and_out_of_reach_it_is_nan():
     hitch = Hitch()
     dead = float(np.hypot(*(hitch["O"] - hitch["A"])) + hitch["OB"] - hitch["L0"])

@@ -101,6 +101,7 @@ def test_extreme_in_a_curved_valley():
     assert least[0] < 1e-10
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=15)
 @given(st.integers(1, 4), st.integers(0, 2**32 - 1))
 def test_no_sample_beats_the_extremes_of_a_smooth_function(k, seed):

@@ -119,6 +119,7 @@ def test_an_answer_near_a_change_point_says_how_near():
     assert "margin" not in far.best.sentence and "change point" not in far.best.sentence
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("timed", [pytest.param(False, marks=pytest.mark.slow), "steps"])
 def test_a_closed_curve_of_which_the_last_point_is_the_first(timed):
     known = FourBar(OA=0.036, AB=0.11, CB=0.085, AP=0.05)

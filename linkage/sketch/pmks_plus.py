@@ -201,9 +201,9 @@ def read_old_address(found: FoundMachine, text: str) -> None:
     read_plus(found, joints, [*links.values()], clockwise=settings[1:2] == ["true"])
     for row in rows["f"]:  # key, link, start, end, whether it turns with the link (f), outwards, size; in the first versions two parts
         found.ensure(len(row) >= 9, "a force of the address has fewer than nine parts; copy it whole.")
-        x, y, u, v, *parts_of = (found.number(each, f"the force {row[0]}") for each in (*row[2:6], *filter(None, row[8:10])))
+        a, b, c, d, *parts_of = (found.number(each, f"the force {row[0]}") for each in (*row[2:6], *filter(None, row[8:10])))
         size = (1.0 if row[7] == "true" else -1.0) * hypot(*parts_of) * parse("1 lbf" if "in" in "".join(settings[3:4]) else "1 N")
-        found.enter_force(row[0], keys_of(links, row[1]), (x, y), (u, v), size, turns=row[6] == "f")
+        found.enter_force(row[0], keys_of(links, row[1]), (a, b), (c, d), size, turns=row[6] == "f")
 
 
 def keys_of(links: Mapping[str, PlusLink], key: str) -> tuple[str, ...]:

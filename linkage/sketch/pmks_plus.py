@@ -141,8 +141,8 @@ def read_short_address(found: FoundMachine, text: str) -> None:
         keys = fields[7 : 7 + fields[7:].index("")] if "" in fields[7:] else fields[7:]
         if fields[0][0] not in "Namg4567":  # one that is within another
             links[fields[0][2:]] = PlusLink(fields[1] or fields[0][2:], tuple(keys), block=fields[0][1] == "P")
-            heavy += [] if whole_of(found, fields[2]) == 1000 else [fields[1] or fields[0][2:]]
-    if heavy:  # PMKS+ gives each link 1 kg until its user says another mass
+            heavy += [] if whole_of(found, fields[2]) in (0, 1000) else [fields[1] or fields[0][2:]]
+    if heavy:  # PMKS+ gives each link none, formerly 1 kg, until its user says another mass
         found.left_out.append(f"the masses of {', '.join(heavy)}")
     read_plus(found, joints, [*links.values()], clockwise=bool(whole_of(found, flags) & 1))
     for fields in (each.split(",") for each in force_texts):  # flags and key, link, name, start, end, size

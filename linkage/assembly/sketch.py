@@ -173,11 +173,14 @@ def missing_labels(name: str, step: Step, parents: list[str], X: object, place: 
         angles = {joined_names(*each) for each in ((second, first, name), (name, first, second), (second, name), (name, second))}
         if not angles & given:
             base = away[first] - away[second]
-            turn = np.arctan2(base[0] * away[first][1] - base[1] * away[first][0], base @ away[first])
-            found[joined_names(second, first, name)] = float(turn)
+            across, along = base[0] * away[first][1] - base[1] * away[first][0], base @ away[first]
+            is_straight = abs(across) <= ONE_LINE * np.hypot(*base) * np.hypot(*away[first])
+            found[joined_names(second, first, name)] = float(np.arctan2(0.0 if is_straight else across, along))
     return found
 
 
+ONE_LINE = 1e-13
+"""Three points are drawn on one line where the sine of their angle is so small: it is rounding, and the angle 0 or half a turn."""
 TURNED = 0.7
 """The angle [rad] at which steps of other packages are tried."""
 ASIDE = 0.31, -0.17

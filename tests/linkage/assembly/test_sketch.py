@@ -84,6 +84,17 @@ def test_one_length_of_a_plate_is_given_and_the_rest_is_measured():
         assert len(remarks(machine)) == 1
 
 
+@pytest.mark.parametrize("share", [1.7, -0.3])
+def test_three_pins_on_a_line_measure_no_rounding(share):
+    for turn in np.linspace(0.1, 6.0, 30):
+        place = 0.3 + 0.37 * np.cos(turn), 0.1 + 0.37 * np.sin(turn)
+        beyond = 0.3 + share * (place[0] - 0.3), 0.1 + share * (place[1] - 0.1)
+        phi, O = Stroke(0.0, 1.0), Ground(0.3, 0.1)
+        plate = type("Plate", (Mechanism,), dict(phi=phi, O=O, A=Crank(O, at=place, angle=phi), B=Pin(at=beyond), bar=Link("O A B")))
+        (measured,) = [value for name, value in plate().dimensions.items() if name in ("AOB", "OAB", "BOA", "BAO")]
+        assert measured in (0.0, np.pi)
+
+
 @pytest.mark.parametrize("start", [0.0, 0.1, 0.3])
 def test_a_cylinder_is_measured_by_its_coordinates_alone(start, tmp_path):
     """A stroke alone that begins at zero is how far the cylinder is out; the printed class is the same machine."""

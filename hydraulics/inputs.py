@@ -41,6 +41,8 @@ STRONGEST = 1.0
 
 def all_finite(value: ArrayLike, what: str, kind: str = "") -> Array:
     """Return the value as floats, its shape kept; DefinitionError if it is text, NaN or infinite."""
+    if type(value) in (float, np.float64) and -np.inf < value < np.inf:  # type: ignore[operator]
+        return np.asarray(value)
     array = _floats(value, what, kind)
     if not is_traced(array) and not array.size:
         raise DefinitionError(f"{what} = {cited(value)} holds no number; give one at least, in SI units.")

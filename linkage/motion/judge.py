@@ -704,16 +704,19 @@ class Judge:
 
     def answers(self, questions: Sequence[Question]) -> list[Answer]:
         """Return the answers to some questions, the worst over all that the machine runs, in one pass; earlier answers are kept."""
-        held = list[tuple[Hashable, Question, Sequence[Measure | Constraint]]]()
+        held, kept = list[tuple[Hashable, Question, Sequence[Measure | Constraint]]](), self._once("answers", dict[Hashable, Answer])
+        of_leaf = partial(leaf_key, self.plan)
         for question in questions_of(self.plan, questions):
             measures = [question] if isinstance(question, Measure) else []
             constraints = [] if measures else conditions_of([question], self.machine)
-            check_kinds(self.plan, measures, constraints)
             every: list[Measure | Constraint] = [*measures, *constraints]
-            held.append((tuple(each.tree(partial(leaf_key, self.plan)) for each in every) or (question,), question, every))
-        kept = self._once("answers", dict[Hashable, Answer])
-        leaves = tuple(dict.fromkeys(leaf for key, _, each in held if key not in kept for one in each for leaf in leaves_of(one)))
-        for number in range(len(self.places)):
+            key: Hashable = tuple([each.tree(of_leaf) for each in every]) or (question,)
+            if key not in kept:
+                check_kinds(self.plan, measures, constraints)
+            held.append((key, question, every))
+        new = [each for key, _, each in held if key not in kept]
+        leaves = tuple(dict.fromkeys(leaf for each in new for one in each for leaf in leaves_of(one)))
+        for number in range(len(self.places)) if new else ():
             self.find(number, leaves)
         found, shape = list[Answer](), self.motion._design_shape
         for key, question, each in held:
@@ -724,7 +727,8 @@ class Judge:
             else:
                 found.append(self.worst(question, each))
         kept.update((key, each) for (key, *_), each in zip(held, found, strict=True) if not each.lost)  # what is lost is told in a language
-        return [replace(each, question=question) for (_, question, _), each in zip(held, found, strict=True)]
+        pairs = zip(held, found, strict=True)
+        return [each if each.question is question else replace(each, question=question) for (_, question, _), each in pairs]
 
     def find(self, number: int, leaves: Sequence[Leaf]) -> None:
         """Find the worst of some leaves over one `Over`, by its number, in one pass; known results are reused."""

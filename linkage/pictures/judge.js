@@ -45,7 +45,7 @@ const judging = (engine, { overs: all, questions, most, travel, near }, watched 
     if (!values[piece.row]) return { ...result, unknown: 1 };
     for (let i = 0; i < list.length; i++) {
       if (!asked[i]) continue;
-      const v = values[piece.row][i], free = piece.reciprocal ? v <= 0 : Number.isNaN(v) && values[piece.gaps][i] <= 0;
+      const v = values[piece.row][i], free = Number.isNaN(v) ? values[piece.gaps][i] <= 0 : piece.reciprocal && v <= 0;
       if (values[piece.assumed]?.[i] < 0) result.unknown++;
       else if (free) result.unlimited++;
       else if (Number.isNaN(v)) result.lawless++;

@@ -7,7 +7,7 @@ import subprocess
 import numpy as np
 import pytest
 
-from hydraulics import Cylinder, LiftCircuit
+from hydraulics import Cylinder, LiftCircuit, Telescope
 from linkage import Dimension, LoadCase, Over, Stroke
 from linkage.cli.listing import registered
 from linkage.cli.machines import find
@@ -44,6 +44,12 @@ class Grab(GrabArms):
     pump = LiftCircuit(lift, pressure=160 * bar, relief=180 * bar)
     jib = Cylinder("D", "H", bore=40 * mm, rod=22 * mm, works="both")
     aid = LiftCircuit(jib, pressure=120 * bar, mechanical_efficiency=0.9)
+
+
+class Staged(Grab):
+    """The same on a telescope, whose stages are pieces that have a law over a part of the stroke each."""
+
+    lift = Telescope("A", "B", bores=[80 * mm, 60 * mm], strokes=[0.13, 0.13], closed=0.64)
 
 
 class Cornered(Grab):

@@ -5,12 +5,10 @@ from __future__ import annotations
 import inspect
 import re
 from collections.abc import Mapping
-from dataclasses import is_dataclass
 from functools import partial
 
 from matplotlib.axes import Axes
 
-from ..checks import is_listed
 from ..formulas.numbered import Equations
 from ..language import said, translated
 from ..loads import ForceElement, LoadCase
@@ -19,9 +17,10 @@ from ..motion import Motion, stroke_display_unit
 from ..pictures.dimensioned import dimensioned
 from ..pictures.scene import Scene
 from ..plan import spanning_name, written_out
-from ..quantities import Dimension, Member, Stroke, is_number
+from ..quantities import Dimension, Stroke
 from ..reports import dimension_unit
-from ..units import show, shown_number, unit_sign
+from ..reports.values import DIGITS, in_digits, with_units
+from ..units import shown_number, unit_sign
 from .content import Block, Cell, Formula, Illustration, Section, TableBlock
 from .pictures import ROOM, WIDE, height_of, in_one_unit
 from .run import ReportSubject
@@ -38,7 +37,7 @@ def inputs_section(subject: ReportSubject, listing: Equations) -> Section:
     elements, heads = machine.plan.of_kind(ForceElement), (said("name"), said("declared as"), said("source, note"))
     if elements:
         declared = member_rows(machine, tuple(elements), notes)
-        rows = tuple((name, in_digits(with_units(elements[name], text)), note) for name, text, note in declared)
+        rows = tuple((name, with_units(elements[name], text), note) for name, text, note in declared)
         blocks.append(TableBlock(said("Loads, force elements and hydraulics"), heads, rows, "lmm"))
     else:
         blocks.append(said("No load is declared: forces are not calculated."))
@@ -112,46 +111,10 @@ def dimension_table(machine: Mechanism, listing: Equations, notes: Mapping[str, 
     return TableBlock(said("Dimensions"), heads, tuple(rows), "llrllm")
 
 
-DIGITS = 7
-"""The digits of a number as it is declared."""
-LONG = re.compile(r"\d+\.\d{7,}(?:e[-+]?\d+)?")
-"""A number with more of them."""
-PARAMETER = re.compile(r"(, |(?<![\w.]))(\w+)=(-?\d+(?:\.\d*)?(?:e[-+]?\d+)?)(?=[,)])")
-"""A number by itself; one in an expression keeps its SI, as the names beside it have no unit there."""
-
-
-def with_units(element: ForceElement, text: str) -> str:
-    """Return how an element is declared, its numbers in the units that they are shown in: `pressure=180 bar`; no number left as it is."""
-    units, defaults = number_units(element), {name: each.default for name, each in inspect.signature(type(element)).parameters.items()}
-
-    def shown(found: re.Match[str]) -> str:
-        comma, name, value = found[1], found[2], float(found[3])
-        if comma and name in element.numbers and is_number(defaults.get(name)) and value == float(defaults[name]):
-            return ""
-        return f"{comma}{name}={show(value, units[name])}" if units.get(name) else f"{comma}{name}={value:.{DIGITS}g}"
-
-    return PARAMETER.sub(shown, text)
-
-
-def number_units(element: object) -> dict[str, str]:
-    """Return the display units of an element's numbers, and of its parts', such as a tank on a line."""
-    found: dict[str, str] = {}
-    for value in vars(element).values():
-        for each in value if is_listed(value) else (value,):
-            if is_dataclass(each) and not isinstance(each, type) and not (isinstance(each, Member) and each.name):
-                found |= number_units(each)
-    return found | dict(getattr(element, "numbers", getattr(element, "parameters", {})))
-
-
 def member_rows(machine: Mechanism, names: tuple[str, ...], notes: Mapping[str, str]) -> tuple[tuple[str, str, str], ...]:
     """Return members as they are declared."""
     texts = written_out(machine.plan, {name: float(value) for name, value in machine.dimensions.items()})
     return tuple((name, texts[name], notes.get(name, "")) for name in names)
-
-
-def in_digits(text: str) -> str:
-    """Return a declaration whose numbers have DIGITS digits at the most."""
-    return LONG.sub(lambda found: f"{float(found[0]):.{DIGITS}g}", text)
 
 
 def definition_section(machine: Mechanism) -> Section:

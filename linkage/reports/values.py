@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
+import inspect
+import re
 from collections.abc import Iterator
+from dataclasses import is_dataclass
 
 import numpy as np
 
+from ..checks import is_listed
 from ..language import said
+from ..loads import ForceElement
 from ..mechanism import Mechanism, require_mechanism
 from ..motion import stroke_display_unit
 from ..plan import plan_measure
+from ..quantities import Member, is_number
 from ..units import display_unit, show, shown_number
 
 STEPS = ("length", "angle")  # kinds of variables that a step's label makes
@@ -36,3 +42,39 @@ def stroke_rows(machine: Mechanism) -> Iterator[tuple[str, str]]:
     for name, stroke in machine.strokes.items():
         unit = stroke_display_unit(machine.plan, name, "mm")
         yield name, said("{low} to {high}", low=shown_number(stroke.start, unit), high=show(stroke.end, unit))
+
+
+DIGITS = 7
+"""The digits of a number as it is declared."""
+LONG = re.compile(r"\d+\.\d{7,}(?:e[-+]?\d+)?")
+"""A number with more of them."""
+PARAMETER = re.compile(r"(, |(?<![\w.]))(\w+)=(-?\d+(?:\.\d*)?(?:e[-+]?\d+)?)(?=[,)])")
+"""A number by itself; one in an expression keeps its SI, as the names beside it have no unit there."""
+
+
+def with_units(element: ForceElement, text: str) -> str:
+    """Return how an element is declared, its numbers in the units that they are shown in: `pressure=180 bar`; no number left as it is."""
+    units, defaults = number_units(element), {name: each.default for name, each in inspect.signature(type(element)).parameters.items()}
+
+    def shown(found: re.Match[str]) -> str:
+        comma, name, value = found[1], found[2], float(found[3])
+        if comma and name in element.numbers and is_number(defaults.get(name)) and value == float(defaults[name]):
+            return ""
+        return f"{comma}{name}={show(value, units[name])}" if units.get(name) else f"{comma}{name}={value:.{DIGITS}g}"
+
+    return in_digits(PARAMETER.sub(shown, text))
+
+
+def number_units(element: object) -> dict[str, str]:
+    """Return the display units of an element's numbers, and of its parts', such as a tank on a line."""
+    found: dict[str, str] = {}
+    for value in vars(element).values():
+        for each in value if is_listed(value) else (value,):
+            if is_dataclass(each) and not isinstance(each, type) and not (isinstance(each, Member) and each.name):
+                found |= number_units(each)
+    return found | dict(getattr(element, "numbers", getattr(element, "parameters", {})))
+
+
+def in_digits(text: str) -> str:
+    """Return a declaration whose numbers have DIGITS digits at the most."""
+    return LONG.sub(lambda found: f"{float(found[0]):.{DIGITS}g}", text)

@@ -89,7 +89,8 @@ def test_show_says_what_an_engineer_asks(said):
     for words in (
         "The source contradicts itself", "S 550 to 800 mm", "OB 175 mm", "BOG 110.425 deg", "weight 900 kgf",
         "p_max 155 kgf/cm2", "lift.rod 45 mm", "frame A O", "O B G", "cylinder lift: A B", "Gruebler count 1",
-        "B = Dyad(A, O, AB=S, OB=0.175, side=RIGHT)", "too weak from S = 550.0 to 566.0 mm. It needs 161.1 kgf/cm2",
+        "B = Dyad(A, O, AB=S, OB=0.175, side=RIGHT)", "lift = Cylinder(A, B, bore=bore, rod=45 mm)",
+        "too weak from S = 550.0 to 566.0 mm. It needs 161.1 kgf/cm2",
     ):  # fmt: skip
         assert words in " ".join(out.split())
 

@@ -48,7 +48,7 @@ from linkage.documents.checks import closed_walks
 from linkage.documents.content import Illustration, Section, TableBlock
 from linkage.documents.forces import Stop, blocked_cylinders, body_words, worst_blocked
 from linkage.documents.html import html_text
-from linkage.documents.inputs import in_digits, member_rows, plain_words, with_units
+from linkage.documents.inputs import member_rows, plain_words
 from linkage.documents.markdown import markdown
 from linkage.documents.outcome import CURVE_ROOM, HALF, column_grids, curve_blocks, draw_column
 from linkage.documents.pdf import pdf
@@ -61,6 +61,7 @@ from linkage.formulas import equations
 from linkage.formulas.mathml import mathml
 from linkage.formulas.typeset import Box, BoxRow, Fenced, Fraction, Script, Sign, boxes, rough_width
 from linkage.motion import Column
+from linkage.reports.values import in_digits, with_units
 from linkage.statics import elements_of
 from linkage.units import bar, deg, mm
 from mechanisms.at_work.excavator import Excavator
@@ -241,7 +242,7 @@ def test_a_note_loses_the_unit_that_the_table_converts(note, shown_as):
 def test_declared_numbers_have_seven_digits_and_a_part_says_each_once():
     machine = Telehandler(**{"forks.NW": 0.29})
     rows = {name: in_digits(text) for name, text, _ in member_rows(machine, tuple(machine.plan.members), {})}
-    assert in_digits(with_units(machine.plan.members["ram"], "Cylinder(A, B, closed=1.2850549999)")) == "Cylinder(A, B, closed=1285.05 mm)"
+    assert (with_units(machine.plan.members["ram"], "Cylinder(A, B, closed=1.2850549999)")) == "Cylinder(A, B, closed=1285.05 mm)"
     assert rows["far"] == "LoadCase('far', scale={'forks.load': 0.3666667})"
     assert "NW=0.29" in rows["forks"] and "WN=" not in rows["forks"]
     assert [name for name, text in rows.items() if re.search(r"\d\.\d*[1-9]\d{7}", text)] == []

@@ -155,7 +155,7 @@ def stroke_per_newton(motion: Motion) -> FloatArray:
         with np.errstate(divide="ignore"):
             return np.asarray(lift.thrust(motion, [Force("G", (0.0, -1.0))]) / np.maximum(spare, 0.0))
 
-    return motion._once("stroke per newton", found)
+    return require_motion(motion)._once("stroke per newton", found)
 
 
 def stroke_size_per_newton(motion: Motion) -> FloatArray:

@@ -13,7 +13,7 @@ from numpy.testing import assert_allclose
 from hydraulics import Accumulator, AccumulatorBlock, FloatCircuit, Holding, LiftCircuit, Lowering, OilLine, Pump, Relief, pressure, thrust
 from linkage import driving_force, pin_forces
 from linkage.errors import LinkageError
-from tests.for_all import first_daily
+from tests.for_all import first_daily, for_all
 from tests.laws.by_hand import FRAME, ByHand
 from tests.laws.plane import PLAIN, Move, size
 from tests.laws.random_machines import random_machine
@@ -23,7 +23,7 @@ from tests.laws.test_random_machines import works_of
 MANY, DAILY = 100, 5
 NOTHING = 1e-12
 MOVES = [Move(mirror=True), Move(turn=0.7), Move(mirror=True, turn=-2.1, scale=1.7), Move(scale=0.6, turn=1.9)]
-EACH = first_daily(DAILY, "seed", range(MANY))
+EACH = for_all("seed", range(DAILY), slow=range(DAILY, MANY))
 KIND = first_daily(3, "seed", [1, 2, 3, 0, *range(4, 4 * len(KINDS))])
 
 

@@ -1,17 +1,16 @@
 """Laws of vehicles on their supports, over random machines: the frame balances as every body does, and the equations say the same."""
 
 import numpy as np
-import pytest
 from numpy.testing import assert_allclose
 
 from linkage import pin_forces, standing
 from linkage.formulas import equations
-from tests.for_all import first_daily
+from tests.for_all import for_all
 from tests.laws.random_machines import random_machine
 from tests.laws.random_vehicles import random_vehicle
 
 MANY, DAILY = 120, 2
-EACH = first_daily(DAILY, "seed", range(MANY))
+EACH = for_all("seed", range(DAILY), slow=range(DAILY, MANY))
 
 
 def turning(place, force):
@@ -20,7 +19,7 @@ def turning(place, force):
 
 
 @EACH
-@pytest.mark.parametrize("case", [None, "up", "down"])
+@for_all("case", [None, "up", "down"])
 def test_the_frame_of_a_vehicle_balances(seed, case):
     """All that `on_body` tells of the frame, and the couples of its joints, add up to nothing: at rest and while friction acts."""
     draft, (kind, names) = random_machine(seed), random_vehicle(seed)

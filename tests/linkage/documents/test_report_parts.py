@@ -486,13 +486,10 @@ def beyond_the_picture(picture):
     return [text for text, box in boxes_drawn if min(box.x0, box.y0, wide - box.x1, high - box.y1) < -1.0]
 
 
-DAILY = {("mower_lift", "ru")}
-EDGES = [(name, language) for name in sorted(registered()) for language in ("en", "ru")]
-
-
 @pytest.mark.slow
 @needs_poppler
-@pytest.mark.parametrize(("name", "language"), [each if each in DAILY else pytest.param(*each, marks=pytest.mark.slow) for each in EDGES])
+@pytest.mark.parametrize("name", sorted(registered()))
+@pytest.mark.parametrize("language", ["en", "ru"])
 def test_nothing_is_cut_at_the_papers_edge(name, language):
     assert not cut_in(find(name), language)
 

@@ -33,8 +33,8 @@ REGULAR = (1.0 + math.sqrt(1.0 - 0.3**2)) / 0.3
 class LiveText:
     """JavaScript of a machine, and the names of its parts.
 
-    `rows` says where each thing asked for stands among the values, (first row, how many); `left_out` why others do not; `dimensions` and
-    `strokes` name the arguments in their order.
+    `rows` says where each thing asked for stands among the values, (first row, how many), what is equal in one place; `left_out` why
+    others do not; `dimensions` and `strokes` name the arguments in their order.
     """
 
     text: str
@@ -59,42 +59,47 @@ def live_text(plan: Plan, requests: Mapping[str, RequestLike], name: str = "engi
             found[each] = bound(plan, request)
         except (LawError, UntracedError) as error:
             left_out[each] = str(error)
-    program, declared, dimensions = live_program(plan, tuple(found.values()))
-    ends = np.cumsum([0, *(each.rows for each in found.values())]).tolist()
-    rows = {each: (first, what.rows) for first, (each, what) in zip(ends, found.items(), strict=False)}
+    program, declared, dimensions, places = live_program(plan, tuple(found.values()))
+    rows = {each: (first, what.rows) for first, (each, what) in zip(places, found.items(), strict=True)}
     text = f"const {name}=(()=>{{{program}return {{{declared},sweep}}}})();"
     return LiveText(text, FrozenDict(rows), FrozenDict(left_out), dimensions, tuple(plan.strokes))
 
 
 def live_source(plan: Plan, requests: Sequence[Request], name: str, design: Mapping[str, float]) -> str:
     """Return JavaScript that declares `poses(d, p)`, requests at one pose, found along the way from the sketch."""
-    program, _, dimensions = live_program(plan, tuple(requests))
+    program, _, dimensions, places = live_program(plan, tuple(requests))
     stated = ", ".join(f"{each} = {design[each]!r}" for each in dimensions)
-    count = sum(each.rows for each in requests)
-    head = f"/* d: {stated or 'none'}; p: {', '.join(plan.strokes)}; {count} outputs */"
-    return f"{head}\nconst {name}=(()=>{{{program}return (d,p)=>sweep(d,p.map(s=>[s])).values.map(v=>v[0])}})();\n"
+    rows = [first + k for first, each in zip(places, requests, strict=True) for k in range(each.rows)]
+    head = f"/* d: {stated or 'none'}; p: {', '.join(plan.strokes)}; {len(rows)} outputs */"
+    outputs = f"const v=sweep(d,p.map(s=>[s])).values;return {json_of(rows)}.map(k=>v[k][0])"
+    return f"{head}\nconst {name}=(()=>{{{program}return (d,p)=>{{{outputs}}}}})();\n"
 
 
-def live_program(plan: Plan, requests: tuple[Request, ...]) -> tuple[str, str, tuple[str, ...]]:
-    """Return the text that declares `sweep`, further declarations, and the dimensions in their order, made once."""
+def live_program(plan: Plan, requests: tuple[Request, ...]) -> tuple[str, str, tuple[str, ...], list[int]]:
+    """Return the text that declares `sweep`, further declarations, the dimensions in order, and the requests' first rows, made once."""
     return plan.made(("live", tuple(each.key for each in requests)), lambda twin: live_program_on(twin, requests))
 
 
-def live_program_on(plan: Plan, requests: Sequence[Request]) -> tuple[str, str, tuple[str, ...]]:
+def live_program_on(plan: Plan, requests: Sequence[Request]) -> tuple[str, str, tuple[str, ...], list[int]]:
     """Return the same, traced in a plan of its own."""
-    nodes = [true_nodes(plan, each) for each in requests]
-    rows = [node for each in nodes for node in each]
+    nodes = [tuple(true_nodes(plan, each)) for each in requests]
     checks = list(checks_of(plan))
     loops = loops_of(plan)
-    refused = refusals(plan, requests, list(loops))
+    steep = [each.differentiated(plan) for each in requests]  # near dead points of which loops it is refused, by their places
+    keys = [(own, tuple(k for k, name in enumerate(loops) if name in each)) for own, each in zip(nodes, steep, strict=True)]
+    rows, first, refused = list[Node](), dict[object, int](), dict[tuple[int, ...], list[int]]()
+    for own, behind in keys:
+        if first.setdefault((own, behind), len(rows)) == len(rows):
+            refused.setdefault(behind, []).extend(range(len(rows), len(rows) + len(own)))
+            rows += own
     ends = [*rows, *(node for _, node in checks), *(node for loop in loops.values() for node in loop)]
-    behind = set(ancestors(ends))
-    angles = [each for each in dict.fromkeys(plan.trace.angles) if each in behind and each.level is Level.POSE]
+    used = set(ancestors(ends))
+    angles = [each for each in dict.fromkeys(plan.trace.angles) if each in used and each.level is Level.POSE]
     ends, angles = (found := clipped(plan, [*ends, *angles]))[: len(ends)], found[len(ends) :]
     missing = gaps_of(plan, [name for name, _ in checks])
     dimensions = tuple(plan.table.entries)
     rates = [rate_name(name, order) for order in (1, 2) for name in plan.strokes]
-    rates = rates if any(node.op == "input" and node.value in rates for node in behind) else []
+    rates = rates if any(node.op == "input" and node.value in rates for node in used) else []
     inputs = Inputs(
         {each: place for place, each in enumerate(dimensions)},
         {each: place for place, each in enumerate((*plan.strokes, *plan.solved, *rates))},
@@ -106,7 +111,7 @@ def live_program_on(plan: Plan, requests: Sequence[Request]) -> tuple[str, str, 
         "REGULAR": json_of(REGULAR),
         "REFUSE": json_of(REFUSE),
         "fixed": f"new Set({json_of([k for k, node in enumerate(rows) if node.level is not Level.POSE])})",
-        "refused": json_of(refused),
+        "refused": json_of([[numbers, list(behind)] for behind, numbers in refused.items() if behind]),
         "sketch": json_of([plan.sketch_strokes[each] for each in plan.strokes]),
         "places": arrow_function(ends, inputs, angles),
         "gaps": arrow_function(missing, inputs),
@@ -128,7 +133,7 @@ def live_program_on(plan: Plan, requests: Sequence[Request]) -> tuple[str, str, 
     words = {key: json.dumps(value, ensure_ascii=True, separators=(",", ":")) for key, value in names.items()}
     said = [f"{key}:{value}".replace("<", "\\u003c") for key, value in words.items()]
     said += [f"d0:{json_of([plan.defaults[each] for each in dimensions])}", "sketch", "rows:ROWS"]
-    return "".join(text), ",".join(said), dimensions
+    return "".join(text), ",".join(said), dimensions, [first[key] for key in keys]
 
 
 def part_text(name: str) -> str:
@@ -218,16 +223,3 @@ def loops_of(plan: Plan) -> dict[str, tuple[Node, Node]]:
             radicand, scale, size = loop.terms
             found[loop.step] = graph.node(np.sqrt(radicand) / scale), graph.node(size / (scale * scale))
     return found
-
-
-def refusals(plan: Plan, requests: Sequence[Request], loops: Sequence[str]) -> list[list[list[int]]]:
-    """Return the rows that are refused near dead points, with the loops whose dead points these are, by their places."""
-    sets: dict[tuple[int, ...], list[int]] = {}
-    row = 0
-    for each in requests:
-        steep = each.differentiated(plan)
-        behind = tuple(place for place, name in enumerate(loops) if name in steep)
-        if behind:
-            sets.setdefault(behind, []).extend(range(row, row + each.rows))
-        row += each.rows
-    return [[rows, list(behind)] for behind, rows in sets.items()]

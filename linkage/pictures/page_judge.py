@@ -219,7 +219,7 @@ class LiveQuestions:
         """Return a piece as data: its `Over`, its rows, behind those of the program the delivered ones, its situation."""
         situation, place = row.situation, self.judge.places[number]
         if name in self.delivered:
-            behind = sum(count for _, count in live.rows.values())
+            behind = max(first + count for first, count in live.rows.values())
             rows = {what: behind + self.delivered_rows.index(own) for what, own in zip(("row", "gaps"), self.delivered[name], strict=True)}
         else:
             rows = {"row": live.rows[name][0], "gaps": live.rows[f"{name} gaps"][0], "assumed": live.rows[f"{name} assumed"][0]}

@@ -25,7 +25,7 @@ from linkage.errors import DefinitionError, known_name
 from linkage.frozen import refuses_changes
 from linkage.language import noted, said, translated
 from linkage.program import is_traced
-from linkage.units import MPa, show
+from linkage.units import MPa, show, shown_number
 from linkage.verdict import Verdict
 
 from .inputs import LONGEST, Array, in_metres, one_number, pose_values, positive
@@ -216,16 +216,16 @@ class Buckling:
         given = {
             "thrust": show(thrust, "kN", 4), "rod": show(self.rod, "mm", 4), "length": show(length, "mm", ".0f"),
             "mounting": translated(self.mounting), "where": f" {where}" if where else "", "limit": show(limit, "kN", 4),
-            "safety": limit / thrust, "least": self.safety,
+            "safety": shown_number(limit / thrust, "", 3), "least": self.safety,
         }  # fmt: skip
         says = said(
-            "{thrust} on a {rod} rod {length} long ({mounting}){where}, buckling at {limit}: safety {safety:.3g}, at least {least:g}",
+            "{thrust} on a {rod} rod {length} long ({mounting}){where}, buckling at {limit}: safety {safety}, at least {least:g}",
             **given,
         )  # fmt: skip
         if stage:
             says = said(
                 "{thrust} on stage {stage} of {rod}, the slenderest that is out, {length} long ({mounting}){where}, "
-                "buckling at {limit}: safety {safety:.3g}, at least {least:g}", stage=stage, **given,
+                "buckling at {limit}: safety {safety}, at least {least:g}", stage=stage, **given,
             )  # fmt: skip
         return Verdict("buckling", ok, f"{says}{'' if ok else remedy}.")
 

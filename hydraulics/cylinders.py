@@ -708,9 +708,9 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         force, limit = pressure * float(self.sized(place, "extending").outward_area) / self.count, float(bar.critical(longest.value))
         text = said(
             "Against a stop, which this rule leaves out, {ram} pushes with {force} at {pressure}, whatever its load. "
-            "At its longest, {length}, it buckles at {limit}: safety {safety:.3g}.",
+            "At its longest, {length}, it buckles at {limit}: safety {safety}.",
             ram=self.name or self, force=f"{times}{show(force, 'kN', 4)}", pressure=show(pressure, unit, 4),
-            length=show(longest.value, "mm", ".0f"), limit=f"{times}{show(limit, 'kN', 4)}", safety=limit / force,
+            length=show(longest.value, "mm", ".0f"), limit=f"{times}{show(limit, 'kN', 4)}", safety=shown_number(limit / force, "", 3),
         )  # fmt: skip
         return [Remark(text)]
 

@@ -4,10 +4,8 @@ import inspect
 import json
 import shutil
 import subprocess
-from base64 import b85decode
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
-from zlib import decompress
 
 import numpy as np
 import pytest
@@ -45,6 +43,7 @@ from linkage.pictures.scene import Scene
 from linkage.program import RunOptions
 from tests.benchmarks.c_reference import POINTER, address, built, has_compiler
 from tests.linkage.program.test_backends import agree, as_loop, by_nodes, everything
+from tests.members import unpacked
 
 
 def rise(share):
@@ -189,8 +188,7 @@ def test_the_drawn_profile_touches_the_drawn_roller():
 def test_pictures_and_pages_show_it(tmp_path):
     draw(Valve(), at={"phi": 1.0}).savefig(tmp_path / "valve.png")
     page(Valve(), path=tmp_path / "valve.html")
-    _, _, packed = (tmp_path / "valve.html").read_text(encoding="utf-8").partition('<script id="data" type="text/plain">')
-    data = json.loads(decompress(b85decode(packed.partition("<")[0].replace(",", "<"))))
+    data = json.loads(unpacked((tmp_path / "valve.html").read_text(encoding="utf-8"), "data"))
     assert [data["scene"]["names"][each["on"][0]] for each in data["scene"]["contours"]] == ["O", "R"]
 
 

@@ -16,7 +16,7 @@ from ..motion import Answer, Column, HasVerdicts, MotionFunction, PageWords, Req
 from ..motion.measures import Constraint, Leaf, least, measure_of, most
 from ..pictures.shown_values import limit_of
 from ..reports import is_column
-from ..units import display_unit, rounded_up, show, unit_sign
+from ..units import display_unit, rounded_up, show, shown_number, unit_sign
 from ..verdict import Verdict
 from .content import Mark, Section, TableBlock
 from .outcome import amount_text
@@ -131,7 +131,8 @@ def rule_row(subject: ReportSubject, verdict: Verdict, answer: Answer) -> Judged
     share = used(answer) if words.share is None else float(subject.judge.answer(words.share).value)
     sign = " %" if kind == "number" and "{value} %" in words.text else ""
     if kind == "number" and words.measure is not None:
-        answer = replace(answer, value=subject.judge.answer(words.measure).value)
+        told = float(subject.judge.answer(words.measure).value)
+        answer = replace(answer, value=float(shown_number(told, "", 3)))  # as its sentence says it
     if words.is_need:
         answer = replace(answer, value=rounded_up(float(answer.value), display_unit(kind, "mm")))
     of_limit = 0.0 if verdict.ok and kind == "length" and words.share is None else share

@@ -50,7 +50,8 @@ def live_text(plan: Plan, requests: Mapping[str, RequestLike], name: str = "engi
     `engine.sweep(d, strokes, rates)` takes a design and an array for each stroke; with requests at rates also for the rate of each stroke,
     and behind these for its acceleration, without them it stands still. It gives `values`, an array for each row. `reason` is 0 where a
     pose is reached, else the number from 1 on of the member in `engine.steps` that cannot be placed; `missing` tells by how much [m]. NaN
-    stands where there is no value, and for ratios and forces where a dead point is so near that Python refuses them.
+    stands where there is no value, and for ratios and forces where a dead point is so near that Python refuses them. `engine.linear(list)`
+    gives the unknowns of linear equations, by n * n factors and n right sides.
     """
     found: dict[str, Request] = {}
     left_out: dict[str, str] = {}
@@ -61,7 +62,7 @@ def live_text(plan: Plan, requests: Mapping[str, RequestLike], name: str = "engi
             left_out[each] = str(error)
     program, declared, dimensions, places = live_program(plan, tuple(found.values()))
     rows = {each: (first, what.rows) for first, (each, what) in zip(places, found.items(), strict=True)}
-    text = f"const {name}=(()=>{{{program}return {{{declared},sweep}}}})();"
+    text = f"const {name}=(()=>{{{program}return {{{declared},sweep,linear:J}}}})();"
     return LiveText(text, FrozenDict(rows), FrozenDict(left_out), dimensions, tuple(plan.strokes))
 
 

@@ -69,22 +69,11 @@ function solved(first, ranges, residuals) {
       return found ? found.map((each, i) => ((each - misses[i]) / h) * wide[k]) : misses.map(() => 0);
     });
     const normal = slopes.map((a, j) => slopes.map((b, k) => a.reduce((sum, each, i) => sum + each * b[i], 0) + (j === k ? damping : 0) * (1 + a.reduce((sum, each) => sum + each * each, 0))));
-    const step = eliminated(normal, slopes.map((a) => -a.reduce((sum, each, i) => sum + each * misses[i], 0)));
+    const step = engine.linear([...normal.flat(), ...slopes.map((a) => -a.reduce((sum, each, i) => sum + each * misses[i], 0))]);
     const next = at.map((value, k) => min(max(value + step[k] * wide[k], ranges[k][0]), ranges[k][1])), found = residuals(next);
     if (size(found) < size(misses)) { const done = least(next.map((each, k) => (each - at[k]) / wide[k])) < 1e-10; at = next; misses = found; damping = max(damping / 10, 1e-12); if (done) break; } else if (damping > 1e6) break; else damping *= 10;
   }
   return { at, misses };
-}
-function eliminated(rows, right) {
-  const table = rows.map((row, i) => [...row, right[i]]), n = right.length;
-  for (let k = 0; k < n; k++) {
-    const pivot = table.slice(k).reduce((best, row, i) => (abs(row[k]) > abs(table[best][k]) ? k + i : best), k);
-    [table[k], table[pivot]] = [table[pivot], table[k]];
-    for (let i = k + 1; i < n; i++) { const factor = table[i][k] / (table[k][k] || 1e-300); for (let j = k; j <= n; j++) table[i][j] -= factor * table[k][j]; }
-  }
-  const found = new Array(n).fill(0);
-  for (let k = n - 1; k >= 0; k--) found[k] = (table[k][n] - table[k].reduce((sum, each, j) => (j > k && j < n ? sum + each * found[j] : sum), 0)) / (table[k][k] || 1e-300);
-  return found;
 }
 /* Lead a joint to a place, or as near as the strokes bring it; what ends it is said. */
 function led(point, to) {

@@ -8,15 +8,17 @@ const asking = judging(engine, data.judge, data.joints.map(({ row }) => row)), D
 if (!strokes.some((each) => each.path && each.over === undefined)) for (const [over, { shape, name, places: ways, time, courses }] of asking.spans().entries()) {
   if (shape === "path" && name && ways[0].length > 1 && !strokes.some((each) => each.over === over)) strokes.push({ name, start: time ? time[0] : 1, end: time ? time[1] : ways[0].length, at: time ? time[0] : 1, unit: time ? "s" : "", factor: 1, turn: time ? 1 : 0, path: { ...ways }, over, time, courses });
 }
-/* A dimension as it comes: its name, value, least and greatest [SI], unit, whether it is a length, and where it stands. */
 /* A column has a row of the program in each load case in which it differs; that of the path that runs is shown. */
 const rowNow = (row) => { const found = row[caseNow()] ?? row; return found >= 0 ? found : undefined; };
 const columns = data.columns.map(([name, unit, row, ru, values, why]) => ({ name, unit, factor: units[unit], ru, why, get values() { return values?.[caseNow()]; }, get row() { return rowNow(row); } }));
-const caseNow = () => data.situationOf[strokes[runs].over] ?? 0;
+/* The situation that is shown: of the place that was gone to, else of the path that runs. */
+let acting = -1;
+const caseNow = () => (acting < 0 ? (data.situationOf[strokes[runs].over] ?? 0) : acting);
 for (const each of [...data.cylinders, ...data.arrows]) for (const name of ["pressure", "most", "x", "y", "couple"]) if (each[name]?.length) {
   const row = each[name];
   Object.defineProperty(each, name, { get: () => rowNow(row) });
 }
+/* A dimension as it comes: its name, value, least and greatest [SI], unit, whether it is a length, and where it stands. */
 const dims = data.dims.map(([name, value, ends, unit, positive, where]) => ({ name, value, low: ends[0] ?? value - ends, high: ends[1] ?? value + ends, unit, factor: units[unit], positive, where }));
 
 /* ---- the state, and what follows from it ---- */
@@ -71,7 +73,7 @@ const isChanged = () => dims.some((each, i) => present[i] !== each.value);
 const isDriven = (k) => k === runs || k in (strokes[runs].path || {});
 const isMoved = () => runs !== data.run || own.some((each, k) => !isDriven(k) && stands[k] !== each.at);
 /* Let another stroke, or the place on the path, run from where the machine stands. */
-function runsOn(run) { stands = followed(stands); runs = run; }
+function runsOn(run) { stands = followed(stands); runs = run; acting = -1; }
 
 /* Return why a pose cannot be had. */
 function why(found, i, what) {
@@ -165,15 +167,16 @@ function actsText({ on, by, load }) {
 }
 /* An arrow: a force at a point, in the scale in which the greatest is a sixth of the sheet, or a couple about it, counter-clockwise above zero. What is touched says on what it acts. */
 function arrow(each) {
-  const { point, load } = each, isCouple = "couple" in each, colour = css(load ? "accent" : "other"), line = draw(sheet, "path", { w: 2.2, join: "round", fill: isCouple ? "none" : colour, stroke: colour }), title = draw(line, "title", {});
+  const { point, load, by } = each, isCouple = "couple" in each, colour = css(load ? "accent" : "other"), line = draw(sheet, "path", { w: 2.2, join: "round", fill: isCouple ? "none" : colour, stroke: colour }), title = draw(line, "title", {});
   const number = label(point, "halo force", FORCE_FONT, 12, `color-mix(in srgb, ${colour} 60%, var(--ink))`);
   on(line, "pointerover", () => { title.textContent = `${number.said.split(" ")[0]} ${actsText(each)}`; });
   return (at) => {
     if (isCouple) { about(each, at[point], line, number); return; }
     const { x, y } = each, k = pull.scale, f = [pose.values[x]?.[0] * k, -pose.values[y]?.[0] * k], long = hypot(...f), head = min(9, 0.5 * long);
     if (!showsForces || !(long > 1)) { set(line, { d: "" }); number.said = ""; return; }
-    const d = [f[0] / long, f[1] / long], from = centred(each, at), tip = [from[0] + f[0], from[1] + f[1]], neck = [tip[0] - head * d[0], tip[1] - head * d[1]], w = 0.38 * head;
-    set(line, { d: broken([from, neck, [neck[0] - w * d[1], neck[1] + w * d[0]], tip, [neck[0] + w * d[1], neck[1] - w * d[0]], neck]) });
+    /* The ground cannot pull: there the machine tips. */
+    const d = [f[0] / long, f[1] / long], tint = !load && by === undefined && f[1] > 0.5 ? css("hot") : colour, from = centred(each, at), tip = [from[0] + f[0], from[1] + f[1]], neck = [tip[0] - head * d[0], tip[1] - head * d[1]], w = 0.38 * head;
+    set(line, { d: broken([from, neck, [neck[0] - w * d[1], neck[1] + w * d[0]], tip, [neck[0] + w * d[1], neck[1] - w * d[0]], neck]), fill: tint, stroke: tint });
     const force = shown(hypot(pose.values[x][0], pose.values[y][0]), data.force, 3);
     Object.assign(number, { said: touched.includes(point) ? `${force} ${actsText(each)}` : force, anchor: tip, way: d });
     arrows.push([from, tip]);
@@ -315,10 +318,7 @@ function plotted() {
   const along = Array.from(now.along, (value) => value / stroke.factor), least = min(...along), most = max(...along);
   const x = (s) => L + ((s - least) / (most - least || 1)) * (W - L - R), y = (v) => H - B - ((v - low) / (high - low || 1)) * (H - T - B), y2 = (v) => H - B - ((v - low2) / (high2 - low2 || 1)) * (H - T - B);
   const write = (a, b, text, more) => { draw(plot, "text", { x: a, y: b, ...more }).textContent = text; };
-  const line = (list, up, colour, width, more) => {
-    const path = draw(plot, "path", { class: "line", w: width, d: broken(list.map(([s, v]) => (isNumber(v) ? [x(s), up(v)] : null))), ...more, stroke: css(colour) });
-    return path;
-  };
+  const line = (list, up, colour, width, more) => draw(plot, "path", { class: "line", w: width, d: broken(list.map(([s, v]) => (isNumber(v) ? [x(s), up(v)] : null))), ...more, stroke: css(colour) });
   const rule = (x1, y1, x2, y2, colour, more) => draw(plot, "line", { x1, y1, x2, y2, stroke: css(colour), ...more });
   if (limit) {
     const at = y(limit[0]), above = limit[2] !== "below", shade = draw(plot, "rect", { x: L, width: W - L - R, y: above ? T : at, height: max(above ? at - T : H - B - at, 0), opacity: 0.13 });
@@ -361,12 +361,8 @@ function plotted() {
   chart.second = draw(plot, "circle", { r: 4.5, w: 2, fill: css("other"), stroke: css("paper") });
   chart.marker = draw(plot, "circle", { r: 6, w: 2, fill: css("curve"), stroke: css("paper") });
 }
-/* Return a list's value at the present stroke, between two poses; NaN where there is none. */
-function between(list) {
-  return list ? valueAt(list, stands[runs]) : NaN;
-}
 function mark(each, list, up, dot, out) {
-  const value = between(list), { start, end } = strokes[runs], there = isNumber(value) && (stands[runs] - start) * (end - stands[runs]) >= -1e-12;
+  const value = list ? valueAt(list, stands[runs]) : NaN, { start, end } = strokes[runs], there = isNumber(value) && (stands[runs] - start) * (end - stands[runs]) >= -1e-12;
   set(dot, { visibility: there ? "visible" : "hidden" });
   if (there) set(dot, { cx: chart.x(stands[runs] / strokes[runs].factor), cy: up(value) });
   byId(out).textContent = each ? (there ? fixed(value, places(max(...finite(list).map(abs), 0), 4)) + unitText(each.unit) : "\u2013") : "";
@@ -497,7 +493,7 @@ on(byId("column"), "change", (event) => { column = Number(event.target.value); s
 on(byId("second"), "change", (event) => { second = Number(event.target.value); soon("curve"); remember(); });
 on(byId("run"), "change", (event) => { runsOn(Number(event.target.value)); clock = phaseNow(); soon("design"); remember(); });
 on(byId("forces"), "click", () => { showsForces = !showsForces; choosers(); soon("fit"); remember(); });
-on(byId("reset"), "click", () => { present = [...original]; stands = firstStand(); runs = data.run; begin(); chosen = [...data.shown]; column = data.column; second = -1; play(false); warn(""); listSizes(); choosers(); whole(); soon("fit"); remember(); });
+on(byId("reset"), "click", () => { present = [...original]; stands = firstStand(); runs = data.run; acting = -1; begin(); chosen = [...data.shown]; column = data.column; second = -1; play(false); warn(""); listSizes(); choosers(); whole(); soon("fit"); remember(); });
 on(byId("copy"), "click", () => copied(`${location.href.split("#")[0]}#${told()}`, byId("copy").firstChild));
 on(byId("language"), "click", () => { language = language === "ru" ? "en" : "ru"; speak(); remember(); });
 on(byId("look"), "click", () => { look(root.dataset.look === "dark" ? "light" : "dark"); chosenLook = true; remember(); });

@@ -10,13 +10,14 @@ from typing import Any, NamedTuple, TypeAlias, TypeVar, cast
 import numpy as np
 
 from ..errors import LinkageError, UntracedError, unwarned
-from ..loads import PLAIN, Acting, Case
+from ..loads import PLAIN, PLAIN_CASE, Acting, Case
 from ..mechanism import Mechanism
 from ..motion import Judge, LiveText, Motion, Request
 from ..motion.requests import bound
 from ..program import FloatArray
 from ..reports import Run, at_its_rates, case_shown, request_in_case
 from ..statics import AnyMotion, JointForce, LawRequest, TracedMotion, applied_loads, ground_loads, pin_force, pin_forces, rates_in
+from ..statics.applied import case_of
 from .scene import centre_beside
 from .shown_values import bodies_shown, short_name
 
@@ -48,11 +49,13 @@ class PageSituation:
 
 
 def page_situations(machine: Mechanism, judge: Judge, run: Run) -> tuple[list[PageSituation], list[int]]:
-    """Return the situations of a page, that of its first run first, and which of them each `Over` of the judge has."""
+    """Return the situations of a page, that of its first run first, then all load cases judged, and which of them each `Over` has."""
     of_places = [PageSituation(case_shown(machine, each), each.motion if each.instants is not None else None) for each in judge.places]
     own = [each for each, place in zip(of_places, judge.places, strict=True) if place.over.title == run.title and each.motion is not None]
     first = own[0] if run.instants is not None and own else PageSituation(run.case)
-    found = list(dict.fromkeys((first, *of_places)))
+    named = [(name, case_of(machine.plan, name)) for name in judge.cases if any(each.instants is None for each in judge.places)]
+    others = [None if name == PLAIN_CASE else name for name, case in named if not case.shut and case.only is None]  # of the same bodies
+    found = list(dict.fromkeys((first, *of_places, *map(PageSituation, others))))
     return found, [found.index(each) for each in of_places]
 
 

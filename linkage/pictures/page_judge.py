@@ -201,7 +201,8 @@ class LiveQuestions:
 
         told: PageData = ({"words": [typeset(words.text), typeset(text)]} if words.text else {}) | ({"fails": fails} if fails else {})
         if words.measure is not None:
-            told |= {"says": words.measure.tree(placed), "saysUnit": live_unit(self.machine.plan, words.measure)}
+            said = live_unit(self.machine.plan, words.measure)
+            told |= {"says": words.measure.tree(placed), "saysUnit": said if said["unit"] else said | {"figures": 3}}
         if words.share is not None:
             told["share"] = words.share.tree(placed)
         return told | {

@@ -31,7 +31,7 @@ function situationText(each) {
   return words.join(", ");
 }
 /* Four figures; of a number without a unit no more than three decimals, as in Python. */
-const size = (value, unit) => (isNumber(value) ? shown(unit.unit ? value : round(1e3 * value) / 1e3, unit, 4) : say("without bounds"));
+const size = (value, unit) => (isNumber(value) ? shown(unit.unit ? value : round(1e3 * value) / 1e3, unit, unit.figures ?? 4) : say("without bounds"));
 /* The number that tells a rule: the condition's own, of a share without a unit the one that its sentence says. */
 const ruleNumber = ({ unit, saysUnit }, { value, says }) => (!unit.unit && isNumber(says?.value) ? size(says.value, saysUnit) : size(value, unit));
 function answerText({ rule, unit, words, fails, saysUnit }, each) {
@@ -233,7 +233,35 @@ function item({ ok, rule: full, member, text, share, q }) {
   if (q !== undefined) row.id = `rule-${q}`;
   if (rule) row.append(make("b", { textContent: `${rule}: ` }));
   row.append(...withPlaces(text), bar({ share }));
+  if (ok === false && q !== undefined) row.append(mending(q));
   return row;
+}
+/* A button that becomes those dimensions of which each alone makes a rule hold, as buttons that set them. */
+function mending(q) {
+  const place = make("p"), button = (textContent, act) => { const made = make("button", { type: "button", textContent }); on(made, "click", act); return made; };
+  place.append(button(say("Which one dimension keeps it?"), () => {
+    const found = remedies(q).map(([i, value]) => button(`${dims[i].name} = ${shown(value, dims[i], 7)}`, () => { chosen = [...new Set([...chosen, i])]; listSizes(); put(i, value, true); }));
+    place.replaceChildren(found.length ? say("It is kept with") : say("None alone, within the range of its slider."), ...found.flatMap((each) => [" ", each]));
+  }));
+  return place;
+}
+/* The dimensions with the least changes [its place, value] that make a rule hold and let no other fail: sought with few poses, and judged as all is. */
+function remedies(q) {
+  const failing = (found) => found.filter(({ ok }) => ok === false).length, before = failing(asked(STILL).found), best = new Map();
+  const holds = (i, value, n = 3) => {
+    const { found } = asking.ask(vector(present.map((each, k) => (k === i ? value : each))), n, n === STILL);
+    return found[q].ok === true && failing(found) < before;
+  };
+  for (const [i, each] of dims.entries()) for (const end of [each.low, each.high]) {
+    const at = (t) => present[i] + (end - present[i]) * t;
+    let low = 0, high = [1, 0.25, 0.06].find((t) => holds(i, at(t)));
+    for (let k = 0; high && k < 6; k++) { const t = 0.5 * (low + high); if (holds(i, at(t))) high = t; else low = t; }
+    if (high < (best.get(i)?.t ?? 2)) best.set(i, { t: high, i, at: (t) => (end < present[i] ? floor : ceil)(at(t) / nice(each)) * nice(each) });
+  }
+  const least = [...best.values()].sort((a, b) => a.t - b.t).slice(0, 8);
+  const found = least.map(({ t, i, at }) => [i, [1, 1.1, 1.25, 1.5, 2].map((k) => at(min(k * t, 1))).find((value) => holds(i, value, STILL))]);
+  asking.laid(vector(present));
+  return found.filter(([, value]) => value !== undefined).slice(0, 6);
 }
 /* A bar of how much of its limit is used, and the share in figures. */
 function bar({ share }) {
@@ -259,7 +287,8 @@ function withPlaces(text) {
     if (!at) continue;
     const button = make("a", { href: "#mechanism", role: "button", className: "place", textContent: said, title: say("Take the machine there") });
     const path = strokes.findIndex((each) => each.path && text.slice(from, index).includes(say("over {over}", { over: each.name })));
-    on(button, "click", (event) => { event.preventDefault(); goTo(at, path); });
+    const acts = data.cases.findIndex((name) => text.slice(from, index).includes(say("in the case {case}", { case: name || "plain" })));
+    on(button, "click", (event) => { event.preventDefault(); goTo(at, path, acts); });
     found.push(text.slice(from, index), button);
     from = index + said.length;
   }
@@ -275,10 +304,11 @@ function strokesIn(text) {
   return found.every(Boolean) ? found : null;
 }
 /* Go to a place: along the path over which it was found, in its load case, else with the strokes alone. */
-function goTo(places, path) {
+function goTo(places, path, acts) {
   play(false);
   if (path >= 0) runsOn(path);
   else if (strokes[runs].path || places.every(([k]) => k !== runs)) runsOn(places[0][0]);
+  acting = acts >= 0 && data.cases[acts] !== data.cases[caseNow()] ? acts : -1;
   const at = [...stands];
   if (path >= 0) at[path] = placeOn(path, places); else for (const [k, value] of places) at[k] = value;
   moved(present, at, say("The place"));

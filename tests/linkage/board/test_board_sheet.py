@@ -16,7 +16,8 @@ from linkage.cli import main
 from linkage.files import load
 from linkage.sketch import MachineSketch
 from tests.for_all import first_daily
-from tests.linkage.pictures.test_page import PHONE, Shown, chromium, data_of, unpacked  # noqa: F401
+from tests.linkage.pictures.test_page import PHONE, Shown, chromium, data_of  # noqa: F401
+from tests.members import unpacked
 
 SWEPT = """() => {
     const drawing = hydrolinkage.current();

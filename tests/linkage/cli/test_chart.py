@@ -9,7 +9,7 @@ from linkage.cli.entry import main
 from linkage.pictures.chart_text import ChartText
 from linkage.units import g0, unit_system
 from tests.laws.test_working_field import Arm, Digger
-from tests.linkage.pictures.test_page import unpacked
+from tests.members import unpacked
 
 MACHINE = "tests/laws/test_working_field.py:Arm"
 AXES = ["--point", "K", "--x", "0.6:2.2m:0.4m", "--y", "-0.4 to 0.8 m by 0.4 m"]

@@ -10,10 +10,8 @@ import subprocess
 import sys
 import textwrap
 from argparse import Namespace
-from base64 import b85decode
 from functools import partial
 from importlib.metadata import EntryPoint
-from zlib import decompress
 
 import numpy as np
 import pytest
@@ -26,6 +24,7 @@ from linkage.cli.command import lined_up
 from linkage.cli.machines import find
 from linkage.cli.settings import judged_over
 from tests.for_all import first_daily
+from tests.members import unpacked
 
 OWN = '''
     """A machine of a user."""
@@ -358,8 +357,7 @@ def test_an_animation_holds_a_stroke_or_runs_between_two_values(said, own):
     code, out, _ = said("animate", "pantograph", "-o", "drawn.html", "--count", "3", "--at", "Y=50mm", "--at", "X=0.15,250mm")
     assert (code, out) == (0, "drawn.html\n")
     text = (own / "drawn.html").read_text(encoding="utf-8")
-    (data,) = re.findall(r'<script id="data" type="text/plain">(.*?)</script>', text, re.DOTALL)
-    strokes = {each["name"]: each for each in json.loads(decompress(b85decode(data.replace(",", "<"))))["strokes"]}
+    strokes = {each["name"]: each for each in json.loads(unpacked(text, "data"))["strokes"]}
     assert strokes["Y"]["at"] == 0.05 and (strokes["X"]["start"], strokes["X"]["end"]) == (0.15, 0.25)
 
 

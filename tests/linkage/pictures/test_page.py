@@ -2,11 +2,9 @@
 
 import json
 import re
-from base64 import b85decode
 from functools import cache
 from itertools import combinations, product
 from pathlib import Path
-from zlib import decompress
 
 import numpy as np
 import pytest
@@ -77,6 +75,7 @@ from tests.for_all import first_daily, for_all
 from tests.laws.test_working_field import Digger as LiftingDigger
 from tests.laws.test_working_field import Robot
 from tests.linkage.statics.test_vehicle import Digger, Truck
+from tests.members import unpacked
 
 BOARD = [each for each in BOARD_PARTS if each.startswith("board/") and each.endswith(".js")]
 DATA = Path(__file__).parents[1] / "data"
@@ -246,11 +245,6 @@ def delivered(tmp_path_factory):
 def chart(tmp_path_factory):
     """Return the page of a load chart."""
     return page(digger_field(), tmp_path_factory.mktemp("chart") / "chart.html")
-
-
-def unpacked(text, name):
-    (found,) = re.findall(rf'<script id="{name}" type="text/plain">(.*?)</script>', text, re.DOTALL)
-    return decompress(b85decode(found.replace(",", "<"))).decode()
 
 
 def data_of(text):

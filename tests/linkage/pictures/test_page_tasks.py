@@ -1,0 +1,180 @@
+"""What a new user does with a page, by clicks and keys alone: five tasks on machines with cylinders and axles, against Python."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from hydraulics import Cylinder, LiftCircuit
+from linkage import LEFT, RIGHT, Dyad, Featured, Ground, Link, Mechanism, OnLink, Over, Stroke, deg, page
+from linkage.cli import main
+from linkage.loads import LinkMass, LoadCase, Support, Weight
+from linkage.units import bar, mm
+from mechanisms.at_work.excavator import Excavator
+from mechanisms.at_work.levelled import LevelledTelehandler
+from mechanisms.header_balancer import HeaderBalancer
+from tests.linkage.pictures.test_page import PHONE, Shown, chromium  # noqa: F401
+
+DESKTOP = (1440, 900)
+
+
+class Stacker(Mechanism):
+    """A boom on a frame with two axles; cylinder AB lifts it, CD turns the fork about T."""
+
+    S = Stroke(0.0, 0.40)
+    s = Stroke(0.0, 0.30)
+    O, A = Ground(-0.4, 1.3), Ground(0.0, 0.55)
+    B = Dyad(A, O, AB=0.82 + S, OB=0.95, side=RIGHT)
+    C = OnLink(O, B, OC=1.1, BOC=8 * deg)
+    T = OnLink(O, B, OT=2.3, BOT=-4 * deg)
+    D = Dyad(C, T, CD=0.98 + s, TD=0.30, side=LEFT)
+    X = OnLink(T, D, TX=0.9, DTX=-100 * deg)
+    boom, fork = Link(O, B, C, T), Link(T, D, X)
+    front, rear, G = Ground(0.3, 0.0), Ground(-1.5, 0.0), Ground(-0.9, 0.7)
+    frame = Weight(G, mass=2600)
+    steel = LinkMass(boom, mass=180, at=(1.0, 0.0))
+    load = Weight(X, mass=500)
+    lift = Cylinder(A, B, bore=80 * mm, rod=45 * mm, closed=0.82, stroke=0.40)
+    tilt = Cylinder(C, D, bore=63 * mm, rod=36 * mm, works="both", closed=0.98, stroke=0.30)
+    lift_line = LiftCircuit(lift, pressure=180 * bar, relief=200 * bar)
+    tilt_line = LiftCircuit(tilt, pressure=180 * bar, relief=200 * bar)
+    front_axle, rear_axle = Support(front, (0, 1), friction=0.6), Support(rear, (0, 1), friction=0.5)
+    downhill = LoadCase(slope=-6 * deg)
+    work = Over(S=(0.0, 0.40), s=(0.05, 0.25))
+    loading = Over.path(S=[0.0, 0.2, 0.4], s=[0.05, 0.12, 0.2], cases=["downhill"])
+    about = Featured("X_y", ["X", "B"])
+
+
+def typed(shown, name, value):
+    """Look for a dimension and give it a value [of its unit], as a user types them."""
+    if not shown.tab.locator(f"[data-size='{name}']").count():
+        shown.find(name)
+    box = shown.tab.locator(f".size:has([data-size='{name}']) input[type='text']")
+    box.fill(str(value))
+    box.press("Enter")
+    rested(shown)
+
+
+def rested(shown):
+    shown.settle()
+    shown.rest(600)
+
+
+def fails_of(shown):
+    return int(shown("document.getElementById('badge').dataset.fails"))
+
+
+def standing(shown):
+    return {name: pytest.approx(value, abs=2e-4) for name, value in shown.state["at"].items()}
+
+
+def goes_to_the_worst(shown, machine):
+    """Unfold the first group of the list, and go to the first place in it: it is where Python says the rule is worst."""
+    shown.tab.locator("#badge").click()
+    group = shown.tab.locator("#groups > details").first
+    if not group.evaluate("(each) => each.open"):
+        group.locator("summary").first.click()
+    text = group.locator("li:has(.place)").first.inner_text()
+    group.locator(".place").first.click()
+    rested(shown)
+    told = [each for each in machine.verdicts() if each.answer is not None and each.answer.strokes]
+    at = standing(shown)
+    assert [each for each in told if all(at[name] == value for name, value in each.answer.strokes.items())], text
+
+
+def mends(shown, rule, by):
+    """Ask a rule that fails which one dimension keeps it, and take one that is offered: one rule fails less."""
+    before, row = fails_of(shown), shown.tab.locator("#groups li.bad", has_text=rule).first
+    row.locator("button", has_text="Which one dimension keeps it?").click()
+    offered = row.locator("p button")
+    taken = offered.all_inner_texts()
+    assert len(set(each.partition(" = ")[0] for each in taken)) == len(taken) > 0
+    assert by in [each.partition(" = ")[0] for each in taken], taken
+    (own,) = (k for k, each in enumerate(taken) if each.startswith(f"{by} = "))
+    offered.nth(own).click()
+    rested(shown)
+    assert fails_of(shown) < before, taken
+    return taken[own]
+
+
+def taken_home(shown, kind, folder, capsys):
+    """Take the change home as Python and as TOML, and run both: their dimensions are the page's. Return the design."""
+    texts = {}
+    for form in ("python", "toml"):
+        shown.tab.locator(f"#as-{form}").click()
+        texts[form] = shown.tab.locator("#text").input_value()
+    exec(texts["python"], names := {})
+    found = names["machine"]
+    (folder / "design.toml").write_text(texts["toml"])
+    own = [] if kind.__module__.startswith("mechanisms") else ["--machine", f"{Path(__file__)}:{kind.__name__}"]
+    code = main(["show", str(folder / "design.toml"), *own])
+    said, error = capsys.readouterr()
+    assert code in (0, 1), error
+    assert len(re.findall(r"(?m)^ *FAIL", said)) == sum(each.ok is False for each in found.verdicts())
+    for name, value in shown.state["design"].items():
+        assert found[name] == pytest.approx(value, rel=1e-6, abs=1e-9), name
+    return found
+
+
+def compares(shown, name, value):
+    """Keep two designs: the table shows what differs, and on which rules."""
+    shown.tab.locator("#keep").click()
+    typed(shown, name, value)
+    shown.tab.locator("#keep").click()
+    rested(shown)
+    heads = shown.tab.locator("#kept tr th[scope='row']").all_inner_texts()
+    assert name in [each.partition(",")[0] for each in heads] and len(heads) > 2
+    assert shown("document.documentElement.scrollWidth <= innerWidth")
+
+
+def check_tasks(shown, kind, change, rule, by, other, folder, capsys):
+    goes_to_the_worst(shown, kind())
+    typed(shown, *change)
+    assert fails_of(shown)
+    mended = mends(shown, rule, by)
+    found = taken_home(shown, kind, folder, capsys)
+    fails = [each for each in found.verdicts() if each.ok is False and each.answer is not None and each.rule.startswith(rule)]
+    assert len(fails) == shown.tab.locator("#groups li.bad", has_text=f"{rule}: ").count(), (mended, fails)
+    compares(shown, *other)
+    assert shown.said == []
+
+
+@pytest.mark.parametrize("size", [DESKTOP, PHONE])
+def test_five_tasks_are_done_on_ones_own_machine(chromium, size, tmp_path, capsys):  # noqa: F811
+    with Shown(chromium, page(Stacker(), tmp_path / "own.html"), size) as shown:
+        check_tasks(shown, Stacker, ("load.mass", 1100), "lifting", "tilt.bore", ("load.mass", 700), tmp_path, capsys)
+
+
+def test_what_tips_is_told_with_its_place_and_case_and_its_arrow_is_red(chromium, tmp_path):  # noqa: F811
+    """A box is looked at in two load cases: its place is shown in the one in which the verdict stands."""
+    with Shown(chromium, page(Stacker(), tmp_path / "tips.html"), DESKTOP) as shown:
+        shown.tab.locator("#forces").click()
+        typed(shown, "load.mass", 1500)
+        row = shown.tab.locator("#groups li.bad", has_text="tipping")
+        said = row.inner_text()
+        row.locator(".place").click()
+        rested(shown)
+        (told,) = [each for each in Stacker(**{"load.mass": 1500.0}).verdicts() if each.ok is False and each.member == "rear_axle"]
+        assert standing(shown) == {"loading": pytest.approx(1.0, abs=3.0)} | {
+            k: pytest.approx(v, abs=0.02) for k, v in told.answer.strokes.items()
+        }
+        force = f"{-told.answer.value / 1e3:.4g}"
+        assert force in said and "in the case downhill" in said
+        assert re.search(rf"axle load rear_axle \u2212{force}\u2009kN \(downhill\)", shown.text("#here"))
+        red = shown("[...document.querySelectorAll('#mechanism path')].filter((each) => each.getAttribute('fill') === 'var(--hot)').length")
+        assert red == 1 and "downhill" in shown("document.getElementById('curve').textContent")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("kind", "change", "rule", "by", "other"),
+    [
+        (Excavator, ("tool.line.pressure", 150), "lifting", "arm.J.x", ("boom.BD", 1080)),
+        (LevelledTelehandler, ("load.mass", 4500), "axle load", "front_axle.x", ("load.mass", 2800)),
+        (HeaderBalancer, ("m1", 1100), "F_R free", "lift.bore", ("m2", 900)),
+    ],
+)
+@pytest.mark.parametrize("size", [DESKTOP, PHONE])
+def test_five_tasks_are_done_on_shipped_machines(chromium, kind, change, rule, by, other, size, tmp_path, capsys):  # noqa: F811
+    with Shown(chromium, page(kind(), tmp_path / "shipped.html"), size) as shown:
+        check_tasks(shown, kind, change, rule, by, other, tmp_path, capsys)

@@ -308,7 +308,7 @@ def dead_point_verdicts(limits: StrokeLimits, span: tuple[float, float], pushed:
         yield Verdict("dead points", False, " ".join([passed] * bool(inside) + [begun] * bool(at_end and pushed)))
     elif at_end:
         yield Verdict("dead points", None, said("{places}, where the stroke ends: no ratio and no force has a value there.", places=at_end))
-    crossing = [place_of(limits, value, step) for value, step in limits.change_points if low <= value <= high]
+    crossing = [place_of(limits, value, step) for value, step in limits.change_points if low - near <= value <= high + near]
     if crossing:
         places = "; ".join(crossing)
         text = said("branches cross: {places}; there the motion may go on either way. Change a length, or guide it.", places=places)

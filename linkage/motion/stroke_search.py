@@ -101,7 +101,9 @@ class StrokeLine:
         start, end = min(stroke.start, stroke.end), max(stroke.start, stroke.end)
         beyond = max(0.0, np.pi - 0.5 * (end - start)) if unit == "rad" else end - start
         low, high = start - beyond, end + beyond
-        between = self.interruptions(low, high)
+        around = 0.0 if beyond else 0.01 * (end - start)  # a crank may begin its turn at a change point
+        near = 1e-6 * (high - low)
+        between = [each for each in self.interruptions(low - around, high + around) if each.high >= low - near and each.low <= high + near]
         gaps = [each.deepest for each in between if each.is_gap]  # they may lie between samples
         at = np.linspace(low, high, LOOKED_AT)
         reached = np.concatenate([self.motion_at(at).reached, np.zeros(len(gaps), bool)])

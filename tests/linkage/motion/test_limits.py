@@ -1,6 +1,7 @@
 """How far a mechanism goes: reachable intervals, dead points, change points, assembly modes, closed turns."""
 
 import pickle
+import re
 import warnings
 from contextlib import nullcontext
 
@@ -197,6 +198,18 @@ def test_limits_name_the_change_point():
     ((value, step),) = limits.change_points
     assert step == "B"
     assert_allclose(value, np.pi, atol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("ends", "told"),
+    [((0.0, 2 * np.pi), (0.0, np.pi, 2 * np.pi)), ((0.0, 1.0), (0.0,)), ((-1.0, 0.0), (0.0,)), ((1.0, np.pi), (np.pi,)), ((0.1, 3.0), ())],
+)
+def test_a_stroke_that_begins_or_ends_at_a_change_point_says_so(ends, told):
+    """A parallelogram is flat at every half turn."""
+    turned = type("Turned", (FourBar,), {"phi": Stroke(*ends)})(AB=4.0, CB=1.0)
+    found = [str(each) for each in turned.verdicts() if each.rule == "change points"]
+    assert len(found) == bool(told)
+    assert not told or re.findall(r"phi = (-?[\d.]+) deg", found[0]) == [f"{np.degrees(each):.2f}" for each in told]
 
 
 def test_a_dead_point_at_the_end_of_a_sweep_is_no_crossing():

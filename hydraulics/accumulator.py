@@ -472,7 +472,7 @@ class AccumulatorBlock:
 
     def checks(
         self, p_min: float, p_max: float, allowed: float, unit: str = "", recharged: Callable[[int, str], float] | None = None
-    ) -> list[Verdict]:  # fmt: skip
+    ) -> list[Verdict]:
         """Return the accumulator rules for a line working from `p_min` to `p_max`, `allowed` the highest permitted, all gauge.
 
         An array charge is judged by its worst element, absent vessels not at all; `unit` is for the sentences, without it

@@ -221,7 +221,7 @@ class Buckling:
         says = said(
             "{thrust} on a {rod} rod {length} long ({mounting}){where}, buckling at {limit}: safety {safety}, at least {least:g}",
             **given,
-        )  # fmt: skip
+        )
         if stage:
             says = said(
                 "{thrust} on stage {stage} of {rod}, the slenderest that is out, {length} long ({mounting}){where}, "

@@ -354,7 +354,7 @@ def width_words(plan: Plan, designs: Mapping[str, Numbers]) -> str:
     return said(
         "At the pose of its sketch it is {width} wide: a plain number is in metres. Write millimetres with their unit, such as 300 * mm.",
         width=show(width, "m", 4),
-    )  # fmt: skip
+    )
 
 
 @np.errstate(all="ignore")

@@ -19,7 +19,7 @@ from .acting import (
     StrokeRates,
     situation_of,
     takes_situation,
-)  # fmt: skip
+)
 from .element import (
     AS_IT_RUNS,
     AT_REST,
@@ -43,7 +43,7 @@ from .element import (
     check_together,
     couple,
     require_poses,
-)  # fmt: skip
+)
 from .point import Force, GuideFriction, LinkMass, Moment, PinFriction, Support, Weight
 from .rope_path import Pulley, RopePath
 from .two_point import Actuator, Between, Damper, DrawnAs, Halves, Spring, TwoPoint

@@ -130,6 +130,6 @@ def pace_remarks(judge: Judge) -> list[Remark]:
             text = said(
                 "{strokes} starts or stops at once, which is in no force: give its ramp an acceleration, or take a smooth course.",
                 strokes=", ".join(sudden),
-            )  # fmt: skip
+            )
             found.append(name + text)
     return [*map(Remark, found)]

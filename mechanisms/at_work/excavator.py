@@ -132,4 +132,4 @@ class DiggingExcavator(Excavator):
         swing=ramp(0.010, 0.412, speed=0.20, acceleration=0.6).hold(1.2).then(ramp(0.412, 0.150, speed=0.20, acceleration=0.6)),
         curl=ramp(0.335, 0.155, speed=0.10, acceleration=0.5).hold(0.4).then(ramp(0.155, 0.400, speed=0.20, acceleration=0.8)),
         cases=["carrying"],
-    )  # fmt: skip
+    )

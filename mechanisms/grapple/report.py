@@ -227,7 +227,7 @@ def way_verdicts(motion: Motion) -> list[Verdict]:
     }  # fmt: skip
     text = said(
         "the cylinder's line passes the hinge at {room} at the least, at theta = {theta}; bush and rod need {needed}.", **by["passing"]
-    )  # fmt: skip
+    )
     passes = Verdict("passing", float(passing.value) >= needed["passing"] - MET, text, answer=passing)
     is_free = float(beside.value) >= needed["room"]
     text = said("the cylinder's axis keeps {room} off the stems, at theta = {theta} the least; half its bore is {needed}", **by["room"])
@@ -269,5 +269,5 @@ def hinge_verdict(motion: Motion) -> Verdict:
     (found,) = answers_over(gripping(motion), [most(pin_force("O"))])
     text = said(
         "the pin O carries up to {force}, at the stem of {stem}.", force=show(float(found.value), "kN", ".1f"), stem=stem_at(motion, found)
-    )  # fmt: skip
+    )
     return Verdict("hinge", True, text, answer=found)

@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkage.checks import require_type
-from linkage.errors import DefinitionError, cited, ensure
+from linkage.errors import DefinitionError, ensure
 from linkage.frozen import immutable, keep_own
 from linkage.language import said
 from linkage.loads import Poses
@@ -219,8 +219,7 @@ class AccumulatorBlock:
         ensure(self.accumulators, "The accumulator block is empty; give it at least one Accumulator(volume, charge).")
         for one in self.accumulators:
             require_type("", one, Accumulator, "is no Accumulator; write Accumulator(volume, charge)")
-        if not isinstance(self.gas, Gas):
-            raise DefinitionError(f"gas = {cited(self.gas)} is no gas law; take isothermal, adiabatic, polytropic(1.2) or real_nitrogen().")
+        require_type("gas", self.gas, Gas, "is no gas law; take isothermal, adiabatic, polytropic(1.2) or real_nitrogen()")
         unit_or_none(self.unit, "The accumulator block", units_of("pressure"))
         if not follows(self.atmosphere) and np.any(one_atmosphere(self.atmosphere) < 0.0):
             raise DefinitionError(f"Atmosphere = {self.atmosphere:.6g} Pa is below zero; give 101325, or 0 for the paper's way.")

@@ -21,7 +21,7 @@ from typing import Any, ClassVar, Literal, Self, TypeAlias, TypeVar, Unpack, cas
 import numpy as np
 from numpy.typing import ArrayLike
 
-from linkage.checks import is_listed
+from linkage.checks import is_listed, require
 from linkage.errors import DefinitionError, cited, ensure, known_name, unknown, unwarned
 from linkage.frozen import immutable, refuses_changes
 from linkage.language import noted, said, translated
@@ -1760,8 +1760,7 @@ def judge_of(motion: Motion, what: str, acting: Acting | None = None, *, unreach
 
 def is_named(reference: Reference) -> bool:
     """Return whether a reference to a cylinder goes by its name in a class; DefinitionError for anything but a reference."""
-    if not is_member_or_name(reference):
-        raise DefinitionError(f"{cited(reference)} stands where a cylinder or its name is expected.")
+    require(is_member_or_name(reference), "", reference, "stands where a cylinder or its name is expected")
     return isinstance(reference, str) or bool(reference.name)
 
 

@@ -18,7 +18,7 @@ from typing import Any, ClassVar, Self, TypeAlias, cast
 import numpy as np
 from numpy.typing import ArrayLike
 
-from linkage.checks import can_be_called, require_type
+from linkage.checks import can_be_called, require, require_type
 from linkage.errors import DefinitionError, cited, ensure
 from linkage.frozen import immutable
 from linkage.language import said
@@ -332,9 +332,8 @@ class FloatCircuit(GasLine):
                 in_pascals(getattr(self, name), name.replace("_", " ").capitalize())
         if not follows(self.exponent) and np.any(all_finite(cast(ArrayLike, self.exponent), "Exponent", "number") < 1.0):
             raise DefinitionError(f"FloatCircuit: exponent={cited(self.exponent)} is below 1; 1 is a slow movement, 1.4 a fast one.")
-        if not isinstance(self.block, AccumulatorBlock) and not can_be_called(self.block):
-            said = f"block={cited(self.block)} is no AccumulatorBlock"
-            raise DefinitionError(f"FloatCircuit: {said}; write AccumulatorBlock([Accumulator(...)]).")
+        expected = "is no AccumulatorBlock; write AccumulatorBlock([Accumulator(...)])"
+        require(isinstance(self.block, AccumulatorBlock) or can_be_called(self.block), "FloatCircuit: block", self.block, expected)
 
     @property
     def scales(self) -> bool:

@@ -34,6 +34,7 @@ from typing import Literal, NamedTuple, TypeAlias, get_args
 import numpy as np
 from numpy.typing import ArrayLike
 
+from linkage.checks import require
 from linkage.errors import DefinitionError, cited, ensure, known_name
 from linkage.frozen import keep_own, refuses_changes
 from linkage.language import said, with_and
@@ -511,8 +512,7 @@ def catalogue(
         No row is left, or a number is not above zero.
     """
     parts, rows = all_finite(dead, "Dead length", "length"), []
-    if parts.shape not in ((), (2,)):
-        raise DefinitionError(f"Dead length = {cited(dead)}: give a length [m], or (length, factor of the bore) such as (0.12, 1.5).")
+    require(parts.shape in ((), (2,)), "Dead length", dead, "give a length [m], or (length, factor of the bore) such as (0.12, 1.5)")
     constant, factor = (float(parts), 0.0) if parts.ndim == 0 else map(float, parts)
     in_metres(not_negative(constant, "Dead length"), "Dead length")
     in_metres(not_negative(factor, "Factor of the bore"), "Factor of the bore", 100.0)

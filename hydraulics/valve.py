@@ -15,7 +15,8 @@ from typing import ClassVar, Unpack, cast
 
 import numpy as np
 
-from linkage.errors import DefinitionError, cited, known_name
+from linkage.checks import require_type
+from linkage.errors import DefinitionError, known_name
 from linkage.frozen import immutable
 from linkage.language import said
 from linkage.loads import Acting, ActingKeywords, Case, Loads, Parameter, Poses, situation_of, takes_situation
@@ -74,8 +75,7 @@ class HoldingValve(OnLines, HasVerdicts):
                 if name == "setting":
                     in_pascals(value, what)
         for each in (self.line, self.pilot):
-            if not isinstance(each, (str, Circuit)):
-                raise DefinitionError(f"HoldingValve: {cited(each)} is no line; name one, HoldingValve(line, pilot=other, ...).")
+            require_type("HoldingValve: line", each, (str, Circuit), "is no line; name one, HoldingValve(line, pilot=other, ...)")
         super().__post_init__()
 
     def __str__(self) -> str:

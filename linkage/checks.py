@@ -56,10 +56,14 @@ def two_of(given: object) -> tuple[Scalar, ...]:
     return parts if len(parts) == 2 else ()
 
 
+VERBS = ("is ", "has ", "stands ", "cannot ", "compares ", "does ")
+"""What begins with one of these goes on from the value, as in `scale=0 is no size.`"""
+
+
 def unfit(what: str, value: object, expected: str) -> DefinitionError:
     """Return the error for a value: `count=0: a number is expected.`, `scale=0 is no size.`; `gap(width` is closed behind the value."""
     given = f"{what}={cited(value)}{')' * (what.count('(') - what.count(')'))}" if what else cited(value)
-    return DefinitionError(f"{given}{' ' if expected.startswith('is ') else ': '}{expected}.")
+    return DefinitionError(f"{given}{' ' if expected.startswith(VERBS) else ': '}{expected}.")
 
 
 def require(holds: object, what: str, value: object, expected: str) -> None:

@@ -344,8 +344,7 @@ class Mechanism(Shown, metaclass=MechanismType):
         """
         if over is not None:
             ensure(not strokes, f"{self.plan.title}: sweep(over=...) says where all strokes are; leave out {keywords(strokes)}.")
-            if is_listed(over):
-                raise DefinitionError(f"{self.plan.title}: over={cited(over)}: a motion runs over one Over; give that one.")
+            require(not is_listed(over), f"{self.plan.title}: over", over, "a motion runs over one Over; give that one")
             return self.judge((over,)).places[0].swept(count, unreachable)
         return Motion(self.plan, self._values, sweep_values(count, strokes, self.plan), unreachable)
 

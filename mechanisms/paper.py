@@ -12,7 +12,7 @@ from linkage import Mechanism, Motion
 from linkage.checks import require_one_design
 from linkage.cli.command import CSV, Option, option, picture_option, pose_options
 from linkage.cli.settings import CHECK, OVER, machine_of, pair, si_value
-from linkage.errors import ensure, known_name
+from linkage.errors import DefinitionError, known_name
 from linkage.motion import Answer, Question, judge_along
 
 if TYPE_CHECKING:
@@ -32,7 +32,8 @@ def machine_like(options: Namespace, base: type[Machine], what: str) -> Machine:
     """Return the machine that the options mean, with their settings; DefinitionError unless it is one of a kind."""
     machine = machine_of(options)
     remedy = f"take a {base.__name__}, a subclass of it, or a file of a design, with `machine` and `[set]`"
-    ensure(isinstance(machine, base), f"{options.machine} is no {what}; {remedy}.")
+    if not isinstance(machine, base):
+        raise DefinitionError(f"{options.machine} is no {what}; {remedy}.")
     return machine
 
 

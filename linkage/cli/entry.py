@@ -15,7 +15,7 @@ from typing import Any, NoReturn, TextIO, cast
 
 from .. import plugins
 from ..disk import check_place, reason, spoken
-from ..errors import DefinitionError, FileError, LinkageError, SingularWarning, ensure, unknown
+from ..errors import DefinitionError, FileError, LinkageError, SingularWarning, unknown
 from ..language import ENGLISH, language, languages
 from ..units import SYSTEMS, unit_system
 from .command import Command
@@ -58,7 +58,8 @@ def load_command(entry: EntryPoint) -> Command:
     """Return a command; DefinitionError where it cannot be loaded or is none."""
     title = f"The command {entry.name} ({entry.value})"
     found = plugins.guarded(entry.load, title)
-    ensure(isinstance(found, Command), f"{title} is no linkage.cli.Command; write a function under @Command(name, help, *options).")
+    if not isinstance(found, Command):
+        raise DefinitionError(f"{title} is no linkage.cli.Command; write a function under @Command(name, help, *options).")
     return found
 
 

@@ -6,7 +6,7 @@ from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any
 
-from ..checks import require
+from ..checks import require, require_type
 from ..errors import DefinitionError, cited, ensure, known_name, unknown
 from ..quantities import Course, Curve, is_number, ramp
 from ..units import UNITS, Amount, units_of
@@ -58,8 +58,7 @@ def course_read(given: object, names: Names) -> Course | Curve:
 
 def step_read(table: object, names: Names) -> Course | Curve | float:
     """Return one step of a course; the seconds of a hold."""
-    if not isinstance(table, Mapping):
-        raise DefinitionError(f'{cited(table)} is no step of a course; write {{ ramp = ["100 mm", "300 mm"], speed = "150 mm/s" }}.')
+    table = require_type("", table, Mapping, 'is no step of a course; write { ramp = ["100 mm", "300 mm"], speed = "150 mm/s" }')
     kind = next((each for each in STEPS if each in table), None)
     if kind is None:
         raise unknown("Step", next(iter(table), ""), STEPS)

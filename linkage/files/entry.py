@@ -185,7 +185,7 @@ def list_of(part: type[Any]) -> Kind:
     arguments = arguments_of(part)
 
     def read(given: object, names: Names) -> list[Keywords]:
-        ensure(is_listed(given), "is not a list [...].")
+        given = require_type("", given, (list, tuple), "is not a list [...]")
         ensure(len(given) <= VALUES, f"{len(given)} are too many; at most {VALUES} items are read.")
 
         found, mistakes = list[Keywords](), Mistakes()

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 from unicodedata import normalize
 
-from ..checks import is_listed
+from ..checks import is_listed, require, require_type
 from ..errors import DefinitionError, cited, ensure, unknown
 from ..quantities import Member, Quantity, Ref, is_name
 
@@ -54,8 +54,7 @@ class Names:
 
     def checked(self, name: object, kind: str) -> str:
         """Return a name that stands for a member of a kind; DefinitionError, with those there are, for any other."""
-        if not isinstance(name, str):
-            raise DefinitionError(f"{cited(name)} stands where the name of a {kind} is expected.")
+        name = require_type("", name, str, f"stands where the name of a {kind} is expected")
         owner, _, own = name.rpartition(".")
         if name not in self.kinds and kind in ("quantity", "link", "point") and self.kinds.get(owner) == "load" and own:
             return name  # what a load holds by a name of its own, such as the length of a cylinder or its barrel
@@ -78,15 +77,18 @@ def by_whole_names(given: Mapping[str, object], words: Sequence[str] = (), depth
             yield name, value
 
 
+NO_NAME = "is not a name: letters, digits and _, no digit first, no word of Python"
+
+
 def member_name(name: object) -> str:
     """Return a name that a class could bind; DefinitionError for any other."""
     if isinstance(name, str) and not is_name(name) and is_name(normalize("NFKC", name)):
         raise DefinitionError(f"{name!r} is spelled with look-alike letters; write {normalize('NFKC', name)!r}.")
-    if not isinstance(name, str) or not is_name(name):
-        raise DefinitionError(f"{cited(name)} is not a name: letters, digits and _, no digit first, no word of Python.")
-    if name.startswith("__") or len(name) > NAME_LENGTH:
-        raise DefinitionError(f"{cited(name)} cannot be a name here: up to {NAME_LENGTH} characters, no double _ at the start.")
-    return name
+    found = require_type("", name, str, NO_NAME)
+    require(is_name(found), "", found, NO_NAME)
+    if found.startswith("__") or len(found) > NAME_LENGTH:
+        raise DefinitionError(f"{cited(found)} cannot be a name here: up to {NAME_LENGTH} characters, no double _ at the start.")
+    return found
 
 
 def listed(given: object) -> Sequence[Any]:

@@ -17,7 +17,7 @@ from types import ModuleType
 from typing import Any, TypeAlias
 
 from .. import loads, plugins, steps, surroundings
-from ..checks import is_class_of, require_type
+from ..checks import is_class_of, require, require_type
 from ..errors import DefinitionError, cited, ensure, unknown
 from ..motion import OPTIONS, Over, Planes, stroke_unit
 from ..plan import Part
@@ -75,8 +75,7 @@ def condition_of(text: object, names: Names) -> PoseCondition:
     if found is None:
         raise DefinitionError(f'{cited(text)} is no condition on poses; write a comparison in quotes, "x(T) <= 4", with <= or >=.')
     left, right = (expression(found.group(side).strip(), names) for side in (1, 3))
-    if left.is_constant and right.is_constant:
-        raise DefinitionError(f"{cited(text)} compares two numbers; one side is a quantity such as x(T).")
+    require(not (left.is_constant and right.is_constant), "", text, "compares two numbers; one side is a quantity such as x(T)")
     if left.constant is not None:
         return PoseCondition(right, {"<=": ">=", ">=": "<="}[found.group(2)], left.constant)
     return PoseCondition(left, found.group(2), right if right.constant is None else right.constant)
@@ -206,8 +205,8 @@ def link_of(*points: str, **labels: Any) -> steps.Link:
 
 def planes_read(given: object, names: Names) -> Planes:
     """Return the planes that an entry says: `{ planes = ["OBC AB", "CD EDF"], width = "60 mm" }`."""
-    if not isinstance(given, Mapping) or "planes" not in given or not given.keys() <= {"planes", "width"}:
-        raise DefinitionError(f'{cited(given)}: write {{ planes = ["OBC AB", "CD EDF"], width = "60 mm" }}.')
+    is_sound = isinstance(given, Mapping) and "planes" in given and given.keys() <= {"planes", "width"}
+    require(is_sound, "", given, 'write { planes = ["OBC AB", "CD EDF"], width = "60 mm" }')
     return Planes(*word_list_of(given["planes"], names), width=quantity_of(given.get("width", 0.0), names))
 
 

@@ -149,8 +149,7 @@ def file_path(head: StudyHead, given: object) -> Path:
 
 def by_dimensions(given: object, what: str, read: Callable[[str, Any], Any], words: Sequence[str] = ()) -> dict[Any, Any]:
     """Return the results of reading a table's entries, by the whole names of dimensions; SeveralError, each mistake under its name."""
-    if not isinstance(given, Mapping):
-        raise DefinitionError(f"{what} = {cited(given)}: a table by the names of dimensions is expected, such as [{what}] OB = ...")
+    given = require_type(what, given, Mapping, f"a table by the names of dimensions is expected, such as [{what}] OB = ..")
     return dict(each_of(by_whole_names(given, words), lambda name, value: (name, read(name, value))))
 
 

@@ -257,9 +257,7 @@ def timed_said(head: StudyHead, given: object) -> object:
 
 def switch_said(key: str, head: StudyHead, given: object) -> bool:
     """Return true or false under a key."""
-    if not isinstance(given, bool):
-        raise DefinitionError(f"{key} = {cited(given)}: true or false is expected.")
-    return given
+    return require_type(key, given, bool, "true or false is expected")
 
 
 OF = {"path": 'of = "P"', "function": 'of = "psi"', "motion": 'of = "A B"'}
@@ -399,8 +397,8 @@ def points_said(given: object, columns: Sequence[PointColumn], units: Mapping[st
     if isinstance(given, str):
         return points_of_file(base / given, columns, units)
     words = ", ".join(each.name for each in columns if not each.optional)
-    if not isinstance(given, list) or not given:
-        raise DefinitionError(f'{cited(given)}: rows of {words} are expected, [[30, 60], [15, 70]], or a CSV file, "points.csv".')
+    expected = f'rows of {words} are expected, [[30, 60], [15, 70]], or a CSV file, "points.csv"'
+    require(isinstance(given, list) and given, "", given, expected)
     sizes = {len(columns), len([each for each in columns if not each.optional])}
     for number, row in enumerate(given, 1):
         if not isinstance(row, list) or len(row) not in sizes or len(row) != len(given[0]):

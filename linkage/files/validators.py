@@ -197,9 +197,8 @@ def side_named(given: object, names: Names) -> Side | None:
 
 def word_of(given: Any, names: Names | None = None) -> str:
     """Return a word that stands for itself."""
-    if not isinstance(given, str) or not given.isprintable():
-        raise DefinitionError(f"{cited(given)} stands where a word in quotes is expected.")
-    return given
+    require(isinstance(given, str) and given.isprintable(), "", given, "stands where a word in quotes is expected")
+    return str(given)
 
 
 def switch_of(given: object, names: Names) -> bool:

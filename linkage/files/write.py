@@ -11,7 +11,7 @@ from pathlib import Path
 from textwrap import fill
 from typing import Any
 
-from ..checks import is_class_of
+from ..checks import is_class_of, require
 from ..disk import replacing_text
 from ..errors import DefinitionError, FileError, cited
 from ..mechanism import Mechanism, declared, require_mechanism
@@ -43,8 +43,8 @@ def to_dict(machine: Machine) -> Keywords:
     DefinitionError
         A file cannot hold it: several designs at once, members and functions of unknown kinds.
     """
-    if not isinstance(machine, Mechanism) and not is_class_of(machine, Mechanism):
-        raise DefinitionError(f"{cited(machine)} is no mechanism; give a class of Mechanism, or a design of one.")
+    is_machine = isinstance(machine, Mechanism) or is_class_of(machine, Mechanism)
+    require(is_machine, "", machine, "is no mechanism; give a class of Mechanism, or a design of one")
     members = declared(type(machine) if isinstance(machine, Mechanism) else machine)
     if isinstance(machine, Mechanism) and changed(machine):  # it has moved away from its sketch: sides are said, pins stand where they are
         members = {name: without_sketch(name, member, machine) for name, member in members.items()}

@@ -192,12 +192,11 @@ def check_words(title: object, scale: object, only: object, shut: object) -> Non
     """Raise DefinitionError for a title that is no text, and for anything but a choice of loads."""
     require(isinstance(title, str), "LoadCase(title", title, 'its title is expected first, LoadCase("transport", scale={"load": 2.0})')
     opening, remedy = f"LoadCase({title!r})", f"[{only!r}]" if isinstance(only, str) else 'their names, only=["load"]'
-    if not isinstance(scale, Mapping):
-        said = f"scale={cited(scale)} does not say what is scaled"
-        raise DefinitionError(f'{opening}: {said}; write a factor for each load by name, scale={{"load": 2.0}}.')
+    expected = 'does not say what is scaled; write a factor for each load by name, scale={"load": 2.0}'
+    factors = require_type(f"{opening}: scale", scale, Mapping, expected)
     loads = require_type(f"{opening}: only", () if only is None else only, (list, tuple), f"is not a list of loads; write {remedy}")
     lines = require_type(f"{opening}: shut", shut, (list, tuple), 'is not a list of lines; write their names, shut=["line"]')
-    for each in (*scale, *loads, *lines):
+    for each in (*factors, *loads, *lines):
         if not is_member_or_name(each):
             raise DefinitionError(f"{opening}: {cited(each)} is neither a load nor the name of one.")
 

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal, Protocol, Self, TypeAl
 import numpy as np
 import numpy.typing as npt
 
+from ..checks import require
 from ..errors import DefinitionError, cited, did_you_mean, ensure
 from ..frozen import keep_own
 from ..quantities import Jointed, Member, Number, Quantity, Reference, Variable, label, name_of, quantity, real, source_text
@@ -823,8 +824,8 @@ def value_text(value: object) -> str:
 
 def require_poses(given: object) -> None:
     """Raise DefinitionError for a value without poses: anything but a motion, or the traced motion of a law."""
-    if isinstance(given, type) or not callable(getattr(given, "ratio", None)):
-        raise DefinitionError(f"{cited(given)} is no motion; give machine.sweep(...) or machine.at(...).")
+    has_poses = callable(getattr(given, "ratio", None)) and not isinstance(given, type)
+    require(has_poses, "", given, "is no motion; give machine.sweep(...) or machine.at(...)")
 
 
 def couple(P: str, Q: str, arm: Array, moment: Array) -> list[Load]:

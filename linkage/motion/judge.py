@@ -384,9 +384,7 @@ def case_named(plan: Plan, case: object) -> str:
     for name, each in cases.items():
         if each is case or (isinstance(case, str) and case in (name, each.title)):
             return name
-    if isinstance(case, str) and case == PLAIN_CASE:
-        return PLAIN_CASE
-    raise DefinitionError(f"{plan.title}: the load case {cited(case)} is unknown; known are {', '.join((PLAIN_CASE, *cases))}.")
+    return known_name("Load case", case, (PLAIN_CASE, *cases), where=plan.title)
 
 
 # Rows as one function of a motion.
@@ -943,8 +941,7 @@ def zeros_over(motion: Motion) -> FloatArray:
 def questions_of(plan: Plan, given: object) -> list[Any]:
     """Return questions as a list; DefinitionError for anything else."""
     listed = [given] if isinstance(given, (Measure, Condition)) else given
-    if not is_listed(listed):
-        raise DefinitionError(f"{plan.title}: answers({cited(given)}): a list of questions is expected, [most(...) <= 8 * deg].")
+    require_type(f"{plan.title}: answers(questions", listed, (list, tuple), "a list of questions is expected, [most(...) <= 8 * deg]")
     for each in listed:
         if not isinstance(each, (Measure, Condition)):
             at_poses = is_quantity(each) or isinstance(each, Worst)
@@ -1019,7 +1016,7 @@ def valued(question: Any, values: Mapping[Leaf, FloatArray]) -> tuple[FloatArray
         running = {each for each in question.leaves if not isinstance(each, At)}
         value = np.asarray(question.from_leaves(values.__getitem__), float)
         (leaf,) = running if len(running) == 1 else (question,)
-        of_leaf = np.where(np.isnan(value), np.nan, values[leaf]) if leaf.sense else value
+        of_leaf = np.where(np.isnan(value), np.nan, values[leaf]) if isinstance(leaf, Leaf) and leaf.sense else value
         return value, of_leaf if leaf.sense < 0.0 else -of_leaf
     left, right = (np.asarray(each.from_leaves(values.__getitem__), float) for each in (question.left, question.right))
     size = MET * np.maximum(np.abs(np.where(np.isfinite(left), left, 0.0)), np.abs(np.where(np.isfinite(right), right, 0.0)))

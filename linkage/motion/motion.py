@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Self, TypeVar, cast
 import numpy as np
 
 from ..assembly import ambiguous_angle
+from ..checks import require, require_type
 from ..errors import DefinitionError, SingularError, SingularWarning, cited, one_word, unknown, unwarned, warn
 from ..frozen import FrozenDict, read_only
 from ..numeric import differences
@@ -607,8 +608,8 @@ class Motion(Shown):
             The strokes cannot give these velocities.
         """
         plan, title = self.plan, f"{self.plan.title}.rates_for"
-        if not isinstance(velocities, Mapping) or not velocities:
-            raise DefinitionError(f'{title}: {cited(velocities)}: rates by name are expected, such as {{"px": 0.2, "py": 0.0}}.')
+        expected = 'rates by name are expected, such as {"px": 0.2, "py": 0.0}'
+        require(isinstance(velocities, Mapping) and velocities, f"{title}: velocities", velocities, expected)
         extent = plan.made(("extent",), lambda fork: Kernel([fork.trace.graph.node(fork.trace.extent)]))
         size = np.asarray(np.sqrt(self._grid.full(extent(self._grid.flat, size=self._grid.size).values)[0]))  # the machine's [m]
         names, slopes, wanted, sizes = list[str](), list[FloatArray](), list[FloatArray](), list[FloatArray]()
@@ -1075,9 +1076,7 @@ class OnePose:
 
 def require_motion(given: object) -> Motion:
     """Return a motion, or a traced one; DefinitionError for anything else."""
-    if not isinstance(given, (Motion, OnePose)):
-        raise DefinitionError(f"{given!r:.60} is no motion; give machine.sweep(...) or machine.at(...).")
-    return cast(Motion, given)
+    return cast(Motion, require_type("", given, (Motion, OnePose), "is no motion; give machine.sweep(...) or machine.at(...)"))
 
 
 # What a part of a machine has in a motion of the whole: its design and its strokes.

@@ -510,9 +510,8 @@ def box_ends(name: str, value: object) -> Any:
     if isinstance(value, (list, tuple, np.ndarray)):
         if len(value) == 2 and all(map(is_end, value)):
             return tuple(amount_or_float(each) if is_number(each) else each for each in value)
-        if len(value) > 2 and all(map(is_number, value)):
-            expected = "(low, high) or one value is expected; places in an order are Over.path(...)"
-            raise DefinitionError(f"Over({name}={cited(value)}): {expected}.")
+        expected = "(low, high) or one value is expected; places in an order are Over.path(...)"
+        require(not (len(value) > 2 and all(map(is_number, value))), f"Over({name}", value, expected)
     elif is_end(value):
         return amount_or_float(value) if is_number(value) else value
     ensure(not isinstance(value, PoseCondition), f"Over({name}={value}): conditions on poses go into a list, only=[{value}].")

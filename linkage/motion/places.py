@@ -14,8 +14,8 @@ from typing import Any, NoReturn, TypeAlias
 
 import numpy as np
 
-from ..checks import is_listed, require, require_number, require_one_design, require_type
-from ..errors import DefinitionError, SingularWarning, cited, ensure, unwarned, warn
+from ..checks import require, require_number, require_one_design, require_type
+from ..errors import DefinitionError, SingularWarning, cited, ensure, known_name, unwarned, warn
 from ..frozen import FrozenDict, read_only, refuses_changes
 from ..language import said
 from ..numeric.box import widened
@@ -708,8 +708,8 @@ def quantity_cited(quantity: object) -> str:
 
 def targets_given(given: object, title: str, example: str) -> Sequence[Target]:
     """Return a list of targets, one at least; DefinitionError for anything else."""
-    if not is_listed(given) or not given or not all(isinstance(each, Target) for each in given):
-        raise DefinitionError(f"{title}: {cited(given)}: a list of targets is expected, {example}.")
+    expected = f"a list of targets is expected, {example}"
+    require(require_type(f"{title}: targets", given, (list, tuple), expected, Target), f"{title}: targets", given, expected)
     return given
 
 
@@ -743,9 +743,7 @@ class StrokeRows(np.ndarray[Any, np.dtype[np.float64]]):
 
     def __getitem__(self, key: Any) -> Any:
         if isinstance(key, str):
-            if key not in self.names:
-                raise DefinitionError(f"The stroke {cited(key)} is unknown. Known: {', '.join(self.names)}.")
-            place = self.names.index(key)
+            place = self.names.index(known_name("Stroke", key, self.names))
             return np.asarray(self)[:, place] if self.ndim > 1 else np.asarray(self)[place]
         found = np.asarray(self)[key]
         if self.ndim < 2 or not isinstance(key, (int, np.integer, slice)):

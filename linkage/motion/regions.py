@@ -19,7 +19,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..errors import DefinitionError, cited, ensure
+from ..errors import DefinitionError, cited, known_name
 from ..numeric import convex_pieces, crosses_itself
 from ..plan import Plan
 from ..program import FloatArray, Node
@@ -190,7 +190,7 @@ def inside_region(point: str, region: Region) -> NodeRequest:
         return (plan.trace.graph.node(region.depth(plan.trace.at(point), plan.trace.graph.pick)),)
 
     def names(plan: Plan) -> set[str]:
-        ensure(point in plan.points, f"{plan.title}: inside({point}, ...): {point} is no point; its points are {', '.join(plan.points)}.")
+        known_name("Point", point, plan.points, where=f"{plan.title}: inside({point}, ...)")
         return plan.reaches(point)
 
     return NodeRequest(
@@ -232,10 +232,7 @@ def region_shape(given: Any, where: str, outlines: Any, value: Any) -> Shape:
     if isinstance(given, (Polygon, Disc)):
         return given
     if isinstance(given, str):
-        if given not in outlines:
-            known = f"its outlines are {', '.join(outlines)}" if outlines else "it has no outlines"
-            raise DefinitionError(f"{where}: there is no outline {given}; {known}.")
-        given = outlines[given]
+        given = outlines[known_name("Outline", given, outlines, where=where)]
     if not is_shape(given):
         raise DefinitionError(f"{where}: {cited(given)} is no shape; corners are expected, [(0, 0), (1, 0), (1, 0.5)] in m.")
     if not isinstance(given, Outline):

@@ -18,6 +18,7 @@ from weakref import ref
 
 import numpy as np
 
+from ..checks import require
 from ..errors import DefinitionError, UntracedError, cited
 from ..loads import AS_IT_RUNS, DIRECTIONS, Acting
 from ..pickling import object_of, picklable
@@ -246,8 +247,8 @@ def all_bound(plan: Plan, requests: Sequence[RequestLike]) -> tuple[Request, ...
     """Return a list of requests bound to a plan; DefinitionError for a lone one, whose letters would be taken for names."""
     if isinstance(requests, (str, Member, Request)):
         raise DefinitionError(f"{plan.title}: {requests!r}: a list of what is asked for is expected, [{requests!r}].")
-    if not isinstance(requests, Iterable) or isinstance(requests, (Mapping, Set, np.ndarray)):
-        raise DefinitionError(f'{plan.title}: {cited(requests)}: a list of what is asked for is expected, such as ["G"].')
+    is_list = isinstance(requests, Iterable) and not isinstance(requests, (Mapping, Set, np.ndarray))
+    require(is_list, f"{plan.title}: requests", requests, 'a list of what is asked for is expected, such as ["G"]')
     return tuple(bound(plan, request) for request in requests)
 
 

@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from ..checks import is_listed, require_type
-from ..errors import DefinitionError, cited, known_name
+from ..errors import DefinitionError, known_name
 from ..language import said, translated
 from ..loads import PLAIN_CASE
 from ..mechanism import Mechanism
@@ -103,8 +103,8 @@ def plot_curves(first: Motion, curves: Sequence[Curve], limits: Mapping[str, Seq
 
 def columns_named(motion: Motion, columns: Sequence[Column | RequestLike]) -> list[Column]:
     """Return columns, those given by name from the motion's own table, and requests; DefinitionError for an unknown name."""
-    if not is_listed(columns) or not all(isinstance(each, (str, Column, Quantity, Request)) for each in columns):
-        raise DefinitionError(f'{motion.plan.title}: {cited(columns)}: a list of columns or their names is expected, such as ["tilt"].')
+    what, expected = f"{motion.plan.title}: columns", 'a list of columns or their names is expected, such as ["tilt"]'
+    require_type(what, columns, (list, tuple), expected, (str, Column, Quantity, Request))
     names = [each for each in columns if isinstance(each, str)]
     own = {column.name: column for column in columns_of(motion)} if names else {}
     for name in names:

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from ..checks import require_type
-from ..errors import DefinitionError, cited, ensure, known_name
+from ..errors import ensure, known_name
 from ..mechanism import Mechanism
 from ..motion import Column, Leaf
 from ..program import FloatArray
@@ -41,8 +41,7 @@ def plot_bands(found: MonteCarlo, names: Sequence[str] = (), *, units: Mapping[s
     the deviation from the nominal machine. Raises DefinitionError for an unknown name, strokes that are no row, and where there is no
     curve.
     """
-    if not isinstance(found, MonteCarlo):
-        raise DefinitionError(f"{cited(found)} has no bands; give the result of monte_carlo(...).")
+    require_type("", found, MonteCarlo, "has no bands; give the result of monte_carlo(...)")
     for name in (*names, *(units or {})):
         known_name("Quantity", name, found.bands, where="the study")
     along = StrokeAxis.of(found.machine.at(unreachable="nan", **found.strokes))
@@ -141,8 +140,7 @@ MOST = 20
 
 def plot_tornado(found: Tornado) -> Figure:
     """Return a figure of a tornado's bars, the longest at the top: real changes at both limits, and marks where the gradient tells them."""
-    if not isinstance(found, Tornado):
-        raise DefinitionError(f"{cited(found)} has no bars; give the result of tornado(...).")
+    require_type("", found, Tornado, "has no bars; give the result of tornado(...)")
     bars = [bar for bar in found.bars if bar.length > 0.0][:MOST] or list(found.bars[:1])
     figure, (ax,) = panels((7.6, ROW * len(bars) + 1.9), 1, w_pad=0.12, h_pad=0.12)
     scale, unit = factor(shown_in(found.unit)), f", {unit_sign(found.unit)}" if found.unit else ""

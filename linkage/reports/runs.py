@@ -172,8 +172,7 @@ def reached_motion(machine: Mechanism, strokes: At | Motion) -> Motion:
 
 def first_stroke(machine: Mechanism) -> str:
     """Return the first stroke; DefinitionError for a structure without one, and for anything but a mechanism."""
-    if not isinstance(machine, Mechanism):
-        raise DefinitionError(f"{machine!r:.60} is no mechanism; give a design such as Boom(), and its strokes by at=.")
+    require_type("", machine, Mechanism, "is no mechanism; give a design such as Boom(), and its strokes by at=")
     ensure(machine.strokes, f"{machine.plan.title} has no stroke, so there is nothing to move; declare one, S = Stroke(0, 0.25).")
     return next(iter(machine.strokes))
 

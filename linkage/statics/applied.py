@@ -11,7 +11,7 @@ from typing import TypeAlias, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import is_listed
+from ..checks import is_listed, require, require_type
 from ..errors import DefinitionError, SingularError, cited, ensure, errors_of, known_name, unknown
 from ..loads import AS_IT_RUNS, FRICTIONLESS, OWN_LOADS, PLAIN_CASE, Acting, Case, Damper, HasLoads, LoadCase, Loads
 from ..loads.acting import check_factor, shut_members
@@ -77,8 +77,7 @@ def applied_loads(motion: AnyMotion, acting: Acting, rates: Rates, without: str 
     loads = tuple(load for found, _ in each_of for load in found)
     for each in loads:
         where = f"{plan.title}: {each.element}"
-        if not is_listed(each.on):
-            raise DefinitionError(f'{where}: on={cited(each.on)} is expected as names of points or of an element, on=("O", "B").')
+        require(is_listed(each.on), f"{where}: on", each.on, 'names of points or of an element are expected, on=("O", "B")')
         for point in (each.point, *(each.on if len(each.on) > 1 else ())):
             if name_of(point) not in plan.points:
                 raise unknown("Point", point, plan.points, where=where)
@@ -101,8 +100,7 @@ def element_parts(motion: Poses, fit: Callable[[ArrayLike, int, str, str], Float
         return [], thrusts
     with errors_of(f"{motion.plan.title}: loads(motion) of {name}"):
         found = element.moving(motion, rates) if rates else element.loads(motion)
-    if not is_listed(found) or not all(isinstance(load, Load) for load in found):
-        raise DefinitionError(f"{motion.plan.title}: {name}: loads(motion) gives {found!r}; a list of Load(point, force) is expected.")
+    require_type(f"{motion.plan.title}: {name}: loads(motion)", found, (list, tuple), "a list of Load(point, force) is expected", Load)
     forces = [fit(load.force, 1, name, f"force at {load.point}") * each.factor for load in found]
     return [replace(load, force=force, element=name) for load, force in zip(found, forces, strict=True)], []
 

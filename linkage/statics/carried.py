@@ -14,13 +14,14 @@ from typing import Any, TypeAlias, cast
 
 import numpy as np
 
-from ..errors import DefinitionError, SingularError, cited, unwarned
+from ..checks import require
+from ..errors import DefinitionError, SingularError, unwarned
 from ..language import noted
 from ..loads import Acting, Case, Force, ForceElement, Support, TwoPoint
 from ..motion import HasVerdicts, Judge, Motion, Over, RequestLike, speakers
 from ..motion.grid import not_joined
 from ..motion.judge import Domain
-from ..motion.measures import Measure, words_of
+from ..motion.measures import Leaf, Measure, words_of
 from ..motion.places import way_of
 from ..plan import Mask, Plan
 from ..program import FloatArray, Kernel
@@ -344,7 +345,7 @@ def member_limits(plan: Plan, case: Case, *, are_remarks: bool = False) -> tuple
             for rule, condition in (member.load_remarks(loaded) if are_remarks else member.load_limits(loaded)).items():
                 for each in condition.constraints(None):
                     is_least = each.left.sense < 0.0
-                    if each.left.sense and each.symbol == (">=" if is_least else "<="):
+                    if isinstance(each.left, Leaf) and each.left.sense and each.symbol == (">=" if is_least else "<="):
                         for row in judge.search_rows(each.left, judge.places[0]):
                             request = row.piece.below if row.stays_at_zero else row.piece.request
                             if isinstance(request, (LawRequest, Quantity)):
@@ -403,9 +404,8 @@ def pull_direction(along: object, title: str = "") -> Direction:
     except (DefinitionError, TypeError, ValueError, OverflowError):
         given = np.zeros(2)
     size = np.hypot(*given)
-    if not (size.size and np.all(np.isfinite(size) & (size > 0.0))):
-        what = f"{title}along={cited(along)} is no direction, it has no length"
-        raise DefinitionError(f"{what}; write (x, y), such as (0, 1) for a load that hangs.")
+    expected = "is no direction, it has no length; write (x, y), such as (0, 1) for a load that hangs"
+    require(size.size and np.all(np.isfinite(size) & (size > 0.0)), f"{title}along", along, expected)
     x, y = given / size
     return (float(x), float(y)) if given.ndim == 1 else (x, y)
 

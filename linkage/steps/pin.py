@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from ..checks import require_number
-from ..errors import DefinitionError, cited, ensure
+from ..checks import require, require_number
+from ..errors import DefinitionError, ensure
 from ..quantities import Member, Quantity, Reference, Stroke, Where, joined_names, name_of, of_kind, quantity
 from ..vectors import Scalar, Vec
 from .guide import Guide, Slide
@@ -96,8 +96,8 @@ class Group(Member):
     """How its labels are spoken, where it is of a part."""
 
     def __init__(self, pins: str) -> None:
-        if not isinstance(pins, str) or not pins.split():
-            raise DefinitionError(f'Group({cited(pins)}): the names of its pins are expected in one text, Group("D E F").')
+        expected = 'the names of its pins are expected in one text, Group("D E F")'
+        require(isinstance(pins, str) and pins.split(), "Group(pins", pins, expected)
         self.pins = tuple(pins.split())
         self.given: tuple[tuple[str, str, Quantity], ...] = ()
         self.attached: tuple[tuple[str, OnLink], ...] = ()

@@ -11,13 +11,13 @@ import numpy as np
 from ..checks import is_listed, require, require_whole, unfit
 from ..errors import DefinitionError, cited, one_word, unknown
 from ..frozen import immutable
-from ..mechanism import Mechanism
+from ..mechanism import Mechanism, require_mechanism
 from ..numeric.line import Index
 from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import is_number
 from ..units import amount_or_float, show, shown_number, unit_sign
-from .checks import check_mechanism, unit_of
+from .checks import unit_of
 from .designs import DesignValues, check_once
 
 
@@ -57,7 +57,7 @@ class Box:
         DefinitionError
             A dimension is not known, a range is the wrong way round, or it is anything else.
         """
-        check_mechanism(machine)
+        require_mechanism(machine)
         if not isinstance(vary, Mapping):
             raise unfit(f"{machine.plan.title}: vary", vary, "a dictionary of ranges and choices by name is expected")
         for name in vary:

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from ..checks import is_whole, require_one_design, unfit
-from ..errors import AssemblyError, DefinitionError, cited, ensure
-from ..mechanism import Mechanism
+from ..errors import AssemblyError, cited, ensure
+from ..mechanism import Mechanism, require_mechanism
 from ..plan import Plan
 from .variants import is_side
 
@@ -22,18 +22,9 @@ def unit_of(plan: Plan, name: str) -> str:
     return found.unit or {"length": "mm", "coordinate": "mm", "angle": "deg"}.get(found.kind, "")
 
 
-def check_mechanism(machine: object) -> None:
-    """Raise DefinitionError for anything but an instance of a mechanism."""
-    if not isinstance(machine, Mechanism):
-        name = machine.__name__ if isinstance(machine, type) else ""
-        remedy = f"{name} is a class; give a design of it, {name}()" if name else f"{machine!r:.60} is none"
-        raise DefinitionError(f"A study is of a mechanism: {remedy}.")
-
-
 def check_one_design(machine: Mechanism) -> None:
     """Raise DefinitionError for a batch of designs, and for anything but a mechanism."""
-    check_mechanism(machine)
-    require_one_design(machine.dimensions, f"{type(machine).__name__}: a study starts from one design")
+    require_one_design(require_mechanism(machine).dimensions, f"{type(machine).__name__}: a study starts from one design")
 
 
 def check_in_count(title: str, what: str, number: object, count: int) -> None:

@@ -17,7 +17,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from ..checks import is_listed, require_type
-from ..errors import DefinitionError, StudyError, cited, ensure
+from ..errors import DefinitionError, StudyError, cited, ensure, known_name
 from ..frozen import FrozenDict, immutable
 from ..mechanism import Mechanism
 from ..motion import Constraint, Grid, Leaf, Measure, Motion, Request, greatest
@@ -77,10 +77,7 @@ def ranges_of(machine: Mechanism, over: object) -> dict[str, Range]:
     example = 'a dictionary is expected, such as over={"S": (0.0, 0.2)}'
     given = require_type(f"{title}: over", {} if over is None else over, Mapping, example)
     for name, ends in given.items():
-        if name not in plan.strokes:
-            raise DefinitionError(
-                f"{title}: over={{{name!r}: ...}}: there is no stroke of that name; its strokes are {', '.join(plan.strokes)}."
-            )
+        known_name("Stroke", name, plan.strokes, where=f"{title}: over")
         if isinstance(ends, Range):
             continue
         require_kind(plan, name, ends, f"{title}: over: {name}")
@@ -386,8 +383,8 @@ class Problem:
     def _poses(self, leaf: Leaf, moving: Sequence[str]) -> tuple[PoseSet, int]:
         """Return the poses of a leaf, shared with others that are looked at at the same, and which single one it is, -1 for all."""
         title, inner, strokes = self.plan.title, leaf.worst_over, ", ".join(self.plan.strokes)
-        if inner and inner not in self.plan.strokes:
-            raise DefinitionError(f"{title}: {leaf.quantity}: there is no stroke {inner!r}; its strokes are {strokes}.")
+        if inner:
+            known_name("Stroke", inner, self.plan.strokes, where=f"{title}: {leaf.quantity}")
         depends = strokes_behind(self.plan, leaf.bare_quantity)
         axes = tuple(name for name in moving if name in depends and name != inner)
         if isinstance(leaf, At):
@@ -409,8 +406,7 @@ class Problem:
         with several what it will.
         """
         for name, value in leaf.strokes.items():
-            known = ", ".join(self.plan.strokes) or "none"
-            ensure(name in self.plan.strokes, f"{self.plan.title}: {leaf}: there is no stroke {name!r}; its strokes are {known}.")
+            known_name("Stroke", name, self.plan.strokes, where=f"{self.plan.title}: {leaf}")
             check_magnitude(name, (float(value), float(value)), self.plan)
         held = {name: float(one.low) for name, one in self.ranges.items() if is_still(one)}
         missing = [name for name in depends if name not in leaf.strokes and name not in held and name != inner]

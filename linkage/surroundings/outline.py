@@ -16,7 +16,7 @@ from typing import Any, ClassVar, Self, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from ..checks import is_listed, require_number, require_type, two_of
+from ..checks import is_listed, require, require_number, require_type, two_of
 from ..errors import DefinitionError, FileError, cited, ensure, is_yes
 from ..quantities import Axes, Member, Operand, Reference, Stroke, is_number, label, name_of, needed_behind, needs, of_kind, source_text
 from ..quantities.axes import NOTHING, is_nothing, plus
@@ -399,8 +399,8 @@ def corner_of(given: object, what: str) -> tuple[Quantity, ...]:
 
 def length_above_zero(given: object, what: str) -> Quantity:
     """Return a size as a quantity; DefinitionError for one that is not above zero."""
-    if not isinstance(given, (str, Quantity)) and not (is_number(given) and given > 0.0):
-        raise DefinitionError(f"{what}: {cited(given)} is no size; give a length above zero [m], or a dimension.")
+    is_size = isinstance(given, (str, Quantity)) or (is_number(given) and given > 0.0)
+    require(is_size, what, given, "is no size; give a length above zero [m], or a dimension")
     require_measure(given, "length", what)
     return quantity(plain(given))
 

@@ -209,8 +209,8 @@ def design_boom_drive(
     duty, cylinders = duty or DriveDuty(), cylinders or DriveCylinders()
     one_word("objective", objective, ("area", "ratio", "difference"))
     one_word("clearance", clearance, tuple(CLEARANCES))
-    if not is_number(r_3_min) or not 0.0 < r_3_min < duty.l_c:
-        raise DefinitionError(f"r_3_min={cited(r_3_min)}: a length below the boom's {duty.l_c:.4g} m is expected, such as 300 * mm.")
+    expected = f"a length below the boom's {duty.l_c:.4g} m is expected, such as 300 * mm"
+    require_number("r_3_min", r_3_min, expected, above=0.0, below=duty.l_c, kind="length")
     require_number("lowest_pin", lowest_pin, "a share of the closed length is expected, 0 to 1; the source has 0.5", least=0.0, most=1.0)
     pin, over = CLEARANCES[clearance], GIVEN - ref("M_l")
     least_of = {"area": integral(over), "ratio": most(GIVEN / ref("M_l")), "difference": most(over)}

@@ -714,11 +714,12 @@ USES = [
         '"A", "lift", "z"',
         ("Component 'z' is unknown in Lift: the force at A. Known: x, y, couple, size.",),
     ),
-    ('study.zone(@, "tilt", {"OB": (0.3, 0.31)}, S=0.1)', 'None; 3; "Lift"; Lift; []', ("A study is of a mechanism:",)),
+    ('study.zone(@, "tilt", {"OB": (0.3, 0.31)}, S=0.1)', 'None; 3; "Lift"; []', ("is no mechanism; give a design such as",)),
+    ('study.zone(@, "tilt", {"OB": (0.3, 0.31)}, S=0.1)', "Lift", ("Lift is a class, the structure; give a design of it, Lift().",)),
     (
         'study.zone(@, "tilt", {"OB": (0.3, 0.31)}, S=0.1)',
         "motion",
-        ("A study is of a mechanism: <Motion of", "250 mm; shape (5,), all reached> is none."),
+        ("<Motion of", "250 mm; shape (5,), all reached> is no mechanism"),
     ),
     (
         'study.zone(@, "tilt", {"OB": (0.3, 0.31)}, S=0.1)',
@@ -885,11 +886,12 @@ USES = [
         'None; -1; "a"; 1.5',
         ("a whole number is expected, at least 0.",),
     ),
-    ('study.survey(@, {"OB": np.array([0.3])}, len)', 'None; 3; "Lift"; Lift; []', ("A study is of a mechanism:",)),
+    ('study.survey(@, {"OB": np.array([0.3])}, len)', 'None; 3; "Lift"; []', ("is no mechanism; give a design such as",)),
+    ('study.survey(@, {"OB": np.array([0.3])}, len)', "Lift", ("Lift is a class, the structure; give a design of it, Lift().",)),
     (
         'study.survey(@, {"OB": np.array([0.3])}, len)',
         "motion",
-        ("A study is of a mechanism: <Motion of", "250 mm; shape (5,), all reached> is none."),
+        ("<Motion of", "250 mm; shape (5,), all reached> is no mechanism"),
     ),
     ("study.survey(lifting, @, len)", "3; None", ("a dictionary of names and arrays is expected; Box.sample(count) makes one.",)),
     (

@@ -31,8 +31,8 @@ USES = [
     ("lifting.answers([@])", '3; "tilt"; y("B"); worst("tilt", over="S")', ("a question is a measure or a condition",)),
     ("lifting.answers([@])", 'y("B") >= 1', ("y(B) >= 1 is kept at some poses and not at others", "Over(only=[...])")),
     ("lifting.answers([reachable], acting=@)", '"transport"; 3', ('a situation is expected, such as Acting(case="full").',)),
-    ("lifting.answers([reachable], acting=@)", 'Acting(case="full")', ("the load case 'full' is unknown; known are plain, transport.",)),
-    ("lifting.answers([reachable], acting=Acting(case=@))", "np.array([1, 2]); 3", ("is unknown; known are plain, transport.",)),
+    ("lifting.answers([reachable], acting=@)", 'Acting(case="full")', ("Load case 'full' is unknown in Lift. Known: plain, transport.",)),
+    ("lifting.answers([reachable], acting=Acting(case=@))", "np.array([1, 2]); 3", ("is unknown in Lift. Known: plain, transport.",)),
     ("lifting.answers([reachable], acting=@)", 'Acting(drive="T")', ("Stroke 'T' is unknown in Lift: acting.drive. Known: S.",)),
     (
         'lifting.answers([most(drive_force())], over=Over(cases=("plain",)), acting=@)', 'Acting(case="transport")',

@@ -242,7 +242,7 @@ def test_load_cases_are_looked_at_alone_or_all(tmp_path):
         place = 2 if acting == dict(case="plain") else 4
         assert alone[place] == whole[place]
     assert float(whole[4]) > 1.5 * float(report_one(Lifter(), "S", case="plain"))
-    with pytest.raises(DefinitionError, match=r"load case 'none' is unknown; known are plain, double"):
+    with pytest.raises(DefinitionError, match=r"Load case 'none' is unknown in .*Known: plain, double"):
         report(Lifter(), tmp_path / "a.html", case="none")
     with pytest.raises(DefinitionError, match=r"case= and acting= both say it"):
         report(Lifter(), tmp_path / "a.html", case="double", acting=Acting(case="double"))

@@ -170,7 +170,7 @@ def test_a_circle_about_where_a_pivot_stands():
         ({"C": []}, "is no region"),
         ({"C": [(0, 0), (1, 1)]}, "three corners at least"),
         ({"C": [(0, 0), (1, 1), (1, 0), (0, 1)]}, "does not cross itself"),
-        ({"C": ["plat"]}, "there is no outline plat; its outlines are plate, wheel, cover"),
+        ({"C": ["plat"]}, "Outline 'plat' is unknown .* Did you mean plate\\? Known: plate, wheel, cover"),
         ({"C": "cover"}, "is carried by A, B"),
         ({"C": [(5, 5), (6, 5), (6, 6)]}, "nothing of it lies in the ranges"),
         ([L_SHAPE], "a region for each point"),

@@ -19,7 +19,8 @@ from typing import Any, Unpack, cast
 import numpy as np
 from numpy.typing import ArrayLike
 
-from linkage.errors import DefinitionError, FormerName, UntracedError, one_word, unwarned
+from linkage.checks import fits_shape
+from linkage.errors import DefinitionError, FormerName, UntracedError, ensure, one_word, unwarned
 from linkage.frozen import immutable
 from linkage.language import said, with_and
 from linkage.loads import AS_IT_RUNS, SENSES, Acting, ActingKeywords, Case, Loads, situation_of
@@ -615,10 +616,7 @@ def fitted(motion: Motion, value: Array) -> Array:
     """Return a value over the poses; DefinitionError where it does not fit their shape."""
     if is_traced(value) or np.ndim(value) == 0:
         return value
-    try:
-        np.broadcast_to(value, motion.shape)
-    except ValueError:
-        raise DefinitionError(f"resistance of the shape {np.shape(value)} does not fit the poses {motion.shape}.") from None
+    ensure(fits_shape(value, motion.shape), f"resistance of the shape {np.shape(value)} does not fit the poses {motion.shape}.")
     return value
 
 

@@ -60,6 +60,14 @@ VERBS = ("is ", "has ", "stands ", "cannot ", "compares ", "does ")
 """What begins with one of these goes on from the value, as in `scale=0 is no size.`"""
 
 
+def fits_shape(value: object, shape: tuple[int, ...]) -> bool:
+    """Return whether a number or an array can be broadcast to a shape, that of some poses."""
+    try:
+        return np.broadcast_shapes(np.shape(cast(float, value)), shape) == shape
+    except ValueError:
+        return False
+
+
 def unfit(what: str, value: object, expected: str) -> DefinitionError:
     """Return the error for a value: `count=0: a number is expected.`, `scale=0 is no size.`; `gap(width` is closed behind the value."""
     given = f"{what}={cited(value)}{')' * (what.count('(') - what.count(')'))}" if what else cited(value)

@@ -16,7 +16,7 @@ from typing import Any, Protocol, TypeAlias, runtime_checkable
 import numpy as np
 import numpy.typing as npt
 
-from ..checks import can_be_called
+from ..checks import can_be_called, fits_shape
 from ..errors import AssemblyError, DefinitionError, cited, ensure, errors_of, unwarned
 from ..language import said
 from ..numeric.box import highest_in, values_a_stroke, weights_of
@@ -239,11 +239,9 @@ def values_of(f: Function, motion: Motion, *, everywhere: bool = False) -> Float
         found = np.asarray(f(motion), float)
     axes = len(motion.shape)
     if found.ndim < axes or found.shape[found.ndim - axes :] != motion.shape:
-        try:
-            found = np.broadcast_to(found, motion.shape)
-        except ValueError:
-            what = f"a function of a motion gives the shape {found.shape} where {motion.shape} or (k, *{motion.shape}) is expected"
-            raise DefinitionError(f"{motion.plan.title}: {what}; return a number for each pose.") from None
+        what = f"a function of a motion gives the shape {found.shape} where {motion.shape} or (k, *{motion.shape}) is expected"
+        ensure(fits_shape(found, motion.shape), f"{motion.plan.title}: {what}; return a number for each pose.")
+        found = np.broadcast_to(found, motion.shape)
     return found if everywhere else np.where(motion.reached, found, np.nan)
 
 

@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from ..checks import require_whole
+from ..checks import fits_shape, require, require_whole
 from ..errors import DefinitionError, cited, ensure, known_name
 from ..frozen import read_only
 from ..plan import Plan, rate_name, require_kind, require_kinds
 from ..program import FloatArray
-from ..quantities import Member, Stroke, as_mapping, is_whole, keywords, real
+from ..quantities import Member, Stroke, as_mapping, is_whole, keywords, numbers_in, real
 from ..units import Amount
 from .grid import MotionLike
 from .limits import stroke_unit
@@ -192,13 +192,9 @@ def rate_values(plan: Plan, rates: object, accelerations: object) -> dict[str, A
 
 def checked_rate(what: str, value: object, shape: tuple[int, ...], title: str, *, gaps: bool = False) -> FloatArray:
     """Return one rate, read-only; DefinitionError unless it is finite, or NaN where there may be `gaps`, and fits the poses."""
-    try:
-        rate = real(value)
-        fits = np.broadcast_shapes(rate.shape, shape) == shape
-    except ValueError:
-        fits = False
-    if not fits or not np.all(np.isfinite(rate) | (gaps & np.isnan(rate))):
-        raise DefinitionError(f"{title}: {what}={cited(value)}: a finite number or an array that fits the poses {shape} is expected.")
+    rate = numbers_in(value)
+    is_sound = fits_shape(rate, shape) and np.all(np.isfinite(rate) | (gaps & np.isnan(rate)))
+    require(is_sound, f"{title}: {what}", value, f"a finite number or an array that fits the poses {shape} is expected")
     return read_only(rate)
 
 

@@ -8,8 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..checks import is_listed, require, require_type
-from ..errors import DefinitionError, ensure, known_name
+from ..checks import fits_shape, is_listed, require, require_type
+from ..errors import ensure, known_name
 from ..language import noted, said
 from ..mechanism import Mechanism
 from ..motion import Column, Motion
@@ -31,11 +31,9 @@ def named_points(machine: Mechanism, names: object, what: str) -> tuple[str, ...
 
 def check_poses(column: Column, motion: Motion) -> None:
     """Raise DefinitionError for a column that has not one value a pose of a motion."""
-    try:
-        np.broadcast_to(column.values, motion.shape)
-    except ValueError:
-        said = f"{motion.plan.title}: the column {column.name} has values of shape {np.shape(column.values)}"
-        raise DefinitionError(f"{said}, and the motion poses of shape {motion.shape}; give one value for each pose.") from None
+    said = f"{motion.plan.title}: the column {column.name} has values of shape {np.shape(column.values)}"
+    fits = fits_shape(column.values, motion.shape)
+    ensure(fits, f"{said}, and the motion poses of shape {motion.shape}; give one value for each pose.")
 
 
 # Limit lines: a value that a result may not pass, and on which side it fails.

@@ -15,7 +15,7 @@ from typing import Unpack
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import require
+from ..checks import fits_shape, require
 from ..errors import DefinitionError, ensure, known_name
 from ..language import noted, said, translated
 from ..loads import FRICTIONLESS, PLAIN, Acting, ActingKeywords, Case, ForceElement, Load, LoadCase, Loads, situation_of, takes_situation
@@ -26,7 +26,7 @@ from ..motion.limits import where_said
 from ..motion.requests import stroke_of
 from ..plan import Plan
 from ..program import FloatArray
-from ..quantities import name_of, real
+from ..quantities import name_of, numbers_in
 from ..units import show, shown_number
 from ..verdict import Verdict
 from .applied import applied_loads, elements_of, rates_in
@@ -601,11 +601,10 @@ def reaction(
     else:
         name = known_name("Support", next(iter(own)) if support is None else support, own, where=title)
         element = own[name]
-    try:
-        known = np.asarray(np.broadcast_to(real(drive_force), motion.shape))
-    except ValueError:
-        what = f"a number or an array that fits the poses {motion.shape} is expected"
-        raise DefinitionError(f"drive_force={drive_force!r}: {what}.") from None
+    known = numbers_in(drive_force)
+    expected = f"a number or an array that fits the poses {motion.shape} is expected"
+    require(fits_shape(known, motion.shape), "drive_force", drive_force, expected)
+    known = np.asarray(np.broadcast_to(known, motion.shape))
     require(np.all(np.isfinite(known[motion.reached])), "drive_force", drive_force, "is not finite at every pose; give numbers in N or Nm")
     if not is_under_frame(motion.plan, element):
         return balancing_reaction(motion, acting, name, element, stroke_of(motion.plan, drive, "drive"), known)

@@ -11,11 +11,12 @@ import numpy as np
 from hydraulics import Accumulator, AccumulatorBlock, Cylinder, FloatCircuit, isothermal
 from hydraulics.inputs import in_pascals, not_negative, positive
 from linkage import LEFT, Column, Dyad, Featured, Ground, Link, Mechanism, Motion, OnLink, Outline, Vector
+from linkage.checks import require
 from linkage.errors import DefinitionError, cited
 from linkage.language import noted, said
 from linkage.loads import PinFriction, Support, Weight
 from linkage.loads.element import Formulas
-from linkage.quantities import Dimension, Stroke, angle, distance, is_whole, real, y
+from linkage.quantities import Dimension, Stroke, angle, distance, is_whole, numbers_in, y
 from linkage.units import deg, kg, kgf_cm2, litre, mm
 from linkage.verdict import Remark, Verdict
 
@@ -187,12 +188,9 @@ def setting_table(wanted: Sequence[float], changes: Mapping[str, Any] | None = N
     list of Column
         The columns.
     """
-    try:
-        forces, changed = np.atleast_1d(real(wanted)), dict(changes or {})
-    except ValueError:
-        raise DefinitionError(f"wanted={cited(wanted)}: a list of reactions [N] is expected, such as [0.0, 100 * kgf].") from None
-    if not forces.size or forces.ndim > 1 or not np.isfinite(forces).all():
-        raise DefinitionError(f"wanted={cited(wanted)}: a list of finite reactions [N] is expected, such as [0.0, 100 * kgf].")
+    forces, changed = np.atleast_1d(numbers_in(wanted)), dict(changes or {})
+    is_list = forces.size and forces.ndim == 1 and np.isfinite(forces).all()
+    require(is_list, "wanted", wanted, "a list of finite reactions [N] is expected, such as [0.0, 100 * kgf]")
     design = HeaderBalancer(**changed)
     shoes, way = float(design["shoes"]), SLOW if design["n"] == 1.0 else Way(f"n = {design['n']:g}", exponent=float(design["n"]))
     columns = [Column("F_R", forces, "kgf", 0), Column(noted("per shoe"), forces / shoes, "kgf", 0)]

@@ -10,7 +10,7 @@ import numpy as np
 
 from .errors import DefinitionError, cited, ensure
 from .units import require_measure
-from .vectors import Scalar
+from .vectors import FloatArray, Scalar
 
 Kind = TypeVar("Kind")
 
@@ -66,6 +66,15 @@ def fits_shape(value: object, shape: tuple[int, ...]) -> bool:
         return np.broadcast_shapes(np.shape(cast(float, value)), shape) == shape
     except ValueError:
         return False
+
+
+def of_one_shape(what: str, names: Iterable[str], arrays: Sequence[FloatArray]) -> list[FloatArray]:
+    """Return named arrays broadcast against each other; DefinitionError, with all shapes, where they do not fit: `the strokes' shapes`."""
+    try:
+        return list(np.broadcast_arrays(*arrays))
+    except ValueError:
+        shapes = ", ".join(f"{name} {array.shape}" for name, array in zip(names, arrays, strict=True))
+        raise DefinitionError(f"{what} do not fit each other: {shapes}.") from None
 
 
 def unfit(what: str, value: object, expected: str) -> DefinitionError:

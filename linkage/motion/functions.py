@@ -9,7 +9,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..checks import require
+from ..checks import of_one_shape, require
 from ..errors import DefinitionError, SingularError, UntracedError, ensure, one_word
 from ..frozen import FrozenDict
 from ..plan import Plan, rate_name, require_kinds
@@ -51,11 +51,8 @@ def evaluate(
     at = at_values(strokes, plan, float_array)
     if moving:
         arrays = [*at.values(), *map(real, moving.values())]
-        try:
-            together = dict(zip((*at, *moving), np.broadcast_arrays(*arrays), strict=True))
-        except ValueError:
-            shapes = ", ".join(str(each.shape) for each in arrays)
-            raise DefinitionError(f"{plan.title}: the shapes of the strokes and of their rates do not fit each other: {shapes}.") from None
+        what, names = f"{plan.title}: the shapes of the strokes and of their rates", (*at, *moving)
+        together = dict(zip(names, of_one_shape(what, names, arrays), strict=True))
         at, moving = {name: together[name] for name in at}, {name: together[name] for name in moving}
     return evaluate_grid(Grid(plan, designs, at, per_design=per_design, rate_inputs=moving), requests, out, way, unreachable)
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..checks import fits_shape, require, require_whole
+from ..checks import fits_shape, of_one_shape, require, require_whole
 from ..errors import DefinitionError, cited, ensure, known_name
 from ..frozen import read_only
 from ..plan import Plan, rate_name, require_kind, require_kinds
@@ -58,11 +58,7 @@ def at_values(given: Mapping[str, object], plan: Plan, take: Callable[[Any], Flo
             check_magnitude(name, ends, plan)
     if len(arrays) == 1:
         return arrays
-    try:
-        return dict(zip(strokes, np.broadcast_arrays(*arrays.values()), strict=True))
-    except ValueError:
-        shapes = ", ".join(f"{name} {array.shape}" for name, array in arrays.items())
-        raise DefinitionError(f"{title}: the strokes' shapes do not fit each other: {shapes}.") from None
+    return dict(zip(strokes, of_one_shape(f"{title}: the strokes' shapes", arrays, [*arrays.values()]), strict=True))
 
 
 def check_any(values: Mapping[str, FloatArray], plan: Plan) -> None:

@@ -8,8 +8,7 @@ from typing import TextIO
 
 import numpy as np
 
-from ..checks import is_listed, require
-from ..errors import DefinitionError
+from ..checks import is_listed, of_one_shape, require
 from ..language import said
 from ..motion import Column
 from ..program import FloatArray
@@ -23,11 +22,8 @@ def flat(columns: Sequence[Column]) -> list[FloatArray]:
     """Return the columns' values in their units, one row a pose: broadcast to one shape, the designs outermost."""
     is_table = is_listed(columns) and columns and all(isinstance(each, Column) for each in columns)
     require(is_table, "", columns, "is no table; give a list of columns, such as machine.columns(motion)")
-    try:
-        return [each.ravel() for each in np.broadcast_arrays(*(column.shown for column in columns))]
-    except ValueError:
-        shapes = ", ".join(f"{column.name} {np.shape(column.values)}" for column in columns)
-        raise DefinitionError(f"The columns' shapes do not fit each other: {shapes}.") from None
+    names, shown = [column.name for column in columns], [np.asarray(column.shown) for column in columns]
+    return [each.ravel() for each in of_one_shape("The columns' shapes", names, shown)]
 
 
 def column_texts(column: Column, values: FloatArray) -> list[str]:

@@ -14,7 +14,6 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linkage.checks import require
 from linkage.errors import DefinitionError, cited
 from linkage.frozen import unmasked
 from linkage.loads import ForceElement, Poses
@@ -55,7 +54,8 @@ def all_finite(value: ArrayLike, what: str, kind: str = "") -> Array:
 def one_number(value: ArrayLike, what: str, kind: str = "") -> float:
     """Return one finite number; DefinitionError for several, and for anything else."""
     array = all_finite(value, what, kind)
-    require(not array.ndim, what, value, "one number is expected, in SI units")
+    if array.ndim:
+        raise DefinitionError(f"{what} = {cited(value)}: one number is expected, in SI units.")
     return float(array)
 
 
@@ -151,7 +151,8 @@ def _floats(value: ArrayLike, what: str, kind: str) -> Array:
         raise DefinitionError(f"{what} = {cited(value)} is not a number; give a number in SI units.") from None
     if is_traced(array[()]):
         return array[()]
-    require(array.dtype.kind in "iuf", what, value, "is not a number; give a number in SI units")
+    if array.dtype.kind not in "iuf":
+        raise DefinitionError(f"{what} = {cited(value)} is not a number; give a number in SI units.")
     return array.astype(np.float64)
 
 

@@ -9,8 +9,8 @@ from functools import cached_property
 
 import numpy as np
 
-from ..checks import require_whole
-from ..errors import AssemblyError, DefinitionError, LinkageError, SingularError, ensure, unwarned
+from ..checks import require_one_design, require_whole
+from ..errors import AssemblyError, LinkageError, SingularError, ensure, unwarned
 from ..language import said
 from ..loads import PLAIN_CASE, Acting, Case, ForceElement, LoadCase
 from ..mechanism import Mechanism, require_mechanism
@@ -58,11 +58,7 @@ class ReportSubject:
         """Return the subject of a report; DefinitionError for a batch, a wrong count, an unknown case; AssemblyError out of reach."""
         require_mechanism(machine)
         title = machine.plan.title
-        batch = [name for name, value in machine.dimensions.items() if np.ndim(value)]
-        if batch:
-            raise DefinitionError(
-                f"{title}: a report is of one design, and {batch[0]} has {np.size(machine[batch[0]])} values; choose one of them."
-            )
+        require_one_design(machine.dimensions, f"{title}: a report is of one design")
         require_whole("count", count, f"the rows of the report's tables, 2 to {MANY}; give a whole number such as 11", least=2, most=MANY)
         judge = machine.judge(over, acting)
         found = cls(machine, runs_of(machine, at, over, judge.acting), count, judge, judge.lost_allowed())

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from .. import plugins
-from ..checks import instance_of, require, require_type
+from ..checks import instance_of, require, require_one_design, require_type
 from ..disk import Place, check_name, check_place, replacing
 from ..errors import DefinitionError, ensure, known_name
 from ..mechanism import Mechanism, played_along, require_mechanism
@@ -285,8 +285,8 @@ def check_exportable(what: Mechanism | Motion, exporter: Exporter, at: object, t
     if not isinstance(what, Motion):
         require_mechanism(what)
     title = what.plan.title
-    if isinstance(what, Mechanism) and not exporter.batches and any(np.ndim(value) for value in what.dimensions.values()):
-        raise DefinitionError(f"{title}: a file holds one design, and this machine is a batch of them; choose one of its designs.")
+    if isinstance(what, Mechanism) and not exporter.batches:
+        require_one_design(what.dimensions, f"{title}: a file holds one design")
     if isinstance(what, Motion) and exporter.of_machines:
         raise DefinitionError(f"{title}: {exporter.of_machines}, so it is made of a machine: export(machine, ...).")
     given = require_type(f"{title}: at", at, Mapping, "values of strokes by name are expected, such as at=dict(S=0.1)", of=str)

@@ -8,8 +8,7 @@ from itertools import chain, permutations
 from math import isfinite
 from typing import Any
 
-import numpy as np
-
+from ..checks import require_one_design
 from ..errors import DefinitionError, ensure
 from ..mechanism import Mechanism
 from ..plan import Part
@@ -104,9 +103,7 @@ def option_said(value: object) -> Any:
 
 def changed(machine: Mechanism) -> dict[str, float]:
     """Return the dimensions of an instance that are not its class's [SI]; DefinitionError for a batch of designs."""
-    many = [name for name, value in machine.dimensions.items() if np.ndim(value)]
-    if many:
-        raise DefinitionError(f"{machine.plan.title}: {many[0]} has several values; a file holds one design.")
+    require_one_design(machine.dimensions, f"{machine.plan.title}: a file holds one design")
     return {name: value for name, value in machine.dimensions.items() if value != machine.plan.defaults[name]}
 
 

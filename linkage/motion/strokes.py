@@ -11,10 +11,9 @@ import numpy as np
 from ..checks import fits_shape, of_one_shape, require, require_whole
 from ..errors import DefinitionError, cited, ensure, known_name
 from ..frozen import read_only
-from ..plan import Plan, rate_name, require_kind, require_kinds
+from ..plan import Plan, rate_name, require_kinds
 from ..program import FloatArray
 from ..quantities import Member, Stroke, as_mapping, is_whole, keywords, numbers_in, real
-from ..units import Amount
 from .grid import MotionLike
 from .limits import stroke_unit
 
@@ -161,9 +160,7 @@ def strokes_named(what: str, given: object, plan: Plan) -> dict[str, Any]:
         example = f"{what}={as_mapping({next(iter(plan.strokes), 'S'): 0.05})}"
         raise DefinitionError(f"{plan.title}: {what}={given!r}: a value for each stroke is expected, such as {example}.")
     found = {checked_name("Stroke", name, plan.strokes, plan.title): value for name, value in given.items()}
-    for name, value in found.items():
-        if isinstance(value, (Amount, list, tuple)):
-            require_kind(plan, name, value, f"{plan.title}: {what}: {name}")
+    require_kinds(plan, found, f"{plan.title}: {what}")
     return found
 
 

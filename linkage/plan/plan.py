@@ -301,11 +301,11 @@ def restored(key: str, kind: type[Plan], parts: Mapping[str, object]) -> Plan:
     return plan
 
 
-def require_kinds(plan: Plan, given: Mapping[str, object]) -> None:
+def require_kinds(plan: Plan, given: Mapping[str, object], where: str = "") -> None:
     """Refuse amounts of another kind than the strokes and dimensions measure that they are given for, by name; see `require_kind`."""
     for name, value in given.items():
         if isinstance(value, (Amount, list, tuple)):  # arrays and plain numbers know nothing
-            require_kind(plan, name, value, f"{plan.title}: {name}")
+            require_kind(plan, name, value, f"{where or plan.title}: {name}")
 
 
 def require_kind(plan: Plan, name: str, value: object, what: str) -> None:

@@ -40,7 +40,7 @@ USES = [
         "",
         ("pin_force(3, 4): the names of a point and", 'a body are expected, such as pin_force("G", "arm").'),
     ),
-    ("batch.four_bars", "", ("Lift: four-bars are classed for one design, this is a batch; choose one of them.",)),
+    ("batch.four_bars", "", ("Lift: four-bars are classed for one design, this is a batch, OB has ",)),
     (
         "grashof(1, 2, 3, @)",
         '"a"; None; nan; inf; -1; 0; 1j; [1]; huge',
@@ -448,7 +448,7 @@ USES = [
     (
         "driving_force(motion, [Own(@)])",
         '3; None; [3]; "a"',
-        ("Lift: Own(): loads(motion) gives", "a list of Load(point, force) is expected."),
+        ("Lift: Own(): loads(motion)=", "a list of Load(point, force) is expected."),
     ),
     ("driving_force(motion, [Own(@)])", "raising", ("Lift: loads(motion) of Own() raises KeyError: 'slip'",)),
     (
@@ -467,7 +467,7 @@ USES = [
     (
         "driving_force(motion, gives(on=@))",
         '"A"; 3; None',
-        ("Lift: Own():", 'is expected as names of points or of an element, on=("O", "B").'),
+        ("Lift: Own(): on=", 'names of points or of an element are expected, on=("O", "B").'),
     ),
     ("driving_force(motion, gives(on=@))", '("O", "Q")', ("Point 'Q' is unknown in Lift: Own(). Known: A, O, B, G.",)),
     (
@@ -724,7 +724,7 @@ USES = [
     (
         'study.zone(@, "tilt", {"OB": (0.3, 0.31)}, S=0.1)',
         "batch",
-        ("Lift: a study starts from one design, this is a batch; choose one of them.",),
+        ("Lift: a study starts from one design, this is a batch, OB has ",),
     ),
     (
         'study.zone(lifting, @, {"OB": (0.3, 0.31)}, S=0.1)',
@@ -960,7 +960,7 @@ USES = [
         ('say "sobol" or "latin" or "random".',),
     ),
     ("files.to_toml(@)", 'None; 3; "Lift"; motion; int', ("is no mechanism; give a class of Mechanism, or a design of one.",)),
-    ("files.to_toml(@)", "batch", ("Lift: OB has several values; a file holds one design.",)),
+    ("files.to_toml(@)", "batch", ("Lift: a file holds one design, this is a batch, OB has ",)),
     ("files.to_dict(@)", "3; None", ("is no mechanism; give a class of Mechanism, or a design of one.",)),
     ("files.to_json(@)", "3; None", ("is no mechanism; give a class of Mechanism, or a design of one.",)),
     ("files.left_out(@)", 'None; 3; "Lift"; int; motion', ("is no mechanism; give a design such as FourBar().",)),

@@ -151,7 +151,7 @@ def test_instance_far_from_its_sketch_keeps_its_side():
 
 
 def test_file_holds_one_design():
-    with pytest.raises(DefinitionError, match="OB has several values"):
+    with pytest.raises(DefinitionError, match="a file holds one design, this is a batch, OB has"):
         to_toml(Hitch(OB=np.array([0.30, 0.31])))
 
 

@@ -610,7 +610,7 @@ WRONG = {
     "an unknown output": (dict(minimise=most("tilts"), vary=VARY), "tilts"),
     "an unknown stroke": (dict(minimise=at("tilt", T=0.1), vary=VARY), "Stroke 'T' is unknown"),
     "no pose": (dict(minimise=at("tilt"), vary=VARY), "say the pose, S="),
-    "a range of no stroke": (dict(minimise=most("tilt"), vary=VARY, over={"T": (0, 1)}), "Stroke 'T' is unknown in .*: over"),
+    "a range of no stroke": (dict(minimise=most("tilt"), vary=VARY, over={"T": (0, 1)}), "Stroke 'T' is unknown in Boom: over."),
     "no method": (dict(minimise=most("tilt"), vary=VARY, method="magic"), "magic"),
     "no cylinder": (dict(minimise=most(pressure("pump")), vary=VARY), "pump"),
     "no load case": (dict(minimise=most(pressure("lift")), vary=VARY, case="overload"), "overload"),

@@ -8,7 +8,7 @@ from typing import Any, TypeGuard, TypeVar, cast
 
 import numpy as np
 
-from .errors import DefinitionError, cited
+from .errors import DefinitionError, cited, ensure
 from .units import require_measure
 from .vectors import FloatArray, Scalar
 
@@ -92,8 +92,8 @@ def require(holds: object, what: str, value: object, expected: str) -> None:
 def require_one_design(designs: Mapping[str, object], said: str) -> None:
     """Refuse a batch by its dimensions: `Crane: a figure shows one design, this is a batch, L has 3 values; choose one of them.`"""
     for name, value in designs.items():
-        if np.ndim(cast(float, value)):
-            raise DefinitionError(f"{said}, this is a batch, {name} has {np.size(value)} values; choose one of them.")
+        values = np.asarray(value)
+        ensure(not values.ndim, f"{said}, this is a batch, {name} has {values.size} values; choose one of them.")
 
 
 def require_number(

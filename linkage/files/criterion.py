@@ -18,7 +18,6 @@ from typing import Any, ClassVar
 import numpy as np
 
 from .. import plugins
-from ..checks import require
 from ..errors import DefinitionError, ensure, unknown
 from ..mechanism import Mechanism
 from ..motion import Condition, Measure, Request, at, condition, gap, integral, least, most, ratio, reachable, transmission, worst
@@ -133,7 +132,8 @@ def quantity_said(text: object, machine: Mechanism) -> Any:
 
 def criterion_of(text: object, machine: Mechanism) -> Any:
     """Return the number, quantity, measure or condition of a machine that a text says; DefinitionError for anything else."""
-    require(isinstance(text, str) and text.strip(), "", text, 'is no text in quotes, such as "least(tilt)"')
+    if not isinstance(text, str) or not text.strip():
+        raise DefinitionError(f'{text!r:.60} is no text in quotes, such as "least(tilt)".')
     parser = CriterionParser(text, machine)
     try:
         return parser.compared(parser.tree) if isinstance(parser.tree, ast.Compare) else parser.meaning(parser.tree)

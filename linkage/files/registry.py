@@ -205,8 +205,9 @@ def link_of(*points: str, **labels: Any) -> steps.Link:
 
 def planes_read(given: object, names: Names) -> Planes:
     """Return the planes that an entry says: `{ planes = ["OBC AB", "CD EDF"], width = "60 mm" }`."""
-    is_sound = isinstance(given, Mapping) and "planes" in given and given.keys() <= {"planes", "width"}
-    require(is_sound, "", given, 'write { planes = ["OBC AB", "CD EDF"], width = "60 mm" }')
+    expected = 'write { planes = ["OBC AB", "CD EDF"], width = "60 mm" }'
+    given = require_type("", given, Mapping, expected)
+    require("planes" in given and given.keys() <= {"planes", "width"}, "", given, expected)
     return Planes(*word_list_of(given["planes"], names), width=quantity_of(given.get("width", 0.0), names))
 
 

@@ -398,7 +398,8 @@ def points_said(given: object, columns: Sequence[PointColumn], units: Mapping[st
         return points_of_file(base / given, columns, units)
     words = ", ".join(each.name for each in columns if not each.optional)
     expected = f'rows of {words} are expected, [[30, 60], [15, 70]], or a CSV file, "points.csv"'
-    require(isinstance(given, list) and given, "", given, expected)
+    given = require_type("", given, list, expected)
+    require(given, "", given, expected)
     sizes = {len(columns), len([each for each in columns if not each.optional])}
     for number, row in enumerate(given, 1):
         if not isinstance(row, list) or len(row) not in sizes or len(row) != len(given[0]):

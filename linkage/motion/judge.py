@@ -940,8 +940,8 @@ def zeros_over(motion: Motion) -> FloatArray:
 
 def questions_of(plan: Plan, given: object) -> list[Any]:
     """Return questions as a list; DefinitionError for anything else."""
-    listed = [given] if isinstance(given, (Measure, Condition)) else given
-    require_type(f"{plan.title}: answers(questions", listed, (list, tuple), "a list of questions is expected, [most(...) <= 8 * deg]")
+    what, expected = f"{plan.title}: answers(questions", "a list of questions is expected, [most(...) <= 8 * deg]"
+    listed = [given] if isinstance(given, (Measure, Condition)) else require_type(what, given, (list, tuple), expected)
     for each in listed:
         if not isinstance(each, (Measure, Condition)):
             at_poses = is_quantity(each) or isinstance(each, Worst)

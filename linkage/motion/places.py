@@ -708,9 +708,10 @@ def quantity_cited(quantity: object) -> str:
 
 def targets_given(given: object, title: str, example: str) -> Sequence[Target]:
     """Return a list of targets, one at least; DefinitionError for anything else."""
-    expected = f"a list of targets is expected, {example}"
-    require(require_type(f"{title}: targets", given, (list, tuple), expected, Target), f"{title}: targets", given, expected)
-    return given
+    what, expected = f"{title}: targets", f"a list of targets is expected, {example}"
+    found: Sequence[Target] = require_type(what, given, (list, tuple), expected, Target)
+    require(found, what, given, expected)
+    return found
 
 
 def is_one(value: object) -> bool:

@@ -11,7 +11,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..checks import require, require_whole
+from ..checks import require, require_type, require_whole
 from ..errors import DefinitionError, ensure, one_word, unknown, unwarned
 from ..frozen import FrozenDict, immutable, refuses_changes
 from ..mechanism import Mechanism
@@ -109,7 +109,8 @@ def tolerances_of(plan: Plan, given: object) -> dict[str, Tolerance]:
     Raises DefinitionError for a name that is no dimension, for two that stand for one, and for anything but a tolerance.
     """
     expected = 'tolerances by the names of dimensions are expected, {"OB": 0.1 * mm}'
-    require(isinstance(given, Mapping) and given, f"{plan.title}: tolerances", given, expected)
+    given = require_type(f"{plan.title}: tolerances", given, Mapping, expected)
+    require(given, f"{plan.title}: tolerances", given, expected)
     found: dict[str, Tolerance] = {}
     seen: dict[str, str] = {}
     spellings, following, entries = plan.table.spellings, plan.table.following, plan.table.entries

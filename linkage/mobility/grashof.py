@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from ..errors import DefinitionError, cited
+from ..checks import require_number
 from ..plan import Plan, Reading
-from ..quantities import is_number
-from ..units import require_measure
 from ..vectors import Numbers
 
 EQUAL = 1e-9
@@ -67,9 +65,7 @@ def grashof(ground: float, crank: float, coupler: float, follower: float) -> str
     """
     lengths = {"ground": ground, "crank": crank, "coupler": coupler, "follower": follower}
     for name, length in lengths.items():
-        if not (is_number(length) and length > 0.0):
-            raise DefinitionError(f"grashof: the length of the {name} is {cited(length)}; a positive number of metres is expected.")
-        require_measure(length, "length", f"grashof: {name}")
+        require_number(f"grashof: {name}", length, "a positive number of metres is expected", above=0.0, kind="length")
     shortest, longest = min(lengths.values()), max(lengths.values())
     if 2.0 * longest >= sum(lengths.values()):
         return "cannot be assembled: the longest link is as long as the other three"

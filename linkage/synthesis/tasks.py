@@ -344,9 +344,8 @@ def timed_strokes(what: str, given: object, count: int) -> FloatArray | None:
 
 def check_point(machine: Mechanism, name: object) -> None:
     """Raise DefinitionError for anything but a point of a machine that moves."""
-    if not isinstance(name, str) or name not in machine.plan.points or name not in machine.plan.moving:
-        known = ", ".join(machine.plan.moving)
-        raise DefinitionError(f"{machine.plan.title}: of={cited(name)}: a point that moves is expected, one of {known}.")
+    expected = f"a point that moves is expected, one of {', '.join(machine.plan.moving)}"
+    require(isinstance(name, str) and name in machine.plan.moving, f"{machine.plan.title}: of", name, expected)
 
 
 def task_of(title: str, given: Sequence[tuple[str, Any, type]]) -> Task:

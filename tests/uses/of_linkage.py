@@ -44,7 +44,7 @@ USES = [
     (
         "grashof(1, 2, 3, @)",
         '"a"; None; nan; inf; -1; 0; 1j; [1]; huge',
-        ("grashof: the length of the follower is", "a positive number of metres is expected."),
+        ("grashof: follower=", "a positive number of metres is expected."),
     ),
     ("equations(@)", '3; None; "Lift"; motion; int', ("is no mechanism; give a design such as FourBar().",)),
     ('study.zone(lifting, raising, {"OB": (0.3, 0.31)}, S=0.1)', "", ("Lift: the function raising of a motion",)),

@@ -415,9 +415,9 @@ def test_a_batch_of_charges_is_one_call():
     [
         ({"charge": 200 * kgf_cm2}, "above the pump's"),
         ({"m1": 0.0}, "m1"),
-        ({"m2": -1.0}, "m2 = -1 is negative"),
+        ({"m2": -1.0}, "m2 = -1 is below zero"),
         ({"seals": np.array([])}, "seals = .* holds no number; give one at least"),
-        ({"V_I": -1 * litre}, "V_I = -0.001 is negative"),
+        ({"V_I": -1 * litre}, "V_I = -0.001 is below zero"),
         ({"V_I": 0.0, "V_II": 0.0}, "Every accumulator of the block has the volume 0, it is absent; give one of them"),
         ({"P_I": 50.0}, "P_I = 50 Pa is next to nothing; write 50 \\* bar if these are bar, or 50 \\* kgf_cm2"),
         ({"charge": 34.0}, "charge = 34 Pa is next to nothing"),

@@ -103,10 +103,12 @@ def as_curve(column: Column, bound: Sequence[object] | None = None) -> tuple[Col
 
 
 def typeset(text: str) -> str:
-    """Return a heading with its squares and cubes raised: kgf/cm² for kgf/cm2."""
-    for plain, raised in (("cm2", "cm²"), ("m2", "m²"), ("cm3", "cm³"), ("m3", "m³"), ("kgf_cm", "kgf/cm")):
-        text = text.replace(plain, raised)
-    return text
+    """Return a heading with the squares and cubes of its units raised: kgf/cm² for kgf/cm2; a name such as boom2 or m2 stays."""
+    return POWER.sub(lambda unit: unit[1] + "²³"[int(unit[2]) - 2], text.replace("kgf_cm2", "kgf/cm2"))
+
+
+POWER = re.compile(r"(?:(?<=[/\d])|(?<=[\d,g] )|^(?=[cm]?m[23]$))([cm]?m)([23])\b")
+"""A square or cube of a length: behind a slash, a number or the comma of a heading, or a unit by itself."""
 
 
 # Joint forces: the body on which one is shown, and how bodies are called.

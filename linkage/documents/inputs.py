@@ -20,6 +20,7 @@ from ..plan import spanning_name, written_out
 from ..quantities import Dimension, Stroke
 from ..reports import dimension_unit
 from ..reports.values import DIGITS, in_digits, with_units
+from ..statics.vehicle import frame_supports
 from ..units import shown_number, unit_sign
 from .content import Block, Cell, Formula, Illustration, Section, TableBlock
 from .pictures import ROOM, WIDE, height_of, in_one_unit
@@ -96,9 +97,14 @@ def stroke_table(subject: ReportSubject, listing: Equations) -> TableBlock:
 
 
 def dimension_table(machine: Mechanism, listing: Equations, notes: Mapping[str, str]) -> TableBlock:
-    """Return the design variables: name, symbol, value, unit, place; a changed one with its former value."""
-    rows: list[tuple[Cell, ...]] = []
+    """Return the design variables: name, symbol, value, unit, place; a changed one with its former value.
+
+    The force of a support under the frame is none: the vehicle's weight gives it.
+    """
+    rows, found = list[tuple[Cell, ...]](), {f"{name}.force" for name in frame_supports(machine.plan)}
     for name, value in machine.dimensions.items():
+        if name in found:
+            continue
         entry = machine.plan.table.entries[name]
         unit = dimension_unit(machine, name)
         where = entry.where.partition(" = ")[0] if entry.kind != "number" else ""

@@ -82,7 +82,7 @@ def results_blocks(
 ) -> Iterator[Block]:
     """Yield the tables over the runs and the curves, the one the machine is about first; of several runs the curves that it is about.
 
-    A table has the columns named, else all: coordinates last, no drive force beside a thrust that it is, those that are the same at all
+    A table has the columns named, else all: coordinates last, no force beside a thrust that it is, those that are the same at all
     poses as a sentence. DefinitionError for an unknown name.
     """
     places = coordinates_of(subject.machine)

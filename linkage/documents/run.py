@@ -179,13 +179,14 @@ class ReportSubject:
 
     @cached_property
     def doubles(self) -> dict[str, str]:
-        """The drives whose force is the thrust of one cylinder over all runs; nothing where the machine makes its table itself."""
+        """The drive forces and thrusts that are another cylinder's thrust over all runs; none where a machine makes its table itself."""
         found: dict[str, str] | None = {} if self.has_own_table else None
         for table in self.table_columns:
             columns = {column.name: column for column in table}
-            drives = [name for name in columns if name.startswith(("drive force", "torque"))]
             thrusts = [name for name in columns if name.startswith("thrust")]
-            same = {drive: [each for each in thrusts if same_curve(columns[drive], columns[each])][:1] for drive in drives}
+            names = [*thrusts, *(name for name in columns if name.startswith(("drive force", "torque")))]
+            before = {name: thrusts[:k] for k, name in enumerate(names)}
+            same = {name: [each for each in among if same_curve(columns[name], columns[each])][:1] for name, among in before.items()}
             known = {drive: thrust for drive, each in same.items() for thrust in each}
             found = known if found is None else {drive: thrust for drive, thrust in found.items() if known.get(drive) == thrust}
         return found or {}

@@ -158,3 +158,11 @@ def test_without_typst_a_pdf_is_refused_in_words_and_other_reports_are_written(t
     assert "a.pdf" in str(found.value) and ".html or .md" in str(found.value)
     assert not list(tmp_path.iterdir())
     assert report(Boom(), tmp_path / "a.html").is_file() and report(Boom(), tmp_path / "a.md").is_file()
+
+
+@needs_poppler
+def test_a_number_is_never_parted_from_its_unit(tmp_path):
+    rows = tuple((f"{'ab ' * n}reach = 3000.0 mm, {'cd ' * n}12 kN/m, 5 %", "ef " * 40) for n in range(1, 40))
+    lines = text_of(pdf(paper(TableBlock("", ("a", "b"), rows, "mm"))), tmp_path).splitlines()
+    assert len(lines) > 100
+    assert not [line for line in lines if re.match(r" *(mm|kN/m|%)", line)]

@@ -3,6 +3,7 @@
 import re
 import shutil
 import subprocess
+from collections import defaultdict
 from dataclasses import replace
 from functools import cache, partial
 from itertools import combinations, pairwise
@@ -71,7 +72,9 @@ from mechanisms.crane import Crane
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.for_all import first_daily, for_all
+from tests.hydraulics.test_oil import OnOneBlock
 from tests.linkage.pictures.test_page_in_time import Pumped, Sudden
+from tests.linkage.statics.test_vehicle import Digger
 
 needs_poppler = pytest.mark.skipif(shutil.which("pdftotext") is None, reason="poppler's pdftotext is not installed")
 
@@ -605,3 +608,10 @@ def test_a_rate_that_jumps_counts_no_inertia_and_a_box_is_in_no_time(tmp_path):
     report(Sudden(), tmp_path / "sudden.md", count=3)
     assert "No inertia is counted, over rise, in the case full: the rate of S jumps" in (tmp_path / "sudden.md").read_text(encoding="utf-8")
     assert " As it runs" not in (report(Pumped(), tmp_path / "box.md", over=Pumped.plan.members["box"])).read_text(encoding="utf-8")
+
+
+def test_an_equal_thrust_is_no_second_column_and_a_frame_on_axles_has_no_given_forces():
+    text = markdown(report_document(OnOneBlock()), defaultdict(str))
+    assert "Thrust right is thrust left" in text and "thrust left, kN" in text and "thrust right, kN |" not in text
+    text = markdown(report_document(Digger()), defaultdict(str))
+    assert "front.friction" in text and "front.force" not in text

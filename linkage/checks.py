@@ -45,7 +45,7 @@ def instance_of(given: object, kind: type[Kind]) -> Kind | None:
     return given if isinstance(given, kind) else given() if is_class_of(given, kind) else None
 
 
-def can_be_called(given: object) -> TypeGuard[Callable[..., Any]]:
+def can_be_called(given: object) -> TypeGuard[Callable[..., object]]:
     """Return whether a value can be called as a function, which a class is not."""
     return callable(given) and not isinstance(given, type)
 

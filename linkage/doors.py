@@ -19,7 +19,7 @@ from .reports import NOTHING
 def late(module: str, name: str) -> Callable[..., Any]:
     """Return a function that loads the one with this name of a module of this package, ".pictures.film", when it is called."""
 
-    def call(*arguments: Any, **options: Any) -> Any:
+    def call(*arguments: object, **options: object) -> object:
         return getattr(import_module(module, __package__), name)(*arguments, **options)
 
     path = Path(__file__).parent.joinpath(*module.split(".")).with_suffix(".py")

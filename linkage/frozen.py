@@ -56,14 +56,14 @@ def frozen(given: object) -> npt.NDArray[np.float64]:
     return read_only(np.array(given, float))
 
 
-def unmasked(value: object) -> Any:
+def unmasked(value: object) -> object:
     """Return a masked array of numbers as floats with NaN in the places that are masked; anything else as it is."""
     if isinstance(value, np.ma.MaskedArray) and value.dtype.kind in "fiu":
         return np.ma.filled(value.astype(float), np.nan)
     return value
 
 
-def frozen_copy(value: Any) -> Any:
+def frozen_copy(value: Any) -> object:
     """Return a frozen copy of a user's value: arrays read-only, lists as tuples, dicts frozen."""
     if isinstance(value, np.ndarray) and type(value) in (np.ndarray, np.ma.MaskedArray):
         return read_only(np.array(unmasked(value)))

@@ -33,7 +33,7 @@ class InnerFunction:
 
 
 def function_again(
-    module: str, outer: str, place: tuple[int, ...], defaults: Any, by_name: dict[str, Any] | None, cells: tuple[object, ...]
+    module: str, outer: str, place: tuple[int, ...], defaults: Any, by_name: dict[str, object] | None, cells: tuple[object, ...]
 ) -> FunctionType:
     """Return a function that is nested in a function of a module."""
     code = code_of(module, outer)
@@ -81,7 +81,7 @@ def inner_codes(code: CodeType, path: tuple[int, ...] = ()) -> Iterator[tuple[tu
             yield from inner_codes(each, (*path, place))
 
 
-def object_of(kind: type, values: dict[str, object]) -> Any:
+def object_of(kind: type, values: dict[str, object]) -> object:
     """Return an object of a class with these attributes."""
     found: Any = object.__new__(kind)
     vars(found).update(values)

@@ -26,13 +26,13 @@ def traced_rule(count: int, rule: Rule) -> str:
     return f"({','.join(given.values())})=>{function_body(given, [graph.node(each) for each in results])}"
 
 
-def place_ahead(*given: Any, choose: Any) -> tuple[Any, ...]:
+def place_ahead(*given: Any, choose: Any) -> tuple[object, ...]:
     """Return the next place, and one coordinate predicted there: step, limit, three places and the coordinate's three values."""
     place, (line,), (start,) = predicted(given[0], given[1], given[2:5], [[each] for each in given[5:]], choose)
     return place, line, start
 
 
-def place_between(*given: Any, choose: Any) -> tuple[Any, ...]:
+def place_between(*given: Any, choose: Any) -> tuple[object, ...]:
     """Return one coordinate predicted at a place, and its bound: three places, its values, clearances and sizes."""
     (found,), bound = interpolated(given[0], given[1:4], [[each] for each in given[4:7]], given[7:9], given[9:], choose)
     return found, bound

@@ -5,7 +5,6 @@ from __future__ import annotations
 from importlib import import_module
 from keyword import kwlist, softkwlist
 from pathlib import Path
-from typing import Any
 
 from .. import plugins
 from ..disk import check_place, replacing_text
@@ -70,7 +69,7 @@ def drawing_board(
     return target
 
 
-def drawing_data(sketch: MachineSketch | None = None) -> dict[str, Any]:
+def drawing_data(sketch: MachineSketch | None = None) -> dict[str, object]:
     """Return the data of a page on which a sketch is drawn, or nothing yet.
 
     Parameters

@@ -183,7 +183,7 @@ class LastingOutput:
         """Flush the written text."""
         self._unbroken(self.stream.flush)
 
-    def _unbroken(self, act: Callable[[], Any]) -> Any:
+    def _unbroken(self, act: Callable[[], object]) -> Any:
         if self.broken:
             return None
         try:

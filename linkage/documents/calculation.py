@@ -33,7 +33,7 @@ class FilledEquations:
         return self.listing.sheet(self.pose, {name: without_rounding(value) for name, value in self.values.items()})
 
 
-def without_rounding(value: Any) -> Any:
+def without_rounding(value: Any) -> object:
     """Return a value, one number or two, as floats; zero for the rounding of its last digits."""
     if isinstance(value, tuple):
         return tuple(map(without_rounding, value))

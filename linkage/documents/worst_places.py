@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -76,7 +76,7 @@ class JudgedRow(NamedTuple):
     sign: str = ""
 
 
-def limit_answers(subject: ReportSubject, limits: Mapping[str, Sequence[Any]]) -> list[JudgedRow]:
+def limit_answers(subject: ReportSubject, limits: Mapping[str, Sequence[object]]) -> list[JudgedRow]:
     """Return the judge's answers to the limits of columns, by their headings, where the columns have requests."""
     columns = subject.columns_along(replace(subject.run, case=None), subject.curve)
     asked, quantities = {}, subject.quantities(limits)

@@ -412,7 +412,7 @@ def chart_content(field: WorkingField, suffix: str, name: str) -> bytes:
     raise DefinitionError(f"{name}: a working field is written as {' or '.join(SUFFIXES)}; a picture is plot(field).savefig(...).")
 
 
-def cell_table(field: WorkingField) -> list[list[Any]]:
+def cell_table(field: WorkingField) -> list[list[object]]:
     """Return the headings of the cells and then a row for each, in the units of the headings; empty without a number."""
     text = ChartText(field)
     strokes = [(name, shown_in(stroke_display_unit(field.machine.plan, name, "mm"))) for name in field.strokes]

@@ -115,7 +115,7 @@ def course_written(course: Course | Curve, is_angle: bool) -> Keywords | list[Ke
     return tables[0] if len(tables) == 1 else tables
 
 
-def listed_all(value: object) -> Any:
+def listed_all(value: object) -> object:
     """Return tuples as lists, through all depths."""
     return [listed_all(each) for each in value] if isinstance(value, tuple) else value
 

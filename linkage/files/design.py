@@ -35,7 +35,7 @@ class Design:
         self.written.add(name)
         return float(self.set.get(name, given.number))
 
-    def amount(self, given: object, unit: str = "", name: str = "") -> Any:
+    def amount(self, given: object, unit: str = "", name: str = "") -> object:
         """Return a number of a load as it is given, in its unit where that is exact, or the expression in its place.
 
         `name` is that of its design variable, where it is one.
@@ -73,7 +73,7 @@ class Design:
         """Return the text of a quantity's or a vector's own rule, whatever its name; DefinitionError unless it reads back as the same."""
         return self.read_back(str(given), own_form(given), expression if isinstance(given, Quantity) else arrow_in)
 
-    def read_back(self, text: str, says: object, read: Callable[[str, Names], Any]) -> str:
+    def read_back(self, text: str, says: object, read: Callable[[str, Names], object]) -> str:
         """Return a text; DefinitionError unless reading it gives the original again."""
         ensure(own_form(read(text, self.names)) == says, f"{text} does not read back as it is; give its parts names of their own.")
         return text
@@ -93,7 +93,7 @@ def in_unit(value: float, unit: str) -> float | str:
     return text if parse(text) == value else value
 
 
-def option_said(value: object) -> Any:
+def option_said(value: object) -> object:
     """Return an option of a load as a file holds it: a number, a word or a member's name; DefinitionError for anything else."""
     value = name_of(value) if isinstance(value, Member) else plain(value)
     if is_number(value) or isinstance(value, str):
@@ -142,7 +142,7 @@ def measured_labels(design: Design, members: Mapping[str, Member]) -> dict[str, 
 # -- what a quantity or a vector says, apart from how it is written: whether a text reads back as the same --
 
 
-def own_form(member: object) -> Any:
+def own_form(member: object) -> object:
     """Return a member as nested tuples that compare; its own name does not count."""
     match member:
         case Ref():
@@ -154,7 +154,7 @@ def own_form(member: object) -> Any:
     return member
 
 
-def form(part: object) -> Any:
+def form(part: object) -> object:
     """Return a part of a member as a comparable value: its name where it has one."""
     match part:
         case tuple():

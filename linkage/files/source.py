@@ -86,7 +86,7 @@ def refused(word: str) -> NoReturn:
     raise ValueError(f"{word} is not a number")
 
 
-def unique(pairs: list[tuple[str, Any]]) -> Keywords:
+def unique(pairs: list[tuple[str, object]]) -> Keywords:
     """Return a table; ValueError for a key that stands twice."""
     table = dict(pairs)
     if len(table) < len(pairs):

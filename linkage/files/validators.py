@@ -31,7 +31,7 @@ DEEPEST = 3
 """How deep lists may stand in each other."""
 
 
-def file_value(value: object, design: Design, name: str = "") -> Any:
+def file_value(value: object, design: Design, name: str = "") -> object:
     """Return a value as data of a file: an expression, a name, a number, a word, lists and tables of them.
 
     `name` is that of its design variable, where it is one. DefinitionError for what a file cannot hold.
@@ -103,7 +103,7 @@ def amount_of(given: object, names: Names, measures: str) -> Any:
     return Amount(found.constant, UNITS[unit][1]) if unit and not measures else found.constant
 
 
-def two_items(what: str, one: Read, given: Any, names: Names) -> tuple[Any, Any]:
+def two_items(what: str, one: Read, given: Any, names: Names) -> tuple[object, object]:
     """Return the items of a list of two, each read by itself."""
     require(is_listed(given) and len(given) == 2, "", given, f"is not {what}")
     return one(given[0], names), one(given[1], names)
@@ -116,12 +116,12 @@ def items_of(one: Read, wrong: str, most: float, given: object, names: Names) ->
     return tuple(each_of(enumerate(given), lambda place, each: one(each, names)))
 
 
-def point_or(place: Read, given: object, names: Names) -> Any:
+def point_or(place: Read, given: object, names: Names) -> object:
     """Return a point's name, or a place by two coordinates."""
     return names.checked(given, "point") if isinstance(given, str) else place(given, names)
 
 
-def lists_of(given: object, names: Names, depth: int = 0) -> Any:
+def lists_of(given: object, names: Names, depth: int = 0) -> object:
     """Return a number or a word, or a list of them, or lists of lists as tuples."""
     if not is_listed(given):
         return word_of(given) if isinstance(given, str) else number_of(given, names)
@@ -138,7 +138,7 @@ def arrow_of(given: object, names: Names) -> Arrow | str:
     return arrow_in(given, names)
 
 
-def words_in(given: Any, what: str) -> Sequence[Any]:
+def words_in(given: Any, what: str) -> Sequence[object]:
     """Return the words of a text such as `O B C`, or of a list; DefinitionError where there is none."""
     words: Sequence[Any] = given.split() if isinstance(given, str) else given
     require(is_listed(words) and words, "", given, f"is not {what}")
@@ -159,7 +159,7 @@ def body_of(given: object, names: Names) -> str:
     return " ".join(names.checked(word, kind) for word in words)
 
 
-def loads_of(given: object, names: Names) -> Any:
+def loads_of(given: object, names: Names) -> object:
     """Return the name of a load, or a list of such."""
     return [names.checked(each, "load") for each in given] if is_listed(given) else names.checked(given, "load")
 
@@ -195,7 +195,7 @@ def side_named(given: object, names: Names) -> Side | None:
     return found
 
 
-def word_of(given: Any, names: Names | None = None) -> str:
+def word_of(given: object, names: Names | None = None) -> str:
     """Return a word that stands for itself."""
     require(isinstance(given, str) and given.isprintable(), "", given, "stands where a word in quotes is expected")
     return str(given)
@@ -209,7 +209,7 @@ def switch_of(given: object, names: Names) -> bool:
 # -- as they are written -----------------------------------------------------------------------------------
 
 
-def written_origin(value: Any, design: Design, name: str) -> Any:
+def written_origin(value: Any, design: Design, name: str) -> object:
     """Return where a guide starts: a point's name, or two coordinates."""
     if not isinstance(value, tuple):
         return label(value)
@@ -217,13 +217,13 @@ def written_origin(value: Any, design: Design, name: str) -> Any:
     return [design.variable(f"{owner}.{axis}", Number(part)) for axis, part in zip("xy", value, strict=True)]
 
 
-def written_force(value: Any, design: Design, name: str) -> Any:
+def written_force(value: Any, design: Design, name: str) -> object:
     """Return the two parts of a force, each a design variable of its own."""
     owner = name.rpartition(".")[0]
     return [design.amount(part, "N", f"{owner}.{axis}") for axis, part in zip("xy", value, strict=True)]
 
 
-def written_lengths(value: Any, design: Design, name: str) -> list[Any]:
+def written_lengths(value: Any, design: Design, name: str) -> list[object]:
     """Return a list of lengths, each a design variable of its own: `hoist.bore_1` is the first of `hoist.bores`."""
     return [design.amount(each, "mm", f"{name.removesuffix('s')}_{number}") for number, each in enumerate(value, 1)]
 
@@ -244,7 +244,7 @@ def written_carrier(value: Any, design: Design, name: str) -> str | None:
     return " ".join(map(name_of, value)) if value else None
 
 
-def written_pair(value: Any, design: Design, name: str) -> list[Any]:
+def written_pair(value: Any, design: Design, name: str) -> list[object]:
     """Return the numbers of a pair; DefinitionError for lists in it."""
     return [option_said(each) for each in value]
 

@@ -565,7 +565,7 @@ def legend(equations: Equations, listing: Listing, values: dict[str, str], force
 # Numbers for the equations: each line evaluated from those before it, on arrays or to any number of digits.
 
 
-def evaluated(lines: Sequence[ListingLine], inputs: Mapping[sympy.Symbol, Any], digits: int | None = None) -> dict[sympy.Basic, Any]:
+def evaluated(lines: Sequence[ListingLine], inputs: Mapping[sympy.Symbol, Any], digits: int | None = None) -> dict[sympy.Basic, object]:
     """Return every line's value [SI]: a scalar or a pair, by its symbol.
 
     `inputs` are the plain symbols' values. With `digits` mpmath works at that many digits and the values
@@ -583,14 +583,14 @@ def evaluated(lines: Sequence[ListingLine], inputs: Mapping[sympy.Symbol, Any], 
     }
 
 
-def in_reals(value: Any) -> Any:
+def in_reals(value: Any) -> object:
     """Return a value; NaN for anything but a real number, such as a power of a negative one."""
     if isinstance(value, mpmath.mpc):
         return value.real if value.imag == 0 else mpmath.nan
     return np.where(np.imag(value) == 0.0, np.real(value), np.nan)[()] if np.iscomplexobj(value) else value
 
 
-def _evaluated(lines: Sequence[ListingLine], known: dict[sympy.Symbol, Any], arithmetic: str) -> dict[sympy.Basic, Any]:
+def _evaluated(lines: Sequence[ListingLine], known: dict[sympy.Symbol, Any], arithmetic: str) -> dict[sympy.Basic, object]:
     known |= dict(zip(explicit(X_AXIS), (1.0, 0.0), strict=True))
     try:
         return in_one_call(lines, known, arithmetic)
@@ -606,7 +606,7 @@ def _evaluated(lines: Sequence[ListingLine], known: dict[sympy.Symbol, Any], ari
         return found
 
 
-def in_one_call(lines: Sequence[ListingLine], known: Mapping[sympy.Symbol, object], arithmetic: str) -> dict[sympy.Basic, Any]:
+def in_one_call(lines: Sequence[ListingLine], known: Mapping[sympy.Symbol, object], arithmetic: str) -> dict[sympy.Basic, object]:
     """Return the lines' values, worked out by one function that is compiled once for all designs of a class."""
     function, needed = compiled_lines(tuple((line.lhs, line.rhs) for line in lines), arithmetic)
     values = iter(function(*(known[symbol] for symbol in needed)))
@@ -616,7 +616,7 @@ def in_one_call(lines: Sequence[ListingLine], known: Mapping[sympy.Symbol, objec
 @lru_cache(maxsize=64)
 def compiled_lines(
     lines: tuple[tuple[sympy.Basic, sympy.Basic], ...], arithmetic: str
-) -> tuple[Callable[..., Sequence[Any]], tuple[sympy.Symbol, ...]]:
+) -> tuple[Callable[..., Sequence[object]], tuple[sympy.Symbol, ...]]:
     """Return a function of plain symbols that gives the values of lines, (left, right) each, one after the other, and these symbols.
 
     A value that is no real number goes on as NaN.

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 
@@ -14,7 +13,7 @@ from .strokes import rates_of
 
 
 def point_by_time(
-    motion: MotionLike, point: str, order: int, rates: Mapping[str, Any], accelerations: Mapping[str, Any]
+    motion: MotionLike, point: str, order: int, rates: Mapping[str, object], accelerations: Mapping[str, object]
 ) -> FloatArray:
     """Return the velocity of a point that moves, of `order` 2 its acceleration, shape (2, ...).
 

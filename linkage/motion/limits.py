@@ -259,7 +259,7 @@ def no_joint(plan: Plan, name: str, joints: Sequence[str]) -> DefinitionError:
     return DefinitionError(f"{plan.title}: {opening(plan, name)} {why}; those are: {known}.")
 
 
-def where_words(plan: Plan, mask: Mask, strokes: Mapping[str, Any]) -> str:
+def where_words(plan: Plan, mask: Mask, strokes: Mapping[str, object]) -> str:
     """Return which poses are meant as errors and warnings say it, in English: `at 7 of 101 strokes, from S = 159.8 to 170.0 mm`."""
     with language(ENGLISH):
         return where_said(plan, mask, strokes)
@@ -310,7 +310,7 @@ MOST_TURNS = 4
 """Of more turns of a stroke along a path its range alone is told."""
 
 
-def way_text(values: Any, unit: str) -> str:
+def way_text(values: object, unit: str) -> str:
     """Return where a stroke begins, turns back and ends, one after the other: `0, 300 to 100 mm`; of many values their range."""
     values = np.asarray(values, float)
     steps = np.diff(values)
@@ -334,7 +334,7 @@ def places_text(strokes: Mapping[str, object], units: Mapping[str, str]) -> str:
     return ", ".join(f"{name} = {place_text(value, units[name])}" for name, value in strokes.items())
 
 
-def timed_texts(strokes: Mapping[str, Any], units: Mapping[str, str], time: float) -> tuple[str, str]:
+def timed_texts(strokes: Mapping[str, object], units: Mapping[str, str], time: float) -> tuple[str, str]:
     """Return an instant [s] and the strokes there as they are read: `0.1875 s`, `lift = 114.1 mm, phi = 25.00 deg`."""
     return show(round(time, 6), "s", 4), places_text(strokes, units)
 

@@ -73,7 +73,7 @@ class ManyPlaces:
 
     @classmethod
     def for_targets(
-        cls, plan: Plan, designs: Mapping[str, Any], targets: Sequence[Target], hold: Any, *, where: str, ranges: StrokeRanges
+        cls, plan: Plan, designs: Mapping[str, Any], targets: Sequence[Target], hold: object, *, where: str, ranges: StrokeRanges
     ) -> ManyPlaces:
         """Return targets bound to one design; DefinitionError for anything else, and for more than two strokes to spare."""
         title = f"{plan.title}: {where}"

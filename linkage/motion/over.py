@@ -505,7 +505,7 @@ def is_end(value: object) -> bool:
     return is_number(value) or isinstance(value, Quantity) or (isinstance(value, str) and all(map(str.isidentifier, value.split("."))))
 
 
-def box_ends(name: str, value: object) -> Any:
+def box_ends(name: str, value: object) -> object:
     """Return the value of a stroke of a box: a number, a quantity or its name, or two of these; DefinitionError for anything else."""
     if isinstance(value, (list, tuple, np.ndarray)):
         if len(value) == 2 and all(map(is_end, value)):
@@ -518,7 +518,7 @@ def box_ends(name: str, value: object) -> Any:
     raise DefinitionError(f"Over({name}={cited(value)}): (low, high) or one value is expected, in SI.")
 
 
-def place_values(shape: str, name: str, value: object) -> Any:
+def place_values(shape: str, name: str, value: object) -> object:
     """Return the values of a stroke of a path: numbers or quantities in their order, or one where it is constant."""
     if is_end(value) and not is_number(value):
         return value
@@ -533,7 +533,7 @@ def place_values(shape: str, name: str, value: object) -> Any:
     return tuple(found.tolist()) if found.ndim else amount_or_float(value) if is_number(value) else float(found)
 
 
-def instants_given(time: Any, values: Mapping[str, Any]) -> tuple[float, ...] | None:
+def instants_given(time: object, values: Mapping[str, object]) -> tuple[float, ...] | None:
     """Return the instants of a path [s]: those given, else from where to where its courses go; None where it is none in time."""
     courses = {name: value for name, value in values.items() if isinstance(value, (Course, Curve))}
     lists = {name: value for name, value in values.items() if isinstance(value, tuple)}

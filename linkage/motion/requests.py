@@ -92,7 +92,7 @@ class Request(Arithmetic):
         """Return its values over a motion's poses [SI], shape (...), of a point's (2, ...); by the program unless a subclass says."""
         return motion._requested(self)
 
-    def applied(self, function: str, *operands: Any) -> Any:
+    def applied(self, function: str, *operands: object) -> Any:
         """Apply NumPy's function of that name to requests, quantities and numbers; a point's two parts are taken one by one."""
         if any(isinstance(each, Arithmetic) and not isinstance(each, Request) for each in operands):
             return NotImplemented
@@ -657,7 +657,7 @@ class Combined(Request):
             return np.asarray(np.nan_to_num(np.maximum(size, SMALL), nan=SMALL))
 
 
-NUMPY: Mapping[str, Callable[..., Any]] = MappingProxyType({name: getattr(np, name) for name in TAKEN})
+NUMPY: Mapping[str, Callable[..., object]] = MappingProxyType({name: getattr(np, name) for name in TAKEN})
 
 
 def operand(given: Any) -> Request | Quantity | float:

@@ -41,7 +41,7 @@ def refuse_time(given: Mapping[str, object], strokes: Collection[str], title: st
         raise DefinitionError(f"{title}: time={cited(given['time'])}: time is no stroke, it is that of a path; write sweep(over={path}).")
 
 
-def at_values(given: Mapping[str, object], plan: Plan, take: Callable[[Any], FloatArray] = real) -> dict[str, FloatArray]:
+def at_values(given: Mapping[str, object], plan: Plan, take: Callable[[object], FloatArray] = real) -> dict[str, FloatArray]:
     """Return chosen stroke values, broadcast against each other; `take` makes arrays of them."""
     strokes, title = plan.strokes, plan.title
     known_strokes(given, strokes, title)

@@ -31,8 +31,8 @@ def page(
     columns: Sequence[Column | RequestLike] | None = None,
     column: str | None = None,
     trace: Sequence[str] | None = None,
-    limit: Sequence[Any] | Mapping[str, Sequence[Any]] | None = None,
-    at: Mapping[str, Any] = NOTHING,
+    limit: Sequence[object] | Mapping[str, Sequence[object]] | None = None,
+    at: Mapping[str, object] = NOTHING,
     count: int = 101,
     language: str = "en",
 ) -> Path:

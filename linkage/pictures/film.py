@@ -191,7 +191,7 @@ class Stage:
             artist.set_animated(True)
         self.canvas.draw()
         self._fit_place()
-        self.still: Any = self.canvas.copy_from_bbox(self.figure.bbox)
+        self.still: object = self.canvas.copy_from_bbox(self.figure.bbox)
         names = [artist for artist in self.drawing.artists if isinstance(artist, Annotation)]
         self.stamps: dict[Artist, Stamp] = {name: Stamp(name, self.canvas) for name in names}
 

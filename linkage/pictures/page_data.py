@@ -433,7 +433,7 @@ def stroke_data(requests: PageRequests) -> list[PageData]:
     return found
 
 
-def event_data(events: Sequence[Any]) -> list[list[Any]]:
+def event_data(events: Sequence[Any]) -> list[list[object]]:
     """Return the events at each instant: the instant [s], and their sentences."""
     found = [[*group] for _, group in groupby(events, key=lambda event: event.time)]
     return [[group[0].time, "; ".join([str(group[0]), *(each.sentence for each in group[1:])])] for group in found]
@@ -627,7 +627,7 @@ MARKS = {True: 1, False: 0, None: 2}
 """How verdicts are told: those that are kept, those that are not, and what is only said."""
 
 
-def verdict_data(machine: Mechanism, judge: Judge, along: Motion | None) -> tuple[list[list[Any]], list[Verdict] | None]:
+def verdict_data(machine: Mechanism, judge: Judge, along: Motion | None) -> tuple[list[list[object]], list[Verdict] | None]:
     """Return rows of the machine's verdicts over all that a judge looks at, for the design that is delivered, and the verdicts.
 
     A row is 1 where one is kept, 0 where it is not, 2 where it is only said, 3 where it says nothing; its heading and its sentence, then

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from functools import partial
 from textwrap import fill
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -164,7 +163,7 @@ def plot_tornado(found: Tornado) -> Figure:
     said = f"sigma of all together {show(found.sigma, found.unit, 3)}; at the right each one's share of the variance"
     ax.annotate(typeset(said), (0.0, 1.0), (0, 7), "axes fraction", textcoords="offset points", fontsize=style.SMALL, color=style.MUTED)
     names = {"at the lower limit": style.CURVE, "at the upper limit": style.ACCENT}
-    handles: list[Any] = [ax.barh([np.nan], [0.0], color=colour, label=text) for text, colour in names.items()]
+    handles: list[object] = [ax.barh([np.nan], [0.0], color=colour, label=text) for text, colour in names.items()]
     handles.append(ax.plot([], [], "|", color=style.INK, markersize=9, markeredgewidth=1.6, label="as the gradient tells")[0])
     figure.legend(handles=handles, loc="outside lower right", ncols=3, fontsize=style.SMALL, frameon=False, labelcolor=style.INK)
     return figure

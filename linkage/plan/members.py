@@ -586,7 +586,7 @@ def printed(plan: Members, values: Mapping[str, float] = MappingProxyType({})) -
     return {name: as_written(parts[name] if name in parts else member.having(spelled), plan.turning) for name, member in own.items()}
 
 
-def in_quotes(given: Any, known: Collection[str]) -> Any:
+def in_quotes(given: Any, known: Collection[str]) -> object:
     """Return a reference, or several, in quotes where it is not among the names that are known."""
     if isinstance(given, tuple):
         return tuple(in_quotes(each, known) for each in given)

@@ -304,7 +304,7 @@ class Renaming:
         held = {name: value for name, value in vars(given).items() if name not in ("_name", "_class", "spoken", "plan", "machine")}
         return given.renewed(**{name: self.attribute(given, name, value) for name, value in held.items()})
 
-    def named_member(self, given: Member) -> Any:
+    def named_member(self, given: Member) -> object:
         """Return the member that replaces an argument, or the one that it holds."""
         return given if given.name and not isinstance(given, Group) else self.member(given)
 
@@ -455,7 +455,7 @@ class Renamed(Renaming):
             return Variable(f"{self.part.name}.{own}.{given.axis}")
         return each if own in self.part.given else self.member(each)  # type: ignore[return-value]
 
-    def named_member(self, given: Member) -> Any:
+    def named_member(self, given: Member) -> object:
         if given.name and self.names.get(given.name, given.name) in self.foreign:
             target = self.names[given.name]
             return Ref(target) if isinstance(given, Quantity) else target

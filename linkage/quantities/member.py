@@ -38,7 +38,7 @@ class Member:
     expects: ClassVar[tuple[tuple[str, str], ...]] = ()
     """Its attributes that refer to others, with the kind each must be."""
 
-    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({})
+    argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({})
     """What its arguments are where `expects` and annotations do not tell, for files. What a class says adds to what its bases say.
 
     A word, such as `body`, `place`, `length` (see `linkage.files.validators`); a class, whose own arguments stand among those of the
@@ -589,7 +589,7 @@ def annotated_kind(annotation: object) -> str | None:
     return ANNOTATED.get(text.replace("[", " ").partition(" ")[0])
 
 
-def kinds_said(cls: type[Any], amount: Callable[[str], Any] = lambda unit: "quantity") -> dict[str, Any]:
+def kinds_said(cls: type[object], amount: Callable[[str], object] = lambda unit: "quantity") -> dict[str, object]:
     """Return the kinds of arguments as a class and its bases say them; `amount(unit)` is that of a number with a unit."""
     said: dict[str, Any] = {}
     for base in reversed(cls.__mro__):
@@ -598,7 +598,7 @@ def kinds_said(cls: type[Any], amount: Callable[[str], Any] = lambda unit: "quan
     return said
 
 
-def word_arguments(cls: type[Any]) -> frozenset[str]:
+def word_arguments(cls: type[object]) -> frozenset[str]:
     """Return the attributes of a class whose texts are words and no names of members: `works="rod"`."""
     if cls not in WORD_ARGUMENTS:
         said = kinds_said(cls)
@@ -612,5 +612,5 @@ def word_arguments(cls: type[Any]) -> frozenset[str]:
     return WORD_ARGUMENTS[cls]
 
 
-WORD_ARGUMENTS: WeakKeyDictionary[type[Any], frozenset[str]] = WeakKeyDictionary()
+WORD_ARGUMENTS: WeakKeyDictionary[type[object], frozenset[str]] = WeakKeyDictionary()
 """What `word_arguments` has found, by class."""

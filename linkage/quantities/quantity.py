@@ -395,7 +395,7 @@ class Ref(Quantity):
         return self.target
 
 
-def stands_for(members: Mapping[str, Any], given: object) -> Any:
+def stands_for(members: Mapping[str, object], given: object) -> Any:
     """Resolve a name or a reference among some members to its final member; an unknown name is returned unchanged."""
     while isinstance(given, (str, Ref)):
         name = given.target if isinstance(given, Ref) else given

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from dataclasses import asdict
-from typing import Any
 
 from ..errors import DefinitionError, FileError, cited
 from ..quantities import is_name
@@ -18,7 +17,7 @@ ADDRESS = f"board:{BOARD}."
 """How the address of a drawing begins, behind the # of the board's page or by itself."""
 
 
-def board_tables(sketch: MachineSketch) -> dict[str, Any]:
+def board_tables(sketch: MachineSketch) -> dict[str, object]:
     """Return a sketch as the tables of the board's file, which has none of forces."""
     return {"board": BOARD, **plain_entry({name: each for name, each in asdict(sketch).items() if name != "forces"})}
 
@@ -28,7 +27,7 @@ def board_json(sketch: MachineSketch) -> str:
     return json.dumps(board_tables(sketch), ensure_ascii=False, allow_nan=False, indent=1) + "\n"
 
 
-def read_board(found: FoundMachine, data: Mapping[str, Any]) -> None:
+def read_board(found: FoundMachine, data: Mapping[str, object]) -> None:
     """Read a file of the board: its sketch as it is, and its points and links for drives that are asked for."""
     found.ensure(data["board"] == BOARD, f"it is of another board, {cited(data['board'])}; bring hydrolinkage up to date.")
     try:
@@ -41,7 +40,7 @@ def read_board(found: FoundMachine, data: Mapping[str, Any]) -> None:
     found.links = [(name, [*points]) for name, points in found.board_sketch.links.items()]
 
 
-def drawn_sketch(found: FoundMachine, data: Mapping[str, Any]) -> MachineSketch:
+def drawn_sketch(found: FoundMachine, data: Mapping[str, object]) -> MachineSketch:
     """Return the sketch of a file of the board; FileError for a file of another kind."""
     parts = "slides", "drives", "weights"
     tables = {part: {name: found.table(each, name) for name, each in named_entries(found, data, part).items()} for part in parts}
@@ -79,7 +78,7 @@ def drawn_sketch(found: FoundMachine, data: Mapping[str, Any]) -> MachineSketch:
     return MachineSketch(title, points, fixed, links, slides, drives, lengths, weights, notes)
 
 
-def named_entries(found: FoundMachine, data: Mapping[str, Any], part: str) -> dict[str, Any]:
+def named_entries(found: FoundMachine, data: Mapping[str, object], part: str) -> dict[str, object]:
     """Return a table of members, whose names are legal."""
     table = found.table(data.get(part, {}), part)
     found.ensure(len(table) <= 1000, f"{part} has {len(table)} entries, more than a drawing has.")

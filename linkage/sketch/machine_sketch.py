@@ -357,7 +357,7 @@ def noiseless(value: float) -> float:
     return float(written(value)) + 0.0
 
 
-def plain_entry(entry: Any) -> Any:
+def plain_entry(entry: object) -> Any:
     """Return an entry of a table with lists for tuples, and Python's own numbers for NumPy's."""
     if isinstance(entry, dict):
         return {name: plain_entry(each) for name, each in entry.items()}

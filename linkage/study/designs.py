@@ -36,7 +36,7 @@ class Designs:
     count: int
 
     @classmethod
-    def of(cls, machine: Mechanism, vary: Mapping[str, Any]) -> Designs:
+    def of(cls, machine: Mechanism, vary: Mapping[str, object]) -> Designs:
         """Return the designs that arrays by name make of a machine; DefinitionError for a wrong name or value."""
         title = machine.plan.title
         expected = "a dictionary of names and arrays is expected; Box.sample(count) makes one"

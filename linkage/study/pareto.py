@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from importlib.util import find_spec
-from typing import Any
 
 import numpy as np
 
@@ -135,7 +134,7 @@ def evolved_front(problem: Problem, combination: Sequence[int], seed: int, left:
     class Generation(Asked):  # type: ignore[misc]
         """A generation's objectives and misses, as pymoo asks for them."""
 
-        def _evaluate(self, x: FloatArray, out: dict[str, Any], *args: object, **options: object) -> None:
+        def _evaluate(self, x: FloatArray, out: dict[str, object], *args: object, **options: object) -> None:
             values, missing, reached = problem.merits_of_each(combination, np.asarray(x, float))
             out["F"] = np.where(np.isfinite(values), values, 1e30).T
             out["G"] = np.stack([np.nan_to_num(missing, nan=1e6, posinf=1e6) - MET, 1e6 * (1.0 - reached)], axis=1)

@@ -323,7 +323,7 @@ class Problem:
         """At how many poses a design is looked at."""
         return sum(prod(map(len, each.axes.values())) * max(len(each.singles), 1) for each in self.sets)
 
-    def changed(self, **other: Any) -> Problem:
+    def changed(self, **other: object) -> Problem:
         """Return the same problem with some of its arguments changed, with samples of its own; it shares the count of designs."""
         return Problem(**{name: getattr(self, name) for name in ARGUMENTS} | other)
 
@@ -373,7 +373,7 @@ class Problem:
             text = "a folder cannot tell a function without source text, such as a lambda, from another one; define it by `def` in a file"
             raise DefinitionError(f"{self.plan.title}: folder=: {text}.") from error
 
-    def value(self, numbers: Callable[[Leaf], Any]) -> Any:
+    def value(self, numbers: Callable[[Leaf], object]) -> Any:
         """Return the objective from the leaves' numbers: of several the worst."""
         found = [each.from_leaves(numbers) for each in self.objectives]
         return found[0] if len(found) == 1 else (np.maximum if self.sense > 0.0 else np.minimum).reduce(found)

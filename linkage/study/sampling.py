@@ -207,7 +207,7 @@ def divisors_of(plan: Plan, quantity: object) -> tuple[Any, ...]:
     return tuple(found)
 
 
-def zero_factors(plan: Plan, divisor: object) -> list[Any]:
+def zero_factors(plan: Plan, divisor: object) -> list[object]:
     """Return the factors of a divisor, each of which makes it zero, without the sizes and powers about them."""
     sign, parts = operation(stands_for(plan.members, divisor))
     if sign in ("absolute", "power", "sqrt", "negative"):

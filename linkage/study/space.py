@@ -213,7 +213,7 @@ class Space:
     regions: tuple[PointRegion, ...] = ()
 
     @classmethod
-    def of(cls, machine: Mechanism, vary: Any, regions: Any = None) -> Space:
+    def of(cls, machine: Mechanism, vary: Any, regions: object = None) -> Space:
         """Return the space of `vary` and `regions`; DefinitionError for an unknown dimension, an empty range, or anything else."""
         title, spellings = machine.plan.title, machine.plan.table.spellings
         require(isinstance(vary, Mapping) and vary, f"{title}: vary", vary, 'a dictionary is expected, such as vary={"OB": (0.27, 0.33)}')

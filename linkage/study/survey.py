@@ -45,7 +45,7 @@ class Executor(Protocol):
 class LocalExecutor:
     """An executor that runs everything at once, in this thread."""
 
-    def submit(self, fn: Callable[..., Any], /, *args: object) -> Future[Any]:
+    def submit(self, fn: Callable[..., object], /, *args: object) -> Future[object]:
         """Return the future of a call that is done."""
         future: Future[Any] = Future()
         try:

@@ -204,7 +204,7 @@ def working_field(
     x: object,
     y: object,
     *,
-    along: tuple[Any, Any] = (0.0, 1.0),
+    along: tuple[object, object] = (0.0, 1.0),
     hold: Mapping[str, float] | None = None,
     over: Over | Mapping[str, object] | None = None,
     keep: Sequence[Target] = (),
@@ -517,7 +517,7 @@ class FieldSearch:
 
     @classmethod
     def of(
-        cls, machine: Mechanism, point: Reference, x_given: object, y_given: object, along: Any, hold: Any, over: object, keep: Any,
+        cls, machine: Mechanism, point: Reference, x_given: object, y_given: object, along: object, hold: object, over: object, keep: Any,
         lifts: Any, rule: LoadRule, case: Case, without: object, limits: Any,
     ) -> FieldSearch:  # fmt: skip
         asked = machine, point, x_given, y_given, along, hold, over, keep, lifts, rule, case, without, limits

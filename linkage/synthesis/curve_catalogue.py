@@ -79,7 +79,7 @@ class CurveClass:
     fixed: Mapping[str, float]
 
     @classmethod
-    def for_point(cls, machine: Mechanism, of: Any, hold: Any = ()) -> CurveClass:
+    def for_point(cls, machine: Mechanism, of: Any, hold: object = ()) -> CurveClass:
         """Return the class of a machine and a point; DefinitionError where no crank turns all of it."""
         check_one_design(machine)
         check_point(machine, of)

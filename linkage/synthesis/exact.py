@@ -404,7 +404,7 @@ def least_angle_at_follower(crank: Pivoted, follower: Pivoted, coupler: float, e
 
 def variant_of(
     crank: Pivoted, follower: Pivoted, coupler: float, ends: tuple[float, float], asked: CouplerTask
-) -> tuple[dict[str, Member], dict[str, Any]]:
+) -> tuple[dict[str, Member], dict[str, object]]:
     """Return the members by which a variant of the shipped class differs from it, and the dimensions of the design."""
     rod = follower.places[0] - crank.places[0]
     share = (asked.points[0] - crank.places[0]) / rod

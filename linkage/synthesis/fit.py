@@ -177,7 +177,7 @@ class Fit:
         every = {name: np.full(strokes.shape, value) for name, value in self.held.items()} | {self.timing.stroke: strokes}
         return Grid(self.plan, designs, every, per_design=own)
 
-    def values(self, designs: Mapping[str, Any], strokes: FloatArray, count: int) -> tuple[FloatArray, Mask]:
+    def values(self, designs: Mapping[str, object], strokes: FloatArray, count: int) -> tuple[FloatArray, Mask]:
         """Return the task's quantities of m designs at strokes, (m, r, n), NaN out of reach, and where they are reached (m, n)."""
         found = self._run(self.kernel, designs, strokes, count)
         return found[1:].swapaxes(0, 1), np.isfinite(found[0])

@@ -484,8 +484,8 @@ def synthesised_classes(
 
 
 def search_of_class(
-    machine: Mechanism, asked: Sequence[tuple[str, Any, type]], by_class: Mapping[str, Any]
-) -> tuple[Mechanism, dict[str, Any]]:
+    machine: Mechanism, asked: Sequence[tuple[str, object, type]], by_class: Mapping[str, object]
+) -> tuple[Mechanism, dict[str, object]]:
     """Return a machine, and the arguments of its search: the task in its own names, and the options of its class or of all."""
     task = task_named_in(machine, task_of(machine.plan.title, asked))
     task.rows(machine)  # refuses what is no point of it

@@ -78,12 +78,12 @@ def synthesise(
     path: PathTask | None = None,
     function: FunctionTask | None = None,
     motion: PoseTask | None = None,
-    vary: Mapping[Any, Any] | None = None,
-    subject_to: Any = (),
-    regions: Mapping[str, Any] | None = None,
+    vary: Mapping[object, object] | None = None,
+    subject_to: object = (),
+    regions: Mapping[str, object] | None = None,
     timed: Any = None,
     rank: Any = None,
-    case: Any = None,
+    case: object = None,
     over: Mapping[str, Any] | None = None,
     starts: int | str | CurveCatalogue = STARTS,
     seed: int = 0,
@@ -204,7 +204,7 @@ def synthesise(
         return search.run(Stages(executor or LocalExecutor(), checkpoint, tell, total))
 
 
-def facts_of_search(search: TaskSearch) -> dict[str, Any]:
+def facts_of_search(search: TaskSearch) -> dict[str, object]:
     """Return the facts that identify a search; DefinitionError for a function that a folder cannot tell from another one."""
     problem, task = search.problem, search.task
     functions, held = problem.function_texts(), problem.constraints
@@ -225,7 +225,7 @@ def facts_of_search(search: TaskSearch) -> dict[str, Any]:
 
 
 def catalogue_for(
-    problem: Problem, task: Task, timing: Timing, timed: Any, starts: Any, executor: Executor | None, progress: Any
+    problem: Problem, task: Task, timing: Timing, timed: object, starts: object, executor: Executor | None, progress: Any
 ) -> CurveCatalogue:
     """Return the catalogue from which a search begins; DefinitionError for anything but a closed path, or a catalogue of another class."""
     machine, title = problem.machine, problem.plan.title

@@ -300,12 +300,12 @@ def task_named_in(machine: Mechanism, task: Task) -> Task:
     return found
 
 
-def is_by_class(given: object) -> TypeGuard[Mapping[type[Mechanism], Any]]:
+def is_by_class(given: object) -> TypeGuard[Mapping[type[Mechanism], object]]:
     """Return whether something is said class by class: a dictionary by classes of mechanism."""
     return isinstance(given, Mapping) and bool(given) and all(is_class_of(each, Mechanism) for each in given)
 
 
-def of_class(given: Any, kind: type[Mechanism]) -> Any:
+def of_class(given: object, kind: type[Mechanism]) -> object:
     """Return the value for a class, its own or its nearest base's; a value that is not given class by class as it is."""
     return next((given[each] for each in kind.__mro__ if each in given), None) if is_by_class(given) else given
 
@@ -348,7 +348,7 @@ def check_point(machine: Mechanism, name: object) -> None:
     require(isinstance(name, str) and name in machine.plan.moving, f"{machine.plan.title}: of", name, expected)
 
 
-def task_of(title: str, given: Sequence[tuple[str, Any, type]]) -> Task:
+def task_of(title: str, given: Sequence[tuple[str, object, type]]) -> Task:
     """Return the one task that is given by its keyword; DefinitionError for none, several, or another kind."""
     said = [(name, value, kind) for name, value, kind in given if value is not None]
     ensure(len(said) == 1, f"{title}: say one task, path=PathTask(...), function=FunctionTask(...) or motion=PoseTask(...).")
@@ -356,7 +356,7 @@ def task_of(title: str, given: Sequence[tuple[str, Any, type]]) -> Task:
     return require_type(f"{title}: {name}", value, kind, f"a {kind.__name__}(...) is expected")
 
 
-def timed_as(title: str, task: Task, timed: object) -> Any:
+def timed_as(title: str, task: Task, timed: object) -> object:
     """Return how the points of a task are timed: True, False or "steps"; by default True where their strokes are said."""
     if timed is None:
         return task.at is not None
@@ -469,7 +469,7 @@ def misses_at(machine: Mechanism, rows: TaskRows, place: int) -> list[Any]:
     return found
 
 
-def sum_of_parts(parts: Sequence[Any]) -> Any:
+def sum_of_parts(parts: Sequence[object]) -> Any:
     """Return the sum of quantities or measures, of one at least."""
     return reduce(operator.add, parts)
 

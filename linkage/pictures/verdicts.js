@@ -107,18 +107,19 @@ function tight(answers, add) {
   const words = { poor: "40\u00b0", angle: `${fixed((least.value * 180) / PI, 1)}\u00b0`, joint: scene.names[data.joints[least.k].point] ?? data.joints[least.k].point, place: situationText({ ...least, name: answers.least.length > 1 ? least.name : "" }) };
   add(null, "", say("The least transmission angle is {angle}, of {joint} {place}: below {poor} pin forces and play grow.", words));
 }
-/* Return for each stroke the nearest places beyond the ends of all that runs at which the motion ends, in words. */
+/* Return for each stroke the nearest places beyond the ends of all that runs at which the motion ends, in words; up to one length beyond all that is declared, or a turn. */
 function deadPoints() {
   const lists = asking.spans(vector(present)).map(({ places, ends }) => places || ends);
-  return own.flatMap(({ start: a, end: b }, k) => {
+  return own.flatMap((stroke, k) => {
+    const [a, b] = [...reachOf(stroke)].sort((one, other) => one - other), past = stroke.base === "deg" ? max(PI - 0.5 * (b - a), 0) : b - a;
     const found = [-1, 1].flatMap((sign) => lists.flatMap((list) => {
       const low = min(...list[k]), high = max(...list[k]);
-      return high > low || own.length < 2 ? reachEnd(list.map(([each]) => each), k, sign < 0 ? low : high, sign, abs(b - a)) : [];
+      return high > low || own.length < 2 ? reachEnd(list.map(([each]) => each), k, sign < 0 ? low : high, sign, sign < 0 ? low - a + past : b - high + past) : [];
     }).sort(([one], [other]) => one - other).slice(0, 1));
     return found.length ? [say("none within the stroke; the nearest: {places}", { places: found.map(([, text]) => text).join("; ") })] : [];
   });
 }
-/* Return how far beyond a value of a stroke the motion ends within its length, and where in words; nothing where it does not. */
+/* Return how far beyond a value of a stroke the motion ends within a size, and where in words; nothing where it does not. */
 function reachEnd(start, k, from, sign, size) {
   const at = (value) => engine.sweep(vector(present), start.map((each, j) => [j === k ? value : each]));
   let good = 0, bad = 0;

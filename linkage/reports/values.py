@@ -16,7 +16,7 @@ from ..mechanism import Mechanism, require_mechanism
 from ..motion import stroke_display_unit
 from ..plan import plan_measure
 from ..quantities import Member, is_number
-from ..units import display_unit, show, shown_number
+from ..units import display_unit, show, shown_number, unit_sign
 
 STEPS = ("length", "angle")  # kinds of variables that a step's label makes
 
@@ -48,6 +48,8 @@ DIGITS = 7
 """The digits of a number as it is declared."""
 LONG = re.compile(r"\d+\.\d{7,}(?:e[-+]?\d+)?")
 """A number with more of them."""
+PLACE = re.compile(r"(?<=, )at=\((-?[\d.e-]+), (-?[\d.e-]+)\)")
+"""A place on a link [m]."""
 PARAMETER = re.compile(r"(, |(?<![\w.]))(\w+)=(-?\d+(?:\.\d*)?(?:e[-+]?\d+)?)(?=[,)])")
 """A number by itself; one in an expression keeps its SI, as the names beside it have no unit there."""
 
@@ -62,7 +64,10 @@ def with_units(element: ForceElement, text: str) -> str:
             return ""
         return f"{comma}{name}={show(value, units[name])}" if units.get(name) else f"{comma}{name}={value:.{DIGITS}g}"
 
-    return in_digits(PARAMETER.sub(shown, text))
+    def placed(found: re.Match[str]) -> str:  # along and across a link
+        return f"at=({', '.join(shown_number(float(each), 'mm') for each in found.groups())}) {unit_sign('mm')}"
+
+    return in_digits(PLACE.sub(placed, PARAMETER.sub(shown, text)))
 
 
 def number_units(element: object) -> dict[str, str]:

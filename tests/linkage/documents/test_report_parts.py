@@ -247,6 +247,8 @@ def test_declared_numbers_have_seven_digits_and_a_part_says_each_once():
     machine = Telehandler(**{"forks.NW": 0.29})
     rows = {name: in_digits(text) for name, text, _ in member_rows(machine, tuple(machine.plan.members), {})}
     assert (with_units(machine.plan.members["ram"], "Cylinder(A, B, closed=1.2850549999)")) == "Cylinder(A, B, closed=1285.05 mm)"
+    text = with_units(machine.plan.members["outer"], "LinkMass('O B', mass=700, at=(2.0, -0.015))")
+    assert text == "LinkMass('O B', mass=700 kg, at=(2000, -15) mm)"
     assert rows["far"] == "LoadCase('far', scale={'forks.load': 0.3666667})"
     assert "NW=0.29" in rows["forks"] and "WN=" not in rows["forks"]
     assert [name for name, text in rows.items() if re.search(r"\d\.\d*[1-9]\d{7}", text)] == []

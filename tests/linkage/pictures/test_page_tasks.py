@@ -178,3 +178,14 @@ def test_what_tips_is_told_with_its_place_and_case_and_its_arrow_is_red(chromium
 def test_five_tasks_are_done_on_shipped_machines(chromium, kind, change, rule, by, other, size, tmp_path, capsys):  # noqa: F811
     with Shown(chromium, page(kind(), tmp_path / "shipped.html"), size) as shown:
         check_tasks(shown, kind, change, rule, by, other, tmp_path, capsys)
+
+
+def test_dead_points_beyond_all_that_several_overs_run_are_pythons(chromium, tmp_path):  # noqa: F811
+    design = {"TD": 0.301}
+    with Shown(chromium, page(Stacker(), tmp_path / "dead.html"), DESKTOP) as shown:
+        typed(shown, "TD", 301)
+        (said,) = [text for text in shown.told if text.startswith("dead points: ")]
+    (told,) = [each.sentence for each in Stacker(**design).verdicts() if each.rule == "dead points"]
+    texts = [said.replace("\u2212", "-").replace("\u2009", " "), told]
+    numbers = [[float(each) for each in re.findall(r"-?\d+(?:\.\d+)?(?= mm)", text)] for text in texts]
+    assert len(numbers[1]) == 4 and numbers[0] == pytest.approx(numbers[1], abs=0.6), texts

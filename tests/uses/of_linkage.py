@@ -844,6 +844,7 @@ USES = [
     ("lifting.follow([Target('tilt', [9.0, 9.1])])", "", ("place 1 of 2 is not reached: no strokes within their ends give tilt",)),
     ("motion.rates_for(@)", "3; None; {}; [0.1]", ("rates by name are expected",)),
     ("motion.rates_for({@: 0.1})", "'nothing'; 3; x('Q')", ("is unknown",)),
+    ("motion.rates_for({'G': @})", "(0.1, 0.2)", ("give as many as there are strokes; leave out some.",)),
     ("motion.rates_for({'tilt': @})", "None; 'a'; nan; [1.0, 2.0, 3.0]", ("a finite number or an array that fits the poses",)),
     ("motion.rates_for({'G': @})", "0.1; (0.1,); (0.1, 0.2, 0.3); None", ("its two parts are expected",)),
     (

@@ -193,6 +193,8 @@ def test_only_what_is_named_is_worked_out():
         hitch.sweep(11)
     (C,) = hitch.evaluate(["C"], S=STROKE)
     assert_allclose(C, ThreePointHitch().at(S=STROKE)["C"])
+    found = [ThreePointHitch().evaluate(iter([name]), S=0.1)[0] for name in "GK"]  # what is no list has no key: none is kept for another
+    assert_allclose(found, [ThreePointHitch().at(S=0.1)[name] for name in "GK"])
 
 
 def test_results_go_where_they_are_wanted():

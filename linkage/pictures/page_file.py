@@ -15,6 +15,8 @@ from pathlib import Path
 from typing import Any, TypeAlias
 from zlib import compressobj
 
+import numpy as np
+
 from ..checks import require
 from ..disk import Place
 from ..errors import known_name
@@ -117,9 +119,15 @@ def packed(text: str) -> str:
     """Return a text compressed by zlib and written in 94 letters, nine bytes in eleven: those of ASCII without the begin of an element."""
     tried = [compressobj(9, memLevel=level) for level in range(4, 10)]  # which one packs best hangs on the text
     found = min((each.compress(text.encode()) + each.flush() for each in tried), key=len)
-    numbers = [int.from_bytes(found[start : start + 9].ljust(9, b"\0"), "big") for start in range(0, len(found), 9)]
-    letters = "".join(chr(32 + number // 94**place % 94) for number in numbers for place in range(10, -1, -1))
-    return letters[: -(-11 * len(found) // 9)].replace("<", "~")
+    count = -(-len(found) // 9)
+    parts = np.frombuffer(found.ljust(9 * count, b"\0"), np.uint8).reshape(count, 3, 3) @ np.array([1 << 16, 1 << 8, 1])  # of three bytes
+    letters, rest = np.empty((count, 11), np.uint8), np.zeros(count, int)
+    for place in range(10, -1, -1):  # the remainder of a division by 94, of all numbers at once
+        rest[:] = 0
+        for k in range(3):
+            parts[:, k], rest = np.divmod(parts[:, k] + (rest << 24), 94)
+        letters[:, place] = 32 + rest
+    return letters.tobytes().decode()[: -(-11 * len(found) // 9)].replace("<", "~")
 
 
 def fill_template(template: str, parts: dict[str, str]) -> str:

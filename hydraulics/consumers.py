@@ -314,8 +314,7 @@ def cylinder_named(consumers: Consumers, name: str) -> int:
     names = [ram.name for ram in consumers.rams]
     if name not in names:
         known = of_kind(consumers.members, Ram)
-        if name in known:
-            remedy = f"put it on one, LiftCircuit({name}, {consumers.pump.name}), or ask the pump that feeds it"
-            raise DefinitionError(f"{consumers.plan.title}: demands: {name} is on no line of {consumers.pump.name}; {remedy}.")
+        remedy = f"put it on one, LiftCircuit({name}, {consumers.pump.name}), or ask the pump that feeds it"
+        ensure(name not in known, f"{consumers.plan.title}: demands: {name} is on no line of {consumers.pump.name}; {remedy}.")
         raise unknown("Cylinder", name, names, where=f"{consumers.plan.title}: demands")
     return names.index(name)

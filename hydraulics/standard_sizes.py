@@ -526,9 +526,8 @@ def catalogue(
     for (bore, rod), stroke in product(pairs, sizes[2]):
         stroke_in_metres(stroke, "Stroke", bore)
         rows.append(CatalogueRow(bore, rod, stroke, round(stroke + constant + factor * bore, 9)))
-    if not rows:
-        what = f"The catalogue has no row: no rod suits a bore by the ratios of {standard.name}"
-        raise DefinitionError(f"{what}; give others, or leave rods= out.")
+    what = f"The catalogue has no row: no rod suits a bore by the ratios of {standard.name}"
+    ensure(rows, f"{what}; give others, or leave rods= out.")
     return rows
 
 

@@ -119,9 +119,8 @@ class Telescope(Ram):
             for each in given:
                 require_measure(each, "mm", f"Telescope: {name}")
             ensure(len(given) <= STAGES, f"Telescope: {len(given)} {name}: at most {STAGES} stages are known; give one a moving stage.")
-        if len(self.bores) != len(self.strokes):
-            what = f"Telescope: {len(self.bores)} bores and {len(self.strokes)} strokes"
-            raise DefinitionError(f"{what}; give each moving stage one of both, the outermost first.")
+        what = f"Telescope: {len(self.bores)} bores and {len(self.strokes)} strokes"
+        ensure(len(self.bores) == len(self.strokes), f"{what}; give each moving stage one of both, the outermost first.")
         super().__post_init__()
         many = one_number(self.count, "Count of telescopes", "number")
         ensure(1.0 <= many <= MOST and many == int(many), f"Count of telescopes = {cited(self.count)}; give a whole number from 1 on.")

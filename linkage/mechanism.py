@@ -855,9 +855,8 @@ def check_no_member(title: str, name: str, value: object) -> None:
         raise DefinitionError(f"{title}.{name} = {what}; {remedy}.", member=name)
     parts = value.values() if isinstance(value, dict) else value if isinstance(value, (list, tuple, set, frozenset)) else ()
     lost = [each for each in parts if isinstance(each, Member) and not each.name]
-    if lost:
-        what = f"{title}.{name} holds {len(lost)} member{'s' if len(lost) > 1 else ''} in a {type(value).__name__}, which declares nothing"
-        raise DefinitionError(f"{what}; bind each to a name of its own, and look for a comma too many at the end of the line.")
+    what = f"{title}.{name} holds {len(lost)} member{'s' if len(lost) > 1 else ''} in a {type(value).__name__}, which declares nothing"
+    ensure(not lost, f"{what}; bind each to a name of its own, and look for a comma too many at the end of the line.")
 
 
 def require_mechanism(given: object) -> Mechanism:

@@ -101,9 +101,8 @@ def of_module(module: ModuleType, name: str, place: str) -> type[Mechanism]:
         if name not in vars(module):
             raise unknown("Machine", name, own, where=place)
         return machine(vars(module)[name], f"{place}:{name}")
-    if len(own) != 1:
-        choice = f"say {place}:Class, one of {', '.join(own)}" if own else "declare a class of Mechanism in it"
-        raise DefinitionError(f"{place} holds {len(own) or 'no'} machine{'s' if len(own) > 1 else ''}; {choice}.")
+    choice = f"say {place}:Class, one of {', '.join(own)}" if own else "declare a class of Mechanism in it"
+    ensure(len(own) == 1, f"{place} holds {len(own) or 'no'} machine{'s' if len(own) > 1 else ''}; {choice}.")
     return machine(next(iter(own.values())), place)
 
 

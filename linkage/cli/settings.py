@@ -160,9 +160,8 @@ def parsed_setting(plan: Plan, text: str) -> tuple[str, Any]:
         return name, si_value(value, plan_measure(plan, plan.table.spellings[name][0]), f"--set {name}")
     if f"{name}.x" in plan.table.spellings or f"{name}.y" in plan.table.spellings:
         parts = value.split(",")
-        if len(parts) != 2:
-            example = f"{name}=0.22,950mm; decimals are written with a point"
-            raise DefinitionError(f"--set {name}={value}: a point takes two coordinates, such as {example}.")
+        example = f"{name}=0.22,950mm; decimals are written with a point"
+        ensure(len(parts) == 2, f"--set {name}={value}: a point takes two coordinates, such as {example}.")
         return name, tuple(si_value(part, "length", f"--set {name}") for part in parts)
     ensure(name not in plan.strokes, f"--set {text}: {name} is a stroke of {plan.title}, not a dimension; `table` takes --at {text}.")
     plan.table.settings({name: 0.0})

@@ -175,9 +175,8 @@ def forces_command(options: Namespace) -> int:
     machine = settings.machine_of(options)
     acting, motions = settings.acting_of(machine, options), settings.motions_at(machine, options)
     over, plain = settings.judged_over(machine, options), settings.plain_value(acting)
-    if not is_loaded(motions[0][1]):
-        what = f"{machine.plan.title} declares no load, so that there is no force; declare one, load = Weight(G, mass=100)"
-        raise DefinitionError(f'{what}, or in a file: load = {{ Weight = "G", mass = 100 }}.')
+    what = f"{machine.plan.title} declares no load, so that there is no force; declare one, load = Weight(G, mass=100)"
+    ensure(is_loaded(motions[0][1]), f'{what}, or in a file: load = {{ Weight = "G", mass = 100 }}.')
     tables, found, signs = list[Table](), list[PinForces](), "Drive forces are positive the way the stroke grows, thrusts in a push."
     for run, motion in motions:
         there = plain if run is None or options.case is not None else replace(plain, case=run.case)

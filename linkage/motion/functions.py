@@ -336,11 +336,9 @@ def source_of(
     if language == "javascript" and not read.isdisjoint(plan.solved) and read <= {*plan.strokes, *plan.solved}:
         return live_source(plan, bound, name, design)
     for group in plan.groups.values():  # what hangs on pins that are found by iteration, or on a followed angle, has no closed form
-        if not read.isdisjoint(group.inputs):
-            what = f"{plan.title}: {group} is solved by iteration and has no closed form to write down"
-            raise DefinitionError(f"{what}; ask for what does not hang on {', '.join(group.pins)}, or use function().")
+        what = f"{plan.title}: {group} is solved by iteration and has no closed form to write down"
+        ensure(read.isdisjoint(group.inputs), f"{what}; ask for what does not hang on {', '.join(group.pins)}, or use function().")
     for angle in plan.followed:
-        if angle in read:
-            what = f"{plan.title}: {angle} is followed from the sketch, as its whole turns tell poses apart, and has no closed form"
-            raise DefinitionError(f"{what} to write down; use a whole multiple of it, drive the angle by a Stroke, or use function().")
+        what = f"{plan.title}: {angle} is followed from the sketch, as its whole turns tell poses apart, and has no closed form"
+        ensure(angle not in read, f"{what} to write down; use a whole multiple of it, drive the angle by a Stroke, or use function().")
     return writer.text(nodes, name, design)

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import AssemblyError, DefinitionError, SingularError, unwarned
+from ..errors import AssemblyError, SingularError, ensure, unwarned
 from ..loads import ForceElement, TwoPoint
 from ..numeric.line import CLOSE, SAMPLES, Curve, Index, highest, last_holding, samples, sign_changes, stretches
 from ..plan import Loop, Mask, Plan, failures, missing_words, name_or_pins, opening
@@ -63,9 +63,8 @@ AGAIN = 1e-6
 
 def limits(motion: MotionLike) -> Limits:
     """Return the limits along every stroke of one design; other strokes are held at the motion's first values."""
-    if motion._design_shape:
-        title, shape = motion.plan.title, motion._design_shape
-        raise DefinitionError(f"{title}: limits are worked out for one design at a time; this motion has {shape}.")
+    title, shape = motion.plan.title, motion._design_shape
+    ensure(not motion._design_shape, f"{title}: limits are worked out for one design at a time; this motion has {shape}.")
     check_any(motion.strokes, motion.plan)
     held = {name: float(np.ravel(value)[0]) for name, value in motion.strokes.items()}
     lines = {name: StrokeLine(motion, name, held) for name in motion.strokes}

@@ -188,9 +188,8 @@ def draw(
     if isinstance(machine, Sequence):
         modes = [each for each in machine if isinstance(each, Assembly)]
         designs = [each for each in machine if not isinstance(each, Assembly)]
-        if is_laid or bool(modes) == bool(designs):
-            given = "one or more designs, with at=, path= and count= if wanted, or machine.assemblies()"
-            raise DefinitionError(f"draw([...]): {given} are expected.")
+        given = "one or more designs, with at=, path= and count= if wanted, or machine.assemblies()"
+        ensure(not is_laid and bool(modes) != bool(designs), f"draw([...]): {given} are expected.")
         return draw_designs(designs, at, path, count) if designs else draw_modes(modes)
     if "networkx" in sys.modules and isinstance(machine, sys.modules["networkx"].MultiGraph):
         ensure(at is None and not path and not is_laid, "draw(machine.graph): a graph has no poses; it is drawn by itself.")

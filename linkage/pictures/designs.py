@@ -10,7 +10,7 @@ from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 
-from ..errors import DefinitionError, ensure
+from ..errors import ensure
 from ..language import said
 from ..mechanism import Mechanism, require_mechanism
 from ..reports import Run, dimension_unit, first_stroke, stroke_middles
@@ -104,9 +104,8 @@ def separated(machines: Sequence[Mechanism]) -> list[Mechanism]:
         require_mechanism(machine)
         shape = np.broadcast_shapes(*(np.shape(value) for value in machine.dimensions.values()))
         number = int(np.prod(shape, dtype=int))
-        if number > MOST_DESIGNS:
-            crowd = f"{machine.plan.title}: {number} designs do not fit into one picture, {MOST_DESIGNS} do"
-            raise DefinitionError(f"{crowd}; choose some of them, draw([machine.replaced(...), ...]).")
+        crowd = f"{machine.plan.title}: {number} designs do not fit into one picture, {MOST_DESIGNS} do"
+        ensure(number <= MOST_DESIGNS, f"{crowd}; choose some of them, draw([machine.replaced(...), ...]).")
         changed = {name: np.broadcast_to(value, shape).ravel() for name, value in machine.dimensions.items() if np.ndim(value)}
         one = [machine.replaced(**{name: float(values[index]) for name, values in changed.items()}) for index in range(number)]
         found += one if changed else [machine]

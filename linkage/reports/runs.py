@@ -115,9 +115,8 @@ def run_along(motion: Motion) -> tuple[Run, int]:
     if motion.is_swept and motion.over.shape == "path":
         place = Judge(motion.plan, motion.designs, [motion]).places[0]
         motion = place.motion  # the places that its `Over` names
-    if len(shape) != 1 or motion._design_shape:
-        said = f"one design along one path is expected, and this motion is of shape {shape}"
-        raise DefinitionError(f"{title}: {said}; choose one path of it.")
+    said = f"one design along one path is expected, and this motion is of shape {shape}"
+    ensure(len(shape) == 1 and not motion._design_shape, f"{title}: {said}; choose one path of it.")
     first, last = max(stretches(motion.reached), key=lambda part: part[1] - part[0], default=(0, -1))
     ways = {name: tuple(values[first : last + 1].tolist()) for name, values in motion.strokes.items()}
     moving = {name: way for name, way in ways.items() if len(set(way)) > 1}

@@ -15,7 +15,7 @@ from typing import Any, TypeAlias, cast
 import numpy as np
 
 from ..checks import require
-from ..errors import DefinitionError, SingularError, unwarned
+from ..errors import DefinitionError, SingularError, ensure, unwarned
 from ..language import noted
 from ..loads import Acting, Case, Force, ForceElement, Support, TwoPoint
 from ..motion import HasVerdicts, Judge, Motion, Over, RequestLike, speakers
@@ -417,9 +417,8 @@ def is_steady(along: Direction) -> bool:
 
 def direction_words(along: Direction) -> str:
     """Return a direction in words."""
-    if any(isinstance(each, np.ndarray) for each in along):
-        remedy = "ask a circuit for them, circuit.capacity(motion, ...), or give quantities"
-        raise DefinitionError(f"along= is an array, which is of the poses of one motion; {remedy}.")
+    remedy = "ask a circuit for them, circuit.capacity(motion, ...), or give quantities"
+    ensure(not any(isinstance(each, np.ndarray) for each in along), f"along= is an array, which is of the poses of one motion; {remedy}.")
     return f"({', '.join(f'{each:g}' if isinstance(each, float) else words_of(each) for each in along)})"
 
 

@@ -11,7 +11,7 @@ from functools import cached_property, reduce
 
 import numpy as np
 
-from ..errors import DefinitionError
+from ..errors import DefinitionError, ensure
 from ..loads import Load
 from ..plan import Mask
 from ..program import FloatArray
@@ -171,9 +171,8 @@ class System:
         for place, run in enumerate(self.structure.holders.reeved.values()):
             if stroke in run.strokes:
                 forms.append(self.run(place).multiplied(self.poses.flattened(run.rate(self.poses.motion, stroke))))
-        if not forms:
-            remedy = f"declare it by Dyad(..., AB=... + {stroke}), Crank, OnGuide or OnLink, or by the drives in the joints() of a step"
-            raise DefinitionError(f"{self.structure.plan.title}: the joints know no drive of {stroke}; {remedy} of one's own.")
+        remedy = f"declare it by Dyad(..., AB=... + {stroke}), Crank, OnGuide or OnLink, or by the drives in the joints() of a step"
+        ensure(forms, f"{self.structure.plan.title}: the joints know no drive of {stroke}; {remedy} of one's own.")
         return reduce(LinearForm.plus, forms)
 
     def drives(self, stroke: str) -> Iterator[tuple[FloatArray, LinearForm]]:

@@ -254,9 +254,8 @@ def telescope(plan: Plan, name: str) -> FreeBody:
 def refuse_driven(plan: Plan, still: Iterable[tuple[Quantity, str]]) -> None:
     """Raise DefinitionError for a quantity that follows a stroke where its force is not provided."""
     for quantity, what in still:
-        if plan.moves(quantity):
-            provided = "forces are provided for driven lengths, cranks, OnGuide and OnLink"
-            raise DefinitionError(f"{plan.title}: {what} follows a stroke; {provided}.")
+        provided = "forces are provided for driven lengths, cranks, OnGuide and OnLink"
+        ensure(not plan.moves(quantity), f"{plan.title}: {what} follows a stroke; {provided}.")
 
 
 # The joints between bodies.

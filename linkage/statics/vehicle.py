@@ -611,9 +611,8 @@ def reaction(
     held = motion._of_the_whole(element) if element.name else None
     if held is not None:
         return reaction(held[0], support=held[1], drive_force=drive_force, drive=drive, acting=acting)
-    if np.any(known):
-        what = f"{title}: {name} bears the frame, and a drive's force acts between the frame and what it drives"
-        raise DefinitionError(f"{what}: an axle load does not hang on it; leave drive_force= out.")
+    what = f"{title}: {name} bears the frame, and a drive's force acts between the frame and what it drives"
+    ensure(not np.any(known), f"{what}: an axle load does not hang on it; leave drive_force= out.")
     acting = acting if drive is None else replace(acting, drive=drive)
     supports = vehicle_of(motion.plan, acting, element)
     bare_loads(motion, supports)

@@ -218,9 +218,8 @@ def monte_carlo(
         asked = dict(zip(titles, of, strict=True))
     else:
         raise DefinitionError(f'{plan.title}: {cited(of)}: a list of quantities is expected, such as ["tilt"], or a dictionary by name.')
-    if len(asked) < len(titles):
-        both = f"{plan.title}: {', '.join(titles)}: two of them go by one name"
-        raise DefinitionError(f'{both}; give names of your own, {{"full": ..., "empty": ...}}.')
+    both = f"{plan.title}: {', '.join(titles)}: two of them go by one name"
+    ensure(len(asked) == len(titles), f'{both}; give names of your own, {{"full": ..., "empty": ...}}.')
     conditions = limits_listed(machine, subject_to)
     fits = is_listed(percentiles) and all(is_number(each) and 0.0 <= each <= 100.0 for each in percentiles)
     require(fits, "percentiles", percentiles, "percentages from 0 to 100 are expected, such as (5, 50, 95)")

@@ -521,7 +521,6 @@ def span_of(paths: Sequence[Any], path: str) -> float:
         what = f"{path}: a coordinate of it is {size}, and up to {LARGEST:.0e} are drawn"
         raise DefinitionError(f"{what}; take that line out, or draw in a larger unit.")
     span = float(np.ptp(places, axis=0).max()) or 1.0
-    if span < SMALLEST * largest:
-        what = f"{path}: it is {span:.3g} wide and stands {largest:.3g} away from its origin, which leaves no digits"
-        raise DefinitionError(f"{what}; move the drawing to its origin.")
+    what = f"{path}: it is {span:.3g} wide and stands {largest:.3g} away from its origin, which leaves no digits"
+    ensure(span >= SMALLEST * largest, f"{what}; move the drawing to its origin.")
     return span

@@ -453,9 +453,8 @@ def bounds_checked(
             raise DefinitionError(f"bounds[{name!r}] = {cited(ends)}: (low, high) is expected, low below high, in SI.")
     lengths = ("r_2",) if issubclass(machine, DirectArmDrive) else ("r_4", "r_5")
     least_length = sum(bounds[name][0] for name in lengths)
-    if least_length > duty.l_c:
-        what = f"bounds: {' + '.join(lengths)} is {least_length:.4g} m at the least"
-        raise DefinitionError(f"{what}, more than the boom, {duty.l_c:.4g} m; lower them.")
+    what = f"bounds: {' + '.join(lengths)} is {least_length:.4g} m at the least"
+    ensure(least_length <= duty.l_c, f"{what}, more than the boom, {duty.l_c:.4g} m; lower them.")
     return bounds
 
 

@@ -81,18 +81,16 @@ class Duty:
     def __post_init__(self) -> None:
         hold_numbers(self, ("L", "M", "H_k", "H_max", "A", "B", "rho_w"), ("H_p", "H_w", "payload", "c", "psi_0"))
         check_metres({name: getattr(self, name) for name in METRES})
-        if self.psi_0 >= 180.0 * deg:
-            least = f"psi_0 = {self.psi_0 / deg:.4g} deg is 180 deg or more, and the arm would never fold"
-            raise DefinitionError(f"{least}; write psi_0={self.psi_0:.4g} * deg if these are degrees.")
+        least = f"psi_0 = {self.psi_0 / deg:.4g} deg is 180 deg or more, and the arm would never fold"
+        ensure(self.psi_0 < 180.0 * deg, f"{least}; write psi_0={self.psi_0:.4g} * deg if these are degrees.")
         if not LEAST_MOMENT <= self.M <= GREATEST_MOMENT:
             said = f"M = {self.M / kN:.4g} kN m lies outside the {LEAST_MOMENT / kN:.4g} to {GREATEST_MOMENT / kN:.4g} kN m"
             raise DefinitionError(f"{said} of the cranes that the regressions (2.5)-(2.9) are made of; give a moment among them, in N m.")
         ensure(LOOSEST <= self.k_d <= DENSEST, f"k_d = {self.k_d:.4g}: the share of a stack that is wood is {LOOSEST} to {DENSEST}.")
         legal = f"the legal height, {self.H_max / mm:.0f} mm"
         ensure(not self.H_k > self.H_max, f"The cab, H_k = {self.H_k / mm:.0f} mm, is higher than {legal}; lower the cab or raise H_max.")
-        if self.h_s > self.H_max:
-            remedy = "carry less, or widen the stack: larger A, B or k_d"
-            raise DefinitionError(f"The stacked load alone, h_s = {self.h_s / mm:.0f} mm (2.12), is higher than {legal}; {remedy}.")
+        remedy = "carry less, or widen the stack: larger A, B or k_d"
+        ensure(self.h_s <= self.H_max, f"The stacked load alone, h_s = {self.h_s / mm:.0f} mm (2.12), is higher than {legal}; {remedy}.")
 
     @property
     def h_s(self) -> float:
@@ -328,9 +326,8 @@ def duty_of(crane: CraneSkeleton) -> DriveDuty:
     phi = np.linspace(phi_0, phi_k, 5)
     asked = K_B * np.sin(phi) + K_A * np.sin(psi_k - np.maximum(phi, psi_k - 90 * deg))
     off = float(np.abs(boom_bound(crane, phi) - asked).max())
-    if off > FAITHFUL * (K_A + K_B):
-        what = f"{crane.plan.title}: its bound of moments is {off / kN:.3g} kN m off K_B sin(phi) + K_A"
-        raise DefinitionError(f"{what}; give the moments of its loads yourself, DriveDuty(K_B=..., K_A=..., K_A1=...).")
+    what = f"{crane.plan.title}: its bound of moments is {off / kN:.3g} kN m off K_B sin(phi) + K_A"
+    ensure(not off > FAITHFUL * (K_A + K_B), f"{what}; give the moments of its loads yourself, DriveDuty(K_B=..., K_A=..., K_A1=...).")
     return duty
 
 

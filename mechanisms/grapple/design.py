@@ -22,7 +22,7 @@ from hydraulics import CylinderSize, reserve
 from hydraulics.inputs import efficient, in_pascals, one_number, positive
 from linkage import DefinitionError, Stroke, StudyError, at, least, most, optimise, ratio, ref, x, y
 from linkage.checks import require, require_type
-from linkage.errors import one_word
+from linkage.errors import ensure, one_word
 from linkage.frozen import refuses_changes
 from linkage.motion import Request
 from linkage.program import FloatArray
@@ -122,17 +122,14 @@ class Duty:
 
     def __post_init__(self) -> None:
         hold_numbers(self, LENGTHS)
-        if self.d_0 >= self.D_0:
-            said = f"the smallest stem d_0 = {self.d_0 / mm:.4g} mm is not below the largest, D_0 = {self.D_0 / mm:.4g} mm"
-            raise DefinitionError(f"Duty: {said}; exchange them.")
-        if not 0.0 < self.alpha < RIGHT_ANGLE:
-            said = f"alpha = {self.alpha / deg:.4g} deg: the lever wraps the largest stem by more than 0 and less than 90 deg"
-            raise DefinitionError(f"Duty: {said}; 52 to 57 deg is the best (Shimkovich).")
+        said = f"the smallest stem d_0 = {self.d_0 / mm:.4g} mm is not below the largest, D_0 = {self.D_0 / mm:.4g} mm"
+        ensure(self.d_0 < self.D_0, f"Duty: {said}; exchange them.")
+        said = f"alpha = {self.alpha / deg:.4g} deg: the lever wraps the largest stem by more than 0 and less than 90 deg"
+        ensure(0.0 < self.alpha < RIGHT_ANGLE, f"Duty: {said}; 52 to 57 deg is the best (Shimkovich).")
         if not -RIGHT_ANGLE < self.beta < RIGHT_ANGLE:
             raise DefinitionError(f"Duty: beta = {self.beta / deg:.4g} deg lies between -90 and 90 deg; 0 is a lever end below the stem.")
-        if self.opening < 1.0:
-            said = f"opening = {self.opening:.4g}: a lever that opens by less than the release angle keeps the stem"
-            raise DefinitionError(f"Duty: {said}; 1.2 to 1.4 (2.81).")
+        said = f"opening = {self.opening:.4g}: a lever that opens by less than the release angle keeps the stem"
+        ensure(self.opening >= 1.0, f"Duty: {said}; 1.2 to 1.4 (2.81).")
         in_pascals(positive(self.pressure, "pressure"), "pressure")
         efficient(self.efficiency, "efficiency")
         try:

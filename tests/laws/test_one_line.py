@@ -221,6 +221,9 @@ def test_a_line_behind_another_one_starts_where_it_was_filled():
             assert_allclose(line.oil(structure().at(S=0.1)), put_in, atol=1e-15)
     with pytest.raises(DefinitionError, match="both say where all its cylinders are"):
         OilLine("a", "b", at=0.1, filled="closed")
+    assert OilLine("a", "b", at=0.1).strokes_filled(("S",)) == {"S": 0.1}
+    with pytest.raises(DefinitionError, match=r"2 strokes; say at=dict\(S, T=\.\.\.\)"):
+        OilLine("a", "b", at=0.1).strokes_filled(("S", "T"))
 
 
 def test_a_side_that_is_written_works_against_a_tank_on_the_other_one():

@@ -18,8 +18,11 @@ ADDRESS = f"board:{BOARD}."
 
 
 def board_tables(sketch: MachineSketch) -> dict[str, object]:
-    """Return a sketch as the tables of the board's file, which has none of forces."""
-    return {"board": BOARD, **plain_entry({name: each for name, each in asdict(sketch).items() if name != "forces"})}
+    """Return a sketch as the tables of the board's file, which has none of forces: a note names them."""
+    tables, forces = asdict(sketch), ", ".join(sketch.forces)
+    del tables["forces"]
+    tables["notes"] = [*sketch.notes, *([f"Left out: {forces}, as the board has no forces."] if forces else [])]
+    return {"board": BOARD, **plain_entry(tables)}
 
 
 def board_json(sketch: MachineSketch) -> str:

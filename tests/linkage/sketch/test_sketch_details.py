@@ -336,3 +336,11 @@ def test_outlines_with_round_ends_and_hatches_of_any_border_are_read(style, tmp_
     sketch = read_sketch(tmp_path / "round.dxf", drives=[("O", "A")])
     assert [{*points} for points in sketch.links.values()] == [{*"OA"}, {*"AB"}, {*"BT"}, {*"TA"}, {*"BC"}]
     assert sketch.fixed == ("O", "C") and compare(plan, sketch)[1] < 1e-9
+
+
+def test_a_board_tells_which_forces_it_leaves_out(tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "six.toml").write_text(read_sketch(SIX_BAR).to_toml(), encoding="utf-8")
+    for opened, said in ((SIX_BAR, "Left out: F1, as the board has no forces."), ("six.toml", "Not in the sketch of Shared: F1.")):
+        assert main(["board", opened]) == 0
+        assert said in capsys.readouterr().err

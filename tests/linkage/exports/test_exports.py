@@ -513,7 +513,7 @@ def test_every_machine_is_drawn(name, tmp_path):
         (lambda path: export(Turned(), path / "x.xlsx", at={"psi": 1.0}), "psi"),
         (lambda path: export(Turned(), path / "x.csv", at={"psi": 1.0}), "psi"),
         (lambda path: export(Turned(L0=np.array([0.1, 0.11])), path / "x.xlsx"), "one design"),
-        (lambda path: export(Turned(L0=np.array([0.1, 0.11])), path / "x.dxf"), "designs"),
+        (lambda path: export(Turned(L0=np.array([0.1, 0.11])), path / "x.dxf"), "one design"),
         (lambda path: export(Turned().sweep(200), path / "x.dxf"), "200 poses"),
     ],
 )

@@ -244,7 +244,7 @@ def test_measure_and_machine_that_cannot_be():
         survey(ThreePointHitch(), {"OB": ARRAY}, "travel")
     with pytest.raises(DefinitionError, match="a study starts from one design, this is a batch"):
         survey(ThreePointHitch(OB=ARRAY), {"CD": ARRAY}, travel)
-    with pytest.raises(DefinitionError, match=r"ThreePointHitch is a class; give a design of it, ThreePointHitch\(\)"):
+    with pytest.raises(DefinitionError, match=r"ThreePointHitch is a class, the structure; give a design of it, ThreePointHitch\(\)"):
         survey(ThreePointHitch, {"OB": ARRAY}, travel)
     with pytest.raises(DefinitionError, match="'hitch' is none"):
         survey("hitch", {"OB": ARRAY}, travel)

@@ -20,12 +20,12 @@ def board_command(options: Namespace) -> int:
     """Write a board into a file."""
     from ..board import drawing_board
     from ..sketch import is_foreign, read_sketch, sketch_of
-    from ..sketch.board_json import board_tables
+    from ..sketch.board_json import board_notes
 
     text, path = options.machine, options.output
     ensure(text is None or not is_one_file(path, text), f"{path} is the file that is opened; choose another name, -o FILE.")
     sketch = None if text is None else read_sketch(text) if is_foreign(text) else sketch_of(find(text))
     print(drawing_board(sketch, path, language=options.language))
-    for note in board_tables(sketch)["notes"] if sketch is not None else ():
+    for note in board_notes(sketch) if sketch is not None else ():
         say_remark(note)
     return 0

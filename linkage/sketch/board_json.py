@@ -17,11 +17,16 @@ ADDRESS = f"board:{BOARD}."
 """How the address of a drawing begins, behind the # of the board's page or by itself."""
 
 
+def board_notes(sketch: MachineSketch) -> tuple[str, ...]:
+    """Return the notes of a sketch on the board, which has no forces: the last one names them."""
+    left = [f"Left out: {', '.join(sketch.forces)}, as the board has no forces."] if sketch.forces else []
+    return (*sketch.notes, *left)
+
+
 def board_tables(sketch: MachineSketch) -> dict[str, object]:
-    """Return a sketch as the tables of the board's file, which has none of forces: a note names them."""
-    tables, forces = asdict(sketch), ", ".join(sketch.forces)
+    """Return a sketch as the tables of the board's file."""
+    tables = asdict(sketch) | {"notes": board_notes(sketch)}
     del tables["forces"]
-    tables["notes"] = [*sketch.notes, *([f"Left out: {forces}, as the board has no forces."] if forces else [])]
     return {"board": BOARD, **plain_entry(tables)}
 
 

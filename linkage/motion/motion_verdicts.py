@@ -219,9 +219,15 @@ def dead_points_over(judge: Judge) -> list[Verdict]:
                 for each in dead_point_verdicts(limits, spans[name], is_pushed(judge, name)):
                     if not (together and each.rule == "dead points"):
                         found.setdefault((name, each.rule), []).append(each)
-    clear = [text for (name, _), (_, text) in nearest.items() if not {(name, "dead points"), ("", "dead points")} & found.keys()]
-    kept = [Verdict("dead points", True, said("none within the stroke; the nearest: {places}.", places="; ".join(clear)))] if clear else []
-    return kept + [each for known in found.values() for each in dict.fromkeys(known)]
+    told = [each for known in found.values() for each in dict.fromkeys(known)]
+    clear = [(name, text) for (name, _), (_, text) in nearest.items() if not {(name, "dead points"), ("", "dead points")} & found.keys()]
+    if not clear:
+        return told
+    strokes, places = ", ".join(dict.fromkeys(name for name, _ in clear)), "; ".join(text for _, text in clear)
+    text = said("none within the stroke; the nearest: {places}.", places=places)
+    if any(rule == "dead points" for _, rule in found):  # along another stroke
+        text = said("none along {strokes}; the nearest: {places}.", strokes=strokes, places=places)
+    return [Verdict("dead points", True, text), *told]
 
 
 def in_line(place: Domain) -> dict[tuple[int, ...], str]:

@@ -58,6 +58,15 @@ def test_the_nearest_dead_points_of_all_strokes_and_places_are_one_row():
     assert row.ok and all(f"{place} beyond it" in row for place in places) and str(row).count("beyond it") == 4
 
 
+def test_beside_a_stroke_that_ends_in_a_dead_point_the_other_strokes_are_named():
+    machine = HookExcavator()
+    end = max(value for value, _ in machine.at(lift=0.2, swing=0.2).limits()["lift"].dead_points)
+    judge = machine.judge([Over(lift=(0.1, end), swing=0.2), Over(lift=0.2, swing=(0.1, 0.3))])
+    kept, fault = (each for each in geometry_verdicts(judge) if each.rule == "dead points")
+    assert kept.ok and str(kept).startswith("ok   dead points: none along swing; the nearest: ") and "lift" not in kept
+    assert fault.ok is False and "lift = 453.5 mm, where the stroke ends" in fault
+
+
 def test_a_motion_that_is_not_assembled_says_how_much_is_missing():
     far = np.hypot(0.1, 0.6) + 0.3
     long = Boom(L0=0.7)

@@ -246,7 +246,7 @@ def test_measure_and_machine_that_cannot_be():
         survey(ThreePointHitch(OB=ARRAY), {"CD": ARRAY}, travel)
     with pytest.raises(DefinitionError, match=r"ThreePointHitch is a class, the structure; give a design of it, ThreePointHitch\(\)"):
         survey(ThreePointHitch, {"OB": ARRAY}, travel)
-    with pytest.raises(DefinitionError, match="'hitch' is none"):
+    with pytest.raises(DefinitionError, match="'hitch' is no mechanism"):
         survey("hitch", {"OB": ARRAY}, travel)
 
 

@@ -163,56 +163,13 @@ def unit_points(count: int, k: int, method: str, seed: int) -> FloatArray:
     require_whole("seed", seed, "a whole number is expected, at least 0", least=0)
     if not k:
         return np.empty((count, 0))
+    from scipy.stats import qmc
+
     random = np.random.default_rng(seed)
     if method == "random":
         return np.asarray(random.random((k, count)).T)
-    if method == "sobol" and k <= len(POLYNOMIALS):
-        return sobol_points(count, k, random.spawn(1)[0])
-    from scipy.stats import qmc
-
     if method == "latin":  # every coordinate has one point in each of count equal intervals
         return np.asarray(qmc.LatinHypercube(k, seed=random).random(count))
     engine: Any = qmc.Sobol(k, seed=random)
     power = int(count).bit_length() - 1
     return np.concatenate([engine.random_base2(power), engine.random(int(count) - (1 << power))])
-
-
-# The same points as those of scipy.stats, which takes longer to load than most searches to look at their first designs.
-
-BITS = 30
-POLYNOMIALS = {
-    1: (1,), 3: (1,), 7: (1, 3), 11: (1, 3, 1), 13: (1, 1, 1), 19: (1, 1, 3, 3), 25: (1, 3, 5, 13), 37: (1, 1, 5, 5, 17),
-    41: (1, 1, 5, 5, 5), 47: (1, 1, 7, 11, 19), 55: (1, 1, 5, 1, 1), 59: (1, 1, 1, 3, 11), 61: (1, 3, 5, 5, 31), 67: (1, 3, 3, 9, 7, 49),
-    91: (1, 1, 1, 15, 21, 21), 97: (1, 3, 1, 13, 27, 49), 103: (1, 1, 1, 15, 7, 5), 109: (1, 3, 1, 15, 13, 25), 115: (1, 1, 5, 5, 19, 61),
-    131: (1, 3, 7, 11, 23, 15, 103), 137: (1, 3, 7, 13, 13, 15, 69), 143: (1, 1, 3, 13, 7, 35, 63), 145: (1, 3, 5, 9, 1, 25, 53),
-    157: (1, 3, 1, 13, 9, 35, 107),
-}  # fmt: skip
-"""By primitive polynomials, as bits, one a coordinate, the first direction numbers.
-
-Source: S. Joe, F. Y. Kuo, "Constructing Sobol sequences with better two-dimensional projections", SIAM J. Sci. Comput. 30 (2008).
-"""
-
-
-def sobol_points(count: int, k: int, random: np.random.Generator) -> FloatArray:
-    """Return points (count, k) of a Sobol sequence, scrambled by lower triangular matrices of bits and a shift (Matousek, 1998)."""
-    powers = 2 ** np.arange(BITS, dtype=np.uint32)
-    shift = random.integers(2, size=(k, BITS), dtype=np.uint32) @ powers
-    lower = np.tril(random.integers(2, size=(k, BITS, BITS), dtype=np.uint32))
-    lower[:, range(BITS), range(BITS)] = 1
-    steps = np.array([directions(*each) for each in [*POLYNOMIALS.items()][:k]])
-    bits = lower @ (steps[:, None, :] // powers[::-1, None] % 2) % 2  # of each coordinate (bit, step), the highest first
-    scrambled = np.einsum("kbs,b->sk", bits, powers[::-1]).astype(np.uint32)
-    number = np.arange(1, count)
-    changed = np.log2(number & -number).astype(int)  # in Gray's code one bit changes from number to number
-    return np.asarray(np.bitwise_xor.accumulate(np.concatenate([shift[None], scrambled[changed]])) / 2.0**BITS)
-
-
-def directions(taps: int, first: Sequence[int]) -> list[int]:
-    """Return the direction numbers of a coordinate, by the recurrence of its polynomial."""
-    degree, found = taps.bit_length() - 1, [*first]
-    while len(found) < BITS:
-        new = found[-degree]
-        for back in range(1, degree + 1):
-            new ^= (taps >> (degree - back) & 1) * (found[-back] << back)
-        found.append(new)
-    return [each << (BITS - 1 - place) for place, each in enumerate(found)]

@@ -1,13 +1,7 @@
-"""The range of a dimension that is varied, in steps; the points of a box."""
+"""The range of a dimension that is varied, in steps."""
 
-import subprocess
-import sys
-
-import numpy as np
 import pytest
-from scipy.stats import qmc
 
-from linkage.study.box import POLYNOMIALS, unit_points
 from linkage.study.space import Varied
 from tests.for_all import for_all
 
@@ -29,18 +23,3 @@ def test_a_value_is_between_two_steps_or_on_one(value, about):
 def test_a_range_without_steps_leaves_a_value_alone():
     varied = Varied("OB", "", 1.0, 0.1, 0.2, None, "mm")
     assert (varied.steps, varied.stepped(0.1234)) == (1, (0.1234,))
-
-
-def test_sobol_points_are_those_of_scipy():
-    """Points of a box are bit by bit those of SciPy, whose room of statistics takes longer to load than a small search."""
-    for k in (1, 2, 9, len(POLYNOMIALS), len(POLYNOMIALS) + 1):
-        for count in (1, 2, 7, 64, 1000):
-            engine, whole = qmc.Sobol(k, seed=np.random.default_rng(3)), 1 << (count.bit_length() - 1)
-            expected = np.concatenate([engine.random(whole), engine.random(count - whole)])
-            assert np.array_equal(unit_points(count, k, "sobol", 3), expected), (k, count)
-
-
-def test_a_small_search_does_without_scipys_statistics():
-    """A box with fewer ranges than are known here asks SciPy for nothing."""
-    code = "import sys; from linkage.study.box import unit_points; unit_points(64, 5, 'sobol', 0); assert 'scipy' not in sys.modules"
-    subprocess.run([sys.executable, "-c", code], check=True)

@@ -98,7 +98,7 @@ def test_a_case_alone_is_asked_by_acting_and_refused_where_it_is_said_twice():
         machine.answers([least(reserve("lift", case="dig"))], acting=Acting(case="carry"))
     with pytest.raises(DefinitionError, match="the load case carry does not occur over"):
         machine.answers([least(reserve("lift"))], over=Over(cases=("dig",)), acting=Acting(case="carry"))
-    with pytest.raises(DefinitionError, match="load case 'full' is unknown"):
+    with pytest.raises(DefinitionError, match="Load case 'full' is unknown"):
         machine.answers([least(reserve("lift"))], acting=Acting(case="full"))
 
 

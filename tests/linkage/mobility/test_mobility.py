@@ -160,7 +160,7 @@ def test_the_four_bars_of_a_machine_are_found():
 
 
 def test_grashof_refuses_a_length_that_is_none():
-    with pytest.raises(DefinitionError, match="length of the coupler"):
+    with pytest.raises(DefinitionError, match=r"grashof: coupler=-1\.0: a positive number of metres"):
         grashof(1.0, 1.0, -1.0, 1.0)
 
 

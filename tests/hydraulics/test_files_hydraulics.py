@@ -242,7 +242,7 @@ VESSEL = {"volume": "4 l", "charge": "50 bar"}
         (changed("pump", LiftCircuit="load"), r"hydraulics\.pump: Carried\.pump: Weight\(G, mass=600\) is no Cylinder"),
         (changed("pump", flow=-1), r"hydraulics\.pump: .*flow=-1 is negative"),
         (changed("fixed", accumulators=[]), r"hydraulics\.fixed: The accumulator block is empty"),
-        (changed("fixed", accumulators=3), r"hydraulics\.fixed\.accumulators: is not a list"),
+        (changed("fixed", accumulators=3), r"hydraulics\.fixed\.accumulators: 3 is not a list"),
         (changed("fixed", accumulators=[3]), r"hydraulics\.fixed\.accumulators\.0: is not a table"),
         (changed("fixed", accumulators=[VESSEL] * 101), r"hydraulics\.fixed\.accumulators: .*at most 100 items"),
         (changed("fixed", accumulators=[VESSEL, VESSEL | {"volume": "4 bar"}]), r"accumulators\.1\.volume: '4 bar' is a pressure"),

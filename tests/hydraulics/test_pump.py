@@ -349,7 +349,7 @@ def test_what_cannot_be_is_refused_in_words():
         (lambda: supply.check(machine.sweep(S=11, T=0.1)), "has no time of its own"),
         (lambda: supply.run(machine, demands={"one.ram": 0.1, machine.plan.members["one.ram"]: 0.2}, until=1.0), "asked for twice"),
         (lambda: supply.run(machine, demands={"one.ram": 0.1}, until=1.0, acting="plain"), "a situation is expected"),
-        (lambda: supply.run(machine, demands={"one.ram": 0.1}, until=1.0, acting=Acting(case=["plain"])), "the load case"),
+        (lambda: supply.run(machine, demands={"one.ram": 0.1}, until=1.0, acting=Acting(case=["plain"])), "is unknown in TwoLifts"),
         (lambda: supply.run(machine, demands={"one.ram": 0.1}, until=9.0, start=other), "this one has no stroke T"),
         (lambda: Pump(200 * bar, flow=FLOW, first=3), "names of lines or cylinders are expected"),
         (lambda: type("Wrong", (TwoLifts,), {"supply": Pump(2e7, flow=FLOW, first=[3])}), "3 stands where"),

@@ -103,7 +103,7 @@ def amount_of(given: object, names: Names, measures: str) -> Any:
     return Amount(found.constant, UNITS[unit][1]) if unit and not measures else found.constant
 
 
-def two_items(what: str, one: Read, given: Any, names: Names) -> tuple[object, object]:
+def two_items(what: str, one: Read, given: Any, names: Names) -> tuple[Any, Any]:
     """Return the items of a list of two, each read by itself."""
     require(is_listed(given) and len(given) == 2, "", given, f"is not {what}")
     return one(given[0], names), one(given[1], names)

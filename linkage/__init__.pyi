@@ -131,6 +131,7 @@ from .units import kgf as kgf
 from .units import kgf_cm2 as kgf_cm2
 from .units import kN as kN
 from .units import litre as litre
+from .units import minute as minute
 from .units import mm as mm
 from .vectors import LEFT as LEFT
 from .vectors import RIGHT as RIGHT

@@ -211,7 +211,8 @@ def blocked_blocks(subject: ReportSubject) -> Iterator[Block]:
     yield said(
         "At the relief pressure: a stop holds {point} in either direction. One cylinder after the other presses and the others hold, "
         "until the first relief valve opens. Where no relief valve is declared, the pump's pressure is the highest. The machine's own "
-        "loads act too. Greatest thrusts, {unit}: {thrusts}. This table looks at {count} poses over all that the machine runs.",
+        "loads act too; where they alone open one, nothing is held, and the place is left out. Greatest thrusts, {unit}: {thrusts}. "
+        "This table looks at {count} poses over all that the machine runs.",
         point=point, unit=unit_sign("kN"), thrusts=pressures, count=count,
     )  # fmt: skip
     plain_units = {name: stroke_unit(subject.machine.plan, name) for name in subject.machine.strokes}
@@ -296,7 +297,8 @@ class Stop:
             limit = np.where(grows > 0.0, high, low)
             force = np.where(grows != 0.0, (limit - self.own.thrusts[name]) / np.where(grows == 0.0, 1.0, grows), np.inf)
             opens = np.where(force < least, name, opens)
-            least = np.minimum(least, np.maximum(force, 0.0))
+            own, room = self.own.thrusts[name], NEAR * (high - low)  # beyond both ends its own loads open the valve already
+            least = np.where((own < low - room) | (own > high + room), np.nan, np.minimum(least, np.maximum(force, 0.0)))
         return np.where(np.isfinite(least), least, np.nan), way, opens
 
     def joint_sizes(self, force: FloatArray, way: FloatArray) -> Iterator[tuple[tuple[str, ...], tuple[str, ...], FloatArray]]:

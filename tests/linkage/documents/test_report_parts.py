@@ -380,6 +380,18 @@ def test_at_the_relief_pressure_a_stop_takes_what_the_load_leaves():
     assert {row.cylinder for row in worst_blocked(subject, "G", held)} == {"lift"}
 
 
+def test_where_the_load_alone_opens_the_valve_no_force_against_a_stop_is_told():
+    own = Loader().sweep(101)
+    thrusts = [pin_forces(own, case=case).thrusts["lift"] for case in (None, "with shock")]
+    low, high = min(map(np.min, thrusts)), max(map(np.max, thrusts))
+    relief = 0.5 * (low + high) / (2 * np.pi / 4 * 0.08**2)
+    subject = ReportSubject.of(Loader(**{"pump.relief": relief, "pump.pressure": 0.9 * relief}), {}, 5)
+    held = blocked_cylinders(subject)
+    rows = worst_blocked(subject, "G", held)
+    (pin,) = (row for row in rows if row.cells[0] == "A")  # of the cylinder's foot, which has its thrust alone
+    assert rows and pin.force <= held["lift"][1] * (1.0 + 1e-6) < high
+
+
 def test_a_stop_pushes_until_the_first_relief_valve_opens():
     """No cylinder of the crane carries more than its valve lets through, and one of them carries just that."""
     subject = ReportSubject.of(Crane(), {}, 5)

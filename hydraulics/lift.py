@@ -107,7 +107,9 @@ class PumpLine(LiftLine):
             found[f"holding{name}"] = PageWords(
                 noted("with the pump off it holds up to {value}, {place}: not above {limit}"), fails={"<=": holds}
             )
-            if len(ways) == 1 and judge.answer(most(each.back(ways[0])) <= 0.0).ok:
+            if each.ram.side == "both":  # which way the load drives it back hangs on the design
+                found[f"lowering{name}"] = PageWords("", is_followed=False)
+            elif len(ways) == 1 and judge.answer(most(each.back(ways[0])) <= 0.0).ok:
                 alone = least(going_back_request(each.ram.name, Acting(), self.name, ways[0], tells="load"))
                 found[f"lowering{name}"] = PageWords(noted("the load makes at least {value} in the working side, {place}"), alone)
             else:

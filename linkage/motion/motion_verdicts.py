@@ -48,7 +48,8 @@ class PageWords:
     `fails` says it where it is not, by the sign of the condition that is missed; {force}, {much} or {missing} is by how much.
 
     `measure` is the value where it is not the condition's own, `share` how much of the limit is used where that is not value over limit.
-    `is_need` where it is what something has to have, which is rounded up.
+    `is_need` where it is what something has to have, which is rounded up. `is_followed` is False where a changed design may ask something
+    else, so that the page keeps the delivered sentence and says so.
     """
 
     text: str
@@ -56,6 +57,7 @@ class PageWords:
     share: Measure | None = None
     fails: Mapping[str, str] = field(default_factory=dict)
     is_need: bool = False
+    is_followed: bool = True
 
 
 class HasVerdicts(Member):

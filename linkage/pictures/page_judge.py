@@ -76,7 +76,8 @@ class LiveQuestions:
                 words = PLAIN_WORDS
                 with suppress(LinkageError):
                     words = speakers(machine.plan, HasVerdicts)[member].page_words(judge).get(own, PLAIN_WORDS)
-                self.ask(rule, member, condition, words)
+                if words.is_followed:
+                    self.ask(rule, member, condition, words)
         for name, given in limits.items():
             column, request, why = columns[name]
             limit, self.units[name] = limit_of(given), column.unit

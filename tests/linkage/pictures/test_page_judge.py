@@ -263,6 +263,15 @@ def test_of_one_pose_it_says_what_python_says_and_whether_it_is_judged():
     assert seen == {True, False}
 
 
+def test_a_rule_whose_question_hangs_on_the_design_is_the_delivered_sentence():
+    """Which way the load drives a cylinder of two sides back is of the design: a page that kept the way judged another rule than Python."""
+    requests = PageRequests(Grab(), 11, at={})
+    rules = [rule for rule, *_ in requests.questions.asked]
+    assert "lowering pump" in rules and "lowering aid" not in rules and {"lifting aid", "holding aid"} <= {*rules}
+    data = page_data(requests, live_text(requests.machine.plan, requests.by_name, name="engine"))
+    assert [heading for heading, _ in delivered(data, "en", "")].count("lowering aid") == 1
+
+
 def delivered(data, name, system):
     """Return the lines of delivered verdicts that a page shows in a language and a system of units, "" for the delivered one."""
     said = []

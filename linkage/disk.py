@@ -17,6 +17,9 @@ from .errors import FileError, cited
 
 Place: TypeAlias = str | os.PathLike[str]
 
+OF_FILE = "_machine_file_"
+"""How the module of a file of a user's own is called, before the file's name."""
+
 FULL = "there is no room for it: the disk is full, or what you may use of it; make room or choose another folder"
 CLOSED = "you have no right to it; change its rights or its folder's, or choose another place"
 SAYINGS = {
@@ -198,4 +201,3 @@ def straight(path: Place) -> BinaryIO:
         if said is not None:
             said.flush()
     return open(os.dup(own), "wb")
-

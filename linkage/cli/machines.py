@@ -12,7 +12,7 @@ from types import ModuleType
 from typing import Any, TypeVar
 
 from ..checks import is_class_of
-from ..disk import read
+from ..disk import OF_FILE, read
 from ..errors import DefinitionError, LinkageError, ensure, unknown
 from ..mechanism import Mechanism
 from ..plugins import guarded
@@ -79,7 +79,7 @@ def split(text: str) -> tuple[str, str]:
 def module_of_file(place: str) -> ModuleType:
     """Return a file as a module; it may import its neighbours, as a script may."""
     path = Path(place).resolve()
-    spec = spec_from_file_location(f"_machine_file_{path.stem}", path)
+    spec = spec_from_file_location(f"{OF_FILE}{path.stem}", path)
     assert spec is not None and spec.loader is not None  # the name ends in .py
     module = module_from_spec(spec)
     sys.modules[spec.name] = module

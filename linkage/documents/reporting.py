@@ -11,7 +11,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from ..checks import require, require_type
-from ..disk import check_name, check_place
+from ..disk import OF_FILE, check_name, check_place
 from ..errors import DefinitionError, LinkageError, cited, known_name, unwarned
 from ..language import current_language, said, translated, with_decimals
 from ..language import language as spoken
@@ -343,7 +343,7 @@ def title_rows(subject: ReportSubject, title_block: Mapping[str, str], mark: Mar
     epoch = os.environ.get("SOURCE_DATE_EPOCH", "")  # as for builds that can be repeated
     day = (datetime.fromtimestamp(int(epoch), UTC) if epoch.isdecimal() else datetime.now()).date()
     return (
-        (said("Machine"), f"{machine.plan.heading} ({cls.__module__}:{cls.__qualname__})"),
+        (said("Machine"), f"{machine.plan.heading} ({cls.__module__.removeprefix(OF_FILE)}:{cls.__qualname__})"),
         (said("Run"), ". ".join(texts)),
         (said("Judged over"), domain_words(subject.judge)),
         (said("Load cases"), ", ".join(map(subject.case_words, subject.judge.cases)) if has_loads(machine) else said("no loads")),

@@ -336,8 +336,8 @@ function count(found) {
   byId("verdicts").classList.toggle("changed", changed);
   if (fails.length === 1) badge.textContent = `\u2715 ${fails[0]}: ${say("does not hold")}`;
   else if (fails.length) badge.textContent = say("{count} verdicts fail", counts);
-  else if (changed) badge.textContent = open ? say("the live verdicts hold; as delivered or silent: {open}", counts) : say("all live verdicts hold");
-  else badge.textContent = open ? say("{ok} of {all} verdicts hold; silent: {open}", counts) : states.length ? say("{ok} of {all} verdicts hold", counts) : say("all live verdicts hold");
+  else if (changed) badge.textContent = open ? say("the live verdicts hold; as delivered or without an answer: {open}", counts) : say("all live verdicts hold");
+  else badge.textContent = open ? say("{ok} of {all} verdicts hold; without an answer: {open}", counts) : states.length ? say("{ok} of {all} verdicts hold", counts) : say("all live verdicts hold");
 }
 
 /* ---- at this pose ---- */

@@ -141,9 +141,10 @@ def read_short_address(found: FoundMachine, text: str) -> None:
         keys = fields[7 : 7 + fields[7:].index("")] if "" in fields[7:] else fields[7:]
         if fields[0][0] not in "Namg4567":  # one that is within another
             links[fields[0][2:]] = PlusLink(fields[1] or fields[0][2:], tuple(keys), block=fields[0][1] == "P")
-            heavy += [] if whole_of(found, fields[2]) in (0, 1000) else [fields[1] or fields[0][2:]]
+            mass = whole_of(found, fields[2]) / 1000.0
+            heavy += [] if mass in (0.0, 1.0) else [f"{fields[1] or fields[0][2:]} ({mass:g})"]
     if heavy:  # PMKS+ gives each link none, formerly 1 kg, until its user says another mass
-        found.left_out.append(f"the masses of {', '.join(heavy)}")
+        found.left_out.append(f"the masses of {', '.join(heavy)}; hang them on by Weight or LinkMass")
     read_plus(found, joints, [*links.values()], clockwise=bool(whole_of(found, flags) & 1))
     for fields in (each.split(",") for each in force_texts):  # flags and key, link, name, start, end, size
         found.ensure(len(fields) >= 7, f"a force of the address has {len(fields)} parts instead of seven or more.")

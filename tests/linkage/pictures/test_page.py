@@ -1377,7 +1377,7 @@ def test_what_the_page_does_not_follow_is_named_and_never_green(chromium, writte
         assert found["lifting"]["ok"] is None and found["lifting"]["stale"]
         assert sum("do not follow your changes" in each for each in shown.text("#groups").splitlines()) == 1
         assert shown("document.getElementById('badge').dataset.fails") == "0"
-        assert re.fullmatch(r"the live verdicts hold; as delivered or silent: \d+", shown.text("#badge"))
+        assert re.fullmatch(r"the live verdicts hold; as delivered or without an answer: \d+", shown.text("#badge"))
         assert shown.text("#badge") != "all live verdicts hold"
 
 

@@ -103,7 +103,7 @@ def test_forces_of_pmks_plus_come_in_with_its_own_results():
     )
     press = read_sketch(short)
     assert press.forces["F1"].point == "C" and press.forces["F1"].vector == (0.0, 400.0)
-    assert press.notes == ("Left out: the masses of Crank, Connecting rod, CP.",)
+    assert press.notes == ("Left out: the masses of Crank (2), Connecting rod (3), CP (6); hang them on by Weight or LinkMass.",)
 
 
 def test_many_remarks_are_the_first_few_and_a_count(tmp_path):

@@ -584,7 +584,7 @@ class LiftingCylinder:
             by = {"against": against, "where": alone.place, "pressure": self.show(alone.value)}
             text = said("it sinks by itself {against}: the load makes at least {pressure} in the working side, {where}.", **by)
             if alone.value <= nothing:
-                text = said("it goes back by itself {against}; {where} the load presses on neither side and nothing drives it.", **by)
+                text = said("nothing holds it back {against}; {where} the load presses on neither side and nothing drives it.", **by)
             return Verdict("lowering", True, text, answer=replace(push, ok=True))
         where, enough = self.stuck(replace(self.back(way, resistance), acting=replace(judge.situation(push), direction=None))), False
         if not (push.unbounded or self.ram.is_single_acting):

@@ -83,6 +83,9 @@ def evaluate_bound(asked: Evaluation, out: FloatArray | None, unreachable: str) 
         motion = Motion(grid.plan, grid.designs, grid.strokes, unreachable, per_design=grid.per_design, rate_inputs=grid.rate_inputs)
         for each in asked.requests:
             each.refuse(motion)
+        for each, refused in zip(asked.requests, look.refused, strict=True):
+            if refused.any():
+                motion._refused_near(each, f"{grid.plan.title}: {each.sentence}")
         for each in asked.requests:
             if each.notes(grid.plan).assumed:
                 raise other_law_error(grid.plan, each)

@@ -212,7 +212,8 @@ class Request(Arithmetic):
 
         Shape (n,), or (rows, n) where each component has its own.
         """
-        return np.full(left.size.shape, SMALL_FORCE if Trait.OF_FORCES in self.traits else SMALL)
+        small = SMALL_PRESSURE if self.measured(plan) == "pressure" else SMALL_FORCE
+        return np.full(left.size.shape, small if Trait.OF_FORCES in self.traits else SMALL)
 
     def error(self, plan: Plan, left: PrecisionLeft) -> FloatArray:
         """Return the relative error to expect, shape (n,), from the precision of those nodes."""
@@ -462,8 +463,8 @@ CUT = 1e-3
 """What changes a closed line beside the strokes, as oil [m3], goes about so far."""
 SMALL = 1e-9
 """A result of no known size [SI] that is smaller counts as so large where its relative error is told."""
-SMALL_FORCE = 1e-3
-"""The same of a force or pressure [N, Pa]: what is left of loads that cancel is zero, and no lost value."""
+SMALL_FORCE, SMALL_PRESSURE = 0.1, 1e4
+"""The same of a force [N] and of a pressure, of it on 10 mm2 [Pa]: what is left of loads that cancel is zero, and no lost value."""
 
 
 def natural_size(member: Member, size: FloatArray) -> FloatArray | None:

@@ -8,26 +8,33 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from hydraulics import Cylinder, thrust
+from hydraulics import Cylinder, LiftCircuit, pressure, thrust
 from linkage import (
     LEFT,
     AssemblyError,
     Crank,
     Dyad,
     Ground,
+    Link,
     Mechanism,
+    OnLink,
+    Over,
+    Rope,
     SingularError,
     SingularWarning,
     Stroke,
     Weight,
+    angle,
+    bar,
+    deg,
     least,
     mm,
+    most,
     pin_forces,
     ratio,
     x,
     y,
 )
-from mechanisms.crane import ChainCrane
 from tests.for_all import first_daily, for_all
 
 from .exactly import exactly, off, off_by_parts, pins_exactly
@@ -260,13 +267,40 @@ def test_a_cylinder_next_to_its_dead_point_is_right_told_or_refused():
     assert count >= 6
 
 
-@pytest.mark.slow
+class Hung(Mechanism):
+    """A boom whose arm hangs plumb where it is folded, so that nothing pushes; its load stands along YK, which a chain draws out."""
+
+    lift, psi, t = Stroke(15 * deg, 90 * deg), Stroke(0.0, 180 * deg), Stroke(0.0, 0.6)
+    C = Ground(0.0, 2.95)
+    J = Crank(C, CJ=4.5, angle=90 * deg - lift)
+    K = Crank(J, JK=3.1, angle=angle(J, C) + psi)
+    D = OnLink(J, K, JD=3.0 + t)
+    X = OnLink(J, K, JX=1.0)
+    chain = Rope(X, D, "Y", length=3.0)
+    Y = OnLink(J, K, JY=3.0 + t - chain.last)
+    T = OnLink(Y, K, YT=2.5)
+    outer = Link(Y, T)
+    A, B = OnLink(C, J, CA=4.0), OnLink(J, K, JB=0.4)
+    load = Weight(T, mass=10000)
+    push = Cylinder(X, D, bore=80 * mm, rod=50 * mm, works="both")
+    fold = Cylinder(A, B, bore=90 * mm, rod=50 * mm, works="both")
+    line = LiftCircuit(fold, pressure=200 * bar)
+
+
 def test_loads_that_cancel_are_zero_at_every_door_however_short_a_direction_is():
-    crane = ChainCrane()  # its arm is folded: nothing pushes; T lies along YK, which is 45 mm long here
-    place = {"phi": crane["phi_0"], "psi": crane["phi_0"], "t": 2.52}
-    asked = thrust("fold", case="lifting")
-    with pytest.warns(SingularWarning, match="T takes a direction between points"):
-        (bulk,) = crane.evaluate([asked], **{name: np.full(3, value) for name, value in place.items()}, unreachable="nan")
+    machine = Hung()
+
+    def folded(short):
+        return {"lift": 15 * deg, "psi": 15 * deg, "t": 0.55 - 0.5 * short}
+
     with warnings.catch_warnings(action="ignore"):
-        assert_allclose(bulk, crane.at(**place)[asked], atol=1e-9)
-    assert not crane.answers([least(thrust("fold"))])[0].lost.share
+        for asked in (thrust("fold"), pressure("fold")):
+            (bulk,) = machine.evaluate([asked], **{name: np.full(3, value) for name, value in folded(1e-4).items()})
+            one = [machine.at(**folded(1e-4))[asked], machine.evaluate([asked], **folded(1e-4))[0]]
+            assert_allclose([*bulk, *one], 0.0, atol=1e-6 if asked.measures == "force" else 1e-3)
+        poses = Over.poses(**{name: [value, value] for name, value in folded(1e-4).items()})
+        for found in machine.answers([most(pressure("fold")) <= 1 * bar, least(thrust("fold")) >= -1.0], over=poses):
+            assert found.ok and not found.lost
+        for asked in (thrust("fold"), pressure("fold")):
+            with pytest.raises(SingularError, match=r"fold.* is refused at .*: T = .* takes a direction"):
+                machine.evaluate([asked], **folded(1e-9))

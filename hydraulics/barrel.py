@@ -17,7 +17,6 @@ from linkage.loads import Glyph, Halves, Load, Parameter, Poses, Rates, TwoPoint
 from linkage.loads.element import by_speeds
 from linkage.loads.point import DOWN, on_slope, shared_mass
 from linkage.quantities import Axes, Member, NamedMembers, Operand, Quantity, Reference, Where, label, name_of, quantity, source_text
-from linkage.quantities.member import own_name
 from linkage.steps import Link, Point
 from linkage.units import mm
 from linkage.vectors import Vec
@@ -121,7 +120,7 @@ class BodyOf(Member):
 
     @property
     def name(self) -> str:
-        owner = own_name(self.owner)
+        owner = name_of(self.owner, is_needed=False)
         return f"{owner}.{self.own}" if owner else ""
 
     def parts(self) -> tuple[Reference, ...]:

@@ -25,6 +25,7 @@ from linkage.motion.grid import recalled
 from linkage.numeric import last_holding
 from linkage.plan import Plan
 from linkage.quantities import name_of
+from linkage.statics import has_masses
 from linkage.units import show
 from linkage.verdict import Verdict
 
@@ -113,6 +114,8 @@ class PumpCycle:
         The load case.
     events : sequence of PumpEvent, optional
         What happened in a run.
+    is_slow : bool, optional
+        Whether masses are accelerated, whose inertia is left out; the verdict says so.
 
     Attributes
     ----------
@@ -136,9 +139,9 @@ class PumpCycle:
 
     def __init__(
         self, pump: str, lines: Sequence[str], cylinders: Sequence[str], stretches: Sequence[Stretch], limits: PumpLimits, case: str = "",
-        events: Sequence[PumpEvent] = (),
+        events: Sequence[PumpEvent] = (), *, is_slow: bool = False,
     ) -> None:  # fmt: skip
-        self.pump, self.case, self.limits, self.events = pump, case, limits, tuple(events)
+        self.pump, self.case, self.limits, self.events, self.is_slow = pump, case, limits, tuple(events), is_slow
         self.time = read_only(np.concatenate([each.time for each in stretches]))
         self._lengths = np.array([each.time[-1] - each.time[0] for each in stretches])
         flow: dict[str, Array] = {name: np.zeros(len(self.time)) for name in (pump, *lines)}
@@ -245,8 +248,9 @@ class PumpCycle:
             long, short = show(self.stretch * self.duration, "s", 4), show(self.duration, "s", 4)
             how = said("it can be done in {long} instead of {short}", long=long, short=short)
             text = f"{text}; {how if np.isfinite(self.stretch) else said('no longer time makes up for the pressure: take larger bores')}"
-        case = said("{text}, in the case {case}", text=text, case=self.case) if self.case else text
-        return Verdict("pump", self.stretch <= 1.0 + AT_BORDER, f"{case}.")
+        text = said("{text}, in the case {case}", text=text, case=self.case) if self.case else text
+        text = said("{text}; inertia is left out", text=text) if self.is_slow else text
+        return Verdict("pump", self.stretch <= 1.0 + AT_BORDER, f"{text}.")
 
     def plot(self) -> Figure:
         """Return a figure of flow, pressure and power over time, with the pump's limits, who waits, and the events in numbers.
@@ -347,7 +351,14 @@ def cycle_over(pump: ForceElement, place: Any, situation: Acting, label: str) ->
     consumers = Consumers(place.plan, place.designs, pump, situation, start)
     there = Motion(place.plan, place.designs, {name: np.asarray(value) for name, value in start.items()}, "nan")
     limits, names = limits_of(pump, consumers, there), [line.name for line in consumers.lines]
-    return PumpCycle(pump.name or "supply", names, (), given_stretches(consumers, instants, limits), limits, label)
+    stretches, is_slow = given_stretches(consumers, instants, limits), accelerates_masses(place.plan, instants)
+    return PumpCycle(pump.name or "supply", names, (), stretches, limits, label, is_slow=is_slow)
+
+
+def accelerates_masses(plan: Plan, instants: Instants) -> bool:
+    """Return whether a path in time accelerates masses, whose inertia the demands on a pump leave out."""
+    within = instants.at_times(instants.breaks[:-1] + np.diff(instants.breaks) / 3.0)
+    return has_masses(plan) and any(bool(np.any(each)) for each in within.accelerations.values())
 
 
 def given_stretches(consumers: Consumers, instants: Instants, limits: PumpLimits) -> list[Stretch]:

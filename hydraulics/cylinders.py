@@ -34,7 +34,7 @@ from linkage.motion.motion_verdicts import HasVerdicts, PageWords, over_time
 from linkage.plan import Mask, Plan
 from linkage.program import is_traced
 from linkage.quantities import InnerQuantity, Quantity, distance, label, quantity
-from linkage.quantities.member import Member, NamedMembers, Reference, body_name, in_class, is_member_or_name, name_of, of_kind, own_name
+from linkage.quantities.member import Member, NamedMembers, Reference, body_name, in_class, is_member_or_name, name_of, of_kind
 from linkage.statics import LawRequest, applied_elements, elements_of, held_in_case, is_among, member_thrust, own_rates, request_text, same
 from linkage.statics.poses import AnyMotion, motion_of_whole
 from linkage.units import show, shown_number
@@ -967,6 +967,10 @@ class Cylinder(BarrelAndRod, Ram):
         push = max(thrust, 0.0) / self.count
         return [size for size in enough if length is None or Buckling(float(size.rod), self.mounting, self.safety).allowed(length) >= push]
 
+    def sizes_made(self, name: str) -> Sequence[float]:
+        series = chosen_series()
+        return series.bores if name == "bore" else series.rods if name == "rod" else ()
+
     def larger(self, motion: Poses) -> list[Sizes]:
         (own, thick), series = self.sized(motion).single, chosen_series()
         bores = [bore for bore in series.bores if bore > own * (1.0 + 1e-9)]
@@ -1127,7 +1131,7 @@ def cylinder_request(
     It is written as a function, `word`, of the cylinder, of what stands `before` and `after` the direction, and of the load case. It is
     in no load case that leaves out the lines of the cylinder, so that this may carry nothing.
     """
-    named = own_name(cylinder) or cylinder
+    named = name_of(cylinder, is_needed=False) or cylinder
 
     def text(acting: Acting) -> str:
         return request_text(word, [str(each) for each in (named, *before, acting.direction, *after) if each is not None], acting)

@@ -29,9 +29,8 @@ from linkage.language import said
 from linkage.loads import Acting, ActingKeywords, Declared, ForceElement, Loads, Parameter, Poses, Tie, situation_of, takes_situation
 from linkage.loads.element import UNBOUNDED, Formulas
 from linkage.motion import Condition, Judge, Motion, PageWords, Question, at, least, most
-from linkage.plan import require_kinds
 from linkage.quantities import AtPose, Distance, Number, Quantity, Stroke, Variable, label, quantity
-from linkage.quantities.member import Member, NamedMembers, Reference, Where, in_class, is_member_or_name, name_of, of_kind, own_name
+from linkage.quantities.member import Member, NamedMembers, Reference, Where, in_class, is_member_or_name, name_of, of_kind
 from linkage.quantities.quantity import plain
 from linkage.statics import AnyMotion, LawRequest, each_once, held_in_case, plan_of, same
 from linkage.units import require_measure, show
@@ -348,7 +347,7 @@ class OilLine(PumpLine, GasLine):
 
     def examine(self, members: NamedMembers, title: str) -> None:
         for each in self.references:
-            name = own_name(each)
+            name = name_of(each, is_needed=False)
             if name and name not in members:
                 known = [each.name for each in members.values() if isinstance(each, (Ram, Supply))]
                 raise unknown("Cylinder, pump, valve or tank", name, known, where=f"{title}.{self.name}")
@@ -482,6 +481,9 @@ class OilLine(PumpLine, GasLine):
         return self.kind_of_line == "given"
 
     # -- where it is filled, and the length that it gives ------------------------------------------------------
+
+    def strokes_told(self, strokes: Sequence[str]) -> Mapping[str, Any]:
+        return self.at if isinstance(self.at, Mapping) else dict.fromkeys(strokes, self.at)
 
     def strokes_filled(self, strokes: Sequence[str]) -> dict[str, float]:
         """Return the strokes that it says to be filled at [SI]; DefinitionError for anything but a stroke, and a number for several.
@@ -681,10 +683,7 @@ class OilLine(PumpLine, GasLine):
         return super().length_charged(motion, ram) if isinstance(length, AtPose) else motion.value(length)
 
     def charged_at(self, motion: Poses, ram: Ram) -> Mapping[str, Array]:
-        plan = plan_of(motion)
-        strokes = self.strokes_filled(list(plan.strokes))
-        require_kinds(plan, self.at if isinstance(self.at, Mapping) else dict.fromkeys(strokes, self.at))
-        members = motion.plan.members
+        strokes, members = self.strokes_filled(list(plan_of(motion).strokes)), motion.plan.members
         unmoved = put_in_later(members) if self.kind_in(members) == "closed" else ()
         return {name: np.asarray(value) for name, value in {**dict.fromkeys(unmoved, 0.0), **strokes}.items()}
 

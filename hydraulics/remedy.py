@@ -9,10 +9,7 @@ from linkage.errors import DefinitionError, LinkageError, ensure, unwarned
 from linkage.language import said
 from linkage.loads import ForceElement
 from linkage.motion import Answer, Judge, Question
-from linkage.quantities.member import own_name
 from linkage.units import rounded_up, show
-
-from .inputs import follows
 
 Sizes: TypeAlias = Mapping[str, float]
 """Sizes of a cylinder by their names [m], such as its bore."""
@@ -29,8 +26,7 @@ def resized(judge: Judge, element: Element, sizes: Sizes) -> tuple[Judge, Elemen
         return judge, element.having({f".{name}": value for name, value in sizes.items()})
     designs = dict(judge.designs)
     for name, value in sizes.items():
-        given = element.given(name)
-        called = own_name(given) if follows(given) else f"{element.name}.{name}"
+        called = element.variable(name)
         ensure(called in plan.table.spellings, f"{plan.title}: {element.name}.{name} follows an expression and cannot be set alone.")
         owner, sign = plan.table.spellings[called]
         designs[owner] = sign * value

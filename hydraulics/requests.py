@@ -20,7 +20,6 @@ from linkage.mechanism import Mechanism
 from linkage.motion import Condition, Constraint, SmoothPiece, at, least, most
 from linkage.plan import Mask, Plan
 from linkage.quantities import Reference, distance, name_of
-from linkage.quantities.member import own_name
 from linkage.statics import AnyMotion, LawRequest, is_among, member_limits, member_thrust, plan_in_case
 from linkage.statics.carried import Direction, direction_words, pull_direction
 
@@ -119,7 +118,7 @@ def circuit_request(
     measures: str = "",
 ) -> LawRequest:
     """Return the request for a formula of a cylinder and its circuit: the only one that feeds it, unless named."""
-    name = own_name(circuit)
+    name = name_of(circuit, is_needed=False)
     shown = f"circuit={name}" if name else circuit or None
     found = cylinder_request(word, cylinder, acting, formula, (*before, shown), after, measures=measures)
     return replace(found, examine=partial(circuit_with, cylinder=cylinder, circuit=circuit, word=word))

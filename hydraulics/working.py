@@ -38,6 +38,7 @@ from .cycle import (
     PumpEvent,
     PumpRun,
     Stretch,
+    accelerates_masses,
     is_smooth,
     limits_of,
     stretch_times,
@@ -438,7 +439,8 @@ def worked(
     instants = cast(Instants, over.instants(plan, lambda name: float("nan")))
     instants = instants.shares(np.linspace(0.0, 1.0, INSTANTS))
     names, cylinders = [line.name for line in work.consumers.lines], [ram.name for ram in work.rams]
-    cycle = PumpCycle(pump.name or "supply", names, cylinders, stretches, work.limits, "" if cases is None else cases[0], events)
+    is_slow, shown_case = accelerates_masses(plan, instants), "" if cases is None else cases[0]
+    cycle = PumpCycle(pump.name or "supply", names, cylinders, stretches, work.limits, shown_case, events, is_slow=is_slow)
     vars(over)["found_in_run"] = FrozenDict({work.pump.name: PumpRun(cycle, plan, work.designs, acting or Acting())})
     found = PumpMotion(plan, work.designs, instants.strokes, "raise", over=over, instants=instants)
     vars(found).update(events=tuple(events), cycle=cycle)

@@ -175,12 +175,14 @@ def pair(text: str, option: str, example: str) -> tuple[str, str]:
     return name, value
 
 
-def si_value(text: str, kind: str, what: str) -> float:
-    """Return the SI value of a text that measures `kind`."""
+def si_value(text: str, kind: str, what: str, units: str = "") -> float:
+    """Return the SI value of a text that measures `kind`; `units` are examples of those without which a number alone is refused."""
     try:
-        return parse(text, kind)
+        value = parse(text, kind)
     except DefinitionError as error:
         raise DefinitionError(f"{what}: {error}") from None
+    ensure(not units or any(map(str.isalpha, re.sub("[eE]", "", text))), f"{what} {text}: say the unit too, such as {units}.")
+    return value
 
 
 def motions_at(machine: Mechanism, options: Namespace) -> list[tuple[Run | None, Motion]]:

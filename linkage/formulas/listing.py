@@ -12,7 +12,7 @@ from ..frozen import immutable
 from ..motion import Motion
 from ..plan import Plan
 from ..quantities import FRAME_AXES, AtPose, Axes, Quantity, Variable, source_text
-from ..quantities.member import Member, Reference, Tabulated, Turning, Where, joined_names, name_of, own_name
+from ..quantities.member import Member, Reference, Tabulated, Turning, Where, joined_names, name_of
 from ..steps import Arrow, Assignment, Axis, CosineAngle, Group, Guide, Offset, Point, Turn, Vector
 from ..vectors import FloatArray, Line, Numbers, Scalar, Vec
 from .names import Direction, Norm, SymbolNames, Tcos, TurnV, TurnVL, explicit, vector_symbol
@@ -189,7 +189,7 @@ class Listing:
 
     def arrow_line(self, vector: Reference) -> sympy.MatrixExpr:
         """Return a vector member as its symbol; one without a name written out."""
-        named = own_name(vector)
+        named = name_of(vector, is_needed=False)
         member = self.plan.members[named] if named else cast(Member, vector)
         if isinstance(member, Vector):
             return self.between(name_of(member.P), name_of(member.Q))
@@ -224,7 +224,7 @@ class Listing:
 
     def value(self, quantity: Reference) -> Term:
         """Return a quantity: its symbol where it has a name or a label."""
-        named = own_name(quantity)
+        named = name_of(quantity, is_needed=False)
         member = cast(Quantity, self.plan.members[named] if named else quantity)
         if named in self.units:
             return self.input(named)

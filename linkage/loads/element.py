@@ -371,6 +371,52 @@ class ForceElement(Jointed):
         """
         return getattr(self, name)
 
+    def variable(self, name: str) -> str:
+        """Return the name of the dimension that gives a parameter: its own, or that it follows; "" where an expression gives it.
+
+        Parameters
+        ----------
+        name : str
+            A parameter's name.
+
+        Returns
+        -------
+        str
+            The dimension's name.
+        """
+        given = self.given(name)
+        return name_of(quantity(given), is_needed=False) if isinstance(given, (str, Quantity)) else f"{self.name}.{name}"
+
+    def sizes_made(self, name: str) -> Sequence[float]:
+        """Return the sizes that a parameter is made in by a standard, ascending [SI]; none where any is.
+
+        Parameters
+        ----------
+        name : str
+            A parameter's name.
+
+        Returns
+        -------
+        sequence of float
+            The sizes.
+        """
+        return ()
+
+    def strokes_told(self, strokes: Sequence[str]) -> Mapping[str, Any]:
+        """Return the values of a class's strokes that it is given [SI], by the names of these or of its own parameters.
+
+        Parameters
+        ----------
+        strokes : sequence of str
+            The strokes of the class.
+
+        Returns
+        -------
+        mapping of str to object
+            The values as they are given.
+        """
+        return {f"{self.name}.{name}": self.given(name) for name in self.stroke_values}
+
     def written(self, name: str) -> Quantity:
         """Return a parameter as a quantity of its class: a number as the design variable that it is.
 

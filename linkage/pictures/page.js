@@ -19,7 +19,7 @@ for (const each of [...data.cylinders, ...data.arrows]) for (const name of ["pre
   Object.defineProperty(each, name, { get: () => rowNow(row) });
 }
 /* A dimension as it comes: its name, value, least and greatest [SI], unit, whether it is a length, and where it stands. */
-const dims = data.dims.map(([name, value, ends, unit, positive, where]) => ({ name, value, low: ends[0] ?? value - ends, high: ends[1] ?? value + ends, unit, factor: units[unit], positive, where }));
+const dims = data.dims.map(([name, value, ends, unit, positive, where, sizes = []]) => ({ name, value, low: ends[0] ?? value - ends, high: ends[1] ?? value + ends, unit, factor: units[unit], positive, where, sizes }));
 
 /* ---- the state, and what follows from it ---- */
 

@@ -15,7 +15,7 @@ import numpy as np
 from ..checks import is_listed, require, require_type
 from ..errors import DefinitionError, LinkageError, cited, known_name, unknown, unwarned
 from ..language import heading_of, language, translated
-from ..loads import PLAIN_CASE, Case, TwoPoint
+from ..loads import PLAIN_CASE, Case, ForceElement, TwoPoint
 from ..mechanism import Mechanism, verdicts_of
 from ..motion import Answer, Column, HasVerdicts, Judge, LiveText, Motion, Tabled, case_named, speakers, stroke_display_unit
 from ..motion.requests import NodeRequest, RequestLike, transmission
@@ -353,7 +353,7 @@ def signs(units: set[str]) -> dict[str, str]:
 def dimension_data(requests: PageRequests, live: LiveText) -> list[list[Any]]:
     """Return the dimensions that anything on the page hangs on."""
     size = float(np.hypot(*np.diff(np.reshape(requests.scene.extent, (2, 2)), axis=1).ravel()))
-    found = []
+    found, made = [], made_sizes(requests.plan)
     for name in live.dimensions:
         entry, value = requests.plan.table.entries[name], float(requests.machine.dimensions[name])
         measure = plan_measure(requests.plan, name)
@@ -367,8 +367,16 @@ def dimension_data(requests: PageRequests, live: LiveText) -> list[list[Any]]:
             reach = (0.25 if measure == "length" else 0.5) * abs(value) or factor(unit)
         ends = list(given) if given else [0.5 * value, 1.0] if entry.kind == "efficiency" else four_digits(reach)
         where = entry.where if entry.kind in STEPS else ""
-        found.append([name, value, ends, typeset(unit), int(entry.kind == "length"), where][: None if where else 5])
+        low, high = ends if isinstance(ends, list) else (value - ends, value + ends)
+        sizes = [each for each in made.get(name, ()) if low / 1.3 <= each <= 1.3 * high]  # the next one beyond its slider, too
+        found.append([name, value, ends, typeset(unit), int(entry.kind == "length"), where, sizes][: 7 if sizes else 6 if where else 5])
     return found
+
+
+def made_sizes(plan: Plan) -> dict[str, Sequence[float]]:
+    """Return the sizes that dimensions are made in, such as the bores of a standard, by the names of the dimensions [SI]."""
+    given = ((each.variable(name), each.sizes_made(name)) for each in plan.of_kind(ForceElement).values() for name in each.numbers)
+    return {plan.table.spellings[name][0]: sizes for name, sizes in given if sizes and name in plan.table.spellings}
 
 
 def four_digits(value: float) -> float:

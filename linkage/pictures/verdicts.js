@@ -241,12 +241,12 @@ function item({ ok, rule: full, member, text, share, q }) {
 function mending(q) {
   const place = make("p"), button = (textContent, act) => { const made = make("button", { type: "button", textContent }); on(made, "click", act); return made; };
   place.append(button(say("Which one dimension keeps it?"), () => {
-    const found = remedies(q).map(([i, value]) => button(`${dims[i].name} = ${shown(value, dims[i], 7)}`, () => { chosen = [...new Set([...chosen, i])]; listSizes(); put(i, value, true); }));
+    const found = remedies(q).map(([i, value, exact]) => button(`${dims[i].name} = ${shown(value, dims[i], 7)}${exact ? ` (${exact < value ? "\u2265" : "\u2264"} ${shown(exact, dims[i], 7)})` : ""}`, () => { chosen = [...new Set([...chosen, i])]; listSizes(); put(i, value, true); }));
     place.replaceChildren(found.length ? say("It is kept with") : say("None alone, within the range of its slider."), ...found.flatMap((each) => [" ", each]));
   }));
   return place;
 }
-/* The dimensions with the least changes [its place, value] that make a rule hold and let no other fail: sought with few poses, and judged as all is. */
+/* The dimensions with the least changes [its place, value] that make a rule hold and let no other fail: sought with few poses, and judged as all is. Of what is made in sizes, as bores are, the next size, and the exact value beside it. */
 function remedies(q) {
   const failing = (found) => found.filter(({ ok }) => ok === false).length, before = failing(asked(STILL).found), best = new Map();
   const holds = (i, value, n = 3) => {
@@ -259,8 +259,8 @@ function remedies(q) {
     for (let k = 0; high && k < 6; k++) { const t = 0.5 * (low + high); if (holds(i, at(t))) high = t; else low = t; }
     if (high < (best.get(i)?.t ?? 2)) best.set(i, { t: high, i, at: (t) => (end < present[i] ? floor : ceil)(at(t) / nice(each)) * nice(each) });
   }
-  const least = [...best.values()].sort((a, b) => a.t - b.t).slice(0, 8);
-  const found = least.map(({ t, i, at }) => [i, [1, 1.1, 1.25, 1.5, 2].map((k) => at(min(k * t, 1))).find((value) => holds(i, value, STILL))]);
+  const made = (i, value) => { const near = dims[i].sizes.filter((each) => (value > present[i] ? each >= value : each <= value)), size = (value > present[i] ? near : near.reverse()).find((each) => holds(i, each, STILL)); return size && size !== value ? [i, size, value] : [i, value]; };
+  const found = [...best.values()].sort((a, b) => a.t - b.t).slice(0, 8).map(({ t, i, at }) => made(i, [1, 1.1, 1.25, 1.5, 2].map((k) => at(min(k * t, 1))).find((value) => holds(i, value, STILL))));
   asking.laid(vector(present));
   return found.filter(([, value]) => value !== undefined).slice(0, 6);
 }

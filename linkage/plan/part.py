@@ -16,7 +16,7 @@ from ..frozen import FrozenDict
 from ..quantities import FRAME_AXES, Axes, Coordinate, Dimension, Operand, Quantity, Ref, Stroke, Variable, is_number, label, quantity
 from ..quantities import source_text as written
 from ..quantities.axes import is_nothing
-from ..quantities.member import Member, Reference, is_member_or_name, name_of, needs, of_kind, own_name, word_arguments
+from ..quantities.member import Member, Reference, is_member_or_name, name_of, needs, of_kind, word_arguments
 from ..steps import Arrow, Drawn, Group, Link, Point, Step
 from ..steps.labels import Spoken
 from ..units import require_measure
@@ -501,7 +501,7 @@ def carriers_first(parts: Mapping[str, Part]) -> list[str]:
 
     def take(name: str, behind: tuple[str, ...] = ()) -> None:
         for each in parts[name].on:
-            owner = own_name(each).partition(".")[0]
+            owner = name_of(each, is_needed=False).partition(".")[0]
             if owner in parts and owner not in (*behind, name):
                 take(owner, (*behind, name))
         if name not in found:

@@ -401,10 +401,12 @@ def as_mapping(given: Mapping[str, object]) -> str:
     return f"{{{', '.join(f'{name!r}: {value}' for name, value in given.items())}}}"
 
 
-def name_of(reference: Reference) -> str:
-    """Return the name a reference stands for; raise DefinitionError for a member without one."""
+def name_of(reference: Reference, *, is_needed: bool = True) -> str:
+    """Return the name a reference stands for; for a member without one DefinitionError, or "" where it is not needed."""
     if isinstance(reference, str):
         return reference
+    if not is_needed:
+        return reference.name
     if not isinstance(reference, Member):
         raise DefinitionError(f"{cited(reference)} stands where a point or its name is expected.")
     if not reference.name:
@@ -413,14 +415,9 @@ def name_of(reference: Reference) -> str:
     return reference.name
 
 
-def own_name(reference: Reference) -> str:
-    """Return the name of a reference, "" of a member without one."""
-    return reference if isinstance(reference, str) else reference.name
-
-
 def in_class(members: NamedMembers, reference: Reference) -> Member | str:
     """Return the member of a class that a reference names; the reference itself where there is none of that name."""
-    return members.get(own_name(reference), reference)
+    return members.get(name_of(reference, is_needed=False), reference)
 
 
 def needs(member: Member) -> Iterator[str]:

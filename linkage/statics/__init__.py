@@ -11,7 +11,7 @@ from .poses import AnyMotion, motion_of_whole, plan_of
 from .rope import Rope, tension
 from .solution import held_fault, held_in_case, loose_movements, looseness
 from .table import PinLoad, judged_table, max_table, table_text
-from .time_requests import acceleration, dynamic_factor, own_rates, pace_remarks, speed
+from .time_requests import acceleration, dynamic_factor, has_masses, own_rates, pace_remarks, speed
 from .vehicle import Standing, axle_load, ground_loads, reaction, slipping, standing, standing_supports
 from .work import driving_force, member_thrust, pump_thrust
 

@@ -21,7 +21,6 @@ from ..motion.strokes import checked_name, order_of
 from ..plan import TRACING, ArrayReading, Mask, Plan, Trace
 from ..program import FloatArray, Node, Notes, SparseSystem, Traced, interpret, is_zero, node_of
 from ..quantities import Angle, Distance, Member, Quantity, Reference, name_of
-from ..quantities.member import own_name
 from ..steps import Arrow, Point
 from ..vectors import Scalar
 from .applied import AppliedElement, AppliedLoads, Parts, element_parts, motion_in_case, plan_in_case, refuse_direction
@@ -125,7 +124,7 @@ class TracedMotion(OnePose):
         return self._by_time(target, rates, accelerations, 2)
 
     def _by_time(self, target: Reference, rates: Mapping[str, Rate], accelerations: Mapping[str, Rate], order: int) -> FloatArray:
-        self.through |= self.plan.reaches(own_name(target) or target)
+        self.through |= self.plan.reaches(name_of(target, is_needed=False) or target)
         moving, driven = ({name: self.node(each) for name, each in given.items()} for given in (rates, accelerations))
         places = nodes = [self.node(each) for each in self._nodes(target)]
         for _ in range(order):
@@ -238,7 +237,7 @@ class TracedMotion(OnePose):
     def ratio(self, target: Reference, *, wrt: str | None = None, order: int = 1) -> FloatArray:
         """Return the derivative of a point, a vector or a quantity by a stroke, of `order` 1 or 2."""
         stroke = stroke_of(self.plan, wrt)
-        self.through |= self.plan.reaches(own_name(target) or target)
+        self.through |= self.plan.reaches(name_of(target, is_needed=False) or target)
         nodes = tuple(self.node(each) for each in self._nodes(target))
         for _ in range(order_of(order)):
             nodes = tuple(self._reading.tangent(stroke).derivative(node) for node in nodes)

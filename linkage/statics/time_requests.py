@@ -116,11 +116,15 @@ def dynamic_factor(request: Request) -> Combined:
     return Combined("divide", (request, without), f"dynamic_factor({request})")
 
 
+def has_masses(plan: Plan) -> bool:
+    """Return whether a machine declares a mass, whose inertia counts over a path in time."""
+    return any(isinstance(each, (Weight, LinkMass)) for each in plan.of_kind(ForceElement).values())
+
+
 def pace_remarks(judge: Judge) -> list[Remark]:
     """Return over which paths in time the inertia of a machine's masses is left out, or a start or a stop that takes no time."""
     found = list[str]()
-    has_masses = any(isinstance(each, (Weight, LinkMass)) for each in judge.plan.of_kind(ForceElement).values())
-    for place in judge.places if has_masses else []:
+    for place in judge.places if has_masses(judge.plan) else []:
         name, jump = f"{place.over.title}: " if len(judge.places) > 1 else "", place.motion._rate_jump
         sudden = [] if place.instants is None else [stroke for stroke, each in place.instants.courses.items() if each.starts_at_once]
         if jump is not None:

@@ -489,8 +489,8 @@ class AxleLoad(Tabled, HasVerdicts):
     def page_words(self, judge: Judge) -> Mapping[str, PageWords]:
         name, weights = self.support.name, [each for each in judge.plan.of_kind(ForceElement).values() if is_on_frame(judge.plan, each)]
         kept = least(axle_load(name)) / at(axle_load(name, acting=Acting(loads=weights)), **judge.plan.sketch_strokes)  # type: ignore[arg-type]
-        keeps = noted("least load {value} % of what the vehicle alone puts on it, {place}")
-        uses = noted("along the ground it uses at most {value} % of its friction, {place}")
+        keeps = noted("least load {value} % of what the vehicle alone puts on it, {place}; at 0 % it lifts off")
+        uses = noted("along the ground it uses at most {value} % of its friction, {place}; at 100 % it slips")
         return {
             "axle load": PageWords(keeps, 100.0 * kept, 1.0 - kept, {">=": TIPPING}),
             "slipping": PageWords(uses, 100.0 * most(slipping()), fails={"<=": SLIPPING}),
@@ -520,26 +520,24 @@ SLIPPING = noted("slipping {place}: along the ground it needs {share} % of its f
 def load_sentence(found: Answer, bare: float) -> str:
     """Return the change of an axle's load, in words; `bare` is that of the vehicle alone [N]."""
     load, place = float(found.value), found.place
+    force = show(abs(load), "kN", 4)
     if load < 0.0:
-        return translated(TIPPING).format(place=place, force=show(-load, "kN", 4))
+        return translated(TIPPING).format(place=place, force=force)
     if load == 0.0:
         return said("it lifts off, such as {place}; the others carry.", place=place)
     if not bare > 0.0:
-        return said("it carries at least {force} {place}, without a load nothing.", force=show(load, "kN", 4), place=place)
-    return said(
-        "least load {force} {place}: {share} % of the {bare} that the vehicle alone puts on it.",
-        share=shown_number(100.0 * load / bare, "", 3), place=place, force=show(load, "kN", 4), bare=show(bare, "kN", 4),
-    )  # fmt: skip
+        return said("it carries at least {force} {place}, without a load nothing; at 0 it lifts off.", force=force, place=place)
+    text = noted("least load {force} {place}: {share} % of the {bare} that the vehicle alone puts on it; at 0 it lifts off.")
+    share, own = shown_number(100.0 * load / bare, "", 3), show(bare, "kN", 4)
+    return translated(text).format(force=force, place=place, share=share, bare=own)
 
 
 def slipping_sentence(worst: Answer) -> str:
     """Return how much of its friction with the ground a vehicle uses, in words."""
     if np.isinf(worst.value):
         return said("slipping {place}: nothing presses it to the ground there.", place=worst.place)
-    share = shown_number(100.0 * float(worst.value), "", 3)
-    if worst.ok:
-        return said("along the ground it uses at most {share} % of its friction, {place}.", share=share, place=worst.place)
-    return translated(SLIPPING).format(share=share, place=worst.place)
+    text = noted("along the ground it uses at most {share} % of its friction, {place}; at 100 % it slips.") if worst.ok else SLIPPING
+    return translated(text).format(share=shown_number(100.0 * float(worst.value), "", 3), place=worst.place)
 
 
 # The force of a support when the drive's force is known.

@@ -6,11 +6,11 @@ from argparse import Namespace
 
 from linkage import DefinitionError
 from linkage.cli.command import CSV, Command, count_option, figure_path, machine_options, option, picture_option
-from linkage.cli.settings import CHECK, OVER, overs_of, parsed_setting, print_verdicts
+from linkage.cli.settings import CHECK, OVER, overs_of, parsed_setting, print_verdicts, si_value
 from linkage.cli.table import write_table
 from linkage.errors import ensure
 from linkage.plan import Plan
-from linkage.units import kgf, parse, show
+from linkage.units import kgf, show
 
 from ..paper import machine_like
 from . import FIGURES, figure
@@ -26,6 +26,8 @@ Charge pressures at the horizon, gauge, for each header and each wanted reaction
 moving down over the following range; safe: 1 where the shoe never lifts off. A dash: the header or its line cannot give it.
 """
 WANTED = tuple(step * 100.0 * kgf for step in range(9))
+UNITS = "40kgf_cm2, 39bar or 300kgf"
+"""Units of what a charge is chosen by: a bare number would be Pa or N."""
 
 
 Balance = Command(
@@ -86,9 +88,9 @@ def header_of(options: Namespace) -> HeaderBalancer:
     ensure(not (options.pressure and options.reaction), "--pressure and --reaction both choose the charge; give one of them.")
     found, given = type(machine), dict(machine.replaced(**{**HEADERS.get(options.header, {}), **changed}).dimensions)
     if options.pressure:
-        given["charge"] = value(options.pressure, "pressure", "--pressure")
+        given["charge"] = si_value(options.pressure, "pressure", "--pressure", UNITS)
     if options.reaction:
-        reaction = value(options.reaction, "force", "--reaction")
+        reaction = si_value(options.reaction, "force", "--reaction", UNITS)
         given["charge"] = charge_for(found(**given).at(h=found.plan.strokes["h"].start), reaction)
     return found(**given)
 
@@ -96,14 +98,3 @@ def header_of(options: Namespace) -> HeaderBalancer:
 def changes(plan: Plan, options: Namespace) -> dict[str, float]:
     """Return the dimensions set by `--set`."""
     return dict(parsed_setting(plan, text) for text in options.settings)
-
-
-def value(text: str, kind: str, option: str) -> float:
-    """Return the SI value of an option's text; a bare number is refused, it would be Pa or N."""
-    try:
-        number = parse(text, kind)
-    except DefinitionError as error:
-        raise DefinitionError(f"{option}: {error}") from None
-    if not any(letter.isalpha() for letter in text.replace("e", "").replace("E", "")):
-        raise DefinitionError(f"{option} {text}: say the unit too, such as 40kgf_cm2, 39bar or 300kgf.")
-    return number

@@ -270,6 +270,8 @@ def test_a_charging_stroke_that_is_an_angle_is_shown_and_taken_as_one():
     assert dimension_unit(OnGroup(), "line.at") == "deg" and OnGroup(**{"line.at": 70 * deg})["line.at"] == 70 * deg
     with pytest.raises(DefinitionError, match=r"line\.at=0\.07 was given as a length; expected is a value of angle"):
         OnGroup(**{"line.at": 70 * mm})
+    with pytest.raises(DefinitionError, match=r"Wrong: line\.at=0\.07 was given as a length; expected is a value of angle"):
+        type("Wrong", (OnGroup,), {"line": FloatCircuit(OnGroup.ram, BLOCK, charge_pressure=60 * bar, at=70 * mm)})
 
 
 @pytest.mark.parametrize(

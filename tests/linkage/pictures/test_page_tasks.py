@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from hydraulics import Cylinder, LiftCircuit
+from hydraulics import Cylinder, LiftCircuit, standard_bores
 from linkage import LEFT, RIGHT, Dyad, Featured, Ground, Link, Mechanism, OnLink, Over, Stroke, deg, page
 from linkage.cli import main
 from linkage.loads import LinkMass, LoadCase, Support, Weight
@@ -91,6 +91,10 @@ def mends(shown, rule, by):
     assert len(set(each.partition(" = ")[0] for each in taken)) == len(taken) > 0
     assert by in [each.partition(" = ")[0] for each in taken], taken
     (own,) = (k for k, each in enumerate(taken) if each.startswith(f"{by} = "))
+    if by.endswith(".bore"):  # a size of the standard, and the exact one beside it
+        size, sign, exact = re.fullmatch(r".* = (\S+)\smm(?: \(([\u2265\u2264]) (\S+)\smm\))?", taken[own]).groups()
+        assert float(size) / 1e3 == pytest.approx(min(standard_bores(), key=lambda each: abs(each - float(size) / 1e3)), rel=1e-12), taken
+        assert sign is None or (float(exact) < float(size)) == (sign == "\u2265"), taken
     offered.nth(own).click()
     rested(shown)
     assert fails_of(shown) < before, taken

@@ -12,7 +12,7 @@ from typing import ClassVar, Literal, Protocol, Self, TypeAlias, TypedDict, Type
 from numpy.typing import ArrayLike
 
 from ..checks import require, require_number, require_type
-from ..errors import DefinitionError, cited, known_name, unknown
+from ..errors import DefinitionError, cited, ensure, known_name, unknown
 from ..frozen import immutable, keep_own, refuses_changes
 from ..quantities import Member, Reference, in_degrees, is_member_or_name, name_of
 from ..quantities.quantity import plain
@@ -66,9 +66,8 @@ class LoadCase(Member):
         for name, value in {**self.scale, "slope": self.slope}.items():
             kind = "angle" if name == "slope" else "number"
             require_number(f"LoadCase({self.title!r}): {name}", value, "is not a finite number", kind=kind)
-        if abs(self.slope) > STEEPEST:
-            said = f"slope={plain(self.slope)!r} rad is {self.slope / deg:.4g} deg, steeper than a wall"
-            raise DefinitionError(f"{self.label}: {said}; write slope={plain(self.slope)!r} * deg if these are degrees.")
+        said = f"slope={plain(self.slope)!r} rad is {self.slope / deg:.4g} deg, steeper than a wall"
+        ensure(abs(self.slope) <= STEEPEST, f"{self.label}: {said}; write slope={plain(self.slope)!r} * deg if these are degrees.")
         if self.gravity is not None:
             object.__setattr__(self, "gravity", gravity_vector(self.gravity, self.label))
 

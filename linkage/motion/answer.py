@@ -177,8 +177,7 @@ class Answer:
         """The value in words, with its unit where that is known."""
         if self.status == UNBOUNDED:
             return said("without bounds")
-        unit = display_unit(self.measures, "mm")
-        return show(float(self.value), unit, 6)
+        return show(float(self.value), display_unit(self.measures, "mm"), 6)
 
     def __str__(self) -> str:
         if np.ndim(self.value):

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import reduce
 from typing import Any
 
 import numpy as np
@@ -39,8 +40,7 @@ LEAST = 1e-3
 
 def iterated(plan: Plan) -> tuple[Iterated, ...]:
     """Return the unknowns of a plan's groups, in the order of construction."""
-    closures = [plan.trace.at(group.pins[0]).x.closure for group in plan.groups.values()]
-    return tuple(map(Iterated.from_closure, closures))
+    return tuple(map(Iterated.from_closure, [plan.trace.at(group.pins[0]).x.closure for group in plan.groups.values()]))
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,13 +89,13 @@ class Conditioning:
     def refused(self) -> Mask:
         """The poses where the result is refused."""
         steep = [~(cond <= REFUSE) for name, cond in self.conditions.items() if name in self.steep]
-        return np.asarray(np.logical_or.reduce([~(self.error <= LOST), *steep]))
+        return np.asarray(reduce(np.logical_or, steep, ~(self.error <= LOST)))
 
     @property
     def doubtful(self) -> Mask:
         """The poses where the result holds, with an error that is reported."""
         steep = [cond > WARN for name, cond in self.conditions.items() if name in self.steep]
-        return np.asarray(np.logical_or.reduce([self.error > self.doubt, *steep]) & ~self.refused)
+        return np.asarray(reduce(np.logical_or, steep, self.error > self.doubt) & ~self.refused)
 
     def masked(self, mask: Mask) -> Conditioning:
         """Return the same of some poses."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, reduce
 from itertools import accumulate, pairwise
 from typing import Any
 
@@ -318,10 +318,10 @@ def examined(
         names, error = what.names(plan), what.error(plan, left)
         moving = {name: each for name, each in own.closest.items() if not name or (name in names and plan.moves(plan.members[name]))}
         with np.errstate(all="ignore"):  # over the machine's size
-            spans = {name: np.broadcast_to(np.sqrt(square / reading.extent), error.shape) for name, square in moving.items()}
-        conditions = {name: np.broadcast_to(cond, error.shape) for name, cond in loop_conditions(plan, own, names).items()}
+            spans = {name: np.sqrt(square / values[-1]) for name, square in moving.items()}
+        conditions = loop_conditions(plan, own, names)
         if Trait.STANDS_FOR_OTHERS in what.traits:  # what the loops alone lose
-            error = np.maximum.reduce([error, *(0.3 * np.finfo(float).eps * cond * cond for cond in conditions.values())])
+            error = reduce(np.maximum, (0.3 * np.finfo(float).eps * cond * cond for cond in conditions.values()), error)
         steep = frozenset(what.differentiated(plan))
         found.append(Conditioning(plan, conditions, spans, error, steep, DOUBTFUL if what.order else ROUGH))
     return found

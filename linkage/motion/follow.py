@@ -48,10 +48,9 @@ def follow_path(plan: Plan, designs: Mapping[str, object], targets: object, hold
     one_word("unreachable", unreachable, ("raise", "nan"))
     places = Places.for_targets(plan, designs, targets, hold, where="follow")
     lengths = {len(each.value) for each in places.targets if isinstance(each.value, np.ndarray)} or {1}
-    if len(lengths) > 1:
-        given = ", ".join(f"{each.quantity} {np.size(each.value)}" for each in places.targets)
-        what = f"the targets have values of different lengths, {given}; give each one value a place"
-        raise DefinitionError(f"{plan.title}: follow: {what}.")
+    given = ", ".join(f"{each.quantity} {np.size(each.value)}" for each in places.targets)
+    what = f"the targets have values of different lengths, {given}; give each one value a place"
+    ensure(len(lengths) <= 1, f"{plan.title}: follow: {what}.")
     route = Route(places, np.stack([np.broadcast_to(each.value, tuple(lengths)) for each in places.targets], axis=1))
     first, starts = 0, [] if start is None else [start_of(places, start)]
     with unwarned():
@@ -140,8 +139,7 @@ class Route:
     def off(self, values: Sequence[float], goal: Sequence[float]) -> list[float]:
         """Return the difference to a goal [SI], angles the shorter way round."""
         return [
-            (b - a) - TURN * round((b - a) / TURN) if is_angle else b - a
-            for a, b, is_angle in zip(values, goal, self.angles, strict=True)
+            (b - a) - TURN * round((b - a) / TURN) if is_angle else b - a for a, b, is_angle in zip(values, goal, self.angles, strict=True)
         ]
 
     def tracked(self, start: FloatArray, first: int) -> Track:

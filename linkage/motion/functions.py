@@ -298,9 +298,8 @@ class PoseFunction:
         if not self._orders or named:
             known_strokes(named, {name: plan.strokes[name] for name in [*plan.strokes][len(strokes) :]}, plan.title)
         values = [*strokes, *(named[name] for name in names[len(strokes) :] if name in named)]
-        if len(values) != len(names):
-            what = "each stroke" if not self._orders else "each stroke and then for each of their rates"
-            raise DefinitionError(f"{plan.title}: one value for {what} is expected: {', '.join(names)}.")
+        what = "each stroke" if not self._orders else "each stroke and then for each of their rates"
+        ensure(len(values) == len(names), f"{plan.title}: one value for {what} is expected: {', '.join(names)}.")
         at = dict(zip(names, values, strict=True))
         require_kinds(plan, at)
         given = {name: numbers_in(value) for name, value in at.items()}
@@ -320,9 +319,7 @@ class PoseFunction:
 # Values and ratios as the text of a function in another language: for a controller, or a page of one's own.
 
 
-def source_of(
-    plan: Plan, designs: Mapping[str, Any], requests: Sequence[RequestLike], language: object, name: str, orders: int = 0
-) -> str:
+def source_of(plan: Plan, designs: Mapping[str, Any], requests: Sequence[RequestLike], language: object, name: str, orders: int = 0) -> str:
     """Return requests as text in a language; see Mechanism.source."""
     writer = LANGUAGES.for_object(language) or LANGUAGES[one_word("language", language, tuple(LANGUAGES))]
     require(isinstance(name, str) and name.isascii() and name.isidentifier(), "name", name, "a function's name is expected, such as poses")

@@ -22,7 +22,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..checks import require_number
-from ..errors import DefinitionError, unknown
+from ..errors import DefinitionError, ensure, unknown
 from ..loads import TwoPoint
 from ..numeric import Corners, convex_pieces, crosses_itself, signed_area
 from ..plan import Plan, Reading
@@ -215,8 +215,7 @@ def corner_pieces(plan: Plan, outline: Outline) -> tuple[tuple[int, ...], ...]:
         raise DefinitionError(f"{what}; give the corners of a closed one, Outline([(0, 0), (0.9, 0), (0.5, 0.6)], on=...).")
     corners = class_corners(plan, outline)
     pieces = () if crosses_itself(corners) else convex_pieces(corners)
-    if not pieces:
-        raise DefinitionError(f"{plan.title}: {outline.name} = {outline}: it crosses itself or encloses nothing; correct its corners.")
+    ensure(pieces, f"{plan.title}: {outline.name} = {outline}: it crosses itself or encloses nothing; correct its corners.")
     return pieces
 
 

@@ -136,8 +136,7 @@ class Grid:
         tail = (1,) * len(self.stroke_shape)
         designs = self.designs.items()
         shaped = {
-            name: np.reshape(value, np.shape(value) + tail) if name in self._varying else np.float64(value)
-            for name, value in designs
+            name: np.reshape(value, np.shape(value) + tail) if name in self._varying else np.float64(value) for name, value in designs
         }
         solved = {name: self.full(value[None])[0] for name, value in self.solved.inputs.items()}
         found = {**shaped, **self._of_poses, **solved}

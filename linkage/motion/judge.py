@@ -580,7 +580,11 @@ class Judge:
     """Who answers questions about some designs of a machine: over all of its `overs`, in all that acts."""
 
     def __init__(
-        self, plan: Plan, designs: Mapping[str, Numbers], overs: Sequence[Over | Motion], acting: Acting | None = None,
+        self,
+        plan: Plan,
+        designs: Mapping[str, Numbers],
+        overs: Sequence[Over | Motion],
+        acting: Acting | None = None,
         machine: object = None,
     ) -> None:
         if acting is not None:
@@ -687,6 +691,8 @@ class Judge:
     @property
     def is_reached(self) -> bool:
         """Whether any place that it looks at can be assembled."""
+        if any((each.motion.reached & each.over.condition_mask(each.motion)).any() for each in self.places):
+            return True
         self.answers([reachable])
         return any(bool(np.any(seen.lost_share + seen.outside < 1.0 - 1e-12)) for seen in self._seen)
 
@@ -746,8 +752,7 @@ class Judge:
 
     def search_rows(self, leaf: Leaf, place: Domain) -> list[SearchRow]:
         """Return the pieces of a leaf over one `Over`, each once."""
-        quantity = leaf.quantity
-        request = situated(quantity, self.acting, keep=False)
+        request = situated(leaf.quantity, self.acting, keep=False)
         sense = leaf.sense or 1.0
         found: dict[Any, SearchRow] = {}
         for situation in place.situations(request, self.acting):
@@ -791,8 +796,7 @@ class Judge:
         only = next(iter(self.plan.strokes)) if len(self.plan.strokes) == 1 else ""
         behind = strokes_behind(self.plan, leaf.quantity)
         missing = [name for name in behind if name not in leaf.strokes]
-        if missing:
-            raise DefinitionError(f"{self.plan.title}: {leaf}: say the pose, {', '.join(f'{name}=...' for name in missing or [only])}.")
+        ensure(not missing, f"{self.plan.title}: {leaf}: say the pose, {', '.join(f'{name}=...' for name in missing or [only])}.")
         start = {name: stroke.start for name, stroke in self.plan.strokes.items()}
         strokes = at_values(start | dict(leaf.strokes), self.plan)
         motion = Motion(self.plan, self.designs, strokes, "nan")
@@ -845,8 +849,7 @@ class Judge:
         """Return the answer to a question: its worst in every situation over every `Over`, for a batch per design."""
         count = len(self.places) if any(not is_at_poses(one) for one in constraints) else 1
         candidates = [each for number in range(count) for one in constraints for each in self.candidates(one, number)]
-        if not candidates:
-            raise DefinitionError(f"{self.plan.title}: {question}: there is nothing to ask it of.")
+        ensure(candidates, f"{self.plan.title}: {question}: there is nothing to ask it of.")
         shape = np.broadcast_shapes(*(np.shape(each.margin) for each in candidates))
         margins = np.stack([np.broadcast_to(each.margin, shape) for each in candidates])
         each_of = [

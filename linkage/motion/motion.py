@@ -981,9 +981,7 @@ class Motion(Shown):
         if isinstance(what, Value) and not isinstance(what.member, Point):  # of points it is known, of other values told with these
             self._evaluated(what)
             near = self._watched[what.key]
-        if not near:
-            return np.zeros(self.shape, bool)
-        return self._refused_near(what, words)
+        return self._refused_near(what, words) if near else np.zeros(self.shape, bool)
 
     def _refused_near(self, what: Request, words: str, are_places: bool = False) -> Mask:
         """Return the mask of poses where a result is refused, all that are near singular ones looked at; raise or warn as asked."""
@@ -1000,9 +998,7 @@ class Motion(Shown):
         """Return how far some poses are from singular ones for a result."""
         return examined(self.plan, (what,), self._grid.inputs_at(mask), self._grid.read_at(mask), [0])[0]
 
-    def _report(
-        self, words: str, refused: Mask, doubtful: Mask, near: Callable[[Mask], Conditioning], are_places: bool = False
-    ) -> None:
+    def _report(self, words: str, refused: Mask, doubtful: Mask, near: Callable[[Mask], Conditioning], are_places: bool = False) -> None:
         """Raise or warn, as asked, where a result is refused or doubtful; `near` tells how near such poses are to singular ones."""
         if refused.any() and self.unreachable == "raise":
             there = near(refused), refused, self.strokes

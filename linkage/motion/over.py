@@ -68,15 +68,24 @@ class Over(Member):
     """What a run that made this path found on its way, by the member that ran it; nothing of a path that is given."""
 
     def __init__(
-        self, *, only: Sequence[PoseCondition] | PoseCondition = (), cases: Sequence[object] | None = None, lost: str = "",
+        self,
+        *,
+        only: Sequence[PoseCondition] | PoseCondition = (),
+        cases: Sequence[object] | None = None,
+        lost: str = "",
         **strokes: object,
     ) -> None:
         self._hold("box", strokes, only, cases, lost)
 
     @classmethod
     def path(
-        cls, *, only: Sequence[PoseCondition] | PoseCondition = (), cases: Sequence[object] | None = None, lost: str = "",
-        time: npt.ArrayLike | None = None, **strokes: object,
+        cls,
+        *,
+        only: Sequence[PoseCondition] | PoseCondition = (),
+        cases: Sequence[object] | None = None,
+        lost: str = "",
+        time: npt.ArrayLike | None = None,
+        **strokes: object,
     ) -> Self:
         """Return straight legs through places in this order, or a path in time.
 
@@ -128,17 +137,13 @@ class Over(Member):
         return cls._of_places("poses", strokes, only, cases, lost)
 
     @classmethod
-    def _of_places(
-        cls, shape: str, strokes: Mapping[str, object], only: object, cases: object, lost: object, time: object = None
-    ) -> Self:
+    def _of_places(cls, shape: str, strokes: Mapping[str, object], only: object, cases: object, lost: object, time: object = None) -> Self:
         found = cls()
         object.__setattr__(found, "_name", "")
         found._hold(shape, strokes, only, cases, lost, time)
         return found
 
-    def _hold(
-        self, shape: str, strokes: Mapping[str, object], only: object, cases: object, lost: object, time: object = None
-    ) -> None:
+    def _hold(self, shape: str, strokes: Mapping[str, object], only: object, cases: object, lost: object, time: object = None) -> None:
         """Store the arguments; DefinitionError for a wrong stroke, condition, case or word."""
         if "time" in strokes:
             what = f"Over{'' if shape == 'box' else f'.{shape}'}(time={cited(strokes['time'])})"
@@ -217,9 +222,8 @@ class Over(Member):
                 remedy = f"Beside strokes an Over takes {near[0]}=." if near else "Designs are varied by vary=, not by over=."
                 raise DefinitionError(f"{error} {remedy}")
         missing = [name for name in known if name not in self.strokes] if self.shape != "box" else []
-        if missing:
-            what = f"{where}: it does not say where {', '.join(missing)} stand"
-            raise DefinitionError(f"{what}; give {keywords(dict.fromkeys(missing, '...'))}, one number where it is held.")
+        what = f"{where}: it does not say where {', '.join(missing)} stand"
+        ensure(not missing, f"{what}; give {keywords(dict.fromkeys(missing, '...'))}, one number where it is held.")
         for name in self.cases or ():
             known_name("Load case", name, (PLAIN_CASE, *cases), where=where)
 
@@ -569,6 +573,4 @@ def instants_given(time: object, values: Mapping[str, object]) -> tuple[float, .
 def with_strokes(strokes: Mapping[str, FloatArray]) -> Mapping[str, FloatArray]:
     """Return the strokes of those poses that have some: a place of a path that is not reached has none, and is NaN."""
     known = np.all([np.isfinite(value) for value in strokes.values()], axis=0) if strokes else np.ones((), bool)
-    if known.all() or not known.any():
-        return strokes
-    return {name: value[known] for name, value in strokes.items()}
+    return strokes if known.all() or not known.any() else {name: value[known] for name, value in strokes.items()}

@@ -328,10 +328,9 @@ def check_targets(places: Places, title: str) -> None:
         example = f'hold={{"{free[-1]}": {places.low[-1] + 0.5 * places.span[-1]:.4g}}}'
         more = f"give {'one target' if missing == 1 else f'{missing} targets'} more"
         raise DefinitionError(f"{title}: {counted}: hold {some}, {example}, or {more}.")
-    if missing < 0:
-        what = "one target" if missing == -1 else f"{-missing} targets"
-        release = f", or do not hold {', '.join(places.held)}" if places.held else ""
-        raise DefinitionError(f"{title}: {counted}: leave out {what}{release}.")
+    what = "one target" if missing == -1 else f"{-missing} targets"
+    release = f", or do not hold {', '.join(places.held)}" if places.held else ""
+    ensure(missing >= 0, f"{title}: {counted}: leave out {what}{release}.")
     follows = places.program.follows
     for place, name in enumerate(names):
         if not follows[place].any():
@@ -386,7 +385,8 @@ def unmet_words(places: Places, wanted: FloatArray, near: FoundPlaces) -> str:
         strokes, off = places.low + near.unit[0] * places.span, near.off[0]
         missing = ", ".join(
             said("{name} is off by {amount}", name=name, amount=show(abs(float(miss)), target.shown_in(places.plan), 4))
-            for name, miss, target, size in zip(places.bound, off, places.targets, places.sizes, strict=True) if abs(miss) > MET * size
+            for name, miss, target, size in zip(places.bound, off, places.targets, places.sizes, strict=True)
+            if abs(miss) > MET * size
         )
         text += " " + said("The nearest within them is {strokes}, where {missing}.", strokes=places.stroke_words(strokes), missing=missing)
     return text
@@ -415,8 +415,7 @@ class BranchSearch:
     @cached_property
     def misses_seen(self) -> FloatArray:
         """By how much the targets are missed on the grid, shape (t, *counts)."""
-        off = self.places.off(self.places.target_values(self.grid), self.wanted)
-        return off.T.reshape(-1, *map(len, self.axes))
+        return self.places.off(self.places.target_values(self.grid), self.wanted).T.reshape(-1, *map(len, self.axes))
 
     @cached_property
     def changes(self) -> FloatArray:
@@ -520,9 +519,7 @@ class BranchSearch:
             again = again.select(self._met(again))
         found = self._joined(found.select(met), again)
         found = self._joined(found, self._beside(found, scale))
-        if not len(found.unit):
-            return none
-        return found.select(places.is_assembled(found.unit))
+        return found.select(places.is_assembled(found.unit)) if len(found.unit) else none
 
     def _met(self, found: FoundPlaces) -> Mask:
         """Return which meet all targets."""

@@ -1,7 +1,7 @@
 """The planes that bodies lie in, side by side across the machine, and the clearances within one plane.
 
-    |  boom  |        a body of one plane never touches one of another; in one plane bodies are to stay apart,
-    |  | rod |        and a pin that joins bodies of two planes passes through those between them
+|  boom  |        a body of one plane never touches one of another; in one plane bodies are to stay apart,
+|  | rod |        and a pin that joins bodies of two planes passes through those between them
 """
 
 from __future__ import annotations
@@ -179,10 +179,9 @@ def clearance() -> NodeRequest:
 def planes_of(plan: Plan) -> Planes:
     """Return the planes that a class declares; DefinitionError for none and for several."""
     found = list(plan.of_kind(Planes).values())
-    if len(found) != 1:
-        own = [*(body.name.replace(" ", "") for body in plan.bodies[1:]), "AB", "CD"]
-        what = f"it declares {len(found)}" if found else "it does not say which bodies lie in one plane"
-        raise DefinitionError(f'{plan.title}: clearance(): {what}; declare one, planes = Planes("{own[0]}", "{own[1]}", width=60 * mm).')
+    own = [*(body.name.replace(" ", "") for body in plan.bodies[1:]), "AB", "CD"]
+    what = f"it declares {len(found)}" if found else "it does not say which bodies lie in one plane"
+    ensure(len(found) == 1, f'{plan.title}: clearance(): {what}; declare one, planes = Planes("{own[0]}", "{own[1]}", width=60 * mm).')
     return found[0]
 
 
@@ -207,8 +206,7 @@ def pairs_of(plan: Plan) -> dict[Pair, bool]:
     for number, names in enumerate(listed):
         for name in names.split():
             shape_named(plan, name)  # DefinitionError for an unknown body
-            owner = known.get(id_of(plan, name), name)
-            planes.setdefault(owner, set()).add(number)
+            planes.setdefault(known.get(id_of(plan, name), name), set()).add(number)
     everywhere = set(range(len(listed)))
     lie = {name: numbers or everywhere for name, numbers in planes.items()}
     found: dict[Pair, bool] = {}

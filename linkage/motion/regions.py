@@ -19,7 +19,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..errors import DefinitionError, cited, known_name
+from ..errors import DefinitionError, cited, ensure, known_name
 from ..numeric import convex_pieces, crosses_itself
 from ..plan import Plan
 from ..program import FloatArray, Node
@@ -186,6 +186,7 @@ def inside(point: Reference, *shapes: object) -> NodeRequest:
 
 def inside_region(point: str, region: Region) -> NodeRequest:
     """Return the same of a region."""
+
     def nodes(plan: Plan) -> tuple[Node, ...]:
         return (plan.trace.graph.node(region.depth(plan.trace.at(point), plan.trace.graph.pick)),)
 
@@ -208,9 +209,8 @@ def region_of(given: object, where: str, outlines: object = None, value: object 
     `outlines` are those of a machine by name, whose coordinates `value` gives as numbers.
     """
     listed = [given] if is_shape(given) else list(given) if isinstance(given, LISTS) else []
-    if not listed:
-        example = "corners [(0, 0), (1, 0), (1, 0.5)] in m, an outline, outside(...) of one, or a list of these"
-        raise DefinitionError(f"{where}: {cited(given)} is no region; {example} is expected.")
+    example = "corners [(0, 0), (1, 0), (1, 0.5)] in m, an outline, outside(...) of one, or a list of these"
+    ensure(listed, f"{where}: {cited(given)} is no region; {example} is expected.")
     within: list[Shape] = []
     without: list[Shape] = []
     for each in listed:
@@ -233,15 +233,13 @@ def region_shape(given: Any, where: str, outlines: Any, value: Any) -> Shape:
         return given
     if isinstance(given, str):
         given = outlines[known_name("Outline", given, outlines, where=where)]
-    if not is_shape(given):
-        raise DefinitionError(f"{where}: {cited(given)} is no shape; corners are expected, [(0, 0), (1, 0), (1, 0.5)] in m.")
+    ensure(is_shape(given), f"{where}: {cited(given)} is no shape; corners are expected, [(0, 0), (1, 0), (1, 0.5)] in m.")
     if not isinstance(given, Outline):
         require_measure(given, "length", where)
         return polygon_of(np.array(given, float), where)
     outline = given
-    if outline.carriers:
-        carried = f"{outline} is carried by {', '.join(outline.carriers)}"
-        raise DefinitionError(f"{where}: {carried}, and a region stands in the frame; ask gap(...) of it.")
+    carried = f"{outline} is carried by {', '.join(outline.carriers)}"
+    ensure(not outline.carriers, f"{where}: {carried}, and a region stands in the frame; ask gap(...) of it.")
     try:
         number = value or (lambda each: float(each.number))
         if isinstance(outline, CircleOutline):

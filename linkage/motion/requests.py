@@ -316,9 +316,7 @@ def stroke_of(plan: Plan, name: str | None, keyword: str = "wrt") -> str:
         return next(iter(plan.strokes))
     if name is None:
         raise DefinitionError(f"{plan.title} has {len(plan.strokes)} strokes: say {keyword}= one of {', '.join(plan.strokes)}.")
-    if name in plan.cuts:
-        return name
-    return checked_name("Stroke", name, plan.strokes, plan.title)
+    return name if name in plan.cuts else checked_name("Stroke", name, plan.strokes, plan.title)
 
 
 def dimensions_of(plan: Plan, names: object) -> list[tuple[str, int]]:
@@ -768,8 +766,7 @@ class NodeRequest(Request):
         return super().regular if self.regular_above is None else self.regular_above
 
     def scale(self, plan: Plan, left: PrecisionLeft) -> FloatArray:
-        known = {"length": left.size, "angle": np.ones_like(left.size)}
-        return known.get(self.measures, super().scale(plan, left))
+        return {"length": left.size, "angle": np.ones_like(left.size)}.get(self.measures, super().scale(plan, left))
 
     def error(self, plan: Plan, left: PrecisionLeft) -> FloatArray:
         return super().error(plan, left) if self.error_of is None else self.error_of(left)

@@ -170,8 +170,7 @@ def dips(between: OnLegs, sense: float, among: Mask) -> list[tuple[Index, FloatA
     while tops.value.size:
         crossed = tops.value > 0.0
         found.append((tops.leg[crossed], tops.t[crossed], -sense * tops.value[crossed]))
-        going = ~crossed & (tops.bound > 0.0) & (tops.half > CLOSE)
-        tops = tops.subset(going)
+        tops = tops.subset(~crossed & (tops.bound > 0.0) & (tops.half > CLOSE))
         tops = zoomed(look, tops) if tops.value.size else tops
     return found
 

@@ -530,8 +530,7 @@ def divided(
     places, values = [x], [seen]
     least = DEPTH * float(x[-1] - x[0])
     while left.size:
-        lower = np.minimum(first, last)
-        low = (lower <= BENDS * bend + noise) & (np.maximum(first, last) >= -noise) & rows[:, None]
+        low = (np.minimum(first, last) <= BENDS * bend + noise) & (np.maximum(first, last) >= -noise) & rows[:, None]
         pick = np.flatnonzero(low.any(axis=0) & (right - left > least))[:MOST_INTERVALS]
         if not pick.size:
             break

@@ -30,8 +30,7 @@ def known_strokes(given: Mapping[str, object], strokes: Mapping[str, Stroke], ti
     for name in given:
         known_name("Stroke", name, strokes, where=title)
     missing = [name for name in strokes if name not in given]
-    if missing:
-        raise DefinitionError(f"{title}: the stroke {', '.join(missing)} is not given; say {', '.join(f'{name}=...' for name in missing)}.")
+    ensure(not missing, f"{title}: the stroke {', '.join(missing)} is not given; say {', '.join(f'{name}=...' for name in missing)}.")
 
 
 def refuse_time(given: Mapping[str, object], strokes: Collection[str], title: str) -> None:
@@ -105,9 +104,8 @@ def sweep_values(count: int | None, given: Mapping[str, object], plan: Plan) -> 
             each = keywords(dict.fromkeys(strokes, "..."))
             some = f"{len(strokes)} stroke{'' if len(strokes) == 1 else 's'}"
             raise DefinitionError(f"{title} has {some}: say sweep({each}), an int for a count and a float for a value.")
-        if not is_whole(count):
-            remedy = f"for a value write at({keywords({next(iter(strokes)): repr(count)})})"
-            raise DefinitionError(f"{title}: sweep({count!r}): a whole number of poses is expected; {remedy}.")
+        remedy = f"for a value write at({keywords({next(iter(strokes)): repr(count)})})"
+        ensure(is_whole(count), f"{title}: sweep({count!r}): a whole number of poses is expected; {remedy}.")
         given = {next(iter(strokes)): count}
     known_strokes(given, strokes, title)
     axes = {name: _axis(name, given[name], plan) for name in strokes}
@@ -123,8 +121,7 @@ def strokes_over_axes(axes: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
 def _axis(name: str, given: object, plan: Plan) -> FloatArray:
     stroke, title = plan.strokes[name], plan.title
     if is_whole(given):
-        if given < 1:
-            raise DefinitionError(f"{title}: sweep({name}={given}): a count of at least 1 is expected; for a value write {float(given)}.")
+        ensure(given >= 1, f"{title}: sweep({name}={given}): a count of at least 1 is expected; for a value write {float(given)}.")
         try:
             return np.linspace(stroke.start, stroke.end, int(given))
         except (MemoryError, OverflowError, ValueError):
@@ -138,6 +135,7 @@ def _axis(name: str, given: object, plan: Plan) -> FloatArray:
 
 
 # What a motion is given for, checked: names, rates, orders and steps.
+
 
 def checked_name(kind: str, target: object, known: Collection[str], title: str) -> str:
     """Return the name of a member or the name as given; raise DefinitionError where it is not a known one."""
@@ -169,9 +167,8 @@ def rate_values(plan: Plan, rates: object, accelerations: object) -> dict[str, A
 
     Raise DefinitionError for accelerations alone, and for a value that is not finite.
     """
-    if rates is None:
-        what = f"{plan.title}: accelerations= say how rates change, and no rates= are given"
-        raise DefinitionError(f"{what}; give both, such as rates={as_mapping(dict.fromkeys(plan.strokes, 0.0))}.")
+    what = f"{plan.title}: accelerations= say how rates change, and no rates= are given"
+    ensure(rates is not None, f"{what}; give both, such as rates={as_mapping(dict.fromkeys(plan.strokes, 0.0))}.")
     found: dict[str, Any] = {}
     for order, (what, given) in enumerate((("rates", rates), ("accelerations", accelerations)), 1):
         known = {} if given is None else strokes_named(what, given, plan)

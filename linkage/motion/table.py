@@ -121,8 +121,7 @@ class Column:
     def drawn(self) -> FloatArray:
         """The values in the unit that they are shown in, rounding noise as zero: for pictures."""
         size = float(np.nanmax(np.abs(self.shown), initial=0.0))
-        noise = max(NOISE * size, LEAST if self.unit else 0.0)
-        return np.where(np.abs(self.shown) < noise, 0.0, self.shown)
+        return np.where(np.abs(self.shown) < max(NOISE * size, LEAST if self.unit else 0.0), 0.0, self.shown)
 
     @property
     def heading(self) -> str:

@@ -267,7 +267,7 @@ def known_rates(motion: AnyMotion, acting: Acting) -> Mapping[str, FloatArray]:
         return rates_of("rates", acting.rates, require_motion(motion))
     if acting.rates is not None and not motion.rates:
         what = f"rates={acting.rates!r}: this motion has no rates of its own"
-        raise DefinitionError(f'{motion.plan.title}: {what}; give some, rates=dict({next(iter(motion.strokes), "S")}=0.05).')
+        raise DefinitionError(f"{motion.plan.title}: {what}; give some, rates=dict({next(iter(motion.strokes), 'S')}=0.05).")
     return motion.rates
 
 

@@ -373,8 +373,7 @@ def greatest_kept(spare: Callable[[FloatArray], FloatArray], alone: FloatArray, 
             break
         with np.errstate(divide="ignore", invalid="ignore"):
             guess = np.clip((low * at_high - high * at_low) / (at_high - at_low), low, high)
-    found = np.where(held == 1.0, low, held)
-    return np.where(np.isnan(alone), np.nan, found)
+    return np.where(np.isnan(alone), np.nan, np.where(held == 1.0, low, held))
 
 
 def greatest_load(own: FloatArray, share: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:

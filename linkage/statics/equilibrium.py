@@ -83,8 +83,7 @@ class System:
     @cached_property
     def starts(self) -> list[int]:
         """The first row of each body and lone pin, and the count of rows."""
-        sizes = [3] * len(self.structure.bodies) + [2] * len(self.structure.lone)
-        return [0, *np.cumsum(sizes).tolist()]
+        return [0, *np.cumsum([3] * len(self.structure.bodies) + [2] * len(self.structure.lone)).tolist()]
 
     @cached_property
     def A(self) -> FloatArray:
@@ -187,10 +186,9 @@ class System:
             drives, behind = list(structure.drives(contact)), structure.plan.reaches(contact.point)
             for letter in dict.fromkeys(letter for _, letter, _ in drives if contact.is_curve and letter != "c"):
                 others = [name for name in structure.plan.moving if name in behind and name != contact.point]
-                if others:
-                    what = f"{contact.owner} is driven along a line of the frame, but its place depends on {', '.join(others)}, which move"
-                    remedy = "its force is not provided. Say by= the body that the line belongs to"
-                    raise DefinitionError(f"{structure.plan.title}: {what}; {remedy}.")
+                what = f"{contact.owner} is driven along a line of the frame, but its place depends on {', '.join(others)}, which move"
+                remedy = "its force is not provided. Say by= the body that the line belongs to"
+                ensure(not others, f"{structure.plan.title}: {what}; {remedy}.")
                 if stroke in behind:
                     way = (force_direction(contact, letter, poses) * poses.rate(contact.point, stroke)).sum(axis=0)
                     yield way, self.unknown(contact, letter, 1.0)

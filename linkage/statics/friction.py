@@ -199,8 +199,7 @@ def friction_in(contact: Contact, friction: Friction, speeds: Speeds) -> JointFr
     if has_slot:
         point, by = by, point
     rate = ((point - by) * t).sum(axis=0)
-    size = np.abs(point).max(axis=0) + np.abs(by).max(axis=0)
-    sign = np.where(np.abs(rate) > SLOWEST * size, np.sign(rate), 0.0)
+    sign = np.where(np.abs(rate) > SLOWEST * (np.abs(point).max(axis=0) + np.abs(by).max(axis=0)), np.sign(rate), 0.0)
     return JointFriction(UnitWrench(contact, Wrench(place, -t * sign, none[0])), coefficient, np.abs(rate), -sign)
 
 

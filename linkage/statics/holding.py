@@ -18,7 +18,7 @@ from typing import Any, TypeVar, cast
 
 import numpy as np
 
-from ..errors import DefinitionError, SingularError, SingularWarning, unwarned, warn
+from ..errors import DefinitionError, SingularError, SingularWarning, ensure, unwarned, warn
 from ..loads import ForceElement, Poses, Reeving, Tie, TwoPinned, TwoPoint
 from ..motion import Motion
 from ..motion.dead_points import REFUSE, WARN, condition_of_sine, is_or_are
@@ -285,8 +285,7 @@ def followed_way(motion: Motion, cylinder: TwoPoint, stroke: str) -> float:
         return 0.0
     with unwarned():
         rate, way = np.abs(cylinder.growth(motion, {stroke: 1.0})), ends_way(motion, cylinder, stroke)
-    moved = np.nan_to_num(np.where(rate > SLOWEST * way, rate, 0.0))
-    return float(moved.max(initial=0.0)) * abs(span.end - span.start)
+    return float(np.nan_to_num(np.where(rate > SLOWEST * way, rate, 0.0)).max(initial=0.0)) * abs(span.end - span.start)
 
 
 def ends_way(motion: AnyMotion, cylinder: TwoPoint, stroke: str) -> FloatArray:
@@ -309,9 +308,8 @@ def stroke_followed(plan: Plan, member: TwoPoint) -> str:
     if len(plan.strokes) == 1:
         return next(iter(plan.strokes))
     shares = plan.made(("shares", *member.ends), lambda _: line_shares(sampled(plan), [(member,)])[0])
-    if not shares.any():
-        what = f"no stroke changes the length of {member.name or member}"
-        raise DefinitionError(f"{plan.title}: {what}; it neither grows nor shrinks.")
+    what = f"no stroke changes the length of {member.name or member}"
+    ensure(shares.any(), f"{plan.title}: {what}; it neither grows nor shrinks.")
     return list(plan.strokes)[int(np.argmax(shares))]
 
 

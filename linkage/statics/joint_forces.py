@@ -9,7 +9,7 @@ from typing import Unpack
 
 import numpy as np
 
-from ..errors import DefinitionError, SingularError, known_name, unknown
+from ..errors import DefinitionError, SingularError, ensure, known_name, unknown
 from ..language import said, translated
 from ..loads import AS_IT_RUNS, PLAIN_CASE, Acting, ActingKeywords, LinkMass, Load, Loads, situation_of, takes_situation
 from ..motion import Motion, require_motion, stroke_unit
@@ -255,10 +255,9 @@ class PinForces(Shown):
             The member is no cylinder of two bodies.
         """
         name, pairs = name_of(member), {each.member.name: each for each in self._structure.pairs}
-        if name not in pairs:
-            what = f"{self.motion.plan.title}: {name} is no member of two bodies"
-            of_two = f"those are {', '.join(pairs)}" if pairs else "give a cylinder barrel_mass=, rod_mass=, or points OnBarrel or OnRod"
-            raise DefinitionError(f"{what}; {of_two}.")
+        what = f"{self.motion.plan.title}: {name} is no member of two bodies"
+        of_two = f"those are {', '.join(pairs)}" if pairs else "give a cylinder barrel_mass=, rod_mass=, or points OnBarrel or OnRod"
+        ensure(name in pairs, f"{what}; {of_two}.")
         P, Q = pairs[name].member.ends
         contact = self._structure.sliding_joint(pairs[name], "n")
         joint = self.joints[self._structure.contacts.index(contact)]

@@ -530,8 +530,7 @@ def situation_identity(acting: Acting) -> Hashable:
     compute with is taken not to change either.
     """
     loads = acting.loads
-    listed = () if loads is None else loads if is_listed(loads) else (loads,)
-    given = (acting.case, *listed)
+    given = (acting.case, *(() if loads is None else loads if is_listed(loads) else (loads,)))
     parts: list[Hashable] = [each if each is None or isinstance(each, str) else ref(each) if is_unchanging(each) else ... for each in given]
     parts += [rates_identity(acting.rates), rates_identity(acting.accelerations), acting.inertia]
     return None if ... in parts else (loads is None, *parts)

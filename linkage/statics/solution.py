@@ -81,8 +81,7 @@ def by_equations(poses: FlatPoses, applied: AppliedLoads, split: str) -> PoseFor
     pulls = np.zeros(poses.count, bool)
     for line in structure.holders.lines:
         if line.changes_shares:  # several cylinders, one of which works with both sides: solved again where the first pulls
-            first = next(each for each in structure.struts if each.line is line)
-            pulls |= found.value(system.thrust(first)) < 0.0
+            pulls |= found.value(system.thrust(next(each for each in structure.struts if each.line is line))) < 0.0
     if pulls.any():
         other = Equilibrium(system, split, -1).solution()
         u, q = (np.where(pulls[:, None], a, b) for a, b in ((other.u, found.u), (other.q, found.q)))

@@ -176,8 +176,7 @@ def judged_row(judge: Judge, key: tuple[str, str, str, str], answer: Answer, kno
         known[where] = joint_forces(of_design.there(one), replace(acting, drive=acting.drive if acting.is_moving else None))
     there = known[where]
     joint = next(each for each in there.joints if joint_key(each) == key)
-    design = np.unravel_index(number, value.shape)
-    row = pin_load(there, joint, float(one.value), (), design, dict(one.strokes))
+    row = pin_load(there, joint, float(one.value), (), np.unravel_index(number, value.shape), dict(one.strokes))
     drive, over = (getattr(one, name) if name in one.named else "" for name in ("drive", "over"))
     return replace(row, drive=drive, over=over, answer=one)
 

@@ -10,7 +10,7 @@ from typing import cast
 
 import numpy as np
 
-from ..errors import DefinitionError
+from ..errors import DefinitionError, ensure
 from ..language import said
 from ..loads import Acting, ForceElement, LinkMass, Weight
 from ..motion import Judge, Request, require_motion
@@ -31,9 +31,8 @@ def own_rates(motion: AnyMotion, what: str, acting: Acting | None = None) -> Map
     Raise DefinitionError where nothing says how fast they move.
     """
     found = require_motion(motion).rates if acting is None else known_rates(require_motion(motion), acting)
-    if not found:
-        remedy = f"sweep over a path in time, or give rates={as_mapping(dict.fromkeys(motion.strokes, 0.05))} to evaluate"
-        raise DefinitionError(f"{motion.plan.title}: {what}: nothing says how fast the strokes move; {remedy}.")
+    remedy = f"sweep over a path in time, or give rates={as_mapping(dict.fromkeys(motion.strokes, 0.05))} to evaluate"
+    ensure(found, f"{motion.plan.title}: {what}: nothing says how fast the strokes move; {remedy}.")
     return found
 
 

@@ -1200,7 +1200,7 @@ def in_stages(cylinder: str | Ram, plan: Plan, *pieces: SmoothPiece) -> tuple[Sm
         return None if request is None else in_stage(request, cylinder, stage)
 
     return tuple(
-        SmoothPiece(staged(each.request, stage), each.side, staged(each.reciprocal, stage), staged(each.below, stage))
+        replace(each, request=staged(each.request, stage), reciprocal=staged(each.reciprocal, stage), below=staged(each.below, stage))
         for each in pieces for stage in range(1, ram.stages + 1)
     )  # fmt: skip
 

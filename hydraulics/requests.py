@@ -217,7 +217,7 @@ def pressure_request(
             return in_stages(cylinder, plan, SmoothPiece(request, ram.side))
         if not (side or circuit) and line is not None and line.kind_in(members) == "closed":
             return in_stages(cylinder, plan, SmoothPiece(request))
-        return in_stages(cylinder, plan, *(SmoothPiece(on_side(each), each, below=on_side(each, below=True)) for each in sides))
+        return in_stages(cylinder, plan, *(SmoothPiece(on_side(each), each, below=on_side(each, below=True), bound=1.0) for each in sides))
 
     kinds = " ".join(["needed"] * is_needed + ["below zero"] * below) or None
     options = (side and f"side={side}") or None, kinds
@@ -445,7 +445,8 @@ def capacity_request(
         if not count:
             return in_stages(cylinder, plan, SmoothPiece(request))
         alone = [capacity_request(cylinder, request.situation, circuit, point, along, share, number) for number in range(count + 1)]
-        return (*in_stages(cylinder, plan, SmoothPiece(alone[count])), *map(SmoothPiece, alone[:count]))
+        of_pump = in_stages(cylinder, plan, SmoothPiece(alone[count], bound=-1.0))
+        return (*of_pump, *(SmoothPiece(each, bound=-1.0) for each in alone[:count]))
 
     words = direction_words(along)
     options = None if words == "(0, 1)" else f"along={words}", None if share == 1.0 else f"share={share:g}"

@@ -760,6 +760,8 @@ class Judge:
             pieces: Sequence[SmoothPiece] = (SmoothPiece(own),)
             if isinstance(own, Request) and not isinstance(leaf, Integral):  # the worst integral of a piece is not that of the worst
                 pieces = own.pieces(self.plan)
+                if len(pieces) > 1 and any(piece.bound and piece.bound * leaf.sense <= 0.0 for piece in pieces):
+                    pieces = (SmoothPiece(own),)  # the least of what is the greatest of its pieces
             for piece in pieces:
                 key = key_of(self.plan, piece.request)
                 if key not in found:
@@ -815,7 +817,8 @@ class Judge:
         leaves, of_poses = leaves_of(question), is_at_poses(question)
         place, seen = (self.anywhere, None) if of_poses else (self.places[number], self._seen[number])
         made = []
-        for chosen in combined_pieces([self._found[number][leaf_key(self.plan, leaf)][1] for leaf in leaves]):
+        of_leaves = [self._found[number][leaf_key(self.plan, leaf)][1] for leaf in leaves]
+        for chosen in combined_pieces(of_leaves if is_worst_bound(question) else [*map(worst_pieces, of_leaves)]):
             values = {leaf: each.value for leaf, each in zip(leaves, chosen, strict=True)}
             with np.errstate(all="ignore"):
                 value, margin = valued(question, values)
@@ -1004,6 +1007,34 @@ def combined_pieces(of_leaves: Sequence[Sequence[WorstPiece]]) -> list[tuple[Wor
     for pieces in of_leaves:
         found = [(*chosen, each) for chosen in found for each in pieces if all(at_once(one, each) for one in chosen)]
     return found
+
+
+def is_worst_bound(question: object) -> bool:
+    """Return whether a question is a measure alone, or bounds the worst of one: then each of its pieces must keep it by itself."""
+    if isinstance(question, Leaf):
+        return True
+    return (
+        isinstance(question, Constraint) and isinstance(question.left, Leaf) and is_at_poses(question.right) | (not question.right.leaves)
+        and (question.left.sense, question.symbol) in ((-1.0, ">="), (1.0, "<="))
+    )  # fmt: skip
+
+
+def worst_pieces(pieces: Sequence[WorstPiece]) -> list[WorstPiece]:
+    """Return the worst of the pieces of a leaf in each situation, the first of equal ones, design by design."""
+    found: dict[Situation, WorstPiece] = {}
+    for each in pieces:
+        known = found.setdefault(each.row.situation, each)
+        if known is each:
+            continue
+        with np.errstate(invalid="ignore"):
+            takes = np.asarray((each.row.sense * (each.value - known.value) > 0.0) | np.isnan(known.value))
+        side = each.row.piece.side if takes.all() else "" if takes.any() else known.row.piece.side
+        row = replace(known.row, piece=replace(known.row.piece, side=side))
+        own = {name: np.where(takes, getattr(each, name), getattr(known, name)) for name in ("value", "unbounded", "time")}
+        strokes = {name: np.where(takes, value, known.strokes[name]) for name, value in each.strokes.items()}
+        shares = np.maximum(known.lawless, each.lawless), np.minimum(known.unlimited, each.unlimited)
+        found[row.situation] = WorstPiece(row, own["value"], strokes, own["unbounded"], *shares, own["time"])
+    return [*found.values()]
 
 
 def situation_found(chosen: Sequence[WorstPiece]) -> Situation:

@@ -230,13 +230,15 @@ class SmoothPiece:
 
     `reciprocal` is one over it, where that goes on smoothly through zero where the request has no bound: then its greatest value is looked
     for in the place of the request's least. `below` is the same as the request above zero, and goes on smoothly below zero, where the
-    request stays at zero: it is looked for in the place of the request's greatest value.
+    request stays at zero: it is looked for in the place of the request's greatest value. `bound` is 1.0 where the request is the greatest
+    of its pieces at every pose, -1.0 where it is the least, 0.0 where one of them has its value and the others none.
     """
 
     request: Any
     side: str = ""
     reciprocal: Any = None
     below: Any = None
+    bound: float = 0.0
 
 
 def bound(plan: Plan, request: RequestLike) -> Request:
@@ -481,6 +483,8 @@ UNIT_SIZE = frozenset({"sin", "cos", "arctan2"})
 """The functions whose values are compared with 1."""
 LIKE_ITS_PARTS = ("add", "subtract", "negative", "absolute", "minimum", "maximum", "hypot")
 """The functions whose values measure what their parts measure."""
+GROWTH = MappingProxyType({"add": (1, 1), "subtract": (1, -1), "negative": (-1,), "minimum": (1, 1), "maximum": (1, 1)})
+"""For each part 1 where a function of any numbers grows with it, -1 where it falls."""
 
 
 def measured_in(plan: Plan, asked: object) -> str:
@@ -551,9 +555,20 @@ class Combined(Request):
         chosen = list(product(*parts))
         if len(chosen) == 1 and all(piece.request is part for piece, part in zip(chosen[0], self.parts, strict=True)):
             return (SmoothPiece(self),)
+        bounds = {each * piece.bound for pieces, each in zip(parts, self._growth, strict=True) for piece in pieces if piece.bound}
+        if len(bounds) > 1 or not all(bounds):  # it is neither the greatest nor the least of what its parts' pieces give
+            return (SmoothPiece(self),)
         sides = [next((piece.side for piece in each if piece.side), "") for each in chosen]
         combined = [Combined(self.function, tuple(piece.request for piece in each)) for each in chosen]
-        return tuple(SmoothPiece(request, side) for request, side in zip(combined, sides, strict=True))
+        return tuple(SmoothPiece(request, side, bound=sum(bounds)) for request, side in zip(combined, sides, strict=True))
+
+    @property
+    def _growth(self) -> Sequence[float]:
+        """For each part 1.0 where it grows with it, -1.0 where it falls, 0.0 where that is not known."""
+        if self.function in ("multiply", "divide"):
+            sign = float(np.sign(next((each for each in reversed(self.parts) if isinstance(each, float)), 0.0)))
+            return [sign, sign if self.function == "multiply" else 0.0]
+        return GROWTH.get(self.function, (0,) * len(self.parts))
 
     def unlimited(self, motion: MotionLike) -> Mask | None:
         found = [mask for mask in (each.unlimited(motion) for each in self.requests) if mask is not None]

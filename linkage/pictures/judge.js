@@ -55,22 +55,22 @@ const judging = (engine, { overs: all, questions, most, travel, near }, watched 
   };
   const valueOf = (piece, { score, u }) => (u === null ? NaN : piece.reciprocal ? (score > 0 ? 1 / score : NaN) : piece.stays ? max(score, 0) : piece.sense * score);
   const used = (each) => (typeof each === "number" ? [] : Array.isArray(each) ? [...used(each[1]), ...used(each[2])] : [each.leaf]);
-  /* What is decided of a question over some overs, by the worst of its pieces; what ties is told of the first. */
+  /* What is decided of a question over some overs, by the worst of its pieces; what ties is told of the first. Where measures count as
+     `whole`, those pieces count that no other one beats in the same situation. */
   const decided = (q, worsts, among, lost) => {
     const { leaves, constraints, says, share } = questions[q], found = [];
     const measure = (each, chosen) => (typeof each === "number" ? each : Array.isArray(each) ? operations[each[0]](measure(each[1], chosen), measure(each[2], chosen)) : valueOf(leaves[each.leaf].pieces[chosen[each.leaf]], worsts[each.leaf][chosen[each.leaf]]));
-    for (const [c, { symbol, left, right }] of constraints.entries()) for (const o of among) {
-      const own = [...new Set([...used(left), ...used(right)])];
-      let combos = [{}];
-      for (const l of own) combos = combos.flatMap((combo) => leaves[l].pieces.flatMap((piece, k) => (leaves[l].at || piece.over === o ? [{ ...combo, [l]: k }] : [])));
-      for (const combo of combos) {
+    const isBeaten = (l, one, k) => leaves[l].pieces.some((each, j) => ["over", "case", "direction", "drive"].every((name) => each[name] === one[name]) && (worsts[l][j].score > worsts[l][k].score || (worsts[l][j].score === worsts[l][k].score && j < k)));
+    for (const [c, { symbol, left, right, whole }] of constraints.entries()) for (const o of among) {
+      const own = [...new Set([...used(left), ...used(right)])], isOpen = (l, piece, k) => leaves[l].at || (piece.over === o && !(whole && isBeaten(l, piece, k)));
+      for (const combo of own.reduce((list, l) => list.flatMap((each) => leaves[l].pieces.flatMap((piece, k) => (isOpen(l, piece, k) ? [{ ...each, [l]: k }] : []))), [{}])) {
         const pieces = own.map((l) => leaves[l].pieces[combo[l]]), parts = own.map((l) => worsts[l][combo[l]]);
         const cases = new Set(pieces.map((each) => each.case).filter(Boolean)), ways = new Set(pieces.filter((each) => each.direction).map((each) => `${each.direction} ${each.drive}`));
         if (cases.size > 1 || ways.size > 1) continue;
         const a = measure(left, combo), b = measure(right, combo), size = max(isNumber(a) ? abs(a) : 0, isNumber(b) ? abs(b) : 0), close = MET * size;
         const apart = symbol === ">=" ? a - b : symbol === "<=" ? b - a : 1e3 * close - abs(a - b);
-        const chief = pieces.findIndex((each, k) => !leaves[own[k]].at), sum = (name) => max(...parts.map((each) => each[name]));
-        found.push({ value: a, limit: b, symbol, c, size, margin: apart < 0 && apart >= -close ? 0 : apart, over: o, leaf: own[chief], piece: combo[own[chief]], at: pieces[chief], u: parts[chief] && parts[chief].u, lawless: sum("lawless"), unlimited: sum("unlimited"), unknown: sum("unknown") });
+        const first = pieces.findIndex((each, k) => !leaves[own[k]].at), chief = max(first, 0), sum = (name) => max(...parts.map((each) => each[name]));
+        found.push({ value: a, limit: b, symbol, c, size, margin: apart < 0 && apart >= -close ? 0 : apart, over: o, leaf: own[chief], piece: combo[own[chief]], at: pieces[chief], u: first < 0 ? null : parts[first].u, lawless: sum("lawless"), unlimited: sum("unlimited"), unknown: sum("unknown") });
       }
     }
     const known = found.filter((each) => !Number.isNaN(each.margin)), lawless = found.some((each) => each.lawless && !overs[each.over].lost);

@@ -14,8 +14,8 @@ from ..language import heading_of, language, translated
 from ..loads import FRICTIONLESS, PLAIN_CASE, Acting
 from ..mechanism import Mechanism
 from ..motion import Column, Condition, HasVerdicts, Instants, LiveText, Motion, PageWords, Request, RequestLike, least, most, speakers
-from ..motion.judge import Domain, Judge, SearchRow, leaf_key, measures_of
-from ..motion.measures import At, Constraint, Integral, Leaf, Measure, conditions_of, dimension_value
+from ..motion.judge import Domain, Judge, SearchRow, is_worst_bound, leaf_key, measures_of
+from ..motion.measures import At, Constraint, Integral, Leaf, Measure, conditions_of, dimension_value, strokes_behind
 from ..motion.motion_verdicts import NEAR, rules_of, verdict_questions
 from ..motion.over import ALLOWED
 from ..motion.requests import NodeRequest, bound, is_of_force, situated
@@ -116,7 +116,8 @@ class LiveQuestions:
 
     def leaf_rows(self, leaf: Leaf) -> list[Piece]:
         """Return the pieces of a leaf with the names of their rows, over every `Over`; of a value at one pose the row alone."""
-        ensure(not isinstance(leaf, Integral), f"{leaf}: an integral is not followed in the page.")
+        is_fixed = isinstance(leaf, Integral) or (isinstance(leaf, At) and bool(strokes_behind(self.machine.plan, leaf.quantity)))
+        ensure(not is_fixed, f"{leaf}: an integral, or a value at a pose of its own, is not followed in the page.")
         found = []
         for number, place in enumerate(self.judge.places[:1] if isinstance(leaf, At) else self.judge.places):
             is_timed = place.instants is not None and is_of_force(leaf.quantity)
@@ -214,7 +215,10 @@ class LiveQuestions:
             "isLength": int(measures == "length"),
             "unit": unit,
             "leaves": found,
-            "constraints": [dict(zip(("symbol", "left", "right"), each.tree(placed), strict=True)) for each in constraints],
+            "constraints": [
+                dict(zip(("symbol", "left", "right"), each.tree(placed), strict=True)) | {"whole": int(not is_worst_bound(each))}
+                for each in constraints
+            ],
         }
 
     def piece_data(self, live: LiveText, number: int, row: SearchRow, name: str) -> PageData:

@@ -3,12 +3,14 @@
 import json
 import re
 import subprocess
+from functools import partial
+from typing import ClassVar
 
 import numpy as np
 import pytest
 
-from hydraulics import Cylinder, LiftCircuit, Telescope
-from linkage import Dimension, LoadCase, Over, Stroke
+from hydraulics import Cylinder, LiftCircuit, Telescope, pressure, thrust
+from linkage import RIGHT, Dimension, Dyad, Ground, LoadCase, Mechanism, OnLink, Over, Stroke, Verdict, Weight, at, least, most, y
 from linkage.cli.listing import registered
 from linkage.cli.machines import find
 from linkage.language import language
@@ -16,7 +18,7 @@ from linkage.motion import HasVerdicts, judged_poses, live_text, pose_sentence
 from linkage.pictures.page_data import PageRequests, page_data
 from linkage.pictures.page_file import page_part
 from linkage.reports import is_column
-from linkage.units import SYSTEMS, bar, mm, unit_system
+from linkage.units import SYSTEMS, bar, deg, mm, unit_system
 from mechanisms.crane import Crane
 from mechanisms.grapple import Grapple
 from mechanisms.mower_lift import MowerLift
@@ -50,6 +52,62 @@ class Staged(Grab):
     """The same on a telescope, whose stages are pieces that have a law over a part of the stroke each."""
 
     lift = Telescope("A", "B", bores=[80 * mm, 60 * mm], strokes=[0.13, 0.13], closed=0.64)
+
+
+class Compares(HasVerdicts):
+    """What is compared of a cylinder that works both ways, whose pressure is that of the side that holds."""
+
+    kind = "comparison"
+    rules: ClassVar = {
+        "highest": most(pressure("ram")) >= 20 * bar,
+        "lowest": least(pressure("ram")) <= 0.1 * bar,
+        "pose": at(pressure("ram"), S=0.3) >= 1 * bar,
+        "pin": at(y("O")) <= 1 * mm,
+        "half": least(0.5 * pressure("ram") + 1 * bar) >= 0.9 * bar,
+        "below": most(90 * bar - pressure("ram")) <= 91 * bar,
+        "apart": most(pressure("ram")) - most(abs(thrust("ram"))) / (100 * mm) ** 2 <= 60 * bar,
+        "turned": least(-pressure("ram")) >= -99 * bar,
+    }
+
+    def parts(self):
+        return ()
+
+    def conditions(self, judge):
+        return self.rules
+
+    def questions(self, judge):
+        return list(self.rules.values())
+
+    def verdicts(self, judge):
+        return [Verdict(rule, judge.answer(each).ok, rule) for rule, each in self.rules.items()]
+
+
+class Dumper(Mechanism):
+    """A body that tips over its pin, so that its cylinder pushes it up and then holds it back."""
+
+    S = Stroke(0.0, 0.75)
+    O, A = Ground(0.0, 0.0), Ground(0.9, -0.1)
+    B = Dyad(A, O, AB=0.45 + S, OB=0.8, side=RIGHT)
+    G = OnLink(O, B, OG=1.2, BOG=25 * deg)
+    load = Weight(G, mass=2000.0)
+    ram = Cylinder(A, B, bore=80 * mm, rod=45 * mm, works="both")
+    pump = LiftCircuit(ram, pressure=160 * bar)
+    compares = Compares()
+
+
+@NEEDED
+def test_a_measure_of_both_sides_of_a_cylinder_is_one_number_at_every_door():
+    count, kept = check(Dumper(), [{}, {"load.mass": 4000.0}])
+    assert count >= 14 and kept == {True, False}  # all but that at a pose of its own, which is as delivered
+    machine = Dumper()
+    motion = machine.sweep(101)
+    table = motion[pressure("ram")]
+    assert motion[thrust("ram")].min() < 0.0 < motion[thrust("ram")].max()
+    over = Over.poses(**{name: value.tolist() for name, value in motion.strokes.items()})
+    for formula in (partial(np.multiply, 1.0), partial(np.multiply, -0.5), partial(np.subtract, 90 * bar), partial(np.add, 1 * bar)):
+        each, values = formula(pressure("ram")), formula(table)
+        found = [answer.value for answer in machine.answers([least(each), most(each)], over=over)]
+        assert found == pytest.approx([values.min(), values.max()], rel=1e-12)
 
 
 class Cornered(Grab):

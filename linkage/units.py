@@ -320,6 +320,7 @@ SIGNS = (
 """The units that another language writes in its own way."""
 
 _SYSTEM: ContextVar[str] = ContextVar("unit_system", default="")
+_ASKED: ContextVar[set[str] | None] = ContextVar("units_asked", default=None)
 
 _CLOSE = 0.15
 """A resolution that is coarser by less than this power of ten is still as fine."""
@@ -342,8 +343,20 @@ def current_system() -> str:
     return _SYSTEM.get()
 
 
+@contextmanager
+def units_shown() -> Iterator[set[str]]:
+    """Collect the units that are shown inside `with`; a system that keeps all of them changes no text."""
+    token = _ASKED.set(found := set())
+    try:
+        yield found
+    finally:
+        _ASKED.reset(token)
+
+
 def shown_in(unit: str) -> str:
     """Return the unit that values of a unit are shown in: that of the system for the same measure, without a system itself."""
+    if (asked := _ASKED.get()) is not None:
+        asked.add(unit)
     system = SYSTEMS.get(_SYSTEM.get(), {})
     return system.get(UNITS[unit][1], unit) if unit else ""
 

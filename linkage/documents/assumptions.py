@@ -45,7 +45,7 @@ def assumed(subject: ReportSubject) -> Iterator[str]:
     yield friction_words(subject)
     if weights := with_weight(subject):
         yield said(
-            "Gravity is {g} m/s², downwards. Only these have weight: {names}; the other members are without mass.",
+            "Gravity is {g} m/s², downwards. Only these have weight: {names}; all else is without mass.",
             g=f"{g0:.6g}", names=", ".join(weights),
         )  # fmt: skip
     if any(isinstance(each, TwoPoint) and "bore" in each.numbers for each in elements.values()):
@@ -81,7 +81,7 @@ def friction_words(subject: ReportSubject) -> str:
 def left_open(subject: ReportSubject) -> Iterator[str]:
     """Yield the omissions of a report."""
     plan = subject.machine.plan
-    yield said("strength and stiffness of members, pins, bushes and welds; fatigue; wear")
+    yield said("strength and stiffness of links, pins, bushes and welds; fatigue; wear")
     if all(place.instants is None for place in subject.judge.places):
         yield said("accelerations, shocks and vibrations, unless a load case stands for them")
     else:
@@ -91,7 +91,7 @@ def left_open(subject: ReportSubject) -> Iterator[str]:
     if not has_loads(subject.machine):
         yield said("forces: no load is declared")
     if not plan.of_kind(Planes):
-        yield said("whether members run into each other")
+        yield said("whether links run into each other")
     if not plan.of_kind(Support):
         yield said("whether the machine tips over")
 

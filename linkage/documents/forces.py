@@ -57,7 +57,7 @@ def forces_section(subject: ReportSubject) -> Section | None:
     ]  # fmt: skip
     table = TableBlock(said("Largest pin forces, for FEM"), heads, tuple(cells), "llllrrrlm")
     ends = said("least"), said("situation and place"), said("greatest"), said("situation and place")
-    drives = (said("drive or member"), said("unit"), *ends)
+    drives = (said("drive or component"), said("unit"), *ends)
     forces = [TableBlock(said("Driving forces and thrusts, over all that the machine runs"), drives, ranges, "llrmrm")] if ranges else []
     blocks: list[Block] = [*forces, looks, table]
     for case, own in cases.items():
@@ -222,7 +222,7 @@ def blocked_blocks(subject: ReportSubject) -> Iterator[Block]:
         case = f"{subject.case_words(row.case)}, " if len(subject.judge.cases) > 1 else ""
         cells.append((*row.cells, force_cell(row.force), moves, row.opens, f"{case}{places_text(row.strokes, plain_units)}"))
     force = said("F, {unit}", unit=unit_sign("kN"))
-    heads = (*joint_heads(), force, said("member"), said("at the limit"), said("situation and place"))
+    heads = (*joint_heads(), force, said("cylinder that presses"), said("highest pressure in"), said("situation and place"))
     yield TableBlock(said("Largest pin forces at the relief pressure, against a stop"), heads, tuple(cells), "llllrllm")
 
 

@@ -139,7 +139,7 @@ def definition_section(machine: Mechanism) -> Section:
         rank=machine.mobility, strokes=len(machine.strokes), count=machine.gruebler,
     )  # fmt: skip
     order = said("In the order in which the positions are worked out; lengths in m, angles in rad where no deg is marked.")
-    members = TableBlock(said("Members"), heads, rows, "lm")
+    members = TableBlock(said("Declarations"), heads, rows, "lm")
     rigid = TableBlock(said("Rigid bodies"), (said("name"), said("points")), bodies, "lm")
     return Section(said("Definition of the mechanism"), (order, members, rigid, count))
 

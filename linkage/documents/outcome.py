@@ -39,6 +39,8 @@ CURVE_ROOM = (0.72, 0.22, 0.46, 0.32)
 NO_LETTER = re.compile("[^0-9A-Za-z]")
 """What the name of a picture's file does not have."""
 COUNTED = ("force", "moment", "pressure")
+MOST_RESERVE = 100.0
+"""Of a greater reserve no table tells more: next to where nothing is carried it is without bounds."""
 LETTERS = 100
 """Letters of a table's row, so that it fits across a page."""
 
@@ -268,7 +270,8 @@ def cell_texts(subject: ReportSubject, column: Column, values: FloatArray) -> li
     own = subject.has_own_table and any(each.name == column.name for each in subject.columns)
     if own or not (column.name.startswith("reserve") if not column.unit else UNITS[column.unit][1] in COUNTED):
         return text_cells(column, values)
-    return [NO_VALUE if np.isnan(value) else figures(value) for value in values.tolist()]
+    most = MOST_RESERVE if not column.unit else np.inf
+    return [NO_VALUE if np.isnan(value) else f"> {most:.0f}" if value > most else figures(value) for value in values.tolist()]
 
 
 def figures(value: float) -> str:
@@ -312,7 +315,7 @@ def members_section(subject: ReportSubject, members: Mapping[str, Tabled]) -> Se
                     members[name].columns(subject.curve)
             except LinkageError as error:
                 refused.append(str(error))
-    heads = (said("member"), said("quantity"), said("least"), said("situation and place"), said("greatest"), said("situation and place"))
+    heads = (said("component"), said("quantity"), said("least"), said("situation and place"), said("greatest"), said("situation and place"))
     table = [TableBlock(caption, heads, rows, "llrmrm")] if rows else []
     return Section(title, (*table, *refused))
 

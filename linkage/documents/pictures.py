@@ -28,7 +28,7 @@ WIDE = 6.6
 """The width of a picture across the page [inch]."""
 ROOM = (0.72, 0.22, 0.5, 0.1)
 """The room beside the axes of a drawing [inch: left, right, bottom, top]."""
-HIGHEST = 4.0
+HIGHEST = 3.4
 """The height of a drawing's axes at the most [inch]."""
 
 

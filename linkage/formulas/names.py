@@ -321,11 +321,15 @@ class SymbolNames:
 
 
 def _letters_and_index(name: str) -> tuple[str, str, str]:
-    """Return a name's letters, the same as a Greek letter where they spell one, and its index: L0, k_m, rail.x; M_ has the index _."""
-    match = re.fullmatch(r"([^\W\d_]+)(?:[_.](?=.*[^_]))?([\w.]*?)(_*)", name)
+    """Return a name's letters, the same as a Greek letter where they spell one, and its index: L0, k_m, rail.x; M_ has the index _.
+
+    Words that underscores join stay one: `lift_line.back_pressure`.
+    """
+    match = re.fullmatch(r"([a-z]{2,}(?:_[a-z]{2,})+(?=\.)|[^\W\d_]+)(?:[_.](?=.*[^_]))?([\w.]*?)(_*)", name)
     head, tail, last = match.groups() if match else (name, "", "")
     greek = sympy.latex(sympy.Symbol(head))
-    index = re.sub("[_.]", ",", tail) + escaped_latex(last)
+    parts = re.split(r"\.|(?<![a-z]{2})_|_(?![a-z]{2})", tail)
+    index = ",".join(rf"\mathit{{{escaped_latex(each)}}}" if "_" in each else each for each in parts) + escaped_latex(last)
     return escaped_latex(head), greek if re.fullmatch(r"\\[A-Za-z]+", greek) else "", index
 
 

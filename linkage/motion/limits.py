@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from math import nan
+from math import floor, log10, nan
 from typing import Any
 
 import numpy as np
@@ -16,7 +16,7 @@ from ..language import ENGLISH, language, said, said_of, translated
 from ..plan import ArrayReading, Mask, Plan, failures, missing_words, opening
 from ..shown import Shown
 from ..steps import Step
-from ..units import SI, UNITS, deg, display_unit, show, shown_number, unit_sign
+from ..units import SI, UNITS, deg, display_unit, mm, show, shown_number, unit_sign
 
 
 @refuses_changes
@@ -322,9 +322,18 @@ def way_text(values: object, unit: str) -> str:
     return said("{low} to {high}", low=low, high=stroke_text(float(values[-1]), unit, 6))
 
 
+NO_LENGTH = 1e-7
+"""A length [m] that is smaller is none as a place is read."""
+
+
 def place_text(value: Any, unit: str) -> str:
-    """Return a stroke [m or rad], or the range of several, as a place of it is read: `123.4 mm`, `25.00 deg`, `100.0 to 200.0 mm`."""
-    digits, shown = {"rad": 2, "": 4, "m3": 3}.get(unit, 1), shown_stroke_unit(unit)
+    """Return a stroke [m or rad], or the range of several, as a place of it is read: `123.4 mm`, `25.00 deg`, `100.0 to 200.0 mm`.
+
+    Lengths below 1 mm have three figures: `0.340 mm`.
+    """
+    digits, shown, most = {"rad": 2, "": 4, "m3": 3}.get(unit, 1), shown_stroke_unit(unit), float(np.max(np.abs(value)))
+    if unit == "m" and NO_LENGTH < most < mm:
+        digits = 2 - floor(log10(most / mm))
     low, high = (shown_number(float(each), shown, f"z.{digits}f") for each in (np.min(value), np.max(value)))
     return f"{low if low == high else said('{low} to {high}', low=low, high=high)} {unit_sign(shown)}".rstrip()
 

@@ -53,9 +53,13 @@ def dimensioned(ax: Axes, motion: Motion) -> None:
     index = scene.index(0)
     at = scene.at(index)
     placed = list(placed_dimensions(scene, at, index, points_a_metre(ax), (left, right, bottom, top)))
-    draw_scene(ax, scene, index, [each.covered for each in placed])
+    draw_scene(ax, scene, index, [np.repeat(each.covered, KEPT, axis=0) for each in placed])
     for each in placed:
         each.draw(ax)
+
+
+KEPT = 5
+"""How many points of the mechanism a point of a dimension counts as, for the names that keep clear of it."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -77,7 +77,7 @@ function solved(first, ranges, residuals) {
 }
 /* Lead a joint to a place, or as near as the strokes bring it; what ends it is said. */
 function led(point, to) {
-  const runsAlong = strokes[runs].path ? [runs] : own.map((_, k) => k), ends = runsAlong.map((k) => [...reachOf(strokes[k])].sort((a, b) => a - b));
+  const runsAlong = strokes[runs].path ? [runs] : own.map((_, k) => k), ends = runsAlong.map((k) => reachOf(strokes[k]));
   const standing = (values) => { const at = [...stands]; runsAlong.forEach((k, j) => { at[k] = values[j]; }); return at; };
   const off = (values) => { const found = single(present, standing(values)); return found.reason[0] === 0 ? spot(found, point, 0).map((each, axis) => each - to[axis]) : null; };
   const { at, misses } = solved(runsAlong.map((k) => stands[k]), ends, off);
@@ -210,9 +210,9 @@ on(plot, "pointermove", (event) => {
   const { share, at } = under(event), where = share * (COUNT - 1), i = min(floor(where), COUNT - 2), t = where - i, { values, along, one } = chart;
   const value = t === 0 ? values[i] : values[i] + (values[i + 1] - values[i]) * t, stroke = strokes[runs], box = plot.getBoundingClientRect();
   set(glass.line, { x1: at, x2: at, y1: 10, y2: box.height - 40, visibility: "visible" });
-  const place = short(along[i] + (along[i + 1] - along[i]) * t, 4) + unitText(stroke.unit), size = isNumber(value) ? fixed(value, places(max(...finite(values).map(abs), 0), 4)) + unitText(one.unit) : "\u2013";
-  glass.text.textContent = `${titled(stroke)} = ${place}: ${size}`;
-  set(glass.text, { x: at + (share > 0.5 ? -8 : 8), y: 22, anchor: share > 0.5 ? "end" : "start", visibility: "visible" });
+  const place = short(along[i] + (along[i + 1] - along[i]) * t, 4) + unitText(stroke.unit), isRight = at > 0.5 * box.width;
+  glass.text.textContent = `${titled(stroke)} = ${place}: ${readOff(value, values, one)}`;
+  set(glass.text, { x: at + (isRight ? -8 : 8), y: 22, anchor: isRight ? "end" : "start", visibility: "visible" });
   if (pressed) strokeTo(share);
 });
 on(plot, "pointerleave", () => { if (glass) for (const each of Object.values(glass)) set(each, { visibility: "hidden" }); });

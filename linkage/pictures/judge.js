@@ -115,7 +115,7 @@ const judging = (engine, { overs: all, questions, most, travel, near }, watched 
     const every = overs.map((_, o) => o), open = every.filter((o) => !overs[o].courses || o === running), own = open.filter((o) => covers(o, at, found.values));
     const among = own.length ? own : open.length ? open : every;
     const one = { list: [[]], asked: [true], values: found.values };
-    return { covered: own.length > 0, found: questions.map(({ leaves }, q) => decided(q, leaves.map(({ at: fixed, pieces }) => pieces.map((piece) => (fixed ? fixedBy(piece, found) : worstOf(piece.timed && piece.over !== running ? {} : piece, one)))), among, null)).map((each) => ({ ...each, strokes: null, name: "" })) };
+    return { covered: own.length > 0, among, found: questions.map(({ leaves }, q) => decided(q, leaves.map(({ at: fixed, pieces }) => pieces.map((piece) => (fixed ? fixedBy(piece, found) : worstOf(piece.timed && piece.over !== running ? {} : piece, one)))), among, null)).map((each) => ({ ...each, strokes: null, name: "" })) };
   };
   const ask = (vector, wanted, refines) => {
     laid(vector);

@@ -44,7 +44,7 @@ function pasted(text) {
   const found = new RegExp(`["']?([A-Za-z_][\\w.]*)["']?\\s*[=:]\\s*(?:[\\[(]\\s*(${SIZE})\\s*,\\s*(${SIZE})\\s*,?\\s*[\\])]|(${SIZE})(?:,(${SIZE}))?(?=\\s|,|\\)|\\}|$))`, "gi");
   const put = (name, size) => {
     if (!byName.has(name)) { unknown.push(name); return; }
-    const each = dims[byName.get(name)], value = sized(size.replace(/["']/g, "").replace("*", " ").trim(), each);
+    const each = dims[byName.get(name)], value = typed(size.replace(/["']/g, "").replace("*", " "), each, 1);
     if (isNumber(value) && !(each.positive && !(value > 0))) set.set(byName.get(name), value); else wrong.push(`${name} = ${size.trim()}`);
   };
   for (const [, name, first, second, one, other] of text.matchAll(found)) {
@@ -52,14 +52,6 @@ function pasted(text) {
     if (pair) { put(`${name}.x`, pair[0]); put(`${name}.y`, pair[1]); } else if (name !== "set") put(name, one);
   }
   return { set, at, unknown, wrong };
-}
-/* Return the value [SI] of a text: a plain number is SI, one with a unit of what the dimension measures is in that. */
-function sized(text, each) {
-  const [, number, unit] = /^([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*(.*)$/i.exec(text.replace(/\u2212/g, "-")) ?? [];
-  if (number === undefined) return NaN;
-  if (!unit) return Number(number);
-  const known = Object.keys(data.measures).find((name) => name === unit || signed(name) === unit);
-  return known && data.measures[known][1] === (data.measures[each.base] || [])[1] ? Number(number) * data.measures[known][0] : NaN;
 }
 on(byId("take"), "click", () => {
   const { set, at, unknown, wrong } = pasted(byId("text").value), design = [...present], standing = [...stands];

@@ -6,7 +6,6 @@ const { scene } = data, { abs, acos, atan2, ceil, cos, floor, hypot, log10, max,
 const isNumber = Number.isFinite, root = document.documentElement;
 const on = (element, event, act) => element.addEventListener(event, act);
 const make = (kind, given) => Object.assign(document.createElement(kind), given);
-const rows = data.rows;
 
 /* ---- words and numbers ---- */
 
@@ -35,8 +34,9 @@ const unitText = (unit) => (unit === "deg" ? "\u00b0" : unit ? `\u2009${signed(u
 const shown = (value, thing, digits) => short(value / thing.factor, digits) + unitText(thing.unit);
 const LENGTHS = { mm: 1e-3, cm: 0.01, m: 1, in: 0.0254, ft: 0.3048 }, MEASURES = [LENGTHS, { deg: PI / 180, rad: 1 }, { kg: 1, t: 1000 }];
 /* Return the value [SI] of a text that is typed for a thing: a plain number is in its unit, one with a unit of its measure in that; NaN for anything else. */
-function typed(text, { factor, unit }) {
-  const units = { ...MEASURES.find((each) => unit in each), [unit]: factor, "": factor }, plain = text.trim().replace(/\u2212/g, "-").replace(/(\d)\s(?=\d{3})/g, "$1");
+function typed(text, { factor, unit }, plainly = factor) {
+  const kinds = data.measures, alike = Object.keys(kinds ?? {}).filter((each) => kinds[unit] && kinds[each][1] === kinds[unit][1]).map((each) => [each, kinds[each][0]]);
+  const units = { ...MEASURES.find((each) => unit in each), ...Object.fromEntries(alike), [unit]: factor, "": plainly }, plain = text.trim().replace(/\u2212/g, "-").replace(/(\d)\s(?=\d{3})/g, "$1");
   const [, number, name] = /^([-+]?(?:\d+[.,]?\d*|[.,]\d+)(?:e[-+]?\d+)?)\s*(\D*)$/i.exec(plain) ?? [], known = Object.keys(units).find((each) => each === name || signed(each) === name);
   return known === undefined ? NaN : Number((Number(number.replace(",", ".")) * units[known]).toPrecision(14));
 }
@@ -93,7 +93,7 @@ function meshed(step, kind) {
   for (let i = ceil(low[1] / step); i * step <= high[1]; i++) lines.push([0, px(0, i * step)[1]], [sheetWide, px(0, i * step)[1]], null);
   draw(sheet, "path", { class: kind, d: broken(lines) });
 }
-const spot = (found, point, i) => { const [x, y] = rows.points[point]; return [found.values[x][i], found.values[y][i]]; };
+const spot = (found, point, i) => { const [x, y] = data.rows.points[point]; return [found.values[x][i], found.values[y][i]]; };
 let parts = [], edition = 0;
 
 /* Return the outermost of some points, counter-clockwise (A. M. Andrew, monotone chain). */
@@ -201,15 +201,12 @@ function track(each) {
 }
 function lineOf(each, found, i) { const [a, b, c, d] = each.line.map((row) => found.values[row][i]); return [[a, b], [c, d]]; }
 function slot(each) {
-  const outer = draw(sheet, "line", { cap: "round", w: 1.4 * unit0 + EDGE }), ends = track(each);
-  const inner = draw(sheet, "line", { cap: "round", w: 1.4 * unit0 - EDGE });
-  set(outer, { stroke: css("ink") }); set(inner, { stroke: css("paper") });
-  return () => { const [a, b] = ends(); for (const line of [outer, inner]) set(line, { x1: a[0], y1: a[1], x2: b[0], y2: b[1] }); };
+  const lines = [["ink", EDGE], ["paper", -EDGE]].map(([ink, more]) => draw(sheet, "line", { cap: "round", w: 1.4 * unit0 + more, stroke: css(ink) })), ends = track(each);
+  return () => { const [a, b] = ends(); for (const line of lines) set(line, { x1: a[0], y1: a[1], x2: b[0], y2: b[1] }); };
 }
 /* A fixed rail: its line under the blocks and its hatches, below the track, above where a pin stands on it. */
 function rail(each) {
-  const path = draw(sheet, "path", { class: "line", w: 1 }), heavy = draw(sheet, "path", { class: "line", w: 1.8 }), ends = track(each);
-  for (const each of [path, heavy]) set(each, { stroke: css("ink") });
+  const [path, heavy] = [1, 1.8].map((w) => draw(sheet, "path", { class: "line", w, stroke: css("ink") })), ends = track(each);
   return (at) => {
     const [a, b] = ends(), long = apart(a, b), u = unit0, d = [(b[0] - a[0]) / long, (b[1] - a[1]) / long];
     let n = [-d[1], d[0]];
@@ -239,9 +236,8 @@ function stay([P, X]) {
   return (at) => set(line, { x1: at[P][0], y1: at[P][1], x2: at[X][0], y2: at[X][1] });
 }
 function ground({ point, way }) {
-  const u = unit0, group = draw(sheet, "g", { w: EDGE, join: "round" }), lines = [[3.2 * u, -2.66 * u], [3.2 * u, 2.66 * u], null];
+  const u = unit0, group = draw(sheet, "g", { w: EDGE, join: "round", fill: css("rod"), stroke: css("ink") }), lines = [[3.2 * u, -2.66 * u], [3.2 * u, 2.66 * u], null];
   for (let i = 0; i < 6; i++) { const v = -2.66 + (i * 4.42) / 5; lines.push([3.2 * u, (v + 0.9) * u], [4.1 * u, v * u], null); }
-  set(group, { fill: css("rod"), stroke: css("ink") });
   draw(group, "polygon", { points: pairs([[0, 0], [3.2 * u, 1.9 * u], [3.2 * u, -1.9 * u]]) });
   draw(group, "path", { d: broken(lines), w: 1 });
   return (at) => set(group, { transform: `translate(${at[point][0]} ${at[point][1]}) rotate(${(-way * 180) / PI})` });

@@ -1,7 +1,7 @@
 const { strokes, units } = data;
-/* How far the slider of a stroke goes: over all that is declared, in the sense in which it runs; and a place held within it. */
-const reachOf = ({ start, end, reach }) => (!reach ? [start, end] : start <= end ? reach : [reach[1], reach[0]]);
-const within = (value, each) => { const [a, b] = reachOf(each); return min(max(value, min(a, b)), max(a, b)); };
+/* How far the slider of a stroke goes, from low to high over all that is declared; and a place held within it. */
+const reachOf = ({ start, end, reach }) => reach ?? [min(start, end), max(start, end)];
+const within = (value, each) => { const [low, high] = reachOf(each); return min(max(value, low), high); };
 /* The questions of the verdicts, asked of the present design over all that the machine runs when the hand rests: coarsely while it holds something. */
 const asking = judging(engine, data.judge, data.joints.map(({ row }) => row)), DRAGGING = 9, STILL = 17, REST = 130;
 /* The paths that a machine declares run as strokes of their own, unless the page is of a path. */
@@ -14,6 +14,7 @@ const columns = data.columns.map(([name, unit, row, ru, values, why]) => ({ name
 /* The situation that is shown: of the place that was gone to, else of the path that runs. */
 let acting = -1;
 const caseNow = () => (acting < 0 ? (data.situationOf[strokes[runs].over] ?? 0) : acting);
+const caseTitle = (name) => (data.cases.some(Boolean) ? name || say("own loads") : "");
 for (const each of [...data.cylinders, ...data.arrows]) for (const name of ["pressure", "most", "x", "y", "couple"]) if (each[name]?.length) {
   const row = each[name];
   Object.defineProperty(each, name, { get: () => rowNow(row) });
@@ -23,9 +24,7 @@ const dims = data.dims.map(([name, value, ends, unit, positive, where, sizes = [
 
 /* ---- the state, and what follows from it ---- */
 
-const byName = new Map(dims.map((each, i) => [each.name, i]));
-const order = engine.d.map((name) => byName.get(name));
-const COUNT = data.count;
+const byName = new Map(dims.map((each, i) => [each.name, i])), order = engine.d.map((name) => byName.get(name)), COUNT = data.count;
 const original = dims.map((each) => each.value), firstStand = () => strokes.map((each) => each.at);
 /* The design and the strokes as they are, which stroke runs, and what else is chosen. */
 let present = [...original], stands = firstStand(), runs = data.run, showsForces = false;
@@ -68,6 +67,8 @@ function valueAt(list, place) {
   const a = list[i] ?? NaN, b = list[i + 1] ?? NaN;
   return t === 0 ? a : t === 1 ? b : a + (b - a) * t;
 }
+/* A value of a stroke as a place of it is read: to 0.1 mm or 0.01 degrees, lengths below 1 mm to three figures, an instant to four. */
+const standing = ({ start, end, factor, unit, base, path }, value) => fixed(value / factor, path ? places(max(abs(start), abs(end)) / factor, 4) : base in LENGTHS && abs(value) > 1e-7 && abs(value) < 1e-3 ? places(abs(value) / factor, 3) : max(round(log10(1e4 * factor)), 0)) + unitText(unit);
 const titled = (each) => (each.name === "along the path" ? say("place") : each.name);
 const isChanged = () => dims.some((each, i) => present[i] !== each.value);
 const isDriven = (k) => k === runs || k in (strokes[runs].path || {});
@@ -321,8 +322,8 @@ function plotted() {
   const line = (list, up, colour, width, more) => draw(plot, "path", { class: "line", w: width, d: broken(list.map(([s, v]) => (isNumber(v) ? [x(s), up(v)] : null))), ...more, stroke: css(colour) });
   const rule = (x1, y1, x2, y2, colour, more) => draw(plot, "line", { x1, y1, x2, y2, stroke: css(colour), ...more });
   if (limit) {
-    const at = y(limit[0]), above = limit[2] !== "below", shade = draw(plot, "rect", { x: L, width: W - L - R, y: above ? T : at, height: max(above ? at - T : H - B - at, 0), opacity: 0.13 });
-    set(shade, { fill: css("accent") });
+    const at = y(limit[0]), above = limit[2] !== "below";
+    draw(plot, "rect", { x: L, width: W - L - R, y: above ? T : at, height: max(above ? at - T : H - B - at, 0), opacity: 0.13, fill: css("accent") });
   }
   for (const [v, text] of left) { rule(L, y(v), W - R, y(v), "grid"); write(L - 6, y(v) + 4, text, { anchor: "end" }); }
   for (const [v, text] of right) write(W - R + 6, y2(v) + 4, text, {});
@@ -331,8 +332,8 @@ function plotted() {
   }
   rule(L, T, L, H - B, "rule"); rule(L, H - B, W - R, H - B, "rule");
   const compares = was && !isMoved();
-  const along0 = stroke.unit ? signed(stroke.unit) : stroke.over === undefined ? "" : say("place"), acting = data.cases[caseNow()];
-  write(compares ? L : 0.5 * (L + W - R), H - 6, [titled(stroke), along0, acting && say("in the case {case}", { case: acting })].filter(Boolean).join(", "), { anchor: compares ? "start" : "middle" });
+  const along0 = stroke.unit ? signed(stroke.unit) : stroke.over === undefined ? "" : say("place"), acts = caseTitle(data.cases[caseNow()]), falls = stroke.start > stroke.end && say("it runs down");
+  write(compares ? L : 0.5 * (L + W - R), H - 6, [titled(stroke), along0, falls, acts && say("load case: {case}", { case: acts })].filter(Boolean).join(", "), { anchor: compares ? "start" : "middle" });
   if (compares) line(curved(was, along, one, original), y, "muted", 2, { dash: "3 4" });
   if (others) line(curved(others, along, two, present), same ? y : y2, "other", 2.2, {});
   chart = { one, two, values, others, along, x, y, y2: same ? y : y2 };
@@ -361,11 +362,13 @@ function plotted() {
   chart.second = draw(plot, "circle", { r: 4.5, w: 2, fill: css("other"), stroke: css("paper") });
   chart.marker = draw(plot, "circle", { r: 6, w: 2, fill: css("curve"), stroke: css("paper") });
 }
+/* A value of a curve to four figures, as rules have it; near zero to those of a thousandth of the greatest. */
+const readOff = (value, list, each) => (isNumber(value) ? fixed(value, places(max(abs(value), 1e-3 * max(...finite(list).map(abs))), 4)) + unitText(each.unit) : "\u2013");
 function mark(each, list, up, dot, out) {
   const value = list ? valueAt(list, stands[runs]) : NaN, { start, end } = strokes[runs], there = isNumber(value) && (stands[runs] - start) * (end - stands[runs]) >= -1e-12;
   set(dot, { visibility: there ? "visible" : "hidden" });
   if (there) set(dot, { cx: chart.x(stands[runs] / strokes[runs].factor), cy: up(value) });
-  byId(out).textContent = each ? (there ? fixed(value, places(max(...finite(list).map(abs), 0), 4)) + unitText(each.unit) : "\u2013") : "";
+  byId(out).textContent = each ? readOff(there ? value : NaN, list, each) : "";
 }
 
 /* ---- controls ---- */
@@ -484,14 +487,16 @@ function choosers() {
   byId("column").replaceChildren(...all); byId("column").value = String(column);
   byId("second").replaceChildren(option("\u2013", -1), ...all.map((each) => each.cloneNode(true))); byId("second").value = String(second);
   byId("run").replaceChildren(...strokes.map((each, k) => option(titled(each), k))); byId("run").value = String(runs);
-  byId("runs").style.display = strokes.length < 2 ? "none" : "";
-  byId("forces").style.display = data.arrows.length ? "" : "none";
+  const cases = data.cases.map((name, k) => [name, k]).filter(([name, k]) => k === caseNow() || data.cases.indexOf(name) === k && name !== data.cases[caseNow()]);
+  byId("case").replaceChildren(...cases.map(([name, k]) => option(caseTitle(name), k))); byId("case").value = String(caseNow());
+  for (const [id, count] of Object.entries({ runs: strokes.length - 1, cases: cases.length - 1, forces: data.arrows.length })) byId(id).style.display = count ? "" : "none";
   byId("forces").setAttribute("aria-pressed", String(showsForces));
   if (data.task) answersSaid();
 }
 on(byId("column"), "change", (event) => { column = Number(event.target.value); soon("curve"); remember(); });
 on(byId("second"), "change", (event) => { second = Number(event.target.value); soon("curve"); remember(); });
-on(byId("run"), "change", (event) => { runsOn(Number(event.target.value)); clock = phaseNow(); soon("design"); remember(); });
+on(byId("run"), "change", (event) => { runsOn(Number(event.target.value)); clock = phaseNow(); choosers(); soon("design"); remember(); });
+on(byId("case"), "change", (event) => { acting = Number(event.target.value); soon("fit"); remember(); });
 on(byId("forces"), "click", () => { showsForces = !showsForces; choosers(); soon("fit"); remember(); });
 on(byId("reset"), "click", () => { present = [...original]; stands = firstStand(); runs = data.run; acting = -1; begin(); chosen = [...data.shown]; column = data.column; second = -1; play(false); warn(""); listSizes(); choosers(); whole(); soon("fit"); remember(); });
 on(byId("copy"), "click", () => copied(`${location.href.split("#")[0]}#${told()}`, byId("copy").firstChild));
@@ -519,6 +524,7 @@ function told() {
   if (second >= 0) said.set("with", columns[second].name);
   if (String(chosen) !== String(data.shown)) said.set("show", chosen.map((i) => dims[i].name).join(" "));
   if (showsForces) said.set("forces", "1");
+  if (acting >= 0) said.set("case", data.cases[acting]);
   if (language !== data.language) said.set("language", language);
   if (chosenLook) said.set("look", root.dataset.look);
   if (system) said.set("units", system);
@@ -538,6 +544,7 @@ function recall(text = location.hash.slice(1)) {
   const design = dims.map((each) => { const value = number(said.get(`d.${each.name}`), each.value); return each.positive && !(value > 0) ? each.value : value; });
   runs = index(strokes, said.get("run")) < 0 ? data.run : index(strokes, said.get("run"));
   showsForces = said.get("forces") === "1";
+  acting = data.cases.indexOf(said.get("case"));
   column = index(columns, said.get("column")) < 0 ? data.column : index(columns, said.get("column"));
   second = index(columns, said.get("with"));
   if (said.has("show")) chosen = said.get("show").split(" ").map((each) => byName.get(each)).filter((i) => i !== undefined);
@@ -610,12 +617,12 @@ function render(work) {
     const each = strokes[k];
     const [low, high] = reachOf(each);
     each.slider.value = String((1000 * (value - low)) / (high - low));
-    const text = each.path && !each.unit ? say("place {n} of {count}", { n: short(value, 2), count: each.end }) : fixed(value / each.factor, places(max(abs(each.start), abs(each.end)) / each.factor, 4)) + unitText(each.unit);
+    const text = each.path && !each.unit ? say("place {n} of {count}", { n: short(value, 2), count: each.end }) : standing(each, value);
     if (document.activeElement !== each.out) each.out.value = text;
     each.slider.setAttribute("aria-valuetext", text);
   });
   if (anew || sized || work.has("size")) showSizes();
-  if (anew || sized) { asking.laid(vector(present)); if (!toldBefore) judge(); else { clearTimeout(later); later = setTimeout(rested, REST); } }
+  if (anew || sized) { asking.laid(vector(present)); if (!toldBefore) judge(); else { clearTimeout(later); later = setTimeout(() => judge(down.size ? DRAGGING : STILL), REST); } }
   here();
 }
 function play(on) {

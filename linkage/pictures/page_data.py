@@ -19,14 +19,14 @@ from ..loads import PLAIN_CASE, Case, ForceElement, TwoPoint
 from ..mechanism import Mechanism, verdicts_of
 from ..motion import Answer, Column, HasVerdicts, Judge, LiveText, Motion, Tabled, case_named, speakers, stroke_display_unit
 from ..motion.requests import NodeRequest, RequestLike, transmission
-from ..plan import Plan, name_or_pins, opening, plan_measure, require_kind
+from ..plan import Plan, opening, plan_measure, require_kind
 from ..plan.members import FRAME
 from ..plugins import MACHINES, entry_points
 from ..program import FloatArray, Node
 from ..quantities import is_number, joined_names
 from ..reports import LiveColumn, column_requests, is_changing, request_in_case, results
 from ..reports.runs import NOTHING, At, motion_over, reached_motion, run_along, run_of
-from ..units import SYSTEMS, UNITS, deg, display_unit, factor, shown_in, unit_system
+from ..units import SYSTEMS, UNITS, deg, display_unit, factor, shown_in, unit_system, units_shown
 from ..verdict import Verdict
 from .influence import influences
 from .labels import offsets
@@ -283,20 +283,9 @@ def page_data(requests: PageRequests, live: LiveText) -> PageData:
         "defaults": {name: plan.defaults[name] for name, value, *_ in dims if value != plan.defaults[name]},
         "beside": {name: value for name, value in machine.dimensions.items() if name not in names and value != plan.defaults[name]},
         "steps": {name: opening(plan, name) for name in plan.points},
-        "called": pins_called(plan),
         **verdicts_shown(requests),
         "judge": judge,
     }
-
-
-def pins_called(plan: Plan) -> dict[str, list[str]]:
-    """Return the words for points where a motion ends, in English and Russian, if they differ from their names."""
-    found = dict[str, list[str]]()
-    for spoken in ("en", "ru"):
-        with language(spoken):
-            for name in plan.points:
-                found.setdefault(name, []).append(name_or_pins(plan, name))
-    return {name: called for name, called in found.items() if called != [name, name]}
 
 
 def named_in_code(kind: type[Mechanism]) -> PageData:
@@ -664,10 +653,13 @@ def verdicts_shown(requests: PageRequests) -> PageData:
     Of each verdict there is the member that says it and whether it is of poses, and how members are headed.
     """
     machine, judge, along = requests.machine, requests.judge, requests.along
-    (plain, verdicts), found = verdict_data(machine, judge, along), {}
+    with units_shown() as shown_units:
+        (plain, verdicts), found = verdict_data(machine, judge, along), {}
+    shown_units |= {"mm", *(stroke_display_unit(machine.plan, name, "mm") for name in machine.strokes)}  # of places that were told before
     for name in SYSTEMS:
         with unit_system(name):
-            told, _ = verdict_data(machine, judge, along)
+            is_same = all(shown_in(unit) == unit for unit in shown_units)
+            told = plain if is_same else verdict_data(machine, judge, along)[0]
         pairs = zip(told, plain, strict=True) if len(told) == len(plain) else ((each, each) for each in plain)
         found[name] = [0 if each[2:] == other[2:] else [each[2], *each[4:]] for each, other in pairs]
     shown: PageData = {"verdicts": plain, "verdictsIn": found}

@@ -1,9 +1,8 @@
 /* ---- verdicts: of the delivered design in its own words, of a changed one by the same questions; and what is out of bounds at this pose ---- */
 
 const limitText = ([, text, , ru]) => (language === "ru" && ru) || text;
-const mm = (value) => fixed(value / data.length.factor, data.length.factor > 0.01 ? 2 : 1) + unitText(data.length.unit);
 const strokeText = (value) => { const stroke = strokes[runs]; return `${titled(stroke)} = ${shown(value, stroke, 4)}`; };
-const standText = (each, value) => `${each.name} = ${fixed(value / each.factor, max(round(log10(1e4 * each.factor)), 0))}${unitText(each.unit)}`;
+const standText = (each, value) => `${each.name} = ${standing(each, value)}`;
 const placeText = (at) => own.map((each, k) => standText(each, at[k])).join(", ");
 const ruled = ({ rule, ru }) => (language === "ru" && ru) || rule;
 const questions = data.judge.questions, byKey = new Map(questions.map((each, q) => [each.key, q]));
@@ -60,7 +59,8 @@ function delivered() {
   const inUnits = data.verdictsIn[system];
   return data.verdicts.map(([state, rule, text, ru, russian], i) => {
     const [english, other] = (inUnits && inUnits[i]) || [text, russian || text], [member, key, isOfPoses] = data.facts[i] || ["", "", 0];
-    return { state, key, plain: rule, rule: (language === "ru" && ru) || rule, text: (language === "ru" && other) || english, member, isOfPoses };
+    const isFollowed = state === 2 || byKey.has(key) || rule === "assembly" || rule === "dead points";
+    return { state, key, rule: (language === "ru" && ru) || rule, text: (language === "ru" && other) || english, member, isFollowed, isOfPoses };
   });
 }
 
@@ -80,7 +80,7 @@ function verdicts(n = STILL) {
   for (const each of delivered()) {
     const q = byKey.get(each.key), ok = [false, true][each.state];
     if (!changed) add(ok, each.state === 2 ? "" : each.rule, each.text, { member: each.member, share: q === undefined ? NaN : shareOf(questions[q], answers.found[q]), open: each.state === 3, q });
-    else if (q === undefined && each.state !== 2 && !["assembly", "dead points"].includes(each.plain)) add(null, each.rule, each.text, { stale: true, open: true });
+    else if (!each.isFollowed) add(null, each.rule, each.text, { stale: true, open: true });
   }
   const told = new Set(data.facts.map(([, key]) => key));
   for (const [q, question] of questions.entries()) if (changed || !(question.member || told.has(question.key))) live(question, q);
@@ -111,7 +111,7 @@ function tight(answers, add) {
 function deadPoints() {
   const lists = asking.spans(vector(present)).map(({ places, ends }) => places || ends);
   return own.flatMap((stroke, k) => {
-    const [a, b] = [...reachOf(stroke)].sort((one, other) => one - other), past = stroke.base === "deg" ? max(PI - 0.5 * (b - a), 0) : b - a;
+    const [a, b] = reachOf(stroke), past = stroke.base === "deg" ? max(PI - 0.5 * (b - a), 0) : b - a;
     const found = [-1, 1].flatMap((sign) => lists.flatMap((list) => {
       const low = min(...list[k]), high = max(...list[k]);
       return high > low || own.length < 2 ? reachEnd(list.map(([each]) => each), k, sign < 0 ? low : high, sign, sign < 0 ? low - a + past : b - high + past) : [];
@@ -127,7 +127,7 @@ function reachEnd(start, k, from, sign, size) {
   if (!bad) return [];
   for (let i = 0; i < 30; i++) { const away = 0.5 * (good + bad); if (at(from + sign * away).reason[0] === 0) good = away; else bad = away; }
   const reason = at(from + sign * bad).reason[0], step = reason > 0 ? engine.steps[reason - 1] : "", stroke = own[k];
-  return good ? [[good, say("{step} at {where}, {away} beyond it", { step: data.called[step]?.[language === "ru" ? 1 : 0] ?? step, where: standText(stroke, from + sign * good), away: shown(good, stroke, 3) })]] : [];
+  return good ? [[good, say("of {step} at {where}, {away} beyond it", { step: data.steps[step] || step, where: standText(stroke, from + sign * good), away: shown(good, stroke, 3) })]] : [];
 }
 function stretches(list) {
   const found = [];
@@ -165,7 +165,7 @@ function cylinder(each, changed, add) {
   for (const i of now.reached) lengths[i] = apart(spot(now, each.P, i), spot(now, each.Q, i));
   const ext = extremes(lengths);
   if (!ext) return;
-  if (!each.sized && ext.high.value - ext.low.value > 1e-6) add(null, each.name, say("pins {low} to {high} apart", { low: mm(ext.low.value), high: mm(ext.high.value) }), more);
+  if (!each.sized && ext.high.value - ext.low.value > 1e-6) add(null, each.name, say("pins {low} to {high} apart", { low: shown(ext.low.value, data.length, 5), high: shown(ext.high.value, data.length, 5) }), more);
   if (changed && each.beside && ext.high.value - ext.low.value > 1e-6) {
     const slopes = now.reached.slice(1).map((i) => lengths[i] - lengths[i - 1]), k = slopes.findIndex((slope, i) => i && slope * slopes[i - 1] < 0);
     if (k > 0) add(null, each.name, say("its length stands still at about {where}, where its thrust moves nothing", { where: strokeText(now.along[now.reached[k]]) }), more);
@@ -185,8 +185,6 @@ function ruleIn({ rule, member }) {
 }
 const unfolded = new Set();
 let toldBefore = "";
-/* Judge when nothing was changed for a while: coarsely while something is still pressed. */
-function rested() { judge(down.size ? DRAGGING : STILL); }
 function judge(n = STILL) {
   const found = verdicts(n), key = JSON.stringify([language, system, isChanged(), found]);
   byId("looked").textContent = `${say("looked at {n} values a stroke, {count} poses", { n: known.n, count: known.count })}; ${judgedOver()}`;
@@ -242,7 +240,9 @@ function mending(q) {
   const place = make("p"), button = (textContent, act) => { const made = make("button", { type: "button", textContent }); on(made, "click", act); return made; };
   place.append(button(say("Which one dimension keeps it?"), () => {
     const found = remedies(q).map(([i, value, exact]) => button(`${dims[i].name} = ${shown(value, dims[i], 7)}${exact ? ` (${exact < value ? "\u2265" : "\u2264"} ${shown(exact, dims[i], 7)})` : ""}`, () => { chosen = [...new Set([...chosen, i])]; listSizes(); put(i, value, true); }));
+    const unknown = delivered().filter(({ isFollowed }) => !isFollowed).map(({ rule }) => rule);
     place.replaceChildren(found.length ? say("It is kept with") : say("None alone, within the range of its slider."), ...found.flatMap((each) => [" ", each]));
+    if (found.length && unknown.length) place.append(make("small", { textContent: say("May break what the page does not follow: {rules}", { rules: unknown.join(", ") }) }));
   }));
   return place;
 }
@@ -299,8 +299,8 @@ function withPlaces(text) {
 function strokesIn(text) {
   const found = text.split(/, (?=[^ ]+ = )/).map((part) => {
     const [name, value] = part.split(" = "), k = own.findIndex((each) => each.name === name), each = own[k];
-    const at = each ? sized(value.replace(/\u202f/g, "").replace(",", ".").replace("\u00b0", "deg").replace(/[\u2009\u00a0]/, " "), each) : NaN, [low, high] = each ? reachOf(each) : [];
-    return isNumber(at) && abs(at - within(at, each)) < 1e-3 * abs(high - low) ? [k, within(at, each)] : null;
+    const at = each ? typed(value, each, 1) : NaN, [low, high] = each ? reachOf(each) : [];
+    return isNumber(at) && abs(at - within(at, each)) < 1e-3 * (high - low) ? [k, within(at, each)] : null;
   });
   return found.every(Boolean) ? found : null;
 }
@@ -344,7 +344,7 @@ function count(found) {
 
 /* What is out of bounds where the machine stands: rules with their numbers, dead points; whether it is judged, and what is not followed. */
 function atPose() {
-  const at = followed(stands).slice(0, own.length), { covered, found } = asking.here(at, pose, strokes[runs].courses ? strokes[runs].over : -1), faults = [];
+  const at = followed(stands).slice(0, own.length), { covered, among, found } = asking.here(at, pose, strokes[runs].courses ? strokes[runs].over : -1), faults = [];
   for (const [q, each] of found.entries()) {
     const { unit } = questions[q], value = isNumber(each.value) ? ruleNumber(questions[q], each) : say("no value");
     if (each.ok === false) faults.push({ q, rule: ruled(questions[q]), text: value, limit: isNumber(each.limit) && value === size(each.value, unit) ? size(each.limit, unit) : "", case: each.case === "plain" ? say("own loads") : each.case });
@@ -358,8 +358,11 @@ function atPose() {
     if (abs(Math.sin(angle)) < IN_LINE) faults.push({ rule: `${say("dead point")} ${point}`, text: `${fixed((angle * 180) / PI, 2)}\u00b0`, limit: "", case: "" });
   }
   const unknown = found.flatMap((each, q) => (each.unknown ? [ruled(questions[q])] : []));
-  for (const { key, plain, rule, isOfPoses } of delivered()) if (isOfPoses && plain !== "assembly" && !byKey.has(key)) unknown.push(rule);
-  return { faults, covered, unknown, kept: found.filter((each) => each.ok === true).length };
+  for (const { rule, isOfPoses, isFollowed } of delivered()) if (isOfPoses && !isFollowed) unknown.push(rule);
+  /* The load cases in which this pose is judged, where the one that is shown is none of them. */
+  const judgedIn = [...new Set(questions.flatMap(({ leaves }) => leaves.flatMap(({ pieces }) => pieces.filter(({ over }) => among.includes(over)).map((each) => each.case))))].filter(Boolean);
+  const cases = judgedIn.includes(data.cases[caseNow()] || "plain") ? [] : judgedIn.map((name) => caseTitle(name === "plain" ? "" : name));
+  return { faults, covered, unknown, cases, kept: found.filter((each) => each.ok === true).length };
 }
 let hereBefore = "";
 function here() {
@@ -378,6 +381,7 @@ function here() {
     if (!found.covered && (found.faults.length || found.kept)) add("open", say("if it were judged:"));
     for (const { q, rule, text, limit, case: acting } of found.faults) link(`rule-${q}`, "bad", `${rule} ${text}${acting ? ` (${acting})` : ""}`, limit ? say("limit {limit}", { limit }) : "");
     if (!found.faults.length && (found.kept || !open)) add(found.covered ? "ok" : "open", open ? say("{n} kept", { n: found.kept }) : say("all kept"));
+    if (found.cases.length) add("beyond", say("judged here not under the loads shown, but: {cases}", { cases: found.cases.join(", ") }));
     if (open) add("open", say("{n} not followed here: {rules}", { n: open, rules: found.unknown.join(", ") }));
   }
   line.replaceChildren(...parts.flatMap((each) => [each, " "]));

@@ -99,9 +99,12 @@ def run_words(machine: Mechanism, run: Run) -> str:
 
 
 def in_case_words(plan: Plan, case: Case) -> str:
-    """Return which load case it is in words, by its title; "" for the machine's own loads."""
-    known = plan.of_kind(LoadCase).get(case, case) if isinstance(case, str) else case
-    return "" if known is None else said("in the case {case}", case=known.label if isinstance(known, LoadCase) else known)
+    """Return which load case it is in words, by its title; "" for a machine that has none but its own loads."""
+    cases = plan.of_kind(LoadCase)
+    known = cases.get(case, case) if isinstance(case, str) else case
+    if known is None:
+        return said("under its own loads") if cases else ""
+    return said("in the case {case}", case=known.label if isinstance(known, LoadCase) else known)
 
 
 def run_along(motion: Motion) -> tuple[Run, int]:

@@ -199,7 +199,8 @@ def test_capacity_of_any_machine(said):
     Path("reaching.py").write_text(f"{overs}    low, high = Over(S=(0.0, 0.1)), Over(S=(0.1, 0.2))\n", encoding="utf-8")
     code, out, _ = said("capacity", "reaching.py", "--count", "3", "--csv", "-")
     head, *rows = csv.reader(io.StringIO(out, newline=""))
-    assert code == 0 and head[0] == "run" and [row[0] for row in rows] == [*["over low"] * 3, *["over high"] * 3]
+    labels = [f"over {name}, under its own loads" for name in ("low", "high") for _ in range(3)]
+    assert code == 0 and head[0] == "run" and [row[0] for row in rows] == labels
     further = [float(row[head.index("further load, kN")]) for row in rows]
     along = loader().at(S=[0.0, 0.05, 0.1, 0.1, 0.15, 0.2])
     np.testing.assert_allclose(further, pump.capacity(along, "G") / kN, rtol=1e-12)

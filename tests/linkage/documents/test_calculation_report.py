@@ -315,7 +315,7 @@ def test_a_rule_that_says_nothing_is_counted_apart():
 
 
 def test_members_have_their_ends_over_all_that_the_machine_runs(grab):
-    (grid,) = grids(grab, "member", "least", "greatest")
+    (grid,) = grids(grab, "component", "least", "greatest")
     found = {tuple(row[:2]): row for row in grid.rows}
     assert {member for member, _ in found} >= {"lift", "jib"}
     lowest, greatest = Grab().answers([least(thrust("lift")), most(thrust("lift"))])
@@ -346,7 +346,7 @@ def test_worst_places_are_those_of_the_answers(grab):
 def test_curves_keep_one_stroke_and_mark_the_worst_of_the_box(grab):
     pictures = {b.name: b for section in grab.sections for b in section.blocks if isinstance(b, Illustration)}
     picture = next(each for each in pictures.values() if "thrust lift" in each.caption)  # AB is S: the same curve as the drive's force
-    assert "along S; T = 150 mm held." in picture.caption
+    assert "along S; T = 150 mm held, under its own loads." in picture.caption
     answer = Grab().answers([most(thrust("lift"))])[0]
     assert f"greatest {figures(answer.value / 1e3)} kN, in the case shock, at S = " in picture.caption
     from matplotlib.figure import Figure

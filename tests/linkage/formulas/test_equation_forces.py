@@ -370,7 +370,7 @@ def test_they_are_latex():
     text = equations(ThreePointHitch, forces=True).latex(definitions=False)
     assert r"  I_{G} &= \frac{dG_{y}}{dS} \tag{47} \\" in text
     assert r"  Q_{S} &= I_{G} P_{load} \tag{48} \\" in text
-    assert r"G_{g} &= \frac{F_{cyl} \mathit{circuit}_{mechanical,efficiency}}{I_{G}} \tag{56}" in text
+    assert r"G_{g} &= \frac{F_{cyl} \mathit{circuit}_{\mathit{mechanical\_efficiency}}}{I_{G}} \tag{56}" in text
     assert r"\vec{F}_{pull} \cdot \frac{d\vec{G}}{d\varphi}" in equations(Everything, forces=True).latex().replace(r"\phi", r"\varphi")
 
 

@@ -193,3 +193,29 @@ def test_dead_points_beyond_all_that_several_overs_run_are_pythons(chromium, tmp
     texts = [said.replace("\u2212", "-").replace("\u2009", " "), told]
     numbers = [[float(each) for each in re.findall(r"-?\d+(?:\.\d+)?(?= mm)", text)] for text in texts]
     assert len(numbers[1]) == 4 and numbers[0] == pytest.approx(numbers[1], abs=0.6), texts
+    assert len({re.sub(r"-?\d+(\.\d+)?", "#", text.removeprefix("dead points: ").rstrip(".")) for text in texts}) == 1, texts
+    with Shown(chromium, page(Stacker(), tmp_path / "cases.html"), DESKTOP) as shown:
+        cases, load = shown.tab.locator("#case"), "load case: {}".format
+        assert cases.locator("option").all_text_contents() == ["own loads", "downhill"]
+        assert load("own loads") in shown.tab.locator("#curve").text_content()
+        cases.select_option(label="downhill")
+        rested(shown)
+        assert load("downhill") in shown.tab.locator("#curve").text_content() and "case=downhill" in shown("location.hash")
+
+
+class Falling(Mechanism):
+    """A rocker of a few millimetres whose stroke is declared from high to low."""
+
+    S = Stroke(1.0 * mm, 0.4 * mm)
+    O, A = Ground(0, 0), Ground(1.0 * mm, 0)
+    B = Dyad(A, O, AB=0.6 * mm + S, OB=1.1 * mm, side=RIGHT)
+
+
+def test_a_slider_goes_from_low_to_high_and_places_are_as_fine_as_the_stroke(chromium, tmp_path):  # noqa: F811
+    with Shown(chromium, page(Falling(), tmp_path / "falling.html"), DESKTOP) as shown:
+        slider = shown.tab.locator("[data-stroke='S']")
+        assert float(slider.input_value()) == 1000.0 and "it runs down" in shown.tab.locator("#curve").text_content()
+        slider.fill("0")
+        rested(shown)
+        assert shown("hydrolinkage.state().at.S") == pytest.approx(0.0004)
+        assert shown.tab.locator("#strokes input[type='text']").input_value() == "0.400\u2009mm"

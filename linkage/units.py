@@ -346,7 +346,8 @@ def current_system() -> str:
 @contextmanager
 def units_shown() -> Iterator[set[str]]:
     """Collect the units that are shown inside `with`; a system that keeps all of them changes no text."""
-    token = _ASKED.set(found := set())
+    found = set[str]()
+    token = _ASKED.set(found)
     try:
         yield found
     finally:

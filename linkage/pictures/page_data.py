@@ -19,7 +19,7 @@ from ..loads import PLAIN_CASE, Case, ForceElement, TwoPoint
 from ..mechanism import Mechanism, verdicts_of
 from ..motion import Answer, Column, HasVerdicts, Judge, LiveText, Motion, Tabled, case_named, speakers, stroke_display_unit
 from ..motion.requests import NodeRequest, RequestLike, transmission
-from ..plan import Plan, opening, plan_measure, require_kind
+from ..plan import Plan, name_or_pins, opening, plan_measure, require_kind
 from ..plan.members import FRAME
 from ..plugins import MACHINES, entry_points
 from ..program import FloatArray, Node
@@ -282,7 +282,7 @@ def page_data(requests: PageRequests, live: LiveText) -> PageData:
         "titleRu": russian_title,
         "defaults": {name: plan.defaults[name] for name, value, *_ in dims if value != plan.defaults[name]},
         "beside": {name: value for name, value in machine.dimensions.items() if name not in names and value != plan.defaults[name]},
-        "steps": {name: opening(plan, name) for name in plan.points},
+        "steps": {name: name_or_pins(plan, name) if each.companions else opening(plan, name) for name, each in plan.points.items()},
         **verdicts_shown(requests),
         "judge": judge,
     }

@@ -140,10 +140,10 @@ class LiveQuestions:
     @property
     def broken(self) -> Iterator[tuple[Motion, list[Request]]]:
         """The questions that are not kept: the pose where each is worst, and what it asks there."""
+        with unwarned():
+            answers = iter(self.judge.answers([each for _, constraints, _ in self.asked for each in constraints]))
         for _, constraints, pieces in self.asked:
-            for each in constraints:
-                with unwarned():
-                    answer = self.judge.answer(each)
+            for each, answer in zip(constraints, answers, strict=False):
                 if answer.ok is False and answer.strokes:
                     yield self.judge.there(answer), [row.request for leaf in each.left.leaves for _, row, _ in pieces[leaf]]
 

@@ -222,7 +222,7 @@ def blocked_blocks(subject: ReportSubject) -> Iterator[Block]:
         case = f"{subject.case_words(row.case)}, " if len(subject.judge.cases) > 1 else ""
         cells.append((*row.cells, force_cell(row.force), moves, row.opens, f"{case}{places_text(row.strokes, plain_units)}"))
     force = said("F, {unit}", unit=unit_sign("kN"))
-    heads = (*joint_heads(), force, said("cylinder that presses"), said("highest pressure in"), said("situation and place"))
+    heads = (*joint_heads(), force, said("cylinder"), said("first valve"), said("situation and place"))
     yield TableBlock(said("Largest pin forces at the relief pressure, against a stop"), heads, tuple(cells), "llllrllm")
 
 

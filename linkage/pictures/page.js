@@ -1,4 +1,4 @@
-const { strokes, units } = data;
+const { strokes } = data, factorOf = (unit) => data.measures[unit]?.[0] ?? 1;
 /* How far the slider of a stroke goes, from low to high over all that is declared; and a place held within it. */
 const reachOf = ({ start, end, reach }) => reach ?? [min(start, end), max(start, end)];
 const within = (value, each) => { const [low, high] = reachOf(each); return min(max(value, low), high); };
@@ -10,7 +10,7 @@ if (!strokes.some((each) => each.path && each.over === undefined)) for (const [o
 }
 /* A column has a row of the program in each load case in which it differs; that of the path that runs is shown. */
 const rowNow = (row) => { const found = row[caseNow()] ?? row; return found >= 0 ? found : undefined; };
-const columns = data.columns.map(([name, unit, row, ru, values, why]) => ({ name, unit, factor: units[unit], ru, why, get values() { return values?.[caseNow()]; }, get row() { return rowNow(row); } }));
+const columns = data.columns.map(([name, unit, row, ru, values, why]) => ({ name, unit, factor: factorOf(unit), ru, why, get values() { return values?.[caseNow()]; }, get row() { return rowNow(row); } }));
 /* The situation that is shown: of the place that was gone to, else of the path that runs. */
 let acting = -1;
 const caseNow = () => (acting < 0 ? (data.situationOf[strokes[runs].over] ?? 0) : acting);
@@ -20,7 +20,7 @@ for (const each of [...data.cylinders, ...data.arrows]) for (const name of ["pre
   Object.defineProperty(each, name, { get: () => rowNow(row) });
 }
 /* A dimension as it comes: its name, value, least and greatest [SI], unit, whether it is a length, and where it stands. */
-const dims = data.dims.map(([name, value, ends, unit, positive, where, sizes = []]) => ({ name, value, low: ends[0] ?? value - ends, high: ends[1] ?? value + ends, unit, factor: units[unit], positive, where, sizes }));
+const dims = data.dims.map(([name, value, ends, unit, positive, where, sizes = []]) => ({ name, value, low: ends[0] ?? value - ends, high: ends[1] ?? value + ends, unit, factor: factorOf(unit), positive, where, sizes }));
 
 /* ---- the state, and what follows from it ---- */
 

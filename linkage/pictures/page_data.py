@@ -262,7 +262,7 @@ def page_data(requests: PageRequests, live: LiveText) -> PageData:
         "rows": {"points": [[rows[f"point {name}"] + axis for axis in (0, 1)] for name in plan.points]},
         "scene": scene_data(requests.scene, lines),
         "cylinders": cylinder_data(requests.scene, live, len(requests.situations)),
-        **unit_tables({*(each[3] for each in dims), *(str(each[1]) for each in columns)}, {*asked, *(each["unit"] for each in strokes)}),
+        **unit_tables({*(each[3] for each in dims), *(str(each[1]) for each in columns), *asked, *(each["unit"] for each in strokes)}),
         "joints": [{"point": name, "row": rows[key]} for name in requests.motion._joints if (key := f"joint {name}") in rows],
         "arrows": [
             {"point": index[arrow.point], **parts, "on": arrow.on}
@@ -311,15 +311,11 @@ def machine_text(requests: PageRequests, live: LiveText, data: PageData, parts: 
     return page_text(requests.plan.heading, data, (*MACHINE, *parts, START, *later), language=language, most=most, text=text)
 
 
-def unit_tables(used: set[str], beside: set[str]) -> PageData:
-    """Return the units of the page's script: the factors of the used ones and of all of their kinds, and their signs.
-
-    Units `beside` these are shown, and have no factor here.
-    """
-    known = {*used, *beside, "bar", "mm", "kN", "kNm"}
+def unit_tables(used: set[str]) -> PageData:
+    """Return the units of the page's script: the factors of all that measure what the used ones do, and their signs."""
+    known = {*used, "bar", "mm", "kN", "kNm"}
     kinds = {measure for unit, (_, measure) in UNITS.items() if typeset(unit) in known}
     return {
-        "units": {typeset(unit): factor(unit) for unit in ("", *UNITS) if typeset(unit) in used},
         "pressureUnit": unit_data("bar"),
         "length": unit_data("mm"),
         "force": unit_data("kN"),
@@ -461,16 +457,14 @@ def column_data(name: str, found: LiveColumn, live: LiveText, requests: PageRequ
 
 
 def limit_data(requests: PageRequests, name: str) -> list[Any]:
-    """Return a column's limit [SI], its words, the side that fails, and its words in Russian where they are others."""
+    """Return a column's limit [SI], its words, the side that fails, its words in Russian, and whether it is only drawn."""
     value, text, fails = requests.limits[name]
     plain = requests.featured.limits.get(name)
     with language("ru"):
         known, russian = requests.machine.featured().limits.get(name), translated(text)
     if plain is not None and known is not None and limit_of(plain).text == text:  # the machine has said it; a limit given says what it says
         russian = limit_of(known).text
-    if name not in requests.judged:  # it is drawn, and the verdicts have a rule for it
-        return [value, typeset(text), fails, typeset(russian), 1]
-    return [value, typeset(text), fails, *([typeset(russian)] if russian != text else [])]
+    return [value, typeset(text), fails, typeset(russian), int(name not in requests.judged)]  # one that is drawn has a rule of verdicts
 
 
 def grip_data(requests: PageRequests, names: Sequence[str], index: Mapping[str, int]) -> list[dict[str, int]]:
@@ -627,8 +621,8 @@ MARKS = {True: 1, False: 0, None: 2}
 def verdict_data(machine: Mechanism, judge: Judge, along: Motion | None) -> tuple[list[list[object]], list[Verdict] | None]:
     """Return rows of the machine's verdicts over all that a judge looks at, for the design that is delivered, and the verdicts.
 
-    A row is 1 where one is kept, 0 where it is not, 2 where it is only said, 3 where it says nothing; its heading and its sentence, then
-    what differs in Russian. Where verdicts are refused a row has the error's words, and instead of verdicts there is None.
+    A row is 1 where one is kept, 0 where it is not, 2 where it is only said, 3 where it says nothing; its heading and its sentence, and
+    both in Russian. Where verdicts are refused a row has the error's words, and instead of verdicts there is None.
     """
     said: dict[str, list[tuple[int, str, str]]] = {}
     found: list[Verdict] | None = None
@@ -640,11 +634,7 @@ def verdict_data(machine: Mechanism, judge: Judge, along: Motion | None) -> tupl
             except LinkageError as error:
                 found, said[name] = None, [(MARKS[None], "", str(error))]
     pairs = zip(said["en"], said["ru"], strict=True) if len(said["en"]) == len(said["ru"]) else [(each, each) for each in said["en"]]
-    rows: list[list[Any]] = [
-        [*english, *(() if russian == english else (russian[1],) if russian[2] == english[2] else russian[1:])]
-        for english, russian in pairs
-    ]
-    return rows, found
+    return [[*english, *russian[1:]] for english, russian in pairs], found
 
 
 def verdicts_shown(requests: PageRequests) -> PageData:
@@ -661,7 +651,7 @@ def verdicts_shown(requests: PageRequests) -> PageData:
             is_same = all(shown_in(unit) == unit for unit in shown_units)
             told = plain if is_same else verdict_data(machine, judge, along)[0]
         pairs = zip(told, plain, strict=True) if len(told) == len(plain) else ((each, each) for each in plain)
-        found[name] = [0 if each[2:] == other[2:] else [each[2], *each[4:]] for each, other in pairs]
+        found[name] = [0 if each[2:] == other[2:] else [each[2], each[4]] for each, other in pairs]
     shown: PageData = {"verdicts": plain, "verdictsIn": found}
     if verdicts is None:
         return shown | {"facts": [["", "", 0]], "groups": {}}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from types import MappingProxyType
@@ -232,13 +232,11 @@ LONG, BLOCK, SLOT = 2.1, 1.25, 0.7
 def cylinder(bottom: float, mouth: float, size: float) -> tuple[DrawnLine, ...]:
     """Return the eye, the barrel cut open from its bottom to its mouth [m], the rod, the piston, and the cap at the mouth."""
     half, ends = 1.12 * size, 0.42 * size
-    rod = outline((0.0, 0.0, ends, 1.0), (1.0, 0.0, ends, 0.0), (1.0, 0.0, -ends, 0.0), (0.0, 0.0, -ends, 1.0), fill="ROD", closed=True)
-    disc = [(0.0, along * 0.45 * size, across * half, 1.0) for along, across in ((-1, 1), (1, 1), (1, -1), (-1, -1))]
     return (
         tube(0.0, 0.0, 0.0, bottom, 0.62 * size, "PISTON"),
         tube(0.0, bottom, 0.0, mouth, 1.3 * size, "BARREL"),
-        rod,
-        outline(*disc, fill="PISTON", closed=True),
+        tube(0.0, 0.0, 1.0, 0.0, ends, "ROD", (1.0, 0.0)),
+        tube(0.0, -0.45 * size, 0.0, 0.45 * size, half, "PISTON", (1.0, 1.0)),
         tube(0.0, mouth - 0.35 * size, 0.0, mouth + 0.35 * size, 1.5 * size, "PISTON"),
     )
 
@@ -253,18 +251,24 @@ def stages(short: float, long: float, fixed: float | None = None) -> int:
     return 1 if way <= SINGLE * room or not room > 0.0 else max(2, int(np.ceil(way / (FREE * room) - 1e-9)))
 
 
+def nested_stages(short: float, count: int, size: float) -> Iterator[tuple[int, float, float, float, float]]:
+    """Yield the stages of nested tubes, the thinnest first: number, half its width, begin and end as it stands drawn in, half its ring."""
+    step, widest = min(size, (1.0 - FREE) * 0.6 * short / (count + 3.0)), 1.5 * size  # so that each stage still stands in the one before
+    for stage in range(count, -1, -1):
+        tip = short - (count - stage) * step - 1.6 * step * (stage < count)
+        yield stage, widest - stage * (widest - 0.45 * size) / count, 1.4 * step, tip, 0.4 * step
+
+
 def nested_tubes(short: float, long: float, size: float) -> tuple[DrawnLine, ...]:
     """Return a cylinder of several stages as nested tubes, the barrel and the widest ones over the thinner."""
-    count = stages(short, long)
-    step, widest = min(size, (1.0 - FREE) * 0.6 * short / (count + 3.0)), 1.5 * size  # so that each stage still stands in the one before
-    bottom = 1.4 * step
-    lines = [tube(0.0, 0.0, 0.0, bottom, 0.62 * size, "PISTON")]
-    for stage in range(count, -1, -1):
-        share, half = stage / count, widest - stage * (widest - 0.45 * size) / count
-        out, tip = -share * short, short - (count - stage) * step - 1.6 * step * (stage < count)
+    count, lines = stages(short, long), list[DrawnLine]()
+    for stage, half, bottom, tip, ring in nested_stages(short, count, size):
+        share, out = stage / count, -(stage / count) * short
+        if stage == count:
+            lines.append(tube(0.0, 0.0, 0.0, bottom, 0.62 * size, "PISTON"))
         lines.append(tube(share, bottom + out, share, tip + out, half, "ROD" if stage == count else "BARREL"))
         if stage < count:
-            lines.append(tube(share, tip + out - 0.4 * step, share, tip + out + 0.4 * step, half + 0.2 * size, "PISTON"))
+            lines.append(tube(share, tip + out - ring, share, tip + out + ring, half + 0.2 * size, "PISTON"))
     return tuple(lines)
 
 
@@ -273,26 +277,22 @@ def staged_tubes(closed: float, count: int, size: float) -> list[tuple[DrawnLine
 
     Those of a stage move with what it is out, the tip of the thinnest to the end of the length.
     """
-    step, widest = min(size, (1.0 - FREE) * 0.6 * closed / (count + 3.0)), 1.5 * size
-    bottom, found = 1.4 * step, list[tuple[DrawnLine, ...]]()
-    for stage in range(count, -1, -1):
-        half, moves = widest - stage * (widest - 0.45 * size) / count, float(stage > 0)
-        tip = closed - (count - stage) * step - 1.6 * step
+    found = list[tuple[DrawnLine, ...]]()
+    for stage, half, bottom, tip, ring in nested_stages(closed, count, size):
         if stage == count:
-            rod = ((0.0, bottom, half, 1.0), (1.0, 0.0, half, 0.0), (1.0, 0.0, -half, 0.0), (0.0, bottom, -half, 1.0))
-            found.append((outline(*rod, fill="ROD", closed=True),))
+            found.append((tube(0.0, bottom, 1.0, 0.0, half, "ROD", (1.0, 0.0)),))
             continue
-        box = [(0.0, along, across, moves) for along, across in ((bottom, half), (tip, half), (tip, -half), (bottom, -half))]
-        wide = half + 0.2 * size
-        ring = [(0.0, tip + way * 0.4 * step, across, moves) for way, across in ((-1, wide), (1, wide), (1, -wide), (-1, -wide))]
-        eye = (tube(0.0, 0.0, 0.0, bottom, 0.62 * size, "PISTON"),) if stage == 0 else ()
-        found.append((*eye, outline(*box, fill="BARREL", closed=True), outline(*ring, fill="PISTON", closed=True)))
+        moves = (float(stage > 0),) * 2
+        box = tube(0.0, bottom, 0.0, tip, half, "BARREL", moves), tube(0.0, tip - ring, 0.0, tip + ring, half + 0.2 * size, "PISTON", moves)
+        found.append(box if stage else (tube(0.0, 0.0, 0.0, bottom, 0.62 * size, "PISTON"), *box))
     return found
 
 
-def tube(share: float, start: float, other: float, end: float, half: float, fill: str) -> DrawnLine:
-    """Return a box from a place along the element to another, half its width to either side [m]."""
-    return outline((share, start, half), (other, end, half), (other, end, -half), (share, start, -half), fill=fill, closed=True)
+def tube(share: float, start: float, other: float, end: float, half: float, fill: str, slides: Sequence[float] = ()) -> DrawnLine:
+    """Return a box from a place along the element to another, half its width to either side [m]; `slides` of both with the piston."""
+    rows = [(share, start, half, *slides[:1]), (other, end, half, *slides[1:])]
+    rows += [(place, along, -across, *moves) for place, along, across, *moves in rows[::-1]]
+    return outline(*rows, fill=fill, closed=True)
 
 
 def telescope_sections(short: float, long: float, reach: float, size: float) -> tuple[DrawnLine, ...]:
